@@ -1,13 +1,14 @@
-//! Decompositions that end, whatever the numbers: they are scaled, looked at first, and have a limit of steps.
+//! Matrix decompositions that always terminate: checked for finite input, scaled, and limited in
+//! their iterations.
 
 use nalgebra::allocator::Allocator;
 use nalgebra::{DMatrix, DefaultAllocator, Dim, DimDiff, DimSub, OMatrix, SVD, SymmetricEigen, U1};
 use nalgebra::{Matrix3, U3};
 
-/// Some hundred times what matrices of this size take.
+/// Largest number of iterations, about a hundred times what matrices of this size need.
 pub const STEPS: usize = 100_000;
 
-/// `V Λ Vᵀ` of a symmetric matrix; none if a number is not finite.
+/// Returns `V Λ Vᵀ` of a symmetric matrix, or `None` if a number is not finite.
 pub fn symmetric_eigen<D>(matrix: OMatrix<f64, D, D>) -> Option<SymmetricEigen<f64, D>>
 where
     D: Dim + DimSub<U1>,
@@ -17,7 +18,7 @@ where
     is_finite.then(|| SymmetricEigen::try_new(matrix, f64::EPSILON, STEPS))?
 }
 
-/// The singular values, the largest first; none if a number is not finite.
+/// Returns the singular values, the largest first, or `None` if a number is not finite.
 pub fn singular_values(matrix: DMatrix<f64>) -> Option<Vec<f64>> {
     if matrix.is_empty() {
         return Some(Vec::new());
@@ -29,7 +30,8 @@ pub fn singular_values(matrix: DMatrix<f64>) -> Option<Vec<f64>> {
     Some(values)
 }
 
-/// `U Σ Vᵀ`; none if a number is not finite. Squares of the numbers may be too large or too small to be numbers.
+/// Returns `U Σ Vᵀ`, or `None` if a number is not finite. Scaling prevents overflow and underflow
+/// of squares.
 pub fn svd3(matrix: Matrix3<f64>) -> Option<SVD<f64, U3, U3>> {
     if !matrix.iter().all(|value| value.is_finite()) {
         return None;

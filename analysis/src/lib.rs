@@ -1,19 +1,20 @@
-//! The errors of a machine over its workspace: section 5 of the paper, on any [`Manipulator`](abbe_core::Manipulator).
+//! Error analysis of a machine over its workspace: section 5 of the paper, for any
+//! [`Manipulator`](abbe_core::Manipulator).
 //!
-//! | folder | what |
+//! | folder | contents |
 //! |---|---|
-//! | `workspace` | a [`Workspace`] makes configurations by index: grids and samples of joints, a presented volume, a box, a list |
-//! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool, [`obstacle()`] says why it does not arrive |
-//! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and shows every [`Row`] in order; nothing is stored |
-//! | `budget` | [`error_budget`]: what every source does alone ([`SourceErrors`]), all together ([`Combined`]), what is left after compensation ([`RemainingErrors`]), what a tolerance allows ([`Admissible`]) |
-//! | `normal` | [`NormalVector`]: how likely is a norm of a normal error, and which is not exceeded with a probability; [`StudentVector`]: of one whose variance is known from few measurements |
-//! | `uncertainty` | [`Statement`]: the budget of the GUM at one configuration; [`compliance()`]: how likely a tolerance is met |
-//! | `random` | [`monte_carlo`] draws errors on the exact chain |
+//! | `workspace` | [`Workspace`]: configurations by index, as grids and samples of joints, a presented volume, a box, a list |
+//! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool; [`obstacle()`] explains a remaining error |
+//! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and visits every [`Row`] in order; nothing is stored |
+//! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), of all together ([`Combined`]), after compensation ([`RemainingErrors`]), and the admissible sizes for a tolerance ([`Admissible`]) |
+//! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
+//! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met |
+//! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |
 //!
-//! [`identifiable()`] counts which generalized errors measurements can tell apart, [`identifiable_in_parts`] those of a chain
-//! of any length.
+//! [`identifiable()`] counts the generalized errors that measurements can identify,
+//! [`identifiable_in_parts`] those of a chain of any length.
 //!
-//! An error budget over 10,000 random configurations:
+//! Example: an error budget over 10,000 random configurations.
 //!
 //! ```
 //! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));

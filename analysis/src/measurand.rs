@@ -1,19 +1,20 @@
-//! What a figure is about: where the tool point is, or how the tool is turned.
+//! Measurands: the position of the tool point, and the orientation of the tool.
 
 /// Half of the rows of ΔX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measurand {
-    /// Rows 1–3: the tool point in `F_0`, in the length unit.
+    /// Rows 1–3: position of the tool point in `F_0`, in the length unit.
     Position,
-    /// Rows 4–6: the orientation as the manipulator's [`Orientation`](abbe_core::Orientation) says, rad.
+    /// Rows 4–6: orientation as the manipulator's [`Orientation`](abbe_core::Orientation) says, in
+    /// rad.
     Orientation,
 }
 
 impl Measurand {
-    /// Both, in the order of the rows.
+    /// Position and orientation, in the order of the rows.
     pub const ALL: [Self; 2] = [Self::Position, Self::Orientation];
 
-    /// Its first row, from 0.
+    /// Returns the index of the first row, from 0.
     pub const fn first(self) -> usize {
         match self {
             Self::Position => 0,
@@ -21,7 +22,7 @@ impl Measurand {
         }
     }
 
-    /// Its rows of a deviation.
+    /// Returns the rows of a deviation.
     pub const fn rows(self, deviation: &[f64; 6]) -> [f64; 3] {
         let first = self.first();
         [deviation[first], deviation[first + 1], deviation[first + 2]]

@@ -1,4 +1,4 @@
-//! Section 5 of the paper, with its published figures.
+//! Section 5 of the paper, compared with its published figures.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -11,7 +11,7 @@ use abbe_core::lanes::OneByOne;
 mod blocks;
 mod combined;
 
-/// 27 points of the volume in 37 angles of spin, each presented at the isocentre.
+/// Returns 27 points of the volume at 37 spin angles, each presented at the isocenter.
 fn presentation() -> Presentation {
     Presentation {
         point: [1128.0, 1626.0, 1846.0],
@@ -25,7 +25,7 @@ fn presentation() -> Presentation {
     }
 }
 
-/// To the last printed digit.
+/// Checks agreement to the last printed digit.
 fn near(found: f64, expected: f64, digits: i32) {
     assert!((found - expected).abs() <= 0.5 * 10_f64.powi(-digits), "{found} instead of {expected}");
 }
@@ -145,7 +145,7 @@ fn empty_workspace_has_no_errors() {
 
     let refused = listed(&Pps, vec![Configuration { q: vec![0.0; 5], s: vec![0.0; 3], u: Vec::new() }]);
     assert!(matches!(refused, Err(abbe_core::Error::Count { expected: 6, found: 5, .. })));
-    // Another manipulator's workspace.
+    // The workspace of another manipulator.
     let refused = error_budget(&OneByOne(Puma), &workspace, BudgetOptions::default(), &mut ()).unwrap_err();
     assert_eq!(refused.configuration, None);
 }
@@ -173,7 +173,7 @@ fn pose_and_point_targets_are_reached() {
 #[test]
 fn a_variable_that_stops_is_named() {
     let Configuration { q, s, .. } = home();
-    // d1 = 2300 would do.
+    // d1 = 2300 would reach it.
     let target = Target::Point([2300.0, 1626.0, 1846.0]);
     let Err(ReachError::OutsideLimits { variable: 0, value, limits }) =
         inverse(&Pps, &s, &q, &[0, 1, 2], &target)
@@ -182,9 +182,9 @@ fn a_variable_that_stops_is_named() {
     };
     assert!((value - 2300.0).abs() < 1e-6);
     assert_eq!(limits, [0.0, 2256.0]);
-    // With spin there is a way.
+    // It is reachable with spin.
     assert!(inverse(&Pps, &s, &q, &[0, 1, 2, 3], &target).is_ok());
-    // A held variable outside its limits is no solution either.
+    // A fixed variable outside its limits is not a solution.
     let held = [1128.0, 280.0, 0.0, 1.6, 0.0, 0.0];
     let refused = inverse(&Pps, &s, &held, &[0, 1, 2], &Target::Point([1128.0, 1626.0, 1846.0]));
     assert!(matches!(refused, Err(ReachError::OutsideLimits { variable: 3, value: 1.6, .. })));
@@ -200,7 +200,7 @@ fn what_no_variable_reaches_is_out_of_reach() {
         panic!("out of reach")
     };
     assert!((residual - 5.0).abs() < 1e-6 && turn == 0.0);
-    // Nothing free: reached only if there already.
+    // Without free variables only the current point is reachable.
     assert_eq!(inverse(&Pps, &s, &q, &[], &Target::Point(point)).unwrap(), q);
     assert!(inverse(&Pps, &s, &q, &[], &target).is_err());
     // Spin alone: the circle about the spin axis, 1000 mm beyond it.

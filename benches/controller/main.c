@@ -1,4 +1,4 @@
-/* On a board without an operating system: the self-test, then how many instructions a corrected command takes. */
+/* On a board without an operating system: the self-test, then the number of instructions of a compensated command. */
 #include HEADER
 
 extern char stack_top;

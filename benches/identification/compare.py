@@ -1,4 +1,4 @@
-"""Runs every program on the same rows, and on the same rows misread, and prints what came out.
+"""Runs every program on the same rows, and on the same rows misread, and prints the results.
 
 compare.py ABBE VENVS GRID.csv RANDOM.csv
 """
@@ -16,23 +16,23 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROBOT = HERE.parent.parent / "manipulators"
 ABBE, VENVS, GRID, RANDOM = sys.argv[1:]
-# What a program says of its own result: the lines with one of these words.
+# Words that mark the lines in which a program reports its own result.
 TELLING = re.compile(
     r"Convergence:|Excluded:|condition is satisfied|evaluations is exceeded|error:|help|warning|note:|Traceback|Error", re.I
 )
-# The longest that a program is waited for, s.
+# Time limit of a program, s.
 PATIENCE = 300
 
 
 def lines(path, until=None):
-    """Lines that somebody had to write: no comments, no docstrings, no prose about the robot."""
+    """Returns the number of handwritten lines: no comments, no docstrings, no prose about the robot."""
     text = re.sub(r'"""(?s:.*?)"""', '""', pathlib.Path(path).read_text())
     text = text.split(until)[0] if until else text
     return sum(1 for line in text.splitlines() if line.strip() and not line.strip().startswith("#"))
 
 
 def points(path):
-    """The points that were measured: target less difference."""
+    """Returns the measured points: target minus difference."""
     with open(path, newline="") as file:
         return [[float(row[f"{axis}_t"]) - float(row[f"{axis}_dif"]) for axis in "xyz"] for row in csv.DictReader(file)]
 
@@ -41,7 +41,7 @@ MEASURED = points(RANDOM)
 
 
 def run(*command):
-    """What a program printed, and its processor time: that does not grow with what else the computer does."""
+    """Returns the output of a program and its processor time, which does not depend on other load."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=PATIENCE)
@@ -52,7 +52,7 @@ def run(*command):
 
 
 def told(text):
-    """What a program says of its result, in one cell."""
+    """Returns the statements of a program about its result, in one cell."""
     found = [" ".join(line.split()) for line in text.splitlines() if TELLING.search(line) and "RuntimeWarning" not in line]
     return "; ".join(line[:180] for line in found[:4]).replace("|", "/") or "nothing"
 
@@ -76,13 +76,13 @@ def abbe(misread):
         done, seconds = run(ABBE, "identify", "ur5", GRID, "--map", chart, "--out", found)
         if done.returncode != 0:
             return [], seconds, told(done.stderr)
-        # Where the machine that was found would be seen.
+        # Configurations at which the identified machine is compared.
         run(ABBE, "simulate", found, RANDOM, "--map", found.with_suffix(".map.toml"), "--noise", "1e-9mm", "--out", seen)
         return points(seen), seconds, told(done.stderr)
 
 
 def mean(values):
-    """The mean and its standard error."""
+    """Returns the mean and its standard error."""
     return f"{statistics.mean(values):.4f} ± {statistics.stdev(values) / math.sqrt(len(values)):.4f}"
 
 

@@ -1,4 +1,4 @@
-"""Prints what poses and Jacobians of a UR5 take from Python, with abbe and with its peers: compare.py BATCH [CONFIGURATIONS]"""
+"""Prints the times of poses and Jacobians of a UR5 in Python, with abbe and with its peers: compare.py BATCH [CONFIGURATIONS]"""
 
 import importlib
 import os
@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-# One core for everyone.
+# One core for all.
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 HERE = Path(__file__).parent
@@ -18,12 +18,12 @@ import numpy as np  # noqa: E402
 
 PEERS = {"abbe": "with_abbe", "Pinocchio": "with_pinocchio", "Robotics Toolbox": "with_roboticstoolbox"}
 FUNCTIONS = {"pose": "pose, 4 × 4", "joint_jacobian": "J_q, 6 × 6", "error_jacobian": "J_e, 6 × 36"}
-# In one round each is called for at least so long, s; whoever takes longer for all of them gets fewer configurations, which is said.
+# Minimum time of a round, s; slower peers get fewer configurations, which is reported.
 ROUND, LONGEST, ROUNDS = 0.05, 20.0, 5
 
 
 def taken(function, q, count):
-    """Seconds of one call, the mean over a round."""
+    """Returns the seconds of one call, the mean over a round."""
     calls, begin = 0, time.perf_counter()
     while True:
         function(q)
@@ -46,19 +46,19 @@ def lines(file):
 
 
 def check(modules):
-    """Everyone computes the same."""
+    """Checks that all compute the same results."""
     q = np.random.default_rng(1).uniform(-3, 3, (20, 6))
     for function in FUNCTIONS:
         expected = getattr(modules["abbe"], function)(q)
         for name, module in modules.items():
             if hasattr(module, function):
-                # mm: rounding of a chain of 1000 mm.
+                # mm: rounding errors of a chain of 1000 mm.
                 difference = np.abs(getattr(module, function)(q) - expected).max()
                 assert difference < 1e-9, (name, function, difference)
 
 
 def import_time():
-    """Milliseconds that `import abbe` takes in a fresh interpreter, beside one that imports nothing; NumPy is not imported by it."""
+    """Returns the milliseconds of `import abbe` in a fresh interpreter, minus those of an empty one. It does not import NumPy."""
     code = "import time; begin = time.perf_counter(); import abbe; print(time.perf_counter() - begin)"
     runs = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout) for _ in range(15)]
     return statistics.median(runs) * 1e3
@@ -77,7 +77,7 @@ def main(batch, most=1_000_000):
             for name in cells:
                 each = taken(getattr(modules[name], function), q[:1000] if count > 1000 else q, min(count, 1000))
                 fewer[name] = count if each * count < LONGEST else max(1000, int(LONGEST / each))
-            # In turns: what else the machine does is shared.
+            # Alternating, so that other load affects both.
             for _ in range(1 if max(fewer.values()) > 1000 and len(cells) > 1 else ROUNDS):
                 for name, seconds in cells.items():
                     here = q[: fewer[name]] if count > 1 else q

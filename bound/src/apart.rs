@@ -1,4 +1,5 @@
-//! What sums of errors cannot exceed, from the largest size of each part by itself: loose, but soon known of any number of joints.
+//! Bounds of sums of errors from the maximum of each part: not tight, but fast for any number of
+//! joints.
 
 use abbe_codegen::chain::{Apart, Magnitude};
 use abbe_codegen::graph::Graph;
@@ -8,19 +9,20 @@ use crate::effort::Effort;
 use crate::largest::largest;
 use crate::moving::Moving;
 
-/// Parts depend on little, and are soon known.
+/// Effort for one part. Parts depend on few names and converge fast.
 const EFFORT: Effort = Effort { gap: 1e-3, boxes: 2000, at_most: f64::INFINITY };
 
-/// What neither the norm of a position's error nor that of a rotation exceeds.
+/// Upper bounds of the norm of the position error and of the rotation error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Of the repeatable sources, of the random ones, and of both added.
+    /// Position: repeatable sources, random sources, and their sum.
     pub position: [f64; 3],
-    /// The same of rotations, rad.
+    /// Rotation in rad: repeatable sources, random sources, and their sum.
     pub rotation: [f64; 3],
 }
 
-/// From the parts, over the box in which some names move, all others being as `fixed` says; infinite where a part is.
+/// Bounds the sums of errors from the maximum of each part, over the box of the moving names with
+/// all others `fixed`. A bound is infinite if one of its parts is.
 ///
 /// ```text
 /// ‖δ‖ ≤ Σ_i ‖d_i‖ + ‖θ_i‖ Σ_{k > i} ‖t_k‖        ‖θ‖ ≤ Σ_i ‖θ_i‖
@@ -28,7 +30,7 @@ pub struct Limits {
 pub fn limits(graph: &mut Graph, apart: &Apart, moving: &[Moving], fixed: impl Fn(Symbol) -> f64) -> Limits {
     let mut size =
         |magnitude: &Magnitude| largest(graph, magnitude, moving, &fixed, &EFFORT, &mut |_| true).certified;
-    // How far the tool point may be from each frame, the last one first.
+    // Maximum distance of the tool point from each frame, last frame first.
     let mut reach = 0.0;
     let mut levers: Vec<f64> = Vec::with_capacity(apart.links.len());
     for link in apart.links.iter().rev() {
@@ -40,7 +42,7 @@ pub fn limits(graph: &mut Graph, apart: &Apart, moving: &[Moving], fixed: impl F
         let mut sums = [0.0_f64; 2];
         for ([shift, turn], lever) in errors.iter().zip(&levers) {
             let [shift, turn] = [shift, turn].map(&mut size);
-            // No turn moves nothing, however far away.
+            // Without rotation the lever does not matter, even an infinite one.
             let swing = if turn == 0.0 { 0.0 } else { (turn * lever).next_up() };
             sums = [(sums[0] + (shift + swing).next_up()).next_up(), (sums[1] + turn).next_up()];
         }

@@ -1,7 +1,8 @@
-//! Norms that are convex in the sine and cosine of each angle, and in each name that stands by itself.
+//! Norms that are convex in the sine and cosine of each angle and in each linear name.
 //!
-//! Where no product has more than one of a name's sine and cosine, each part of a norm is affine in the pair (cos q, sin q), and the norm
-//! is convex in it. The sine and cosine of a sum of angles are affine in the pair of each:
+//! Suppose no product contains more than one factor that depends on the sine or cosine of the same
+//! name. Each part of the norm is then affine in the pair (cos q, sin q), and the norm is convex in
+//! it. The sine and cosine of a sum of angles are affine in the pair of each angle:
 //!
 //! ```text
 //! sin(a + b) = sin a cos b + cos a sin b        cos(a + b) = cos a cos b − sin a sin b
@@ -12,16 +13,16 @@ use abbe_spec::expr::Function;
 use crate::affine::Affine;
 use crate::tape::{Register, Step, Tape};
 
-/// A set of names: a bit for each.
+/// A set of names as a bit mask.
 pub(crate) type Names = u32;
 
-/// Which of the operations.
+/// Index of an operation.
 pub(crate) type At = usize;
 
-/// An operation on the results of others before it.
+/// An operation on the results of earlier operations.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Operation {
-    /// Sine (0) or cosine (1) of a name that is an angle; a name that stands by itself (0).
+    /// Sine (0) or cosine (1) of a name that is an angle, or a linear name (0).
     Name(usize, usize),
     Known(Affine<0>),
     Neg(At),
@@ -46,14 +47,15 @@ impl Operation {
 /// A norm of numbers that are affine in each name.
 #[derive(Clone, Debug)]
 pub(crate) struct Convex {
-    /// What computes it; the last one is the norm.
+    /// Operations; the last one computes the norm.
     pub(crate) operations: Vec<Operation>,
-    /// Whether a name is an angle.
+    /// `true` for a name that is an angle, `false` for a linear name.
     pub(crate) angles: Vec<bool>,
 }
 
 impl Convex {
-    /// Of a tape whose first value is a norm of the others; none if one of them is not affine.
+    /// Converts a tape whose first output is a norm of the other outputs. Returns `None` if one of
+    /// these is not affine.
     pub(crate) fn new(tape: &Tape, names: usize) -> Option<Self> {
         let mut draft = Draft::new(names);
         for step in &tape.steps {
@@ -73,21 +75,21 @@ impl Convex {
     }
 }
 
-/// What stands in a register of the tape.
+/// Value of a register of the tape.
 #[derive(Clone, Debug)]
 enum Value {
     Number(At),
-    /// Names or their negatives, each once, and a number; as a number it is not yet asked for.
+    /// Sum of names or their negatives, each once, and a constant; not yet used as a number.
     Angle(Vec<(usize, bool)>, Affine<0>),
-    /// What is neither.
+    /// Any other value.
     Other,
 }
 
-/// Operations that are being made.
+/// Operations under construction.
 struct Draft {
     operations: Vec<Operation>,
     values: Vec<Value>,
-    /// Whether a name stands in sines and cosines, and by itself.
+    /// Names that occur in sines and cosines, and names that occur linearly.
     turned: Vec<bool>,
     alone: Vec<bool>,
 }
@@ -109,7 +111,7 @@ impl Draft {
         self.push(Operation::Known(number))
     }
 
-    /// What stands in a register, as a number.
+    /// Returns the value of a register as a number.
     fn number(&mut self, register: Register) -> Option<At> {
         let (names, offset) = match &self.values[register] {
             Value::Number(at) => return Some(*at),
@@ -142,7 +144,7 @@ impl Draft {
         self.values.push(value.unwrap_or(Value::Other));
     }
 
-    /// What a step makes of angles, if it is an angle.
+    /// Returns the result of a step on angles if it is an angle.
     fn angle(&self, step: &Step) -> Option<Value> {
         let of = |register: Register| match &self.values[register] {
             Value::Angle(names, offset) => Some((names.clone(), *offset)),
@@ -171,7 +173,7 @@ impl Draft {
         Some(Value::Angle(names, offset))
     }
 
-    /// Sine and cosine of an angle, name by name.
+    /// Expands the sine and cosine of an angle, name by name.
     fn sin_cos(&mut self, register: Register) -> Option<[At; 2]> {
         let Value::Angle(names, offset) = self.values[register].clone() else { return None };
         let mut pair = match offset == Affine::known(0.0, 0.0) {
@@ -222,7 +224,7 @@ impl Draft {
         Some(self.push(operation))
     }
 
-    /// Whether each operation is affine in each name, or in the sine and cosine of it.
+    /// Returns whether each operation is affine in each name, or in its sine and cosine.
     fn affine(&self) -> Vec<bool> {
         let mut names: Vec<Option<Names>> = Vec::with_capacity(self.operations.len());
         for operation in &self.operations {
@@ -241,7 +243,7 @@ impl Draft {
         names.iter().map(Option::is_some).collect()
     }
 
-    /// Whether names stand in a norm only by its parts, or their negatives.
+    /// Returns `true` if the norm depends on names only through its parts or their negatives.
     fn is_of(&self, norm: At, parts: &[At]) -> bool {
         let mut is_part = vec![false; self.operations.len()];
         for part in parts {

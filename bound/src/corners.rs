@@ -1,11 +1,13 @@
-//! What a convex norm cannot exceed within a box, because it is largest at corners.
+//! Upper bound of a convex norm within a box, taken at corners.
 //!
-//! An arc lies within the polygon of its two ends and of the points where neighbouring tangents meet, of those at its ends and its middle. Each
-//! of these points is `1/cos h` from the centre of the circle, h being half of the arc between the tangents. What is convex in the sine and cosine
-//! of each angle is largest, over the product of the polygons of all angles and of the ranges of names that stand by themselves, at a corner.
+//! An arc lies within the polygon of its two ends and the intersections of neighbouring tangents,
+//! which touch it at its ends and its middle. Each intersection is `1/cos h` from the centre of the
+//! circle, where h is half of the arc between the tangents. A function that is convex in the sine
+//! and cosine of each angle has its maximum over the product of all polygons, and of the ranges of
+//! linear names, at a corner.
 //!
-//! Two names have their vertices in lanes, side by side; of the others one after the other moves on, and what does not depend on those that
-//! moved is not computed again.
+//! The vertices of two names are evaluated in lanes. The other names step through their vertices
+//! one after the other, and operations that do not depend on the changed names are not repeated.
 
 use abbe_core::lanes::{InstructionSet, Kernel, Register};
 
@@ -13,25 +15,26 @@ use crate::affine::{Affine, above};
 use crate::convex::{At, Convex, Names, Operation};
 use crate::vertex::{LANES, Lanes, Number, Size, result};
 
-/// How many pieces an arc has between its tangents: of more, fewer boxes are looked at, for longer.
+/// Number of pieces of an arc between its tangents. More pieces need fewer boxes but more time for
+/// each.
 const PIECES: usize = 2;
-/// How many vertices a name has at most.
+/// Maximum number of vertices of a name.
 const VERTICES: usize = 2 + PIECES;
-/// How many names have theirs in lanes.
+/// Number of names whose vertices are in lanes.
 const IN_LANES: usize = 2;
 const _: () = assert!(VERTICES * VERTICES == LANES);
-/// The tangents of longer pieces meet too far away: half of them, rad.
+/// Maximum of half a piece, rad: the tangents of longer pieces meet too far away.
 const LONGEST: f64 = 1.2;
-/// How many names may move: of k angles there are `VERTICES`^k corners.
+/// Maximum number of moving names: k angles have `VERTICES`^k corners.
 const MOST_NAMES: usize = 8;
 
-/// A convex norm, and the order in which its names move on.
+/// A convex norm and the order in which its names step.
 #[derive(Clone, Debug)]
 pub(crate) struct Corners {
     norm: Convex,
-    /// Those in lanes first.
+    /// Order of the names, those in lanes first.
     order: Vec<usize>,
-    /// What is computed again when a name that is not in lanes moves on, and all before it begin again.
+    /// Operations to repeat when a name outside the lanes steps and all names before it restart.
     again: Vec<Vec<At>>,
     set: InstructionSet,
 }
@@ -39,24 +42,24 @@ pub(crate) struct Corners {
 /// The corner with the largest norm.
 #[derive(Clone, Debug)]
 pub(crate) struct Corner {
-    /// No norm in the box is larger.
+    /// Upper bound of the norm in the box.
     pub(crate) most: f64,
-    /// The vertex of each name: its lower end, its upper end, or where tangents meet.
+    /// Vertex of each name: its lower end, its upper end, or an intersection of tangents.
     at: Vec<usize>,
 }
 
-/// Where numbers are kept.
+/// Reusable buffers.
 #[derive(Debug, Default)]
-pub(crate) struct Numbers {
+pub(crate) struct Buffers {
     lanes: Vec<Lanes>,
     sizes: Vec<Size>,
 }
 
-/// Sine and cosine; or a name, and nothing.
+/// Sine and cosine of an angle, or the value of a linear name and an unused number.
 type Vertex = [Affine<0>; 2];
 
 impl Corners {
-    /// None if there are no names, or too many.
+    /// Creates the evaluation of a norm. Returns `None` for no names or more than `MOST_NAMES`.
     pub(crate) fn new(norm: Convex) -> Option<Self> {
         let names = norm.angles.len();
         if names == 0 || names > MOST_NAMES {
@@ -72,15 +75,17 @@ impl Corners {
         Some(Self { norm, order, again, set: InstructionSet::best() })
     }
 
-    /// Whether the arc of a name is too long for anything to be known.
+    /// Returns `true` if the arc of a name is too long for a useful bound.
     pub(crate) fn is_too_long(&self, name: usize, [low, high]: [f64; 2]) -> bool {
         self.norm.angles[name] && half_piece([low, high]).range()[1] > LONGEST
     }
 
-    /// The largest norm in a box without arcs that are too long; none if its roundings have no end.
-    pub(crate) fn largest(&self, numbers: &mut Numbers, low: &[f64], high: &[f64]) -> Option<Corner> {
+    /// Returns the corner with the largest norm in a box whose arcs are short enough. Returns
+    /// `None` if the rounding error is unbounded.
+    pub(crate) fn largest(&self, numbers: &mut Buffers, low: &[f64], high: &[f64]) -> Option<Corner> {
         let ends = low.iter().zip(high).map(|(low, high)| [*low, *high]).zip(&self.norm.angles);
-        let vertices = ends.map(|(ends, is_angle)| if *is_angle { of_arc(ends) } else { of_range(ends) });
+        let vertices =
+            ends.map(|(ends, is_angle)| if *is_angle { arc_vertices(ends) } else { range_vertices(ends) });
         let vertices: Vec<Vec<Vertex>> = vertices.collect();
         let off = self.off(&mut numbers.sizes, &vertices);
         let rounded = Rounded { corners: self, lanes: &mut numbers.lanes, vertices: &vertices };
@@ -88,11 +93,11 @@ impl Corners {
         off.is_finite().then(|| Corner { most: above(largest + off), at })
     }
 
-    /// How far rounding puts the norm off at any corner.
+    /// Returns a bound of the rounding error of the norm at any corner.
     fn off(&self, sizes: &mut Vec<Size>, vertices: &[Vec<Vertex>]) -> f64 {
         let of_all = |vertices: &Vec<Vertex>, part: usize| {
             let sizes = vertices.iter().map(|vertex| Size::known(&vertex[part]));
-            sizes.fold(Size { most: 0.0, off: 0.0 }, Size::of_both)
+            sizes.fold(Size { most: 0.0, off: 0.0 }, Size::hull)
         };
         let names: Vec<[Size; 2]> = vertices.iter().map(|own| [0, 1].map(|part| of_all(own, part))).collect();
         sizes.clear();
@@ -104,7 +109,7 @@ impl Corners {
     }
 }
 
-/// The largest norm at a corner, as it is rounded, and which vertex each name has there.
+/// Computes the largest rounded norm at a corner, and the vertex of each name there.
 struct Rounded<'a> {
     corners: &'a Corners,
     lanes: &'a mut Vec<Lanes>,
@@ -159,12 +164,12 @@ impl Kernel for Rounded<'_> {
 }
 
 impl Corner {
-    /// Whether a name is where tangents meet, which no angle of its arc is.
+    /// Returns `true` if a name is at an intersection of tangents, which lies outside of its arc.
     pub(crate) fn is_outside(&self, name: usize) -> bool {
         self.at[name] >= 2
     }
 
-    /// The next place that the box has.
+    /// Returns the nearest point of the box.
     pub(crate) fn nearest(&self, low: &[f64], high: &[f64]) -> Vec<f64> {
         let ends = low.iter().zip(high).zip(&self.at);
         let near = ends.map(|((low, high), at)| match at {
@@ -181,12 +186,12 @@ fn all_lanes(vertex: &Vertex) -> [Lanes; 2] {
     vertex.map(|part| [part.centre; LANES])
 }
 
-fn of_range([low, high]: [f64; 2]) -> Vec<Vertex> {
+fn range_vertices([low, high]: [f64; 2]) -> Vec<Vertex> {
     let ends = if low == high { vec![low] } else { vec![low, high] };
     ends.into_iter().map(|end| [Affine::known(end, 0.0), Affine::known(0.0, 0.0)]).collect()
 }
 
-fn of_arc([low, high]: [f64; 2]) -> Vec<Vertex> {
+fn arc_vertices([low, high]: [f64; 2]) -> Vec<Vertex> {
     let [first, last] = [low, high].map(|end| Affine::known(end, 0.0));
     if low == high {
         return vec![first.sin_cos()];
@@ -200,13 +205,13 @@ fn of_arc([low, high]: [f64; 2]) -> Vec<Vertex> {
     [first.sin_cos(), last.sin_cos()].into_iter().chain(meetings).collect()
 }
 
-/// Half of a piece of an arc.
+/// Returns half of a piece of an arc.
 fn half_piece([low, high]: [f64; 2]) -> Affine<0> {
     let width = Affine::known(high, 0.0).sub(&Affine::known(low, 0.0));
     width.mul(&Affine::known((2 * PIECES) as f64, 0.0).reciprocal())
 }
 
-/// The names on which each operation depends.
+/// Returns the names that each operation depends on.
 fn depends(operations: &[Operation]) -> Vec<Names> {
     let mut depends: Vec<Names> = Vec::with_capacity(operations.len());
     for operation in operations {
@@ -219,7 +224,8 @@ fn depends(operations: &[Operation]) -> Vec<Names> {
     depends
 }
 
-/// The name on which least depends comes first; then the one on which least of the rest does.
+/// Orders the names so that the fewest operations depend on the first one, then the fewest
+/// remaining ones on the next.
 fn order(depends: &[Names], names: usize) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::with_capacity(names);
     let mut chosen: Names = 0;
@@ -245,7 +251,7 @@ mod tests {
     use super::*;
     use crate::tape::Tape;
 
-    /// How many angles there are; the name after them stands by itself.
+    /// Number of angles; the name after them is linear.
     const ANGLES: usize = 3;
     const NAMES: usize = ANGLES + 1;
 
@@ -253,7 +259,7 @@ mod tests {
         Symbol::Variable(i)
     }
 
-    /// Sine and cosine of some names or their negatives, added, and a number.
+    /// Returns the sine and cosine of a sum of names, with signs, and a constant.
     fn sin_cos(graph: &mut Graph, names: &[(usize, f64)], offset: f64) -> [Node; 2] {
         let mut sum = graph.constant(offset);
         for (i, sign) in names {
@@ -271,7 +277,8 @@ mod tests {
         Tape::new(graph, &outputs, &names, |_| f64::NAN)
     }
 
-    /// Two numbers that are affine in the sine and cosine of each angle, and in the last name.
+    /// Returns two numbers that are affine in the sine and cosine of each angle, and in the last
+    /// name.
     fn parts(graph: &mut Graph) -> [Node; 2] {
         let [_, first] = sin_cos(graph, &[(0, 1.0)], 0.0);
         let [_, sum] = sin_cos(graph, &[(1, 1.0), (2, -1.0)], 0.4);
@@ -290,7 +297,7 @@ mod tests {
         let tape = norm(&mut graph, &parts);
         let corners = Corners::new(Convex::new(&tape, NAMES).unwrap()).unwrap();
         let mut random = Xoshiro256PlusPlus::seed_from_u64(7);
-        let mut numbers = Numbers::default();
+        let mut numbers = Buffers::default();
         for box_ in 0..500 {
             let longest = [4.7, 1.0, 0.02][box_ % 3];
             let low: [f64; NAMES] = std::array::from_fn(|_| random.random_range(-4.0..4.0));
@@ -310,7 +317,7 @@ mod tests {
             }
             let near = corner.nearest(&low, &high);
             assert!(near.iter().zip(low.iter().zip(&high)).all(|(at, (low, high))| low <= at && at <= high));
-            // Where it is not outside, there is such a place.
+            // A corner within all arcs is attained.
             if (0..NAMES).all(|name| !corner.is_outside(name)) {
                 let value = tape.evaluate::<0>(&mut Vec::new(), &near, &[0.0; NAMES]).0[0].range()[1];
                 assert!(corner.most <= value * (1.0 + 1e-12) + 1e-12, "{corner:?}, and {value}");
@@ -328,7 +335,7 @@ mod tests {
             Convex::new(&tape, NAMES).is_some()
         };
         assert!(is_convex(&|graph| parts(graph).to_vec()));
-        // An angle twice in a product, by itself or in a sum.
+        // An angle occurs twice in a product, directly or in a sum.
         assert!(!is_convex(&|graph| {
             let [sine, cosine] = sin_cos(graph, &[(0, 1.0)], 0.0);
             vec![graph.mul(sine, cosine)]
@@ -339,7 +346,7 @@ mod tests {
             vec![graph.mul(sine, sum)]
         }));
         assert!(!is_convex(&|graph| vec![sin_cos(graph, &[(0, 1.0), (0, 1.0)], 0.0)[0]]));
-        // An angle that also stands by itself, and what is neither a sum nor a product.
+        // An angle also occurs linearly, or an operation is neither a sum nor a product.
         assert!(!is_convex(&|graph| {
             let ([sine, _], own) = (sin_cos(graph, &[(0, 1.0)], 0.0), graph.symbol(name(0)));
             vec![sine, own]
@@ -348,7 +355,7 @@ mod tests {
             let own = graph.symbol(name(0));
             vec![graph.call(Function::Exp, own)]
         }));
-        // A norm that has more than its parts.
+        // A norm depends on more than its parts.
         let mut graph = Graph::new();
         let [first, second] = parts(&mut graph);
         let mut tape = norm(&mut graph, &[first, second]);

@@ -1,18 +1,18 @@
-//! How long a search goes on, and what it has proved meanwhile.
+//! Limits and progress of a search.
 
-/// How much is done.
+/// Termination criteria of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Ends when the certified value exceeds the found one by no more than this share of it.
+    /// Relative gap between the certified and the found value at which the search ends.
     pub gap: f64,
-    /// Ends after so many boxes.
+    /// Number of boxes after which the search ends.
     pub boxes: usize,
-    /// What is known to be no less than the largest value; infinite if nothing is.
+    /// Known upper bound of the largest value; infinite if there is none.
     pub at_most: f64,
 }
 
 impl Effort {
-    /// 1 %, and 300,000 boxes.
+    /// A gap of 1 %, and 300,000 boxes.
     pub const DEFAULT: Self = Self { gap: 0.01, boxes: 300_000, at_most: f64::INFINITY };
 }
 
@@ -22,13 +22,13 @@ impl Default for Effort {
     }
 }
 
-/// What is proved so far.
+/// Progress of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Found.
+    /// Largest value found so far.
     pub found: f64,
-    /// Certified.
+    /// Certified upper bound so far.
     pub certified: f64,
-    /// How many boxes were looked at.
+    /// Number of boxes examined.
     pub boxes: usize,
 }

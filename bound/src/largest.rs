@@ -13,11 +13,12 @@ use crate::problem::Problem;
 use crate::search::{Bound, Search};
 use crate::tape::Tape;
 
-/// The largest value of a node that is never negative over the box in which some names move, all others being as `fixed` says.
+/// Bounds the largest value of a nonnegative node over the box of the moving names, with all other
+/// symbols `fixed`.
 ///
-/// The value is that in real numbers of the node with the numbers of the graph, which are taken for exact. `watch` is told
-/// after every round how far it is, and ends the search by `false`. Which boxes are looked at depends on nothing else than
-/// what is asked: neither on threads nor on time.
+/// The bound holds for the node in real arithmetic, with the constants of the graph taken as exact.
+/// `watch` receives the progress after every round and ends the search by returning `false`. The
+/// order of boxes is deterministic: it depends neither on threads nor on time.
 pub fn largest(
     graph: &mut Graph,
     magnitude: &Magnitude,
@@ -58,7 +59,7 @@ pub fn largest(
         squared: magnitude.squared,
         effort: *effort,
     };
-    // As many slopes as there are names, or a few more: each number is compiled by itself.
+    // At least as many slopes as names; each size is compiled separately.
     let bound = match active.len() {
         0..=2 => search.run::<2>(watch),
         3..=4 => search.run::<4>(watch),

@@ -1,14 +1,18 @@
-//! The largest value of a node that is never negative, over a box of joints and inputs, with a proof: branch and bound.
+//! Certified bounds of the largest value of a nonnegative node over a box of joints and inputs, by
+//! branch and bound.
 //!
-//! [`largest`] asks it of a node, and `singular` of the least or the largest singular value of a matrix of nodes. `tape` are the
-//! operations of a graph, one after the other. Two ways lead from them to what is known within one box (`search_box`):
+//! [`largest`] bounds a node, and `singular` the least or the largest singular value of a matrix of
+//! nodes. `tape` holds the operations of a graph in order. Two methods bound the value within one
+//! box (`search_box`):
 //!
-//! - a norm that is `convex` in the sine and cosine of each angle is largest at `corners`, where `vertex` has its numbers;
-//! - of anything else, and close to a maximum, there are forms that are `affine` in the names, and `slopes` say how far the value can
-//!   be above that at the box's centre.
+//! - A norm that is `convex` in the sine and cosine of each angle has its maximum at `corners`,
+//!   evaluated by the numbers of `vertex`.
+//! - Any other node, and any node close to a maximum, is enclosed by `affine` forms, and `slopes`
+//!   bound how far the value can exceed that at the centre of the box.
 //!
-//! `search` goes from box to box of a `problem`, the one that may hold most first, from where a `local_search` led; `period` says
-//! whether a joint comes round, and `apart` what sums cannot exceed because of their parts.
+//! `search` examines the boxes of a `problem`, the most promising first, and starts with the
+//! maximum of a `local_search`. `period` recognizes joints that are periodic, and `apart` bounds
+//! sums by their parts.
 //!
 //! ```
 //! use abbe_codegen::chain::Magnitude;

@@ -1,19 +1,19 @@
-//! From a point to one with a larger value: steps that are largest in a quadratic about the point, within a box that grows and
-//! shrinks with their success.
+//! Local search for a maximum: each step maximizes a quadratic model within a trust region that
+//! grows and shrinks with the success of the steps.
 
 use crate::affine::Affine;
 use crate::problem::{Point, Problem};
 
-/// How many points are looked at before the search.
+/// Number of sample points before the ascents.
 const SAMPLES: usize = 512;
-/// From how many of them it goes up.
+/// Number of sample points from which an ascent starts.
 const ASCENTS: usize = 6;
-/// How many values of each name are looked at from where it begins.
+/// Number of values of each name that are scanned from the start.
 const SCANNED: usize = 33;
-/// How many steps an ascent takes at most.
+/// Maximum number of steps of an ascent.
 const STEPS: usize = 60;
 
-/// The largest value that ascents from where it begins, and from points all over the box, lead to.
+/// Returns the largest value found by ascents from the start and from points spread over the box.
 pub(crate) fn highest<const N: usize>(problem: &Problem) -> Point {
     let mut points = Vec::new();
     let mut samples: Vec<Point> = (0..SAMPLES)
@@ -26,7 +26,8 @@ pub(crate) fn highest<const N: usize>(problem: &Problem) -> Point {
         .collect();
     samples.sort_by(|a, b| b.value.total_cmp(&a.value));
     samples.truncate(ASCENTS);
-    // Where it begins, and from there along each name by itself: a slope of 0 at the start says nothing.
+    // Scan from the start along each name as well, because a slope of 0 there does not exclude
+    // larger values.
     let along = (0..problem.domain.len()).flat_map(|name| (0..SCANNED).map(move |i| (name, i)));
     let along = along.map(|(name, i)| {
         let mut at = problem.start.clone();
@@ -49,7 +50,7 @@ fn share(problem: &Problem, name: usize, share: f64) -> f64 {
     (low + share * (high - low)).clamp(low, high)
 }
 
-/// Goes up as far as it goes.
+/// Ascends to a local maximum.
 pub(crate) fn ascend<const N: usize>(problem: &Problem, mut best: Point) -> Point {
     let widths: Vec<f64> = problem.domain.iter().map(|[low, high]| high - low).collect();
     let (mut registers, mut points, mut reach) = (Vec::<Affine<N>>::new(), Vec::new(), 0.1);
@@ -90,7 +91,7 @@ pub(crate) fn ascend<const N: usize>(problem: &Problem, mut best: Point) -> Poin
     best
 }
 
-/// Evenly spread shares of 1: multiples of the fractional parts of roots of primes.
+/// Returns an evenly spread fraction: multiples of the fractional parts of roots of primes.
 fn spread(sample: usize, name: usize) -> f64 {
     const PRIMES: [f64; 16] =
         [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0, 41.0, 43.0, 47.0, 53.0];

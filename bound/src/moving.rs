@@ -1,19 +1,19 @@
-//! Names that move: joints, parameters and inputs.
+//! Names that move within a range: joints, parameters and inputs.
 
 use abbe_spec::expr::Symbol;
 
-/// How many names may move: of a node that more of them move nothing is proved.
+/// Maximum number of moving names that a node may depend on; no bound is proved for more.
 pub const MOST_MOVING: usize = 32;
 
-/// A name that moves.
+/// A name that moves within a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moving {
-    /// Which.
+    /// The symbol.
     pub symbol: Symbol,
-    /// From where to where; both finite, in this order.
+    /// Range of the name: finite, lower end first.
     pub range: [f64; 2],
-    /// Where it is if it does not matter.
+    /// Value of the name if the node does not depend on it.
     pub home: f64,
-    /// Where the search begins, before it looks elsewhere.
+    /// Value at which the search starts.
     pub start: f64,
 }

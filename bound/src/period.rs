@@ -1,22 +1,22 @@
-//! Joints that come round: a node that has an angle only in sines and cosines is the same after a whole turn.
+//! Periodic joints: a node that contains an angle only in sines and cosines has the period 2π.
 
 use std::f64::consts::TAU;
 
 use abbe_codegen::graph::{Graph, Node, Op};
 use abbe_spec::expr::{Function, Symbol};
 
-/// How a node depends on an angle.
+/// Dependence of a node on an angle.
 #[derive(Clone, Copy, PartialEq)]
 enum Dependence {
     None,
-    /// The angle, or its negative, and what does not depend on it.
+    /// The angle or its negative, plus terms that do not depend on it.
     Angle,
-    /// Only by sines and cosines of that.
+    /// Sines and cosines of such a sum only.
     Turned,
     Other,
 }
 
-/// Whether a node is the same after a whole turn of a symbol.
+/// Returns `true` if a node is periodic in a symbol with the period 2π.
 pub(crate) fn is_angle(graph: &Graph, node: Node, symbol: Symbol) -> bool {
     use Dependence::{Angle, None, Other, Turned};
     let mut known: Vec<Dependence> = Vec::with_capacity(node.index() + 1);
@@ -36,7 +36,7 @@ pub(crate) fn is_angle(graph: &Graph, node: Node, symbol: Symbol) -> bool {
     known[node.index()] != Dependence::Other && known[node.index()] != Dependence::Angle
 }
 
-/// No more than one turn of a range, and a little.
+/// Cuts a range to one turn, plus a margin for rounding.
 pub(crate) fn once_around([low, high]: [f64; 2]) -> [f64; 2] {
     [low, high.min((low + TAU).next_up().next_up())]
 }

@@ -1,27 +1,27 @@
-//! What is sought, and where.
+//! The function to maximize and its domain.
 
 use crate::affine::Affine;
 use crate::corners::Corners;
 use crate::tape::Tape;
 
-/// A value whose largest size is sought over a box.
+/// A value to be maximized over a box.
 pub(crate) struct Problem {
     /// The value.
     pub(crate) value: Tape,
-    /// How it is convex in the names, if it is.
+    /// Evaluation at corners, if the value is convex in the names.
     pub(crate) corners: Option<Corners>,
-    /// The value, and its slope along each name.
+    /// The value and its slope along each name.
     pub(crate) all: Tape,
-    /// Where each name can be.
+    /// Range of each name.
     pub(crate) domain: Vec<[f64; 2]>,
-    /// Where the search begins.
+    /// Start of the search.
     pub(crate) start: Vec<f64>,
 }
 
-/// A value, and where it is.
+/// A value and the point at which it is taken.
 #[derive(Clone, Debug)]
 pub(crate) struct Point {
-    /// No more than the value.
+    /// Lower bound of the value.
     pub(crate) value: f64,
     pub(crate) at: Vec<f64>,
 }
@@ -31,7 +31,7 @@ impl Point {
 }
 
 impl Problem {
-    /// The value at a point: no more, and no less, than it is.
+    /// Returns an enclosure of the value at a point.
     pub(crate) fn value_at(&self, points: &mut Vec<Affine<0>>, at: &[f64]) -> [f64; 2] {
         self.value.evaluate(points, at, &vec![0.0; at.len()]).0[0].range()
     }

@@ -1,4 +1,4 @@
-//! From box to box: the one that may hold most is halved first.
+//! Branch and bound: bisects the box with the largest upper bound first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,35 +11,36 @@ use crate::local_search::{ascend, highest};
 use crate::problem::{Point, Problem};
 use crate::search_box::{SearchBox, Workspace};
 
-/// How many boxes are halved in a round, whatever the number of threads.
+/// Number of boxes bisected in a round, for any number of threads.
 const ROUND: usize = 64;
-/// What is this much less than the first look allowed is nothing, and so is what is less than the second number.
+/// Values are taken as 0 below this fraction of the bound of the first box, or below the second
+/// number.
 const NOTHING: [f64; 2] = [1e-9, 1e-150];
 
-/// What is proved of the largest value: it is no less than `found`, and no more than `certified`.
+/// Certified enclosure of the largest value: between `found` and `certified`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
-    /// The value at `at`, rounded down.
+    /// Value at `at`, rounded down.
     pub found: f64,
-    /// What no value exceeds; infinite if nothing is known.
+    /// Upper bound of all values; infinite if none is known.
     pub certified: f64,
-    /// The value of each name where `found` is.
+    /// Value of each name at the found maximum.
     pub at: Vec<f64>,
-    /// How many boxes were looked at.
+    /// Number of boxes examined.
     pub boxes: usize,
-    /// Whether the gap was reached.
+    /// `true` if the gap was reached.
     pub complete: bool,
 }
 
-/// What is sought, and for how long.
+/// A maximization problem and its termination criteria.
 pub(crate) struct Search {
     pub(crate) problem: Problem,
-    /// Whether the value is the square of what is asked for.
+    /// `true` if the value is the square of the quantity to be bounded.
     pub(crate) squared: bool,
     pub(crate) effort: Effort,
 }
 
-/// A box that waits, with its number: of equals the first comes first.
+/// A queued box with its number; among equal bounds the lowest number comes first.
 struct Waiting {
     search_box: SearchBox,
     number: usize,
@@ -110,7 +111,8 @@ impl Search {
                 && let Some(Waiting { search_box, .. }) = waiting.pop()
             {
                 let is_point = search_box.low == search_box.high;
-                // What cannot be halved stays as it is; what holds no more than was found is done with.
+                // A point cannot be bisected; a box whose bound does not exceed the found value is
+                // discarded.
                 if is_point || self.problem.domain.is_empty() {
                     left = left.max(search_box.most);
                 } else if search_box.most > best.value {
@@ -132,7 +134,7 @@ impl Search {
         }
     }
 
-    /// What is asked for, of a value: no less than it is.
+    /// Returns an upper bound of the quantity from that of the value.
     fn size(&self, value: f64) -> f64 {
         match self.squared {
             _ if value.is_nan() => f64::INFINITY,

@@ -1,46 +1,49 @@
-//! What is known of the node within one box.
+//! Bounds of the node within one box.
 
 use std::cmp::Ordering;
 
 use crate::affine::{Affine, UNIT, above};
-use crate::corners::{Corners, Numbers};
+use crate::corners::{Buffers, Corners};
 use crate::problem::{Point, Problem};
 use crate::slopes::SlopeBound;
 
-/// A box that may hold the largest value.
+/// A box that may contain the largest value.
 #[derive(Clone, Debug)]
 pub(crate) struct SearchBox {
     pub(crate) low: Vec<f64>,
     pub(crate) high: Vec<f64>,
-    /// What no value within exceeds.
+    /// Upper bound of the value within the box.
     pub(crate) most: f64,
-    /// The name that is to be halved.
+    /// Name to bisect.
     pub(crate) split: usize,
 }
 
-/// Boxes that are no wider are looked at by their slopes, too, rad: close to a maximum these confine it.
+/// Maximum width of boxes, rad, to which slopes are applied as well. Close to a maximum they shrink
+/// the box.
 const NARROW: f64 = 0.1;
 
-/// How often a box that became smaller is looked at again at once.
+/// Maximum number of times that a box is shrunk and examined again.
 const PASSES: usize = 4;
 
-/// A name whose quarter moves the value by this share of what its whole range does says nothing by its slope.
+/// A name whose quarter range changes the value by this fraction of the change over the whole range
+/// is saturated, and its slope is not informative.
 const SATURATED: f64 = 0.95;
 
-/// Looks at boxes, and keeps its numbers from one to the next.
+/// Examines boxes, with buffers that are reused from one to the next.
 pub(crate) struct Workspace<'a, const N: usize> {
     problem: &'a Problem,
     registers: Vec<Affine<N>>,
     points: Vec<Affine<0>>,
-    corners: Numbers,
+    corners: Buffers,
 }
 
 impl<'a, const N: usize> Workspace<'a, N> {
     pub(crate) fn new(problem: &'a Problem) -> Self {
-        Self { problem, registers: Vec::new(), points: Vec::new(), corners: Numbers::default() }
+        Self { problem, registers: Vec::new(), points: Vec::new(), corners: Buffers::default() }
     }
 
-    /// Looks at a box: nothing of it is left if it holds no more than was found.
+    /// Examines a box. Returns `None` for the box if it contains no value larger than the found
+    /// one.
     pub(crate) fn look(&mut self, search_box: SearchBox, found: f64) -> (Option<SearchBox>, Point) {
         match &self.problem.corners {
             Some(corners) => self.look_at_corners(corners, search_box, found),
@@ -48,7 +51,8 @@ impl<'a, const N: usize> Workspace<'a, N> {
         }
     }
 
-    /// The corner with the largest value bounds the box. Where it is outside, a name is halved that takes it there.
+    /// Bounds the box by the corner with the largest value. If that lies outside of the arcs, a
+    /// name with a vertex outside is bisected.
     fn look_at_corners(
         &mut self,
         corners: &Corners,
@@ -80,11 +84,12 @@ impl<'a, const N: usize> Workspace<'a, N> {
         (search_box, if centre.value > point.value { centre } else { point })
     }
 
-    /// What of a box cannot hold the largest value is taken away:
+    /// Removes parts of a box that cannot contain the largest value.
     ///
-    /// - Where the value grows with a name everywhere, it is largest at the upper end of that name: of a box that is not at the
-    ///   end of the domain, nothing is left.
-    /// - Where a name is not at an end of the domain, its slope must be 0: names are confined to where it can be.
+    /// - Where the value increases with a name everywhere, its maximum is at the upper end of that
+    ///   name. A box that does not reach the end of the domain is discarded.
+    /// - Where a name is not at an end of the domain, its slope must be 0. The range of names
+    ///   shrinks to the values at which that is possible.
     fn look_at_slopes(&mut self, mut search_box: SearchBox) -> (Option<SearchBox>, Point) {
         let mut point = Point::NONE;
         for pass in 1.. {
@@ -107,7 +112,7 @@ impl<'a, const N: usize> Workspace<'a, N> {
             let bound = SlopeBound::new(slopes, &halves);
             if !jumps {
                 let from_centre = high + above(bound.most() + UNIT * high.abs());
-                // A comparison with what is not a number is false.
+                // A comparison with NaN is false.
                 if from_centre < most {
                     most = from_centre;
                 }
@@ -119,9 +124,9 @@ impl<'a, const N: usize> Workspace<'a, N> {
         (Some(search_box), point)
     }
 
-    /// The name that moves the value most by its slope: its halving promises most. But a slope says little of a fast sine: a
-    /// name that alone moves the value as much on a quarter of its range comes last. Where slopes have no end, a name comes first
-    /// that alone makes the value endless, and then the longest.
+    /// Returns the name to bisect: the one whose slope changes the value most. The slope is not
+    /// informative for a fast sine, so saturated names come last. If slopes are unbounded, a name
+    /// that alone makes the value unbounded comes first, and then the longest one.
     fn most_promising(&mut self, centres: &[f64], halves: &[f64], bound: &SlopeBound<N>) -> usize {
         let mut alone = vec![0.0; halves.len()];
         let mut moved = |i: usize, part: f64| {
@@ -194,14 +199,15 @@ impl<'a, const N: usize> Workspace<'a, N> {
     }
 }
 
-/// What is left of a box.
+/// Rest of a box after shrinking.
 enum Confined {
     Nothing,
     Less,
     Same,
 }
 
-/// Where on −1 … 1 a form can be 0 along a name, whatever the others are; nothing if everywhere.
+/// Returns the part of [−1, 1] in which a form can be 0 along a name, for any values of the others.
+/// Returns `None` if that is everywhere.
 fn zero_of<const N: usize>(slope: &Affine<N>, name: usize) -> Option<[f64; 2]> {
     let own = slope.slopes[name];
     let others =
@@ -213,7 +219,7 @@ fn zero_of<const N: usize>(slope: &Affine<N>, name: usize) -> Option<[f64; 2]> {
 }
 
 impl SearchBox {
-    /// Its middle, and how far it goes from there on both sides at least.
+    /// Returns the centre, and upper bounds of the half widths.
     pub(crate) fn centres(&self) -> (Vec<f64>, Vec<f64>) {
         let centres: Vec<f64> = self.low.iter().zip(&self.high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
         let ends = self.low.iter().zip(&self.high).zip(&centres);
@@ -225,14 +231,14 @@ impl SearchBox {
         (centres, halves)
     }
 
-    /// The widest of some names that have any width.
+    /// Returns the widest name with a positive width among some.
     fn widest(&self, is_one: impl Fn(usize) -> bool) -> Option<usize> {
         let width = |name: &usize| self.high[*name] - self.low[*name];
         let names = (0..self.low.len()).filter(|name| width(name) > 0.0 && is_one(*name));
         names.max_by(|a, b| width(a).total_cmp(&width(b)))
     }
 
-    /// Both halves along the name that is to be halved.
+    /// Returns both halves along the name to bisect.
     pub(crate) fn halves(&self) -> [Self; 2] {
         let (mut lower, mut upper) = (self.clone(), self.clone());
         let middle = 0.5 * self.low[self.split] + 0.5 * self.high[self.split];

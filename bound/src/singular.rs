@@ -1,4 +1,4 @@
-//! The least or the largest singular value of a matrix of nodes over a box, with a proof.
+//! Certified bounds of the least or the largest singular value of a matrix of nodes over a box.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -14,49 +14,54 @@ use crate::moving::{MOST_MOVING, Moving};
 use crate::period;
 use crate::tape::Tape;
 
-/// How many boxes are halved in a round, whatever the number of threads.
+/// Number of boxes bisected in a round, for any number of threads.
 const ROUND: usize = 64;
-/// What is less than this share of the whole matrix is nothing.
+/// Singular values below this fraction of the matrix norm are taken as 0.
 const NOTHING: f64 = 1e-9;
-/// By which share of the whole matrix its singular values and vectors may be off: thousands of roundings.
+/// Bound of the error of computed singular values and vectors, relative to the matrix norm:
+/// thousands of roundings.
 const DECOMPOSED: f64 = 1e-12;
 
-/// Which singular value.
+/// The singular value to bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extreme {
-    /// The least one of the matrix, and where in the box it is least.
+    /// The least singular value of the matrix, minimized over the box.
     Least,
-    /// The largest one, and where it is largest.
+    /// The largest singular value of the matrix, maximized over the box.
     Largest,
 }
 
-/// What is proved of a singular value: it lies between `certified` and `found`.
+/// Certified enclosure of a singular value: between `certified` and `found`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Singular {
-    /// What no least singular value is below, 0 if nothing is known; what no largest one exceeds, infinite if nothing is known.
+    /// Lower bound of the least singular value (0 if none is known), or upper bound of the largest
+    /// one (infinite if none is known).
     pub certified: f64,
-    /// The singular value at `at`; none if the matrix is finite nowhere it was looked at.
+    /// Singular value at `at`; `None` if the matrix was not finite at any examined point.
     pub found: Option<f64>,
-    /// The value of each name where `found` is.
+    /// Value of each name at the found singular value.
     pub at: Vec<f64>,
-    /// How many boxes were looked at.
+    /// Number of boxes examined.
     pub boxes: usize,
-    /// Whether the gap was reached, or `found` is next to nothing.
+    /// `true` if the gap was reached, or if `found` is negligible.
     pub complete: bool,
 }
 
-/// That of a matrix of no more rows than columns over the box in which some names move, all others being as `fixed` says.
+/// Bounds a singular value of a matrix with at most as many rows as columns, over the box of the
+/// moving names with all other symbols `fixed`.
 ///
-/// In a box let C be the centre of A as an affine form, u the left singular vector of the least singular value of C, `a = uᵀ A` and B the rows of A along the other
-/// left singular vectors. Then, with `‖a‖ ≥ α`, no singular value of B below β and `‖B aᵀ‖ ≤ κ`,
+/// Within a box, let C be the centre of A as an affine form, u the left singular vector of C's
+/// least singular value, `a = uᵀ A`, and B the rows of A along the other left singular vectors.
+/// Then, with `‖a‖ ≥ α`, no singular value of B below β and `‖B aᵀ‖ ≤ κ`,
 ///
 /// ```text
 /// A Aᵀ has no eigenvalue below   ½ (α² + β² − √((α² − β²)² + 4 κ²))
 /// ```
 ///
-/// κ is 0 of C, so that what is certified is as close as the square of the box is small. Where that says nothing, the least singular
-/// value of C less ‖A − C‖ does. With u of the largest singular value, `‖a‖ ≤ α` and no singular value of B above β, none is above
-/// `½ (α² + β² + √((α² − β²)² + 4 κ²))`, nor above the largest singular value of C and ‖A − C‖.
+/// For C itself κ is 0, so the bound converges with the square of the box size. Where it gives
+/// nothing, the least singular value of C minus ‖A − C‖ is used. With u of the largest singular
+/// value, `‖a‖ ≤ α` and no singular value of B above β, no singular value exceeds `½ (α² + β² +
+/// √((α² − β²)² + 4 κ²))`, nor the largest singular value of C plus ‖A − C‖.
 pub fn singular_value(
     extreme: Extreme,
     graph: &Graph,
@@ -111,23 +116,23 @@ struct Search {
     effort: Effort,
 }
 
-/// A box that may hold the value.
+/// A box that may contain the value.
 struct Candidate {
     low: Vec<f64>,
     high: Vec<f64>,
-    /// What no signed value within is below.
+    /// Lower bound of the signed value within the box.
     least: f64,
-    /// The name that is to be halved.
+    /// Name to bisect.
     split: usize,
     number: usize,
 }
 
-/// What is seen of a box.
+/// Result of examining a box.
 struct Look {
-    /// What no signed value within is below.
+    /// Lower bound of the signed value within the box.
     least: f64,
     split: usize,
-    /// The least signed value at a point of it, that point, and the size of the matrix.
+    /// Least signed value at a point of the box, that point, and the norm of the matrix.
     found: f64,
     at: Vec<f64>,
     size: f64,
@@ -136,11 +141,11 @@ struct Look {
 impl Search {
     fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Singular {
         let [low, high] = [0, 1].map(|end| self.domain.iter().map(|range| range[end]).collect::<Vec<_>>());
-        // What is sought is the least signed value.
+        // The search minimizes the signed value.
         let (mut found, mut at, mut boxes) = (f64::INFINITY, low.clone(), 0);
         let (mut open, mut waiting) =
             (vec![Candidate { low, high, least: self.unknown(), split: 0, number: 0 }], BinaryHeap::new());
-        // Boxes that cannot be halved.
+        // Lower bound over boxes that cannot be bisected.
         let mut left = f64::INFINITY;
         loop {
             let looks: Vec<Look> = open
@@ -189,7 +194,8 @@ impl Search {
         }
     }
 
-    /// A signed value is a singular value, or the negative of one where the largest is sought: of both the least is sought.
+    /// Returns the sign by which singular values are multiplied, so that the search always
+    /// minimizes.
     fn sign(&self) -> f64 {
         match self.extreme {
             Extreme::Least => 1.0,
@@ -197,7 +203,7 @@ impl Search {
         }
     }
 
-    /// What no signed value is below.
+    /// Returns the lower bound of signed values that always holds.
     fn unknown(&self) -> f64 {
         match self.extreme {
             Extreme::Least => 0.0,
@@ -205,7 +211,7 @@ impl Search {
         }
     }
 
-    /// Singular values, the one that is sought first, and their left vectors.
+    /// Returns the singular values, the one to bound first, and their left vectors.
     fn sorted(&self, matrix: DMatrix<f64>) -> (Vec<f64>, Vec<Vec<f64>>) {
         let svd = matrix.svd(true, false);
         let columns = svd.u.iter().flat_map(|u| {
@@ -216,10 +222,10 @@ impl Search {
         both.into_iter().unzip()
     }
 
-    /// The signed value at a point; infinite where nothing is known of it.
+    /// Returns the signed value at a point; infinite if the matrix is not finite there.
     fn value_at(&self, at: &[f64]) -> f64 {
         let (forms, _) = self.matrix.evaluate::<0>(&mut Vec::new(), at, &vec![0.0; at.len()]);
-        // Where nothing is known of an entry its centre says nothing.
+        // The centre of an unbounded entry has no meaning.
         if !forms.iter().all(|form| form.centre.is_finite() && form.radius().is_finite()) {
             return f64::INFINITY;
         }
@@ -257,7 +263,7 @@ impl Search {
         let mixed = above(mixed.iter().map(|size| size * size).sum());
         let least = self.least(&values, spread, square.range(), mixed, DECOMPOSED * size);
 
-        // A name that moves nothing by its slopes moves it too much for them.
+        // The slopes of a name with unbounded influence are 0.
         let moved = |k: usize| match forms.iter().map(|form| form.slopes[k] * form.slopes[k]).sum() {
             0.0 if halves[k] > 0.0 => f64::INFINITY,
             moved => moved,
@@ -276,8 +282,9 @@ impl Search {
         Look { least, split, found, at, size }
     }
 
-    /// What no signed value in a box is below: from the singular values of its centre and how far off the matrix may be, from `‖a‖²`, `‖B aᵀ‖²` and
-    /// how far off singular values of the centre may be.
+    /// Returns a lower bound of the signed value in a box. The arguments are the singular values of
+    /// its centre, the deviation of the matrix, `‖a‖²`, `‖B aᵀ‖²`, and the error of the centre's
+    /// singular values.
     fn least(&self, values: &[f64], spread: f64, square: [f64; 2], mixed: f64, rounding: f64) -> f64 {
         let next = values.get(1).copied();
         let root = |alpha: f64, beta: f64| ((alpha - beta) * (alpha - beta) + 4.0 * mixed).sqrt();
@@ -302,13 +309,13 @@ impl Search {
     }
 }
 
-/// `Σ u_i f_i`.
+/// Returns `Σ u_i f_i`.
 fn combined<'a, const N: usize>(u: &[f64], forms: impl Iterator<Item = &'a Affine<N>>) -> Affine<N> {
     let parts = u.iter().zip(forms).map(|(factor, form)| form.scaled(&Affine::known(*factor, 0.0)));
     parts.reduce(|sum, part| sum.add(&part)).unwrap_or_else(|| Affine::known(0.0, 0.0))
 }
 
-/// `Σ a_j b_j`.
+/// Returns `Σ a_j b_j`.
 fn product<const N: usize>(a: &[Affine<N>], b: &[Affine<N>]) -> Affine<N> {
     let parts = a.iter().zip(b).map(|(a, b)| a.mul(b));
     parts.reduce(|sum, part| sum.add(&part)).unwrap_or_else(|| Affine::known(0.0, 0.0))
@@ -320,7 +327,7 @@ fn farthest<const N: usize>(form: &Affine<N>) -> f64 {
 }
 
 impl Candidate {
-    /// Both halves along the name that is to be halved.
+    /// Returns both halves along the name to bisect.
     fn halves(self, middle: f64) -> [Self; 2] {
         let (mut lower, mut upper) = (self.high.clone(), self.low.clone());
         lower[self.split] = middle;
@@ -331,7 +338,7 @@ impl Candidate {
 }
 
 impl Ord for Candidate {
-    /// The one that may hold the least comes first, of equals that which was made first.
+    /// The least lower bound comes first; among equal bounds the older box.
     fn cmp(&self, other: &Self) -> Ordering {
         other.least.total_cmp(&self.least).then(other.number.cmp(&self.number))
     }

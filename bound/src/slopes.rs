@@ -1,11 +1,12 @@
-//! How far the value of a box can be above that at its centre.
+//! Bound of the excess of the value within a box over that at its centre.
 
 use crate::affine::{Affine, UNIT};
 
-/// No sum here has more than 4096 roundings: those of 32 names, each with each, twice.
+/// Bound of the relative error of any sum here: at most 4096 roundings, for 32 names in pairs,
+/// twice.
 const SUMS: f64 = 4096.0 * UNIT;
 
-/// With slopes `c_i + Σ_j a_ij t_j ± r_i` and half widths w
+/// Bound from the slopes. With slopes `c_i + Σ_j a_ij t_j ± r_i` and half widths w:
 ///
 /// ```text
 /// f(m + w t) − f(m) = ∫₀¹ Σ w_i t_i f_i(m + s w t) ds  ≤  Σ b_i t_i + ½ Σ B_ij t_i t_j + Σ ρ_i |t_i|
@@ -17,7 +18,7 @@ pub(crate) struct SlopeBound<const N: usize> {
     quadratic: Quadratic<N>,
 }
 
-/// `more + Σ b_i t_i + ½ Σ B_ij t_i t_j`, each `t_i` from −1 to 1.
+/// `more + Σ b_i t_i + ½ Σ B_ij t_i t_j`, where each `t_i` lies in [−1, 1].
 #[derive(Clone, Copy)]
 struct Quadratic<const N: usize> {
     more: f64,
@@ -43,10 +44,10 @@ impl<const N: usize> SlopeBound<N> {
         Self { names, rest, quadratic: Quadratic { more: 4.0 * UNIT * rounding, first, second } }
     }
 
-    /// What it is at most; not a number if any part of it is not.
+    /// Returns the upper bound; NaN if any part of it is.
     ///
-    /// The least of what follows from the quadratic as it is and from those that are left when one name after the other, that
-    /// with the strongest curve first, is eliminated.
+    /// It is the smallest of the direct bound of the quadratic and of the bounds after eliminating
+    /// the variables one by one, the one with the most negative curvature first.
     pub(crate) fn most(&self) -> f64 {
         let mut least = self.quadratic.by_names(&self.rest, self.names);
         let rest: f64 = self.rest.iter().sum();
@@ -58,7 +59,7 @@ impl<const N: usize> SlopeBound<N> {
             let Some(name) = strongest else { break };
             left = left.without(name, self.names);
             let most = left.by_names(&[0.0; N], self.names);
-            // What is not a number is never less.
+            // NaN is never less.
             if most < least {
                 least = most;
             }
@@ -66,7 +67,7 @@ impl<const N: usize> SlopeBound<N> {
         least * (1.0 + SUMS)
     }
 
-    /// What one name has to do with it.
+    /// Returns the influence of one name on the bound.
     pub(crate) fn share(&self, name: usize) -> f64 {
         let second: f64 = self.quadratic.second[name].iter().take(self.names).map(|entry| entry.abs()).sum();
         self.quadratic.first[name].abs() + self.rest[name] + 0.5 * second
@@ -74,8 +75,9 @@ impl<const N: usize> SlopeBound<N> {
 }
 
 impl<const N: usize> Quadratic<N> {
-    /// With `ρ_i |t_i|` for each name: no name by itself makes more than at `|t| = 1`, or at `|t| = (|b| + ρ)/−B` if that is less,
-    /// and no two together make more than `|B_ij|`.
+    /// Bounds the quadratic plus `ρ_i |t_i|` for each name. A single name contributes most at `|t|
+    /// = 1`, or at `|t| = (|b| + ρ)/−B` if that is smaller, and a pair contributes at most
+    /// `|B_ij|`.
     fn by_names(&self, rest: &[f64; N], names: usize) -> f64 {
         let mut sum = self.more;
         for (i, rest) in rest.iter().enumerate().take(names) {
@@ -89,7 +91,8 @@ impl<const N: usize> Quadratic<N> {
         sum
     }
 
-    /// The same without a name whose curve B is negative: with `s = t_i + Σ v_j t_j` and `v_j = B_ij / B`
+    /// Eliminates a name whose curvature B is negative: with `s = t_i + Σ v_j t_j` and `v_j = B_ij
+    /// / B`
     ///
     /// ```text
     /// b_i t_i + ½ B t_i² + Σ B_ij t_i t_j = b_i s + ½ B s² − b_i Σ v_j t_j − ½ B Σ v_j v_k t_j t_k

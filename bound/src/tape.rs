@@ -1,4 +1,4 @@
-//! What some nodes of a graph are while names move: their operations on affine forms, one after the other.
+//! Tapes: the operations of nodes on affine forms, in order of evaluation.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use crate::affine::Affine;
 
 pub(crate) type Register = usize;
 
-/// An operation on registers; numbers that no name moves are known when it is made.
+/// An operation on registers. Constants are evaluated when the tape is built.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Step {
     Known(Affine<0>),
@@ -31,24 +31,25 @@ pub(crate) enum Step {
     SinCos(Register),
 }
 
-/// Operations that compute some numbers from the values of names.
+/// Operations that compute outputs from the values of names.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
     pub(crate) steps: Vec<Step>,
     pub(crate) outputs: Vec<Register>,
     tables: Vec<Arc<Table>>,
-    /// Whether the derivative of an absolute value is part of a value, and not only of its slopes: it jumps.
+    /// `true` if the derivative of an absolute value, which jumps, is part of a value and not only
+    /// of its slopes.
     pub(crate) sides_jump: bool,
 }
 
-/// What a node is while the tape is made.
+/// Value of a node while the tape is built.
 #[derive(Clone, Copy)]
 enum Value {
     Known(Affine<0>),
     At(Register),
 }
 
-/// A tape that is being made.
+/// A tape under construction.
 struct Draft {
     tape: Tape,
     registers: usize,
@@ -56,7 +57,8 @@ struct Draft {
 }
 
 impl Tape {
-    /// The values of some nodes from those of some names; all other symbols have the values that `fixed` says.
+    /// Builds the tape of nodes as functions of names; `fixed` gives the values of all other
+    /// symbols.
     pub(crate) fn new(
         graph: &Graph,
         nodes: &[Node],
@@ -95,12 +97,13 @@ impl Tape {
         draft.tape
     }
 
-    /// Whether it has derivatives of absolute values.
+    /// Returns `true` if the tape contains derivatives of absolute values.
     pub(crate) fn has_sides(&self) -> bool {
         self.steps.iter().any(|step| matches!(step, Step::Call(Function::Side, _)))
     }
 
-    /// What the numbers are while each name is within its half width of its centre, and whether one of them may jump there.
+    /// Returns the enclosures of the outputs while each name is within its half width of its
+    /// centre, and whether one of them may jump there.
     pub(crate) fn evaluate<const N: usize>(
         &self,
         registers: &mut Vec<Affine<N>>,
@@ -165,7 +168,7 @@ impl Draft {
         self.registers - 1
     }
 
-    /// Where a value stands.
+    /// Returns the register of a value.
     fn register(&mut self, value: Value) -> Register {
         match value {
             Value::Known(number) => self.push(Step::Known(number)),
@@ -214,7 +217,7 @@ impl Draft {
             },
             Op::Pow(a, b) => match of(b) {
                 Value::Known(exponent) => Step::Power(self.register(of(a)), exponent.centre),
-                // No graph has such a power: its exponents are numbers.
+                // The exponents of a graph are always constant.
                 Value::At(_) => Step::Known(Affine::anything()),
             },
             Op::Neg(a) => Step::Neg(self.register(of(a))),
@@ -228,7 +231,7 @@ impl Draft {
         Value::At(self.push(step))
     }
 
-    /// The result of an operation on numbers, by a tape of its own.
+    /// Evaluates an operation on constants.
     fn number(&self, op: Op, of: impl Fn(Node) -> Value) -> Affine<0> {
         let known = |node: Node| match of(node) {
             Value::Known(number) => number,
@@ -245,7 +248,7 @@ impl Draft {
             Op::Min(a, b) => known(a).smaller(&known(b)),
             Op::Max(a, b) => known(a).larger(&known(b)),
             Op::Call(function, a) => match (function, known(a)) {
-                // A sum of squares that are all 0 has the root 0, and no slope.
+                // The square root of a sum of zero squares is 0, without a slope.
                 (Function::Sqrt, Affine { centre: 0.0, rest: 0.0, .. }) => Affine::known(0.0, 0.0),
                 (function, a) => a.call(function).0,
             },

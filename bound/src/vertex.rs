@@ -1,24 +1,25 @@
-//! Numbers at corners: some of them side by side, or how large all of them are and how far rounding has put them off.
+//! Arithmetic at corners: either several corners in lanes, or a bound of their magnitudes and
+//! rounding errors.
 
 use crate::affine::{Affine, UNIT, above};
 use crate::convex::Operation;
 
-/// How many corners stand side by side: those of the vertices of two names.
+/// Number of corners in lanes: the combinations of the vertices of two names.
 pub(crate) const LANES: usize = 16;
 
-/// What operations compute with.
+/// Arithmetic of the operations.
 pub(crate) trait Number: Copy {
     fn known(number: &Affine<0>) -> Self;
     fn neg(self) -> Self;
     fn add(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
-    /// The root of a sum of squares: of what is less than 0 by rounding, 0.
+    /// Returns the root of a sum of squares; a sum that is negative by rounding counts as 0.
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     fn larger(self, other: Self) -> Self;
 }
 
-/// The result of an operation; `names` are sine and cosine of each name, or the name.
+/// Returns the result of an operation; `names` holds sine and cosine of each name, or its value.
 #[inline(always)]
 pub(crate) fn result<T: Number>(operation: &Operation, before: &[T], names: &[[T; 2]]) -> T {
     match *operation {
@@ -33,7 +34,7 @@ pub(crate) fn result<T: Number>(operation: &Operation, before: &[T], names: &[[T
     }
 }
 
-/// Numbers at several corners, rounded.
+/// Rounded numbers at several corners.
 pub(crate) type Lanes = [f64; LANES];
 
 impl Number for Lanes {
@@ -73,7 +74,8 @@ impl Number for Lanes {
     }
 }
 
-/// What numbers do not exceed: neither those that are computed nor the exact ones, nor how far they are apart.
+/// Bounds of the magnitudes of computed and exact numbers (`most`), and of their difference
+/// (`off`).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Size {
     pub(crate) most: f64,
@@ -81,13 +83,14 @@ pub(crate) struct Size {
 }
 
 impl Size {
-    /// No less than either.
-    pub(crate) fn of_both(self, other: Self) -> Self {
+    /// Returns bounds that hold for both.
+    pub(crate) fn hull(self, other: Self) -> Self {
         Self { most: self.most.max(other.most), off: self.off.max(other.off) }
     }
 }
 
-/// Each result is rounded by no more than `UNIT` of its size, or underflows: `above` has room for both.
+/// The rounding error of each result is at most `UNIT` times its magnitude, or an underflow;
+/// `above` covers both.
 impl Number for Size {
     fn known(number: &Affine<0>) -> Self {
         Self { most: above(number.centre.abs() + number.radius()), off: number.radius() }
@@ -118,6 +121,6 @@ impl Number for Size {
     }
 
     fn larger(self, other: Self) -> Self {
-        self.of_both(other)
+        self.hull(other)
     }
 }

@@ -1,10 +1,10 @@
-//! Errors learned from measurements: identification of generalized errors, and control charts of a machine that is
-//! checked again and again.
+//! Learning from measurements: identification of generalized errors, and control charts for a
+//! machine that is checked repeatedly.
 //!
 //! | module | contents |
 //! |---|---|
 //! | [`identify`] | observations of instruments, the model of their unknowns, residuals and derivatives, fits, selection of terms, design of experiments |
-//! | [`control`] | self-starting control charts, and the date of a change |
+//! | [`control`] | self-starting control charts, and the estimated time of a change |
 
 pub mod control;
 pub mod identify;

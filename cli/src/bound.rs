@@ -1,4 +1,4 @@
-//! `abbe bound`: how large the errors are at most.
+//! `abbe bound`: certified upper bounds of the errors.
 
 use abbe_bound::Effort;
 use abbe_report::text;
@@ -20,5 +20,13 @@ pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
     job.least = arguments.least;
     job.time = arguments.time;
     let report = job.run(&mut Console::default())?;
-    Ok(Outcome::passed(if arguments.running.json { json(&report)? } else { text::bound(&report) }))
+    let next = match report.complete {
+        true => "--full for x, y, z and every kind of error",
+        false => "--boxes or --time for a closer bound, --full for x, y, z and every kind of error",
+    };
+    Ok(Outcome::passed(if arguments.running.json {
+        json(&report)?
+    } else {
+        text::bound(&report, arguments.showing.detail()) + &arguments.showing.next(next)
+    }))
 }

@@ -1,4 +1,4 @@
-//! `abbe check`: whether a spec is right, and what follows from it.
+//! `abbe check`: checks a spec and shows its model.
 
 use abbe_report::text;
 use abbe_study::Notes;
@@ -17,6 +17,22 @@ pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
         let line = warning.line.map(|line| format!(":{line}")).unwrap_or_default();
         console.warn(&format!("{}{line}: {}", report.facts.spec, warning.message));
     }
-    let shown = if arguments.json { json(&report)? } else { text::check(&report) };
+    let next = match report.passed() {
+        true => format!(
+            "abbe analyze {}; --full for matrices, sources, laws and operation counts",
+            quoted(&report.facts.spec)
+        ),
+        false => "--full for matrices, sources and laws".to_owned(),
+    };
+    let shown = if arguments.json {
+        json(&report)?
+    } else {
+        text::check(&report, arguments.showing.detail()) + &arguments.showing.next(&next)
+    };
     Ok(Outcome::checked(shown, report.passed()))
+}
+
+/// Quotes a path with spaces, for a command line.
+fn quoted(path: &str) -> String {
+    if path.contains(' ') { format!("\"{path}\"") } else { path.to_owned() }
 }

@@ -1,4 +1,4 @@
-//! `abbe compensate`: joint commands that put the real tool where the ideal one should be.
+//! `abbe compensate`: joint commands that compensate the errors of the machine.
 
 use std::io;
 use std::path::Path;
@@ -31,9 +31,9 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     let mut commands = commands.transpose().map_err(failed)?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let mut rows = Vec::new();
-    // JSON and pictures are of all rows; a file of commands needs one after the other.
+    // JSON and figures need all rows at once; the file of commands is written row by row.
     let keep = arguments.running.json || page.is_some();
-    let report = job.each(&mut Console::default(), |row| {
+    let report = job.for_each_row(&mut Console::default(), |row| {
         if let Some(csv) = &mut commands {
             csv.row(job.label(&row), &row.numbers(&job.map)).map_err(failed)?;
         }
@@ -49,21 +49,29 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         let map = arguments.map.as_ref().map(|_| &job.map);
         let files = [("commands", &arguments.data)];
         let provenance = Provenance::new(spec, map, files, arguments.page.date.as_ref())?;
-        file.fill(&abbe_report::compensation(spec, &job.map, &report, &provenance))
+        let evaluator = job.machine.evaluator(true);
+        let machine = evaluator.description();
+        file.fill(&abbe_report::compensation(spec, machine, &job.map, &report, &provenance))
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
     let text = match arguments.running.json {
         true => json(&report)?,
         false => {
-            let file = out.map(|file| format!("\n{}: {} rows\n", file.display(), report.told.rows));
+            let file = out.map(|file| format!("\n{}: {} rows\n", file.display(), report.row_summary.rows));
             let manipulator = job.machine.evaluator(true);
-            text::compensation(manipulator.description(), &report) + &file.unwrap_or_default()
+            let next = match out {
+                None => "--out FILE writes the corrected commands, --full shows the first of them",
+                Some(_) => "--full shows the first corrected commands",
+            };
+            text::compensation(manipulator.description(), &report, arguments.showing.detail())
+                + &arguments.showing.next(next)
+                + &file.unwrap_or_default()
         }
     };
     Ok(Outcome::checked(text, report.complete()).beside(printed))
 }
 
-/// The map that is given, or the names of the spec.
+/// Reads the given map, or makes one from the names of the spec.
 fn map(arguments: &arguments::Compensate, spec: &Spec) -> Result<Map, Failure> {
     let Some(file) = &arguments.map else {
         return Ok(Map::from_names(&Data::heading(&arguments.data)?, spec));

@@ -1,4 +1,4 @@
-//! `abbe completions`: what a shell needs to complete commands and options.
+//! `abbe completions`: completion scripts for shells.
 
 use clap::CommandFactory;
 

@@ -1,5 +1,5 @@
-//! What jobs say while they work: notes on stderr, and, if somebody watches and it takes longer than a second, a line that says how
-//! far they are; where nothing can be counted, that they are at work and since when.
+//! Messages of running jobs on stderr: notes and, on a terminal, a progress line for jobs that take
+//! longer than a second. Work without a count shows the elapsed time instead.
 
 use std::io::{IsTerminal, stderr};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -11,18 +11,18 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::output::note;
 
-/// How long nothing is shown.
+/// Time before progress is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// How often the line without a count moves.
+/// Refresh period of the line without a count.
 const BEAT: Duration = Duration::from_millis(250);
 
-/// The last line of the terminal.
+/// Progress line at the bottom of the terminal.
 struct Line {
     bar: Option<ProgressBar>,
-    /// Whether it counts.
+    /// True if the bar has a count.
     counts: bool,
-    /// When there was a count last.
+    /// Time of the last update of a count.
     counted: Option<Instant>,
     over: bool,
 }
@@ -34,14 +34,14 @@ impl Line {
         LINE.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes it away.
+    /// Removes the line.
     fn clear(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }
     }
 
-    /// A bar of that kind in place of another one.
+    /// Returns the bar of this kind; replaces a bar of the other kind.
     fn show(&mut self, counts: bool, make: impl FnOnce() -> ProgressBar, template: &str) -> &ProgressBar {
         if self.counts != counts {
             self.clear();
@@ -54,13 +54,13 @@ impl Line {
     }
 }
 
-/// A line for everything that has no count: reading, fitting, writing. It is there until [`done`].
+/// Starts the line for work without a count: reading, fitting, writing. It ends at [`done`].
 pub(crate) fn watch() {
     if !stderr().is_terminal() {
         return;
     }
     let begun = Instant::now();
-    // Where there are no more threads, there is no line.
+    // If the system cannot start another thread, there is no line.
     let _ = thread::Builder::new().spawn(move || {
         loop {
             thread::sleep(BEAT);
@@ -77,17 +77,17 @@ pub(crate) fn watch() {
     });
 }
 
-/// The work is done: what is printed now stands alone.
+/// Ends the progress line, before results are printed.
 pub(crate) fn done() {
     let mut line = Line::hold();
     line.over = true;
     line.clear();
 }
 
-/// Whoever watches a job from a terminal.
+/// Shows the notes and the progress of a job on the terminal.
 #[derive(Default)]
 pub(crate) struct Console {
-    /// When the first part of the work that is shown began.
+    /// Start of the current part of the work.
     begun: Option<Instant>,
 }
 
@@ -127,7 +127,7 @@ impl Notes for Console {
     }
 }
 
-/// How long the rest takes if it goes on as it did so far, in whole seconds: at least one.
+/// Estimates the remaining time from the average pace so far, in whole seconds, at least one.
 fn left(elapsed: Duration, done: usize, total: usize) -> Duration {
     let rest = total.saturating_sub(done) as f64 / done.max(1) as f64;
     Duration::from_secs((elapsed.as_secs_f64() * rest).ceil().max(1.0) as u64)

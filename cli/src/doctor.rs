@@ -1,4 +1,4 @@
-//! `abbe doctor`: which convention some rows of joints and poses are in.
+//! `abbe doctor`: finds the conventions of rows of joints and poses.
 
 use abbe_report::text;
 use abbe_spec::document::Document;
@@ -52,7 +52,15 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
         }
     }
     let printed = (!written.is_empty()).then(|| outputs.finish(written)).transpose()?;
-    let text = if arguments.json { json(&report)? } else { text::doctor(&report) };
+    let next = match (&arguments.out, report.fits) {
+        (None, true) => "--out MAP writes the map, --full for all interpretations",
+        _ => "--full for all interpretations",
+    };
+    let text = if arguments.json {
+        json(&report)?
+    } else {
+        text::doctor(&report, arguments.showing.detail()) + &arguments.showing.next(next)
+    };
     let outcome = Outcome::checked(text, report.fits);
     Ok(match printed {
         Some(printed) => outcome.beside(printed),

@@ -1,4 +1,4 @@
-//! `abbe export`: what was found of a machine, in the files that controllers and other programs load.
+//! `abbe export`: writes the errors of a machine to files that controllers and other programs load.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, json};
 
 pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
-    let arguments::Export { subject, out, samples, seed, writing, json: is_json, .. } = arguments;
+    let arguments::Export { subject, out, samples, seed, writing, showing, json: is_json, .. } = arguments;
     let format = arguments.format()?;
     let machine = subject.machine()?;
     let job = export::Export { machine, format, samples: *samples, seed: *seed };
@@ -22,7 +22,7 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
         (None, [_]) => vec![PathBuf::from("-")],
         (None, several) => {
             let message = format!("this is written as {} files", several.len());
-            return Err(Failure::of("--to", message).help("name a folder for them: `-o DIR`"));
+            return Err(Failure::new("--to", message).help("name a folder for them: `-o DIR`"));
         }
         (Some(file), [_]) => vec![file.clone()],
         (Some(folder), several) => {
@@ -34,7 +34,14 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
     let pending: Result<Vec<Pending>, Failure> =
         files.map(|(path, file)| outputs.file(path)?.fill(&file.text)).collect();
     let printed = outputs.finish(pending?)?;
-    let mut text = if *is_json { json(&report)? } else { text::exported(&report) };
+    let mut text = if *is_json {
+        json(&report)?
+    } else {
+        {
+            text::exported(&report, showing.detail())
+                + &showing.next("--full for all differences and what the format lacks")
+        }
+    };
     if out.is_some() && !*is_json {
         text += &paths.iter().map(|path| format!("\nWritten to {}.\n", path.display())).collect::<String>();
     }

@@ -1,4 +1,4 @@
-//! Why a command could not do what it was asked.
+//! Errors of usage and input.
 
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stderr};
@@ -7,17 +7,17 @@ use std::process::ExitCode;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::mistake;
 
-/// Bad usage or input: exit status 2.
+/// Wrong usage or input: exit status 2.
 #[derive(Debug)]
 pub(crate) struct Failure(Box<Diagnostics>);
 
 impl Failure {
-    /// Something wrong with a file, a spec or an argument as a whole.
-    pub(crate) fn of(subject: impl Display, message: impl Display) -> Self {
+    /// Creates a failure about a file, a spec or an argument as a whole.
+    pub(crate) fn new(subject: impl Display, message: impl Display) -> Self {
         mistake::with_help(subject, message, "`abbe COMMAND --help` says what can be given").into()
     }
 
-    /// Says a way out.
+    /// Replaces the help line.
     pub(crate) fn help(mut self, help: impl Display) -> Self {
         for diagnostic in &mut self.0.list {
             diagnostic.help = Some(help.to_string());
@@ -25,11 +25,11 @@ impl Failure {
         self
     }
 
-    /// Shows what is wrong, in colours if somebody watches.
+    /// Prints the diagnostics to stderr, in colour on a terminal unless `NO_COLOR` is set.
     pub(crate) fn report(&self) -> ExitCode {
         let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         let text = self.0.render(!plain && stderr().is_terminal());
-        // Nobody is left to be told if this fails.
+        // A failed write to stderr cannot be reported anywhere.
         let _ = writeln!(stderr(), "{text}");
         ExitCode::from(2)
     }

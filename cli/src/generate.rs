@@ -22,7 +22,7 @@ pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
         (None, [file]) => return Ok(Outcome::passed(file.text.clone())),
         (None, _) => {
             let message = format!("{} is written as {} files", language.name(), files.len());
-            return Err(Failure::of("--lang", message).help("name a folder for them: `--out DIR`"));
+            return Err(Failure::new("--lang", message).help("name a folder for them: `--out DIR`"));
         }
         (Some(file), [_]) => vec![file.clone()],
         (Some(folder), _) => {
@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
     Ok(Outcome::passed(String::new()))
 }
 
-/// The language, of C with what it computes in, and of a functional mock-up unit with the version that is asked for.
+/// Returns the language with its options: the number type of C, the FMI version of an FMU.
 fn language(arguments: &Generate) -> Result<Language, Failure> {
     let language = match (arguments.lang, arguments.real) {
         (language, None) => language,
@@ -48,21 +48,21 @@ fn language(arguments: &Generate) -> Result<Language, Failure> {
         (language, Some(real)) => {
             let message = format!("{} has no type of numbers to choose", language.name());
             let help = format!("`--lang c --real {}`, or leave `--real` out", real.name());
-            return Err(Failure::of("--real", message).help(help));
+            return Err(Failure::new("--real", message).help(help));
         }
     };
     match (language, arguments.fmi) {
         (Language::Fmu(_), Some(fmi)) => Ok(Language::Fmu(fmi)),
-        (_, Some(_)) => Err(Failure::of("--fmi", "only a functional mock-up unit has a version of FMI")
+        (_, Some(_)) => Err(Failure::new("--fmi", "only a functional mock-up unit has a version of FMI")
             .help("ask for one: `--lang fmu`; or leave `--fmi` out")),
         (language, None) => Ok(language),
     }
 }
 
-/// A functional mock-up unit: an archive of all files.
+/// Writes a functional mock-up unit, an archive of all files.
 fn unit(arguments: &Generate, job: &generate::Generate, mut outputs: Outputs) -> Result<Outcome, Failure> {
     let Some(path) = &arguments.out else {
-        return Err(Failure::of(
+        return Err(Failure::new(
             "--lang",
             "a functional mock-up unit is an archive, which is nothing to read",
         )

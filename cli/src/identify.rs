@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use abbe::VariableKind;
 use abbe_report::Provenance;
-use abbe_report::text::{self, wrapped};
+use abbe_report::text::{self, Detail, wrapped};
 use abbe_spec::Spec;
 use abbe_study::Acceptance;
 use abbe_study::data::{Data, Map};
@@ -17,10 +17,11 @@ use crate::output::{Outcome, Outputs, Pending, json, note};
 
 pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     arguments.running.start()?;
+    let detail = arguments.showing.detail();
     let mut machine = arguments.subject.as_written()?;
     let changes = arguments.subject.changes(&machine.spec)?;
     if arguments.out.is_some() && !changes.is_empty() {
-        return Err(Failure::of(
+        return Err(Failure::new(
             "--out",
             "the spec that is written has no room for changes of this command line",
         )
@@ -45,11 +46,12 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let out = arguments.out.as_deref().map(|file| begin(file, &mut outputs)).transpose()?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run_once(&mut Console::default())?;
-    let out = out.map(|(spec, map, name)| Ok::<_, Failure>((found(name, &job, &report)?, spec, map)));
+    let out =
+        out.map(|(spec, map, name)| Ok::<_, Failure>((identified_files(name, &job, &report)?, spec, map)));
     let (written, out) = match out.transpose()? {
         None => (None, Vec::new()),
         Some((found, spec, map)) => {
-            (Some(found.text(arguments.full)), vec![spec.fill(&found.spec)?, map.fill(&found.map)?])
+            (Some(found.text(detail)), vec![spec.fill(&found.spec)?, map.fill(&found.map)?])
         }
     };
     let page = page.map(|file| {
@@ -67,85 +69,95 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
             json(&report)?
         }
         false => {
-            let text = if arguments.full { text::full_identification } else { text::identification };
+            let next = match &arguments.out {
+                None => "--out SPEC writes the identified machine, --full lists every error",
+                Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
+            };
             let written = written.map(|written| format!("\n{written}"));
-            text(&job.machine.spec, &report) + &written.unwrap_or_default()
+            text::identification(&job.machine.spec, &report, detail)
+                + &arguments.showing.next(next)
+                + &written.unwrap_or_default()
         }
     };
     Ok(Outcome::checked(text, accepted).beside(printed))
 }
 
-/// The limits that are given, or those of the map.
+/// Reads the given limits; without any, returns those of the map.
 pub(crate) fn accept(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Failure> {
     let Some(text) = text else { return Ok(map.accept.clone()) };
     Ok(Acceptance::read("--accept", text, spec.length)?)
 }
 
-/// Begins the spec of the identified machine, and beside it its map.
+/// Begins the spec of the identified machine, and its map beside it.
 fn begin<'f>(file: &'f Path, outputs: &mut Outputs) -> Result<(Pending, Pending, &'f Path), Failure> {
     let spec = outputs.file(file)?;
     if !spec.is_file() {
-        return Err(Failure::of(file.display(), "this is no file, and a map is to be written beside it")
-            .help("name a file for the spec"));
+        return Err(Failure::new(
+            file.display(),
+            "this is not a regular file, and the map is written beside it",
+        )
+        .help("name a file for the spec"));
     }
     Ok((spec, outputs.file(&map_file(file))?, file))
 }
 
-/// The map of an identified machine stands beside its spec.
+/// Returns the path of the map that belongs to an identified spec.
 fn map_file(spec: &Path) -> PathBuf {
     spec.with_extension("map.toml")
 }
 
-/// The spec of the identified machine and its map, and what is said of them.
-struct Found {
+/// Identified spec and map, and the text printed about them.
+struct IdentifiedFiles {
     spec: String,
     map: String,
-    /// Where it is.
+    /// Path of the spec.
     file: String,
-    /// What is said of the map.
-    beside: String,
-    /// What was added to the spec, line by line.
+    /// Sentence about the map.
+    map_note: String,
+    /// Lines added to the nominal spec.
     lines: Vec<String>,
 }
 
-impl Found {
-    /// With all lines that were added, or with how many there are.
-    fn text(&self, full: bool) -> String {
-        let Self { file, beside, lines, .. } = self;
+impl IdentifiedFiles {
+    /// Returns the text with all added lines, or with their number only.
+    fn text(&self, detail: Detail) -> String {
+        let Self { file, map_note, lines, .. } = self;
         let count = lines.len();
-        let (what, lines) = match full {
-            true => ("these lines".to_owned(), lines.iter().map(|line| format!("{line}\n")).collect()),
-            false => (format!("{count} lines"), String::new()),
+        let (what, lines) = match detail {
+            Detail::Full => {
+                ("these lines".to_owned(), lines.iter().map(|line| format!("{line}\n")).collect())
+            }
+            Detail::Answer => (format!("{count} lines"), String::new()),
         };
         let text =
             format!("Written to {file}: the nominal spec, {what}, and the covariance of what they say");
-        match full {
-            true => format!("{text}\n{lines}{beside}\n"),
-            false => format!("{}\n{beside}\n", wrapped(&format!("{text}."), 0)),
+        match detail {
+            Detail::Full => format!("{text}\n{lines}{map_note}\n"),
+            Detail::Answer => format!("{}\n{map_note}\n", wrapped(&format!("{text}."), 0)),
         }
     }
 }
 
-/// What is to be written; what was added to the spec is said line by line.
-fn found(file: &Path, job: &Identify, report: &Report) -> Result<Found, Failure> {
+/// Builds the identified spec and map.
+fn identified_files(file: &Path, job: &Identify, report: &Report) -> Result<IdentifiedFiles, Failure> {
     let machine = &job.machine;
     let spec = report.found.identified_spec(&machine.spec, &machine.text()?, &file.display().to_string())?;
     let name = map_file(file).display().to_string();
     let map = report.found.identified_map(&job.map, &machine.spec, &name)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned());
-    let beside = format!(
+    let map_note = format!(
         "Beside it {name}: the map with where the machine stands and what is mounted on its tool. Give `measure`, \
          `simulate`, `compensate` and `plan` both."
     );
-    let (file, beside) = (file.display().to_string(), wrapped(&beside, 0));
-    Ok(Found { spec: spec.text, map, file, beside, lines: lines.collect() })
+    let (file, map_note) = (file.display().to_string(), wrapped(&map_note, 0));
+    Ok(IdentifiedFiles { spec: spec.text, map, file, map_note, lines: lines.collect() })
 }
 
-/// Reads `q2=1,2,101`.
+/// Parses `q2=1,2,101`.
 fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>, Failure> {
     let read = |argument: &String| {
         let mistake = |message: &str| {
-            Failure::of(format!("--harmonics {argument}"), message)
+            Failure::new(format!("--harmonics {argument}"), message)
                 .help("a revolute joint and how many times per turn of it: `--harmonics q2=1,2,101`")
         };
         let (joint, times) = argument.split_once('=').ok_or_else(|| mistake("there is no `=`"))?;

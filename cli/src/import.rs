@@ -1,4 +1,4 @@
-//! `abbe import`: robots that are described in other formats, as specs.
+//! `abbe import`: converts descriptions of robots in other formats to specs.
 
 use abbe_report::text;
 use abbe_study::import::{Format, Import};

@@ -1,20 +1,22 @@
-//! The end by a signal: no half-written file is left, and the exit status is 128 + its number.
+//! Termination by a signal: no partial file remains, and the exit status is 128 + the number of the
+//! signal.
 
 use std::process;
 
 use crate::output::folders;
 
-/// Ends the process with that status, without folders that were made and are still empty.
+/// Ends the process with this status. Removes the folders that it made and that are still empty.
 fn end(status: i32) -> ! {
-    // Held to the end, by a name: no other folder is made, and files that are going to their places are there.
+    // The guard lives until the exit: no folder is made meanwhile, and no file is half moved.
     let made = folders::hold();
     folders::remove_empty(&made);
     process::exit(status)
 }
 
-/// From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP remove what was begun and end the process.
+/// Installs a handler for SIGINT (Ctrl-C), SIGTERM and SIGHUP that cleans up and ends the process.
 ///
-/// To be called before there are other threads: the signals are blocked in all of them, and one waits.
+/// Must be called before other threads start: they inherit the blocked signals, and one thread
+/// waits for them.
 #[cfg(unix)]
 pub(crate) fn clean_up_on_signals() {
     use nix::sys::signal::{SigSet, Signal};
@@ -25,11 +27,12 @@ pub(crate) fn clean_up_on_signals() {
     if !hangup_is_ignored() {
         signals.add(Signal::SIGHUP);
     }
-    // Without this folders stay behind, empty.
+    // If the signals cannot be blocked, empty folders may remain after an interruption.
     if signals.thread_block().is_ok() {
         std::thread::spawn(move || {
             if let Ok(signal) = signals.wait() {
-                // A second one ends the process at once, whatever the first is waiting for.
+                // A second signal ends the process at once, even while the first waits for the
+                // guard.
                 let _ = signals.thread_unblock();
                 end(128 + signal as i32);
             }
@@ -37,7 +40,7 @@ pub(crate) fn clean_up_on_signals() {
     }
 }
 
-/// Whether SIGHUP is to be ignored, as below `nohup`. Only Linux says so without unsafe code.
+/// Returns true if SIGHUP is ignored, as under `nohup`. Only Linux shows this without unsafe code.
 #[cfg(unix)]
 fn hangup_is_ignored() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -46,11 +49,11 @@ fn hangup_is_ignored() -> bool {
     ignored.is_some_and(|mask| mask & (1 << (nix::sys::signal::Signal::SIGHUP as u32 - 1)) != 0)
 }
 
-/// From now on Ctrl-C removes what was begun and ends the process.
+/// Installs a handler for Ctrl-C that cleans up and ends the process.
 #[cfg(not(unix))]
 pub(crate) fn clean_up_on_signals() {
     const INTERRUPTED: i32 = 130;
-    // Without a handler folders stay behind, empty.
+    // Without the handler, empty folders may remain after an interruption.
     let _ = ctrlc::set_handler(|| end(INTERRUPTED));
 }
 
@@ -64,7 +67,7 @@ mod tests {
     use super::*;
     use crate::output::Outputs;
 
-    /// In whose folder the process of this name is to work until it ends.
+    /// Environment variable with the folder in which the child process works until it ends.
     const WORKING: &str = "ABBE_TEST_WORKING";
 
     const STATUS: i32 = 143;
@@ -74,7 +77,7 @@ mod tests {
         let Some(folder) = std::env::var_os(WORKING) else { return };
         for name in ["a", "b", "c", "d"] {
             let folder = std::path::PathBuf::from(&folder);
-            // As commands do until they hear of the end.
+            // Commands write like this until a signal ends them.
             thread::spawn(move || {
                 loop {
                     let mut outputs = Outputs::new(&(), true);

@@ -1,8 +1,9 @@
 //! The `abbe` command: predicts, ranks and checks the errors of a manipulator from its spec.
 //!
-//! `arguments` is what it is told. Then one module per command: arguments into a job of `abbe_study`, its report into
-//! text (of `abbe_report`), JSON and files. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
-//! failed, 2 for wrong usage or input, 128 + n if signal n ended it.
+//! `arguments` parses the command line. Each command has one module, which turns its arguments into
+//! a job of `abbe_study`, and the report into text (by `abbe_report`), JSON and files. Results go
+//! to stdout, all other messages to stderr. The exit status is 0, 1 if a check failed, 2 for wrong
+//! usage or input, and 128 + n after signal n.
 
 mod analyze;
 mod arguments;

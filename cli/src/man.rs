@@ -1,4 +1,4 @@
-//! `abbe man`: manual pages, one for the command and one for each of its commands.
+//! `abbe man`: manual pages, one for `abbe` and one for each command.
 
 use std::io;
 
@@ -21,7 +21,7 @@ pub(crate) fn run(arguments: &arguments::Man) -> Result<Outcome, Failure> {
     Ok(Outcome::passed(String::new()))
 }
 
-/// Names of files and their texts.
+/// Returns the name and the text of each page.
 fn pages() -> io::Result<Vec<(String, String)>> {
     let mut command = Arguments::command().disable_help_subcommand(true);
     command.build();
@@ -30,7 +30,7 @@ fn pages() -> io::Result<Vec<(String, String)>> {
         let (page, mut text) = (Man::new(command), Vec::new());
         page.render(&mut text)?;
         let text = String::from_utf8_lossy(&text);
-        // What stands below the options has its own headings.
+        // The text after the options has headings of its own.
         let text = text.replace(".SH EXTRA\nExamples:\n", ".SH EXAMPLES\n");
         Ok((page.get_filename(), text.replace("\nExit status:\n", "\n.SH \"EXIT STATUS\"\n")))
     };

@@ -1,4 +1,4 @@
-//! `abbe measure`: how good a machine is.
+//! `abbe measure`: evaluates measurements of a machine.
 
 use abbe_report::{Provenance, text};
 use abbe_spec::Spec;
@@ -45,6 +45,21 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
 
 fn outcome(arguments: &arguments::Measure, spec: &Spec, report: &Report) -> Result<Outcome, Failure> {
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    let text = if arguments.running.json { json(report)? } else { text::measurement(spec, report) };
+    let text = if arguments.running.json {
+        json(report)?
+    } else {
+        {
+            let next = match (report.explained.repeatable, &arguments.out) {
+                (0, _) => {
+                    "abbe identify finds the errors of this machine; --full for all figures of ISO 9283"
+                }
+                (_, None) => {
+                    "--out DIR for a page and the errors of each row, --full for all figures of ISO 9283"
+                }
+                _ => "--full for all figures of ISO 9283",
+            };
+            text::measurement(spec, report, arguments.showing.detail()) + &arguments.showing.next(next)
+        }
+    };
     Ok(Outcome::checked(text, accepted))
 }

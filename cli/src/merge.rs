@@ -1,11 +1,11 @@
-//! `abbe merge`: the report of an analysis from its parts.
+//! `abbe merge`: merges the parts of an analysis into its report.
 
 use std::path::PathBuf;
 
 use abbe_study::Reads;
-use abbe_study::analyze::parts::{self, Part, Question};
+use abbe_study::analyze::parts::{self, AnalysisRequest, Part};
 
-use crate::analyze::{self, Files, Moved};
+use crate::analyze::{self, Files, VaryingColumns};
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
@@ -18,16 +18,16 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let begun = match (&arguments.out, parts.first()) {
         (Some(folder), Some((name, part))) => {
-            let question = part.question();
+            let question = part.request();
             if !question.figures {
-                return Err(Failure::of(name, "this part was made with --no-figures")
+                return Err(Failure::new(name, "this part was made with --no-figures")
                     .help("leave --out away: text and --json are complete; or make the parts with figures"));
             }
             let job = question.job(&mut ())?;
             let inputs = [arguments.parts.clone(), job.files(), named(question)].concat();
             let mut outputs = Outputs::new(&inputs, arguments.writing.force);
             let drawn = job.monte_carlo.is_some();
-            Some((folder, Files::of_parts(folder, &mut outputs, Moved::new(&job), drawn)?, outputs))
+            Some((folder, Files::for_parts(folder, &mut outputs, VaryingColumns::new(&job), drawn)?, outputs))
         }
         _ => None,
     };
@@ -36,11 +36,17 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
         analyze::write(folder, files, outputs, &report)?;
         note("note: configurations.csv is not written: parts hold no single configurations");
     }
-    analyze::shown(&report, arguments.running.json, arguments.check)
+    analyze::outcome(
+        &report,
+        arguments.running.json,
+        arguments.check,
+        &arguments.showing,
+        "--full for every table",
+    )
 }
 
-/// The files of the question itself.
-fn named(question: &Question) -> Vec<PathBuf> {
+/// Returns the paths of the spec and the study of the question.
+fn named(question: &AnalysisRequest) -> Vec<PathBuf> {
     let files = question.spec_text.iter().chain(&question.study);
     files.map(|written| PathBuf::from(&written.name)).collect()
 }

@@ -1,4 +1,4 @@
-//! `abbe monitor`: whether a machine that is checked again and again is still what it was.
+//! `abbe monitor`: control charts of repeated checks of a machine.
 
 use abbe_report::{Provenance, text};
 use abbe_study::data::Map;
@@ -33,7 +33,17 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     });
     let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();
-    let text =
-        if arguments.running.json { json(&report)? } else { text::monitoring(&job.machine.spec, &report) };
+    let text = if arguments.running.json {
+        json(&report)?
+    } else {
+        {
+            let text = text::monitoring(&job.machine.spec, &report, arguments.showing.detail());
+            let next = match &arguments.page.report {
+                None => "--report FILE for a page with the charts, --full for all charts",
+                Some(_) => "--full for all charts",
+            };
+            text + &arguments.showing.next(next)
+        }
+    };
     Ok(Outcome::checked(text, passed).beside(printed))
 }

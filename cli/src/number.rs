@@ -1,4 +1,4 @@
-//! Numbers that options give.
+//! Lengths given as options.
 
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
@@ -7,12 +7,12 @@ use abbe_spec::value::parse_value;
 
 use crate::failure::Failure;
 
-/// A length that an option gives; it is not negative.
+/// Parses a length that must not be negative, in the length unit of the spec.
 pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64, Failure> {
     let mut document = Document::new(option, text);
     let value = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
     match document.finish(value)? {
         value if value >= 0.0 => Ok(value),
-        _ => Err(Failure::of(option, "this may not be negative").help(format!("write `{option} 0.04mm`"))),
+        _ => Err(Failure::new(option, "this may not be negative").help(format!("write `{option} 0.04mm`"))),
     }
 }

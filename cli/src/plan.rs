@@ -1,4 +1,4 @@
-//! `abbe plan`: where to measure, and how well the errors of the machine will then be known where it is used.
+//! `abbe plan`: plans measurements, and predicts the uncertainty of the errors that they identify.
 
 use abbe_report::text;
 use abbe_study::data::Map;
@@ -33,7 +33,14 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
     let printed = outputs.finish(out)?;
     let mut text = match arguments.running.json {
         true => json(&report)?,
-        false => text::plan(&job.machine.spec, &job.map, &report),
+        false => {
+            let next = match &arguments.out {
+                None => "--out FILE writes the configurations, --full lists what cannot be told apart",
+                Some(_) => "--full lists what cannot be told apart",
+            };
+            text::plan(&job.machine.spec, &job.map, &report, arguments.showing.detail())
+                + &arguments.showing.next(next)
+        }
     };
     if let (Some(file), false) = (&arguments.out, arguments.running.json) {
         text += &format!("Written to {}.\n", file.display());

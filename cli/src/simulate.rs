@@ -1,4 +1,4 @@
-//! `abbe simulate`: measurements of a machine whose errors are known.
+//! `abbe simulate`: simulates measurements of a machine with the errors of its spec.
 
 use std::io;
 use std::path::Path;

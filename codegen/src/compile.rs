@@ -1,4 +1,4 @@
-//! The build script's door: every spec of a folder becomes a module.
+//! Entry points for build scripts: every spec of a folder becomes a module.
 
 use std::fmt;
 use std::fs;
@@ -10,9 +10,11 @@ use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 
 use crate::print;
 
-/// Generates a module for every `*.toml` in a folder but studies, maps and plans (`*.study.toml`, …), for `abbe::include_manipulators!()` to include.
+/// Generates a module for every spec (`*.toml`) in a folder, for `abbe::include_manipulators!()` to
+/// include. Studies, maps and plans (`*.study.toml`, …) are skipped.
 ///
-/// To be called by a build script, which fails with all mistakes shown if there are any.
+/// Call it from a build script. If a spec has mistakes, it prints all of them and exits with status
+/// 1.
 pub fn compile(specs: impl AsRef<Path>) {
     let specs = specs.as_ref();
     println!("cargo:rerun-if-changed={}", specs.display());
@@ -34,10 +36,12 @@ pub fn compile(specs: impl AsRef<Path>) {
     }
 }
 
-/// Generates a module for every `*.toml` in `specs`, and `abbe_manipulators.rs` that includes them, in `out`.
+/// Generates a module for every `*.toml` in `specs`, and `abbe_manipulators.rs` that includes them,
+/// in `out`.
 ///
-/// Returns the specs read, in order of their names, and the files of their tables. Files whose contents stay the same are not touched. Nothing
-/// is written if any spec has a mistake.
+/// Returns the paths of the specs, sorted by name, followed by the paths of their table files. A
+/// file whose contents would not change is left untouched. If any spec has a mistake, nothing is
+/// written.
 pub fn compile_into(specs: &Path, out: &Path) -> Result<Vec<PathBuf>, CompileError> {
     let mut files = spec_files(specs)?;
     let mut read: Vec<Spec> = Vec::new();
@@ -87,14 +91,15 @@ fn spec_files(specs: &Path) -> Result<Vec<PathBuf>, CompileError> {
     Ok(files)
 }
 
-/// Whether its name says that a file is no spec but belongs to one: `arm.study.toml`, `arm.map.toml`, `arm.plan.toml`.
+/// Returns `true` for a file that accompanies a spec: `arm.study.toml`, `arm.map.toml`,
+/// `arm.plan.toml`.
 fn is_companion(path: &Path) -> bool {
     let stem = path.file_stem().map(Path::new);
     let kind = stem.and_then(Path::extension);
     kind.is_some_and(|kind| ["study", "map", "plan"].iter().any(|companion| kind == *companion))
 }
 
-/// Leaves a file alone that is right already, and never leaves one half written.
+/// Writes `text` atomically (a temporary file is renamed), and only if the file differs.
 fn write_if_changed(path: &Path, text: &str) -> Result<(), CompileError> {
     let failed = |error| CompileError::Io(path.to_owned(), error);
     if fs::read_to_string(path).is_ok_and(|found| found == text) {
@@ -105,16 +110,16 @@ fn write_if_changed(path: &Path, text: &str) -> Result<(), CompileError> {
     fs::rename(&partial, path).map_err(failed)
 }
 
-/// Why a folder of specs could not be compiled.
+/// Reason why a folder of specs could not be compiled.
 #[derive(Debug)]
 pub enum CompileError {
     /// A folder or file could not be read or written.
     Io(PathBuf, io::Error),
-    /// The folder holds no `*.toml`.
+    /// The folder contains no `*.toml`.
     NoSpecs(PathBuf),
-    /// `OUT_DIR` is not set, as it is in build scripts.
+    /// `OUT_DIR` is not set, so the caller is not a build script.
     NotABuildScript,
-    /// Specs have mistakes.
+    /// One or more specs have mistakes.
     Specs(Vec<Diagnostics>),
 }
 

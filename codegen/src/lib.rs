@@ -1,4 +1,4 @@
-//! From a manipulator's spec file to its closed-form error Jacobian, as Rust.
+//! Generates the closed-form error Jacobian of a manipulator as Rust code from its spec file.
 //!
 //! In your build script, for every spec in a folder:
 //!
@@ -6,12 +6,13 @@
 //! abbe_codegen::compile("specs");
 //! ```
 //!
-//! and in your library `abbe::include_manipulators!();`. The macro `abbe_macro::manipulator!("specs/arm.toml")`
-//! needs no build script, but generates anew whenever the crate is compiled; the command `abbe generate` writes
-//! the file once, for crates that want nothing of this at build time. All three give the same code.
+//! and in your library `abbe::include_manipulators!();`. The macro
+//! `abbe_macro::manipulator!("specs/arm.toml")` needs no build script but generates the code each
+//! time the crate is compiled. The command `abbe generate` writes the file once, for crates that
+//! want no build-time dependency. All three generate the same code.
 //!
-//! The path of a spec, which `abbe_spec` reads and checks, through this crate: `chain` builds the nodes of a `graph`, `program` puts
-//! them in order, `print` writes Rust or another language.
+//! `abbe_spec` reads and checks the spec. In this crate, `chain` builds the nodes of a `graph`,
+//! `program` puts them in order, and `print` writes Rust or another language.
 
 pub mod chain;
 pub mod graph;

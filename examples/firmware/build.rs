@@ -1,4 +1,5 @@
-//! The positioner that is shipped, as a module. For specs of your own in a folder one line does: `abbe_codegen::compile("specs")`.
+//! Generates the module of the shipped positioner. For a folder of your own specs one line
+//! suffices: `abbe_codegen::compile("specs")`.
 
 use std::path::Path;
 

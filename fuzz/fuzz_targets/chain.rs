@@ -1,4 +1,4 @@
-//! A random spec, chosen by the fuzzer: the interpreter's real pose is that of the exact chain.
+//! Random specs chosen by the fuzzer: the interpreter's real pose equals that of the exact chain.
 #![no_main]
 
 use abbe::{Manipulator, Pose, real_pose, repeatable_magnitudes};

@@ -1,4 +1,4 @@
-//! Any bytes at all: read as a map of a shipped machine.
+//! Arbitrary bytes, read as a map of a shipped machine.
 #![no_main]
 
 mod told;

@@ -1,4 +1,4 @@
-//! Any bytes at all: read as a plan for a shipped machine.
+//! Arbitrary bytes, read as a plan for a shipped machine.
 #![no_main]
 
 mod told;

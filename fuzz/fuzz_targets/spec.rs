@@ -1,4 +1,5 @@
-//! Any bytes at all: read as a spec, generated if it is one, shown what is wrong if not.
+//! Arbitrary bytes, read as a spec. Valid specs are generated; invalid ones must have complete
+//! diagnostics.
 #![no_main]
 
 mod told;

@@ -1,4 +1,4 @@
-//! Any bytes at all: read as measurements of a shipped machine, and measured by if they are.
+//! Arbitrary bytes, read as measurements of a shipped machine. Valid ones are identified from.
 #![no_main]
 
 mod told;

@@ -1,8 +1,8 @@
-//! What every refusal has: a message, a place, a way out.
+//! Requirements of every diagnostic: a message, a location, and a help.
 
 use abbe_spec::diagnostic::Diagnostics;
 
-/// Fails unless every mistake has all three.
+/// Panics unless every diagnostic has all three.
 pub fn told(refused: &Diagnostics) {
     assert!(!refused.list.is_empty());
     for mistake in &refused.list {

@@ -1,14 +1,14 @@
-//! Which operations of a program are run as one: each reads what the one before it makes, which nothing else reads and which therefore
-//! never leaves the registers.
+//! Chains of operations: each operation reads the result of the one before it. Nothing else reads
+//! that result, so it never leaves the registers.
 
 use abbe_codegen::program::{Action, Operand, Program};
 
-/// The steps of a program in the order in which they are run, in chains: each step but the first of its chain reads what the one before it
-/// makes, and nothing else does.
+/// Returns the steps of a program in execution order, grouped in chains. Within a chain each step
+/// reads the result of the step before it, and no other step does.
 pub(crate) fn chains(program: &Program) -> Vec<Vec<usize>> {
     let uses = uses(program);
     let mut maker = vec![None; program.registers];
-    // The chain that ends at a step, until another goes on with it.
+    // The chain that ends at a step, until another step extends it.
     let mut ending: Vec<Vec<usize>> = Vec::with_capacity(program.steps.len());
     for (at, step) in program.steps.iter().enumerate() {
         let mut longest: Option<usize> = None;
@@ -23,14 +23,14 @@ pub(crate) fn chains(program: &Program) -> Vec<Vec<usize>> {
         let mut chain = longest.map_or_else(Vec::new, |before| std::mem::take(&mut ending[before]));
         chain.push(at);
         ending.push(chain);
-        // What goes on takes the place of the last step: all that the others read is there by then.
+        // A chain runs at the position of its last step, where all other operands are available.
         maker[step.register] = is_link(step.action).then_some(at);
     }
     ending.retain(|chain| !chain.is_empty());
     ending
 }
 
-/// Whether it can stand in a chain: quick operations, whose numbers leave registers free.
+/// Returns `true` if an action may be part of a chain: fast operations that leave registers free.
 fn is_link(action: Action) -> bool {
     matches!(
         action,
@@ -44,7 +44,7 @@ fn is_link(action: Action) -> bool {
     )
 }
 
-/// How often each register is read.
+/// Returns the number of reads of each register.
 fn uses(program: &Program) -> Vec<usize> {
     let mut uses = vec![0; program.registers];
     let read = program.steps.iter().flat_map(|step| step.action.operands());
@@ -64,7 +64,8 @@ mod tests {
 
     use super::*;
 
-    /// Every step is run once, and after all that it reads: what other chains make at their ends, and what the step before it makes.
+    /// Checks that every step runs once, and after everything that it reads: the results of other
+    /// chains, and of the step before it.
     #[test]
     fn nothing_is_read_before_it_is_made() {
         let frame = |i: usize| {

@@ -12,25 +12,26 @@ use abbe_spec::Spec;
 use crate::lanes::{Batch, Block};
 use crate::tape::Tape;
 
-/// How many numbers a pose has.
+/// Number of elements of a pose.
 const POSE: usize = 12;
 
-/// A manipulator that is run from its spec, without a compiler.
+/// A manipulator that runs from its spec, without a compiler.
 #[derive(Clone, Debug)]
 pub struct Interpreter {
     spec: Arc<Spec>,
     routines: Arc<Routines>,
-    /// In the order of [`Function::ALL`]; made when they are first asked for.
+    /// Tapes in the order of [`Function::ALL`], built at first use.
     tapes: [OnceLock<Tape>; Function::ALL.len()],
 }
 
 impl Interpreter {
-    /// Prepares a spec, which it keeps.
+    /// Prepares a spec.
     pub fn new(spec: impl Into<Arc<Spec>>) -> Self {
         Self::with(spec.into(), Routines::new)
     }
 
-    /// The same without loops over the frames, however long the chain is: what loops are checked against.
+    /// Prepares a spec without loops over the frames for any length of the chain, for checks of the
+    /// loops.
     pub fn without_loops(spec: impl Into<Arc<Spec>>) -> Self {
         Self::with(spec.into(), Routines::without_loops)
     }
@@ -40,39 +41,40 @@ impl Interpreter {
         Self { spec, routines, tapes: [const { OnceLock::new() }; Function::ALL.len()] }
     }
 
-    /// The spec that it runs.
+    /// Returns the spec.
     pub fn spec(&self) -> &Arc<Spec> {
         &self.spec
     }
 
-    /// What it runs.
+    /// Returns the routines that the interpreter runs.
     pub fn routines(&self) -> &Routines {
         &self.routines
     }
 
-    /// A function, ready to run.
+    /// Returns the tape of a function.
     fn tape(&self, function: Function) -> &Tape {
         self.tapes[function as usize].get_or_init(|| Tape::new(&self.routines, function))
     }
 
-    /// What a function gives for its arguments, both one after the other, the margin last. Nothing is checked but how many
-    /// arguments there are: what is not finite stays so.
+    /// Evaluates a function: arguments and results are concatenated, and the margin is last. Only
+    /// the number of arguments is checked; results may be infinite or NaN.
     ///
     /// # Errors
     ///
-    /// There are more or fewer arguments than the function's signature says.
+    /// Returns [`Error::Count`] if the number of arguments differs from the function's signature.
     pub fn evaluate(&self, function: Function, arguments: &[f64]) -> Result<Vec<f64>, Error> {
         let tape = self.tape(function);
         count(Quantity::Arguments, tape.arguments, arguments.len())?;
         Ok(evaluated(tape, arguments.iter()))
     }
 
-    /// The results of a function at one configuration, one after the other, finite and not singular; the margin, where there
-    /// is one, last. One slice for each of its arguments.
+    /// Evaluates a function at one configuration with all checks of [`Manipulator`]. `arguments`
+    /// has one slice for each argument of the signature. The results are concatenated, finite and
+    /// not singular; the margin, if there is one, is last.
     ///
     /// # Errors
     ///
-    /// As for the functions of [`Manipulator`].
+    /// Returns the errors of the corresponding function of [`Manipulator`].
     pub fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
         let signature = function.signature();
         for (array, values) in signature.arguments.iter().zip(arguments) {
@@ -95,7 +97,7 @@ impl Interpreter {
         Ok(values)
     }
 
-    /// Runs a function and fills a slice with its last result. Returns all that it gives.
+    /// Evaluates a function, copies its last result to a slice, and returns all results.
     fn fill(&self, function: Function, arguments: &[&[f64]], filled: &mut [f64]) -> Result<Vec<f64>, Error> {
         let description = &self.routines.description;
         let Some((last, others)) = function.signature().results.split_last() else { return Ok(Vec::new()) };
@@ -175,7 +177,7 @@ impl Sweepable for Interpreter {
     }
 }
 
-/// The outputs of a tape; as many arguments as it has.
+/// Runs a tape; `arguments` must have as many numbers as the tape expects.
 fn evaluated<'a>(tape: &Tape, arguments: impl Iterator<Item = &'a f64>) -> Vec<f64> {
     let mut rows = vec![[0.0]; tape.slots];
     let mut block = Block::new(tape, &mut rows);
@@ -190,7 +192,7 @@ fn count(quantity: Quantity, expected: usize, found: usize) -> Result<(), Error>
     if expected == found { Ok(()) } else { Err(Error::Count { quantity, expected, found }) }
 }
 
-/// The pose that the first numbers are.
+/// Returns the pose in the first twelve numbers.
 fn pose_of(values: &[f64]) -> Pose {
     Pose(std::array::from_fn(|column| std::array::from_fn(|row| values[3 * column + row])))
 }

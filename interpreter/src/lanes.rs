@@ -1,5 +1,5 @@
-//! Evaluates a tape over a block of lanes: each operation for all lanes before the next one, so that choosing
-//! the operation costs next to nothing.
+//! Evaluates a tape over a block of lanes. Each operation runs for all lanes before the next one,
+//! so that dispatch costs almost nothing.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -12,19 +12,19 @@ use abbe_spec::expr::{Function, Lookup, Table};
 use crate::operation::{Chain, Instruction, Link, LinkKind, Operation, Slot};
 use crate::tape::{Part, Tape};
 
-/// How many tiles of a batch are evaluated together: enough to hide the choice of an operation, few enough for
-/// all slots to stay in the cache.
+/// Number of tiles of a batch that are evaluated together: enough to amortize dispatch, few enough
+/// for all slots to fit in the cache.
 const TILES: usize = 8;
 
-/// The values of a block: a row of numbers, or of lanes of them, for every slot.
+/// Values of a block: for every slot a row of numbers, or of lanes of them.
 #[derive(Debug)]
 pub(crate) struct Block<'r, T, const N: usize> {
     rows: &'r mut [[T; N]],
 }
 
 impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
-    /// Puts the constants of a tape in place. There must be a row for each of its slots; what is in them does not
-    /// matter.
+    /// Creates a block and sets the constants of a tape. `rows` must have a row for each slot;
+    /// previous contents do not matter.
     #[inline(always)]
     pub(crate) fn new(tape: &Tape, rows: &'r mut [[T; N]]) -> Self {
         for (row, constant) in rows[tape.arguments..].iter_mut().zip(&tape.constants) {
@@ -33,19 +33,20 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
         Self { rows }
     }
 
-    /// Sets the symbol of that slot in one place of the row.
+    /// Sets the value of a slot at one position of the row.
     #[inline(always)]
     pub(crate) fn set(&mut self, slot: usize, place: usize, value: T) {
         self.rows[slot][place] = value;
     }
 
-    /// The value of a slot in one place of the row.
+    /// Returns the value of a slot at one position of the row.
     #[inline(always)]
     pub(crate) fn value(&self, slot: Slot, place: usize) -> T {
         self.rows[slot][place]
     }
 
-    /// Runs the tape over the whole row; places that nobody set hold what they held.
+    /// Runs the tape over the whole row. Positions that have not been set keep their previous
+    /// contents.
     #[inline(always)]
     pub(crate) fn run(&mut self, tape: &Tape) {
         for part in &tape.parts {
@@ -105,7 +106,7 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
                     Function::Cos => self.map(instruction, |a, _, _| a.cos()),
                     Function::Sqrt => self.map(instruction, |a, _, _| a.sqrt()),
                     Function::Abs => self.map(instruction, |a, _, _| a.abs()),
-                    // What goes number by number anyway: nothing is lost by a call.
+                    // Evaluated number by number anyway, so that a call costs nothing extra.
                     Function::Exp => self.by_call(instruction, |a, _, _| a.exp()),
                     Function::Log => self.by_call(instruction, |a, _, _| a.ln()),
                     Function::Side => self.by_call(instruction, |a, _, _| a.side()),
@@ -130,7 +131,7 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
         }
     }
 
-    /// All that lies between is in registers.
+    /// Runs a chain, with all intermediate values in registers.
     #[inline(always)]
     fn chain(&mut self, chain: &Chain) {
         let mut values = self.rows[chain.start];
@@ -165,10 +166,10 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
         self.map(instruction, f);
     }
 
-    // Loops, and no adapters: those could stay without the instruction set.
+    // Loops instead of adapters, which might be compiled without the instruction set.
     #[inline(always)]
     fn map(&mut self, instruction: &Instruction, f: impl Fn(T, T, T) -> T) {
-        // The result may take the place of an operand: each place is read before it is written.
+        // The result may overwrite an operand: each position is read before it is written.
         let Instruction { a, b, c, result, .. } = *instruction;
         for place in 0..N {
             self.rows[result][place] = f(self.rows[a][place], self.rows[b][place], self.rows[c][place]);
@@ -185,11 +186,11 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
 }
 
 thread_local! {
-    /// Rows that were used before: making new ones would take as long as a short batch.
+    /// Reused buffers: allocating new ones would take as long as a short batch.
     static ROWS: Cell<Tiles> = Cell::new(Tiles::default());
 }
 
-/// A tape and what it is to be run over.
+/// A tape, its arguments and its results.
 pub(crate) struct Batch<'a> {
     pub(crate) tape: &'a Tape,
     pub(crate) arguments: &'a Tiles,
@@ -205,7 +206,7 @@ impl Kernel for Batch<'_> {
         let mut rows = ROWS.take();
         rows.reshape(set, TILES * self.tape.slots, set.width());
         let lanes = rows.tile_mut::<R>(0);
-        // What is left over is not computed as if it were many.
+        // The remainder is evaluated in smaller groups.
         let done = self.tiles::<R, TILES>(0, lanes);
         let done = self.tiles::<R, 2>(done, lanes);
         self.tiles::<R, 1>(done, lanes);
@@ -214,7 +215,7 @@ impl Kernel for Batch<'_> {
 }
 
 impl Batch<'_> {
-    /// Evaluates N tiles at a time, from `first` on, and says which is the first that is left.
+    /// Evaluates N tiles at a time, starting at `first`, and returns the first remaining tile.
     #[inline(always)]
     fn tiles<R: Register, const N: usize>(&mut self, first: usize, lanes: &mut [Lanes<R>]) -> usize {
         let Self { tape, arguments, results } = self;

@@ -1,4 +1,5 @@
-//! Runs a spec without rustc: the same programs as the generated code, a block of configurations at a time.
+//! Runs a spec without rustc: the same programs as the generated code, for a block of
+//! configurations at a time.
 //!
 //! ```
 //! use abbe::Manipulator;
@@ -19,7 +20,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program comes as `chains` of its steps, each an `operation` on slots; `pack` makes a `tape` of them, and `lanes` evaluates it.
+//! `chains` groups the steps of a program, each chain an `operation` on slots. `pack` builds a
+//! `tape` of them, and `lanes` evaluates it.
 
 mod chains;
 mod interpreter;

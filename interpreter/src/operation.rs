@@ -1,11 +1,11 @@
-//! What is done at once with values in slots: an operation, or a chain of them.
+//! Operations on slots: single ones, or chains of them.
 
 use abbe_codegen::program::{Action, Operand, Step};
 
-/// A place among the values of a block.
+/// Index of a value of a block.
 pub(crate) type Slot = usize;
 
-/// One operation: what it does with which slots.
+/// One operation and its slots.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Instruction {
     pub(crate) action: Action,
@@ -13,20 +13,20 @@ pub(crate) struct Instruction {
     pub(crate) b: Slot,
     pub(crate) c: Slot,
     pub(crate) result: Slot,
-    /// Where a cosine goes that is computed with its sine.
+    /// Slot of the cosine that is computed together with a sine.
     pub(crate) second: Slot,
 }
 
-/// Operations of which each reads what the one before it makes: that stays in registers.
+/// Operations that each read the result of the one before, which stays in registers.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
-    /// The value that it begins with.
+    /// Slot of the initial value.
     pub(crate) start: Slot,
     pub(crate) links: Vec<Link>,
     pub(crate) result: Slot,
 }
 
-/// What becomes of a value v, with what is in two slots a and b.
+/// One operation of a chain on its value v and the contents of two slots a and b.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link {
     pub(crate) kind: LinkKind,
@@ -60,7 +60,7 @@ pub(crate) enum LinkKind {
     FromTimes,
 }
 
-/// What is done at once.
+/// A unit of execution.
 #[derive(Clone, Debug)]
 pub(crate) enum Operation {
     One(Instruction),
@@ -68,7 +68,8 @@ pub(crate) enum Operation {
 }
 
 impl Operation {
-    /// That of some steps, of which each reads what the one before it makes; where its result goes is not known yet.
+    /// Creates the operation of some steps, each of which reads the result of the one before it.
+    /// The slot of the result is set later.
     pub(crate) fn new(steps: &[&Step], slot: impl Fn(Operand) -> Slot) -> Self {
         match steps {
             [step] => Self::One(one(step.action, slot)),
@@ -77,7 +78,7 @@ impl Operation {
     }
 }
 
-/// An operation by itself; where its result goes is not known yet.
+/// Creates a single operation. The slot of the result is set later.
 fn one(action: Action, slot: impl Fn(Operand) -> Slot) -> Instruction {
     let mut operands = action.operands();
     let a = operands.next().map_or(0, &slot);
@@ -86,7 +87,8 @@ fn one(action: Action, slot: impl Fn(Operand) -> Slot) -> Instruction {
     Instruction { action, a, b, c, result: 0, second: 0 }
 }
 
-/// Several, of which each reads the register of the one before it; the first one goes on from one of its operands.
+/// Creates a chain of steps, each of which reads the register of the one before it. The first step
+/// reads the initial value.
 fn linked(steps: &[&Step], slot: impl Fn(Operand) -> Slot) -> Chain {
     let start = start(steps[0].action);
     let mut value = start;
@@ -100,7 +102,7 @@ fn linked(steps: &[&Step], slot: impl Fn(Operand) -> Slot) -> Chain {
     Chain { start: slot(start), links, result: 0 }
 }
 
-/// From which of its operands an action goes on at the beginning of a chain.
+/// Returns the operand of the first action that is the initial value of a chain.
 fn start(action: Action) -> Operand {
     match action {
         Action::MulAdd(.., c) | Action::MulSub(.., c) | Action::NegMulAdd(.., c) => c,
@@ -108,7 +110,7 @@ fn start(action: Action) -> Operand {
     }
 }
 
-/// What an action does to one of its operands, and which the others are.
+/// Returns the kind of an action on one of its operands, and the other operands.
 fn link(action: Action, value: Operand) -> (LinkKind, Option<Operand>, Option<Operand>) {
     let other = |a: Operand, b: Operand| if a == value { b } else { a };
     match action {

@@ -1,4 +1,4 @@
-//! How a function becomes a tape: slots used again once their value is done with.
+//! Packs a function into a tape; slots are reused after the last use of their value.
 
 use std::collections::{HashMap, HashSet};
 
@@ -11,7 +11,7 @@ use crate::operation::{Operation, Slot};
 use crate::tape::{Part, Tape, Turn};
 
 impl Tape {
-    /// Packs a function: its arguments one after the other, its results one after the other, the margin last.
+    /// Packs a function. Arguments and results are concatenated, and the margin is last.
     pub(crate) fn new(routines: &Routines, function: Function) -> Self {
         let routine = routines.function(function);
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
@@ -37,7 +37,7 @@ impl Tape {
     }
 }
 
-/// The numbers of programs, each once, and the place of each by its bits.
+/// Constants of programs without duplicates, indexed by their bits.
 #[derive(Default)]
 struct Constants {
     values: Vec<f64>,
@@ -52,7 +52,7 @@ impl Constants {
         });
     }
 
-    /// All numbers in the programs of a routine and of those that it calls.
+    /// Collects all constants in the programs of a routine and of those that it calls.
     fn collect(&mut self, routines: &Routines, routine: &Routine) {
         let mut add = |operand: Operand| {
             if let Operand::Constant(value) = operand {
@@ -82,20 +82,21 @@ struct Packer<'r> {
     parts: Vec<Part>,
 }
 
-/// The arrays of a routine while it is packed, and where they are.
+/// Arrays of a routine and their slots.
 struct Arrays<'r> {
     routine: &'r Routine,
     places: Vec<Vec<Slot>>,
 }
 
 impl<'r> Packer<'r> {
-    /// Appends a routine whose arguments are at these slots, and says where its results are, the margin last.
+    /// Appends a routine with arguments in these slots, and returns the slots of its results, the
+    /// margin last.
     fn routine(&mut self, routine: &'r Routine, arguments: Vec<Vec<Slot>>) -> Vec<Vec<Slot>> {
         let mut arrays = Arrays { routine, places: arguments };
         for array in &routine.arrays[arrays.places.len()..] {
             let count = array.len(&self.routines.description);
             let index = arrays.places.len();
-            // What is filled once and at once is where its values are.
+            // An array that is filled once, completely, uses the slots of its values.
             let is_alias = self.is_filled_once(routine, index);
             let slots: Vec<Slot> = match is_alias {
                 true => Vec::new(),
@@ -118,7 +119,7 @@ impl<'r> Packer<'r> {
     fn is_filled_once(&self, routine: &Routine, array: usize) -> bool {
         let at_once = |stage: &Stage| match stage {
             Stage::Block(block) => {
-                let place = |place: &&abbe_codegen::program::Place| place.array == array;
+                let place = |place: &&abbe_codegen::program::ArrayRows| place.array == array;
                 block.repeated.is_none()
                     && block.writes.iter().find(place).is_some_and(|place| place.row == Row::All)
             }
@@ -128,12 +129,12 @@ impl<'r> Packer<'r> {
         routine.writes(array) == 1 && routine.stages.iter().any(at_once)
     }
 
-    /// Slots become constants.
+    /// Sets slots to constants.
     fn set(&mut self, constants: Vec<(Slot, f64)>) {
         self.parts.push(Part::Sum { constants, factors: Vec::new() });
     }
 
-    /// Values come to an array, or it is where they are.
+    /// Copies values to an array, or makes the array an alias of their slots.
     fn fill(&mut self, arrays: &mut Arrays<'_>, array: usize, from: &[Slot]) {
         if arrays.places[array].is_empty() {
             arrays.places[array] = from.to_vec();
@@ -142,7 +143,7 @@ impl<'r> Packer<'r> {
             let mut from = from.to_vec();
             let written: HashSet<Slot> = to.iter().copied().collect();
             if from.iter().any(|slot| written.contains(slot)) {
-                // Nothing is written before it is read.
+                // Every read precedes every write.
                 let between: Vec<Slot> = from.iter().map(|_| self.new_slot()).collect();
                 self.parts.push(Part::Move(from.iter().zip(&between).map(|(a, b)| [*a, *b]).collect()));
                 from = between;
@@ -185,7 +186,7 @@ impl<'r> Packer<'r> {
         }
     }
 
-    /// The slots of a row, in turn i.
+    /// Returns the slots of a row in iteration i.
     fn row(&self, arrays: &Arrays<'_>, array: usize, row: Row, i: usize) -> Vec<Slot> {
         let declared = &arrays.routine.arrays[array];
         let count = declared.place_len(row, &self.routines.description);
@@ -233,7 +234,7 @@ impl<'r> Packer<'r> {
         let (body, outputs) = self.program(&block.program, arrays, &locals);
         let turn = |i: usize| {
             let pairs = |from: Vec<Slot>, to: Vec<Slot>| from.into_iter().zip(to).map(|(a, b)| [a, b]);
-            let read = |(place, slots): &(abbe_codegen::program::Place, Vec<Slot>)| {
+            let read = |(place, slots): &(abbe_codegen::program::ArrayRows, Vec<Slot>)| {
                 pairs(self.row(arrays, place.array, place.row, i), slots.clone())
             };
             let reads = moving.iter().flat_map(read).collect();
@@ -247,7 +248,7 @@ impl<'r> Packer<'r> {
         self.parts.push(Part::Program { turns, body });
     }
 
-    /// The operations of a program, and where its outputs are.
+    /// Returns the operations of a program and the slots of its outputs.
     fn program(
         &mut self,
         program: &Program,
@@ -261,7 +262,8 @@ impl<'r> Packer<'r> {
             let steps: Vec<&Step> = chain.iter().map(|step| &program.steps[*step]).collect();
             let slot = |operand| self.slot(operand, &registers, arrays, locals);
             let mut operation = Operation::new(&steps, slot);
-            // Operands that end here make room for the result: each lane reads before it writes.
+            // Operands used for the last time free their slots for the result: each lane reads
+            // before it writes.
             registers.release(&steps, at, &mut self.free);
             let last = steps[steps.len() - 1];
             let result = self.define(&mut registers, last.register, at);
@@ -311,17 +313,17 @@ impl<'r> Packer<'r> {
         let slot = self.free.pop().unwrap_or_else(|| self.new_slot());
         registers.slots[register] = slot;
         if registers.last_use[register] <= at {
-            // Half of a sine and cosine pair that nobody reads.
+            // An unused half of a sine and cosine pair.
             self.free.push(slot);
         }
         slot
     }
 }
 
-/// Where the registers of a program are, and how long.
+/// Slots and last uses of the registers of a program.
 struct Registers {
     slots: Vec<Slot>,
-    /// The last chain that uses each register; outputs are used for ever.
+    /// Last chain that uses each register; outputs are never released.
     last_use: Vec<usize>,
 }
 
@@ -343,7 +345,7 @@ impl Registers {
         Self { slots: vec![0; program.registers], last_use }
     }
 
-    /// What a chain reads for the last time makes room.
+    /// Frees the slots of registers that a chain uses for the last time.
     fn release(&self, steps: &[&Step], at: usize, free: &mut Vec<Slot>) {
         let ends = |operand: Operand| match operand {
             Operand::Register(register) => (self.last_use[register] == at).then_some(register),

@@ -1,4 +1,4 @@
-//! A function ready to run: every operand is a slot of one array.
+//! Tapes: functions whose operands are all slots of one array.
 
 use std::sync::Arc;
 
@@ -9,16 +9,16 @@ use crate::operation::{Operation, Slot};
 /// A part of a tape.
 #[derive(Clone, Debug)]
 pub(crate) enum Part {
-    /// Values go to other slots.
+    /// Copies values between slots.
     Move(Vec<[Slot; 2]>),
-    /// Slots become sums: constants, and then slot, term and factor.
+    /// Computes sums: constants first, then slot, term and factor.
     Sum { constants: Vec<(Slot, f64)>, factors: Vec<(Slot, Slot, f64)> },
-    /// For every turn, what is read comes to its slots, the instructions run, and what is written goes where it belongs;
-    /// what is no loop has one turn.
+    /// In every iteration, copies the reads, runs the operations, and copies the writes. A program
+    /// outside of loops has one iteration.
     Program { turns: Vec<Turn>, body: Vec<Operation> },
 }
 
-/// One turn of a loop.
+/// One iteration of a loop.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Turn {
     pub(crate) reads: Vec<[Slot; 2]>,
@@ -27,7 +27,7 @@ pub(crate) struct Turn {
 
 /// A function ready to run.
 ///
-/// Slots hold, in this order: the arguments, the constants, and then arrays and working values.
+/// The slots are the arguments, then the constants, and then arrays and temporary values.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
     pub(crate) parts: Vec<Part>,
@@ -35,6 +35,6 @@ pub(crate) struct Tape {
     pub(crate) tables: Vec<Arc<Table>>,
     pub(crate) outputs: Vec<Slot>,
     pub(crate) slots: usize,
-    /// How many slots the arguments take.
+    /// Number of slots of the arguments.
     pub(crate) arguments: usize,
 }

@@ -1,4 +1,4 @@
-//! The manipulators that abbe ships, each as a module generated from its file in `specs/`.
+//! Manipulators shipped with abbe, each as a module generated from its file in `specs/`.
 //!
 //! ```
 //! use abbe_manipulators::pps;
@@ -11,7 +11,7 @@
 //! # Ok::<(), abbe::Error>(())
 //! ```
 //!
-//! Many configurations at once, in the widest registers of the machine:
+//! Batches of configurations, in the widest registers of the machine:
 //!
 //! ```
 //! use abbe::Function;

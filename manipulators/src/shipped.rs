@@ -1,17 +1,17 @@
-//! The files themselves, for programs that read specs at run time.
+//! The shipped files, for programs that read specs at run time.
 
 use abbe::analysis::Sweepable;
 
 /// A shipped manipulator.
 #[derive(Clone, Copy)]
 pub struct Shipped {
-    /// Its name.
+    /// Name of the manipulator.
     pub name: &'static str,
-    /// The text of `specs/NAME.toml`.
+    /// Text of `specs/NAME.toml`.
     pub spec: &'static str,
-    /// The text of `studies/NAME.toml`, if it has a study of its own.
+    /// Text of `studies/NAME.toml`, if the manipulator has a study.
     pub study: Option<&'static str>,
-    /// Its generated code, with the lanes that sweeps need.
+    /// Generated code, with support for batches.
     pub compiled: &'static dyn Sweepable,
 }
 
@@ -46,13 +46,13 @@ shipped! {
     wam: Wam,
 }
 
-/// Maps of data files to the manipulators of the same name: what their columns are. Of `ur5` and `wam` for a public
-/// data set, of `pps` for the measurements that the paper describes.
+/// Maps of data files, by manipulator: `ur5` and `wam` for a public data set, `pps` for the
+/// measurements described in the paper.
 pub const MAPS: &[(&str, &str)] = &[
     ("pps", include_str!("../maps/pps.toml")),
     ("ur5", include_str!("../maps/ur5.toml")),
     ("wam", include_str!("../maps/wam.toml")),
 ];
 
-/// Plans of measurements of the manipulators of the same name: sets of configurations.
+/// Measurement plans (sets of configurations), by manipulator.
 pub const PLANS: &[(&str, &str)] = &[("pps", include_str!("../plans/pps.toml"))];

@@ -1,4 +1,4 @@
-# The compiled part: written by hand, held against the module by mypy's stubtest.
+# Stubs of the compiled part: written by hand, checked against the module by mypy's stubtest.
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, TypeAlias, final, overload
@@ -13,15 +13,15 @@ __all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__ver
 __version__: str
 
 _Array: TypeAlias = NDArray[np.float64]
-# An array, or a table with columns named as the joint variables: a mapping, a frame of pandas or polars, a table of pyarrow.
+# An array, or a table with columns named as the joint variables: a mapping, a pandas or polars frame, a pyarrow table.
 _Joints: TypeAlias = ArrayLike | Mapping[str, ArrayLike] | Any
-# A number in coherent units, text with a unit, or a value for each configuration.
+# A number in coherent units, text with a unit, or one value per configuration.
 _Input: TypeAlias = float | str | ArrayLike
 
-# Called with how many are done, and of how many.
+# Called with the number of finished steps and their total number.
 _Progress: TypeAlias = Callable[[int, int], object]
 _Path: TypeAlias = str | PathLike[str]
-# The path of a CSV file, or a table with columns that a map names.
+# The path of a CSV file, or a table with the columns of a map.
 _Measured: TypeAlias = _Path | Mapping[str, ArrayLike] | Any
 # A number in the length unit of the spec, or text with a unit.
 _Length: TypeAlias = float | str
@@ -198,6 +198,7 @@ class Report:
     @property
     def notes(self) -> list[str]: ...
     def to_dict(self) -> dict[str, Any]: ...
+    def full(self) -> str: ...
     def to_json(self) -> str: ...
     def report(self, folder: _Path, *, overwrite: bool = False) -> list[str]: ...
     def load(self) -> Machine: ...

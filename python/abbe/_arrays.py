@@ -1,4 +1,4 @@
-"""What users give as numbers, made into arrays of double numbers. Imported when it is first needed: NumPy takes its time."""
+"""Conversion of arguments to float64 arrays. Imported on first use, because importing NumPy is slow."""
 
 import io
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ import numpy as np
 
 
 def numbers(value, what, names):
-    """A C-contiguous, aligned array of `value`; of a table, its columns `names` side by side."""
+    """Convert `value` to a C-contiguous, aligned float64 array; of a table, stack the columns `names` along the last axis."""
     if names is not None and (known := _columns(value)) is not None:
         missing = [name for name in names if name not in known]
         if missing:
@@ -20,7 +20,10 @@ def numbers(value, what, names):
 
 
 def columns(value, what, wanted):
-    """Of a table the columns `wanted`, or all, as arrays of double numbers (NaN where there is nothing) or lists of texts, and the names of the others."""
+    """Return the columns `wanted` of a table, or all columns, and the names of the others.
+
+    A column is a float64 array, with NaN for missing values, or a list of texts.
+    """
     names = _columns(value)
     if names is None:
         raise TypeError(
@@ -32,7 +35,7 @@ def columns(value, what, wanted):
 
 
 def beside(joints, seen, names):
-    """A table of joints, a column for each of `names`, and of what was seen at them."""
+    """Return a table with the joint columns `names` and the columns of `seen`."""
     joints, seen = numbers(joints, "data", names), _real(seen, "seen")
     if joints.ndim != 2 or joints.shape[1] != len(names):
         raise ValueError(f"`data` has shape {joints.shape}: beside `seen` it has a row of joints for each, (m, {len(names)})")
@@ -43,7 +46,7 @@ def beside(joints, seen, names):
 
 
 def csv(value, what):
-    """A table as CSV text."""
+    """Format a table as CSV text."""
     found = [(name, cells if isinstance(cells, list) else [_text(cell) for cell in cells.tolist()]) for name, cells in columns(value, what, None)[0]]
     lengths = {len(cells) for _, cells in found}
     if len(lengths) > 1:
@@ -55,7 +58,7 @@ def csv(value, what):
 
 
 def _text(number):
-    """The shortest text of a number; of none, nothing."""
+    """Format a number as its shortest text, and NaN as an empty text."""
     return "" if number != number else repr(number)
 
 
@@ -78,7 +81,7 @@ def _cells(column, name, what):
 
 
 def _is_missing(cell):
-    """None, NaN, and what pandas has for them."""
+    """Return true for None, NaN, and the missing values of pandas."""
     if cell is None or type(cell).__name__ in ("NAType", "NaTType"):
         return True
     return isinstance(cell, float) and cell != cell
@@ -94,7 +97,7 @@ def _real(value, what):
 
 
 def _columns(value):
-    """The names of the columns of a table: a mapping, a structured array, a frame of pandas or polars, a table of pyarrow."""
+    """Return the column names of a mapping, a structured array, a pandas or polars frame, or a pyarrow table; None for anything else."""
     if isinstance(value, Mapping):
         return value.keys()
     if isinstance(value, np.ndarray):

@@ -1,4 +1,4 @@
-"""Fields of reports, by name."""
+"""Fields and figures of reports."""
 
 import html as markup
 import json
@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 
 class Fields(SimpleNamespace):
-    """A group of fields: `.name`, or `["name"]` where a name is no word of Python's."""
+    """Group of fields: `.name`, or `["name"]` for names that are not Python identifiers."""
 
     def __init__(self, pairs):
         super().__init__(**pairs)
@@ -22,7 +22,7 @@ class Fields(SimpleNamespace):
 
 
 class Figure:
-    """A figure: its title, `.svg`, and `.scene`, what is drawn as plain dicts and lists."""
+    """Figure: `.title`, `.svg` (the picture), and `.scene` (its content as plain dicts and lists)."""
 
     def __init__(self, title, svg, scene):
         self.title = title
@@ -44,7 +44,7 @@ class Figure:
 
 
 def html(columns, most=60):
-    """The first rows of a table."""
+    """Format the first `most` rows of a table as HTML."""
     head = "".join(f"<th>{markup.escape(name)}</th>" for name in columns)
     rows = list(zip(*columns.values(), strict=True))
     body = "".join("<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row) + "</tr>" for row in rows[:most])

@@ -1,7 +1,7 @@
-"""Many identifications: one row for each machine of a fleet, or for each repetition of a bootstrap.
+"""Identification of many machines, and bootstrap of one machine.
 
-A table is a dict of columns of equal length, which pandas, polars and pyarrow take as it is. `row` makes one row of one report: what
-`identify` found on a worker of Ray or Dask becomes a row there, and `table` puts rows together.
+A table is a dict of columns of equal length, which pandas, polars and pyarrow accept. `row` converts one report to a row, for example on
+a Ray or Dask worker, and `table` combines rows.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ __all__ = ["bootstrap", "identify", "row", "table"]
 
 
 def row(name: str, report: Report) -> dict[str, Any]:
-    """What was found of one machine: `machine`; each parameter as `e_x1`, with its standard deviation as `e_x1 sd`.
+    """Return the identified errors of one machine: its name as `machine`, each parameter, such as `e_x1`, and its standard deviation, `e_x1 sd`.
 
-    Parameters are those of the machine itself: where it stands, and what is mounted on its tool, are left out. Which ones stand for the
-    combinations that are known depends on the spec and on what was measured; machines of one spec measured alike have the same.
+    Only parameters of the machine itself are included, not those of station and targets. The parameters that represent the identifiable
+    combinations depend on the spec and on the measurements: machines with the same spec and the same plan have the same parameters.
     """
     found: dict[str, Any] = {"machine": name}
     for parameter in report.parameters:
@@ -32,7 +32,7 @@ def row(name: str, report: Report) -> dict[str, Any]:
 
 
 def table(rows: Iterable[Mapping[str, Any]]) -> dict[str, list[Any]]:
-    """Columns of rows, in the order in which they come first; None where a row has nothing of that name.
+    """Combine rows to columns, in the order of their first occurrence, with None for missing values.
 
     >>> import abbe.fleet
     >>> abbe.fleet.table([{"machine": "1", "e_x1": 0.1}, {"machine": "2", "e_y1": 0.2}])
@@ -46,8 +46,10 @@ def table(rows: Iterable[Mapping[str, Any]]) -> dict[str, list[Any]]:
 def identify(
     machine: Machine, files: Mapping[str, str | PathLike[str]], map: str | PathLike[str], **options: Any
 ) -> dict[str, list[Any]]:
-    """One row for each machine of a fleet: `files` has the measurements of each by its name, `options` are those of
-    `Machine.identify`."""
+    """Identify a fleet, one row per machine.
+
+    `files` maps the name of each machine to its measurements; `options` are those of `Machine.identify`.
+    """
     return table(row(name, machine.identify(file, map, **options)) for name, file in files.items())
 
 
@@ -59,12 +61,13 @@ def bootstrap(
     repetitions: int = 200,
     **options: Any,
 ) -> dict[str, list[Any]]:
-    """One row for each parameter: `parameter`; its `value` and `sd` as identified; `bootstrap sd`, and the ends `2.5 %` and `97.5 %`
-    of what the repetitions gave.
+    """Bootstrap the identification of a machine, one row per parameter.
 
-    A repetition identifies the machine from as many configurations as were measured, drawn with replacement, with all their rows:
-    rows of one configuration share its errors, and are not independent. Repetition b is `machine.identify(…, resample=b)`,
-    whoever computes it.
+    Columns: `parameter`, its identified `value` and `sd`, and the standard deviation (`bootstrap sd`) and quantiles (`2.5 %`, `97.5 %`) of
+    the repetitions.
+
+    Each repetition resamples configurations with replacement, together with all their rows, because rows of one configuration share its
+    errors and are not independent. Repetition b is `machine.identify(…, resample=b)` and can be computed anywhere.
     """
     if repetitions < 2:
         raise ValueError("`repetitions`: from 2 on")

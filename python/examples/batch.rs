@@ -1,6 +1,8 @@
-//! What `error_jacobian` of many configurations takes in Rust, written as NumPy has it: `benches/python` puts it beside Python.
+//! Duration of `error_jacobian` for many configurations in Rust, with results in NumPy's layout;
+//! `benches/python` compares it with Python.
 //!
-//! `batch COUNT ROUNDS` prints, line by line, nanoseconds per configuration: interpreted, then compiled.
+//! `batch COUNT ROUNDS` prints, line by line, nanoseconds per configuration: interpreted, then
+//! compiled.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -11,7 +13,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::ur5;
 use abbe_spec::Spec;
 
-/// How many are evaluated at a time, as in the Python package.
+/// Number of configurations per tile, as in the Python package.
 const TILE: usize = 64;
 
 fn main() -> Result<(), Error> {
@@ -30,7 +32,7 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// Nanoseconds per configuration.
+/// Measures nanoseconds per configuration.
 fn measured(
     description: &Description,
     count: usize,
@@ -42,7 +44,7 @@ fn measured(
     let signature = Function::ErrorJacobian.signature();
     let mut q = Tiles::new(set, signature.arguments_len(description), TILE);
     let mut found = Tiles::new(set, signature.results_len(description), TILE);
-    // Angles between -3 and 3, the same everywhere.
+    // Pseudorandom angles between -3 and 3, the same in every run.
     let mut state = 1_u64;
     let mut angle = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -50,7 +52,7 @@ fn measured(
     };
     let joints: Vec<f64> = (0..count * nq).map(|_| angle()).collect();
     let rows: Vec<usize> = (0..nq).collect();
-    // Row-major, behind the pose.
+    // Row-major, after the pose.
     let order: Vec<usize> = (0..6).flat_map(|i| (0..columns).map(move |j| 12 + 6 * j + i)).collect();
     let begin = Instant::now();
     let mut jacobians = Vec::with_capacity(count * 6 * columns);

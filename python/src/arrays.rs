@@ -1,4 +1,4 @@
-//! What users give as numbers, read as arrays of NumPy's.
+//! NumPy arrays of arguments and results.
 
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
 
-/// An array as it is, if it is one of double numbers in NumPy's usual order; all else is converted by `abbe._arrays`, with columns
-/// of these names where a table may be given.
+/// Returns a C-contiguous float64 array as it is, and converts everything else by `abbe._arrays`.
+/// `names` are the columns to read if a table is given.
 pub(crate) fn numbers<'py>(
     value: &Bound<'py, PyAny>,
     what: &str,
@@ -31,8 +31,15 @@ fn readonly<'py>(array: &Bound<'py, PyArrayDyn<f64>>, what: &str) -> PyResult<Py
         .map_err(|_| PyValueError::new_err(format!("`{what}` is being written by another call")))
 }
 
-/// The array that a result is written to.
-pub(crate) fn room<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<PyReadwriteArrayDyn<'py, f64>> {
+/// Borrows `out` for writing.
+///
+/// # Errors
+///
+/// Another dtype, shape or memory order; a read-only array; an overlap with an argument.
+pub(crate) fn output_array<'py>(
+    out: &Bound<'py, PyAny>,
+    shape: &[usize],
+) -> PyResult<PyReadwriteArrayDyn<'py, f64>> {
     let array = out.cast::<PyArrayDyn<f64>>().map_err(|_| {
         PyTypeError::new_err("`out` must be a NumPy array of dtype float64 in the byte order of this machine")
     })?;
@@ -52,13 +59,13 @@ pub(crate) fn room<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Py
     array.try_readwrite().map_err(busy)
 }
 
-/// A new array, not filled yet.
+/// Creates an uninitialized array.
 pub(crate) fn empty<'py>(py: Python<'py>, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
     static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     EMPTY.import(py, "numpy", "empty")?.call1((PyTuple::new(py, shape)?,))
 }
 
-/// A shape as Python writes it.
+/// Formats a shape as a Python tuple.
 pub(crate) fn tuple(shape: &[usize]) -> String {
     match shape {
         [one] => format!("({one},)"),

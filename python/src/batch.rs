@@ -1,4 +1,4 @@
-//! A function of a manipulator, over one configuration or many.
+//! Evaluation of one function of a manipulator at one or many configurations.
 
 use abbe::lanes::{Batches, InstructionSet, Tiles};
 use abbe::{Error, Function, Manipulator, Quantity, checks};
@@ -6,42 +6,43 @@ use abbe_interpreter::Interpreter;
 
 use crate::layout::Layout;
 
-/// How many configurations are evaluated at a time: what they give stays in the cache until it is copied.
+/// Number of configurations evaluated at a time: their results stay in the cache until they are
+/// copied.
 const CHUNK: usize = 64;
 
-/// An argument of a function.
+/// Argument of a function.
 pub(crate) struct Argument<'a> {
-    /// Its values: once, or for every configuration.
+    /// Values: one set, or one set per configuration.
     pub(crate) values: &'a [f64],
-    /// Whether every configuration has its own.
+    /// True if each configuration has its own values.
     pub(crate) each: bool,
 }
 
-/// A configuration that could not be evaluated.
-pub(crate) struct Refused {
-    /// Which one, none if there is only one.
+/// Configuration that cannot be evaluated.
+pub(crate) struct RejectedConfiguration {
+    /// Index in the batch; none for a single configuration.
     pub(crate) index: Option<usize>,
-    /// Why.
+    /// Reason.
     pub(crate) error: Error,
 }
 
-/// A function that is to be evaluated.
+/// Function to evaluate, with its arguments.
 pub(crate) struct Batch<'a> {
-    /// Whose.
+    /// Interpreter of the manipulator.
     pub(crate) interpreter: &'a Interpreter,
-    /// Which.
+    /// Function to evaluate.
     pub(crate) function: Function,
-    /// Where its results go.
+    /// Layout of the result array.
     pub(crate) layout: &'a Layout,
-    /// What it takes.
+    /// Arguments in the order of the function's signature.
     pub(crate) arguments: Vec<Argument<'a>>,
 }
 
 impl Batch<'_> {
-    /// One configuration, by the interpreter's scalar code.
-    pub(crate) fn one(&self, array: &mut [f64]) -> Result<(), Refused> {
+    /// Evaluates one configuration with the interpreter's scalar code.
+    pub(crate) fn one(&self, array: &mut [f64]) -> Result<(), RejectedConfiguration> {
         let arguments: Vec<&[f64]> = self.arguments.iter().map(|argument| argument.values).collect();
-        let refused = |error| Refused { index: None, error };
+        let refused = |error| RejectedConfiguration { index: None, error };
         let values = self.interpreter.run(self.function, &arguments).map_err(refused)?;
         self.layout.fill(array, &mut Vec::new(), |array| {
             for (place, row) in array.iter_mut().zip(&self.layout.rows) {
@@ -51,8 +52,8 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// Many configurations, in lanes.
-    pub(crate) fn many(&self, count: usize, array: &mut [f64]) -> Result<(), Refused> {
+    /// Evaluates `count` configurations in lanes.
+    pub(crate) fn many(&self, count: usize, array: &mut [f64]) -> Result<(), RejectedConfiguration> {
         let description = self.interpreter.description();
         let (set, signature) = (InstructionSet::best(), self.function.signature());
         let size = CHUNK.min(count);
@@ -73,7 +74,7 @@ impl Batch<'_> {
             let array = &mut array[length * first..][..length * size];
             self.put(&rows, first, &mut given);
             let done = self.interpreter.batch(self.function, &given, &mut found);
-            done.map_err(|error| Refused { index: Some(first), error })?;
+            done.map_err(|error| RejectedConfiguration { index: Some(first), error })?;
             self.layout.fill(array, &mut staged, |array| found.copy_each(&self.layout.rows, 0, array));
             let margins =
                 || margin.is_none_or(|row| (0..size).all(|i| checks::margin(found.get(row, i)).is_ok()));
@@ -87,7 +88,7 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// The rows of each argument.
+    /// Returns the tile rows of each argument.
     fn rows(&self) -> Vec<Vec<usize>> {
         let (description, mut first) = (self.interpreter.description(), 0);
         let arrays = self.function.signature().arguments.iter();
@@ -99,7 +100,7 @@ impl Batch<'_> {
         rows.collect()
     }
 
-    /// The values of an argument at some configurations.
+    /// Returns the values of an argument at `size` configurations from `first` on.
     fn values(&self, argument: usize, first: usize, size: usize) -> &[f64] {
         let Argument { values, each } = self.arguments[argument];
         let length = self.function.signature().arguments[argument].len(self.interpreter.description());
@@ -113,7 +114,7 @@ impl Batch<'_> {
         }
     }
 
-    /// Whether all arguments are finite, and inputs within their ranges.
+    /// Checks that all arguments are finite and that inputs are within their ranges.
     fn accepted(&self, first: usize, size: usize) -> Result<(), Error> {
         let inputs = &self.interpreter.description().inputs;
         for (i, array) in self.function.signature().arguments.iter().enumerate() {
@@ -126,8 +127,9 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// The first configuration that cannot be evaluated, and why, as it is said of one alone.
-    fn refused(&self, first: usize, size: usize) -> Refused {
+    /// Finds the first configuration that cannot be evaluated. The reason is that of a single
+    /// evaluation.
+    fn refused(&self, first: usize, size: usize) -> RejectedConfiguration {
         let alone = |index: usize| {
             let arguments = (0..self.arguments.len()).map(|argument| self.values_of(argument, index));
             self.interpreter
@@ -138,7 +140,7 @@ impl Batch<'_> {
         let (index, error) = (first..first + size)
             .find_map(alone)
             .unwrap_or((first, Error::NotFinite { quantity: Quantity::Results, index: 0 }));
-        Refused { index: Some(index), error }
+        RejectedConfiguration { index: Some(index), error }
     }
 
     fn values_of(&self, argument: usize, index: usize) -> &[f64] {

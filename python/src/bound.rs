@@ -1,4 +1,4 @@
-//! How large the errors of a machine are at most.
+//! Certified upper bounds of the errors of a machine.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,19 +17,26 @@ use crate::report::Report;
 
 #[pymethods]
 impl Machine {
-    /// How large the errors are at most, over a box of joints, parameters and inputs, with a proof.
+    /// Certifies upper bounds of the errors over a box of joints, parameters and inputs.
     ///
-    /// `study`, `study_text`: as for `analyze`; the box is the one that contains its workspace. `gap`: by which share of what is found
-    /// what is certified may exceed it. `least`: whether `.dexterity` is added: of the tool's `.point` and of its `.pose` the least
-    /// singular value of `J_q`, in metres and rad, is no less than `.certified` in the box, and `.found` at `.at`; and `.stiffness`, the same
-    /// of a force at the tool point over what it moves it by, N/m, None if nothing gives way. `boxes`: the most
-    /// that are looked at for each error; `time`: seconds, after which no more are.
+    /// `study`, `study_text`: as for `analyze`; the box encloses the workspace of the study. `gap`:
+    /// relative gap between the certified bound and the largest error found at which the search
+    /// stops. `boxes`: maximum number of boxes to examine for each error. `time`: time limit in
+    /// seconds. `least`: also certify lower bounds, `.dexterity` and `.stiffness`.
     ///
-    /// Of `.repeatable`, `.random` and `.radius`, the errors `.norm`, `.x`, `.y`, `.z` and `.orientation`: the true maximum, to first
-    /// order, lies between `.found`, at `.at`, and `.certified`, which is None if nothing could be proved. `.remainder.certified`: how far
-    /// the exact chain of the repeatable sources differs from first order at most; `.after_one_step.position` and `.orientation`: what
-    /// one step of compensation leaves of them at most; `.margin` and `.orientation_margin`: what is left of the study's tolerances.
-    /// Lengths in the unit of the spec, angles in rad, in F_0; fields as those of `abbe bound --json`.
+    /// `.repeatable`, `.random` and `.radius` have the errors `.norm`, `.x`, `.y`, `.z` and
+    /// `.orientation`. To first order, the true maximum of each lies between `.found`, attained at
+    /// `.at`, and `.certified`, which is None if nothing could be proved. `.remainder.certified`
+    /// bounds the difference between the exact chain and first order for the repeatable sources.
+    /// `.after_one_step.position` and `.orientation` bound what one step of compensation leaves.
+    /// `.margin` and `.orientation_margin` are the differences to the tolerances of the study.
+    ///
+    /// `.dexterity.point` and `.pose` bound the least singular value of `J_q` from below (metres,
+    /// rad). `.stiffness` bounds the ratio of a force at the tool point to its deflection, in N/m;
+    /// None for a rigid machine.
+    ///
+    /// Lengths are in the unit of the spec, angles in rad, in F_0. Fields as in `abbe bound
+    /// --json`.
     ///
     /// >>> import abbe
     /// >>> norm = abbe.load("machine3").bound().repeatable.norm

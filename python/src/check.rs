@@ -1,4 +1,4 @@
-//! Whether a spec is right.
+//! Checks of a spec.
 
 use std::sync::Arc;
 
@@ -12,9 +12,10 @@ use crate::report::Report;
 
 #[pymethods]
 impl Machine {
-    /// Checks the spec: what it says, its chain at home, what measurements could tell, and J_e against the exact chain.
+    /// Checks the spec, and compares J_e with the exact chain. The report has the model, its chain
+    /// at home and the identifiable errors.
     ///
-    /// Fields as those of `abbe check --json`.
+    /// Fields as in `abbe check --json`.
     ///
     /// >>> import abbe
     /// >>> all(law.holds for law in abbe.load("scara").check().laws)

@@ -1,4 +1,4 @@
-//! Joints for a pose, and commands for the real tool.
+//! Inverse kinematics, and commands that compensate the errors of the machine.
 
 use abbe::analysis::{Target, inverse};
 use abbe::{Function, Pose};
@@ -8,30 +8,31 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
-use crate::arrays::{empty, numbers, room, tuple};
+use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::failure::guarded;
 use crate::functions::vec_of;
 use crate::job::run;
 use crate::machine::Machine;
 use crate::options::length;
 
-/// Corrected commands: `q` (…, nq) within the limits, `left` (…, 6) of ΔX in F_0 (length unit, rad), and `reason`: None where
-/// all is compensated to the tolerance, else why not; a list where there are many configurations.
+/// Corrected joint commands of one or many configurations.
 #[pyclass(frozen, get_all, module = "abbe")]
 pub(crate) struct Commands {
-    /// (…, nq): the commands, within the limits.
+    /// (…, nq): corrected commands, within the joint limits.
     q: Py<PyAny>,
-    /// (…, 6): ΔX that is left in F_0, in the length unit and rad.
+    /// (…, 6): ΔX that remains in F_0, in the length unit and rad.
     left: Py<PyAny>,
-    /// None where all is compensated to the tolerance, else why not; a list where there are many configurations.
+    /// Reason as text, or None if the configuration is compensated to the tolerance; a
+    /// list for many configurations.
     reason: Py<PyAny>,
 }
 
 #[pymethods]
 impl Machine {
-    /// (nq,): joints within their limits that bring the ideal tool to `target` in F_0, sought from `q0` (home) on.
+    /// (nq,): joints, within their limits, at which the ideal tool reaches `target` in F_0.
     ///
-    /// `target`: a pose (4, 4), or a tool point (3,) in the length unit. ValueError says why none is found.
+    /// `target`: a pose (4, 4) or a tool point (3,), in the length unit. `q0`: start of the
+    /// iteration, home by default. Raises ValueError, with the reason, if no solution is found.
     ///
     /// >>> import abbe
     /// >>> ur5 = abbe.load("ur5")
@@ -76,10 +77,12 @@ impl Machine {
         filled(py, &[found.len()], &found)
     }
 
-    /// Commands that bring the real tool to where the ideal one is at `q`: Commands with q, left and reason.
+    /// Computes joint commands at which the real tool has the ideal pose of `q`. Returns Commands.
     ///
-    /// `tolerance` is what may be left at the tool point, in the length unit or as text (1 rad counts as 1 m); `inputs` as for
-    /// `generalized_errors`. Commands beyond the limits raise ValueError. `progress(done, total)` is called now and then.
+    /// `tolerance`: largest error allowed to remain at the tool point, in the length unit or as
+    /// text with a unit; 1 rad counts as 1 m; "0.001mm" by default. `inputs`: as for
+    /// `generalized_errors`. `progress(done, total)` is called at intervals. Commands beyond the
+    /// joint limits raise ValueError.
     #[pyo3(signature = (q, *, tolerance=None, progress=None, **inputs))]
     fn compensate<'py>(
         &self,
@@ -101,7 +104,7 @@ impl Machine {
         let (q, nu) = (given.values, description.inputs.len());
         let count: usize = lead.iter().product();
         let work = |notes: &mut dyn abbe_study::Notes| {
-            let commands = compensate::Commands::new(&self.interpreter, tolerance)?;
+            let commands = compensate::CommandCorrector::new(&self.interpreter, tolerance)?;
             let mut found = Vec::new();
             for i in 0..count {
                 notes.progress(i, count);
@@ -118,7 +121,7 @@ impl Machine {
         };
         let (found, _) = run(py, None, progress, work)?;
         let corrected: Vec<f64> = found.iter().flat_map(|command| command.q.clone()).collect();
-        let left: Vec<f64> = found.iter().flat_map(|command| command.left).collect();
+        let left: Vec<f64> = found.iter().flat_map(|command| command.remaining).collect();
         let reasons: Vec<Option<String>> = found.into_iter().map(|command| command.reason).collect();
         let reason = match &reasons[..] {
             [reason] if lead.is_empty() => reason.into_pyobject(py)?.into_any().unbind(),
@@ -134,6 +137,6 @@ impl Machine {
 
 fn filled<'py>(py: Python<'py>, shape: &[usize], values: &[f64]) -> PyResult<Bound<'py, PyAny>> {
     let array = empty(py, shape)?;
-    room(&array, shape)?.as_slice_mut()?.copy_from_slice(values);
+    output_array(&array, shape)?.as_slice_mut()?.copy_from_slice(values);
     Ok(array)
 }

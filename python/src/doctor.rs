@@ -1,4 +1,4 @@
-//! Which convention some rows of joints and poses are in.
+//! Conventions of measured data.
 
 use std::sync::Arc;
 
@@ -13,21 +13,27 @@ use crate::measured::Measured;
 use crate::options::length;
 use crate::report::{Pages, Report};
 
-/// The spec as a reading has it.
+/// File name of the corrected spec.
 const CORRECTED: &str = "doctor.spec.toml";
 
 #[pymethods]
 impl Machine {
-    /// Which convention is it? Of some ten rows of joints and of what was seen at them, the reading under which they are this machine's.
+    /// Finds the conventions of measured data: units, signs, order, zeros, Euler angles and more,
+    /// from about ten rows of joints and poses.
     ///
-    /// `data`: a CSV file or a table: a column for each joint, by the names of the variables or else the first ones, then x, y, z and
-    /// an orientation if there is one. Or joints alone, (m, nq), with `seen`: (m, 3), positions; (m, 6), three angles more; (m, 7), a
-    /// quaternion; (m, 12) or (m, 16), a matrix; (m, 4, 4). Nobody says units, signs, orders: that is the question. `within`: what
-    /// may be left of a position, in the length unit or as text.
+    /// `data`: a CSV file or a table with one column per joint, found by the names of the variables
+    /// or else taken from the first columns, then x, y, z and, optionally, an orientation.
+    /// Alternatively joints alone (m, nq), with `seen`: positions (m, 3), positions and three
+    /// angles (m, 6) or a quaternion (m, 7), matrices (m, 12), (m, 16) or (m, 4, 4). `within`:
+    /// largest position residual of an interpretation that fits, in the length unit or as text with
+    /// a unit.
     ///
-    /// `.sentence` says what is found, `.found` has the readings that fit, `.map` is the text of the first one's map, or None, which
-    /// `.report(folder)` writes as doctor.map.toml; where the reading is about the spec, `.load()` is the machine as it has it, and
-    /// doctor.spec.toml its spec. Fields as those of `abbe doctor --json`, residuals in the length unit and rad.
+    /// `.sentence` states the result. `.found` lists the interpretations that fit. `.map` is the
+    /// text of the map of the first one, or None; `.report(folder)` writes it as doctor.map.toml.
+    /// If the interpretation changes the spec, `.load()` returns the corrected machine, and
+    /// doctor.spec.toml is its spec.
+    ///
+    /// Residuals are in the length unit and rad. Fields as in `abbe doctor --json`.
     ///
     /// >>> import abbe, numpy as np
     /// >>> ur5 = abbe.load("ur5")

@@ -1,13 +1,14 @@
-//! The functions of a machine, as users call them.
+//! Functions of a machine, as Python methods.
 
 use abbe::Function;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::functions::Third;
+use crate::functions::ThirdArgument;
 use crate::machine::Machine;
 
-/// Methods by what they take beside the joints. A method is what is documented and the function that it evaluates.
+/// Defines methods, grouped by their arguments besides the joints. Each has its documentation and
+/// the function that it evaluates.
 macro_rules! methods {
     (
         nothing { $($(#[$nothing_documented:meta])* $nothing:ident = $of_joints:ident;)+ }
@@ -25,7 +26,7 @@ macro_rules! methods {
                     q: &Bound<'py, PyAny>,
                     out: Option<&Bound<'py, PyAny>>,
                 ) -> PyResult<Bound<'py, PyAny>> {
-                    self.evaluate(py, Function::$of_joints, q, &Third::None, out)
+                    self.evaluate(py, Function::$of_joints, q, &ThirdArgument::None, out)
                 }
             )+
             $(
@@ -38,7 +39,7 @@ macro_rules! methods {
                     $given: &Bound<'py, PyAny>,
                     out: Option<&Bound<'py, PyAny>>,
                 ) -> PyResult<Bound<'py, PyAny>> {
-                    let third = Third::$third(stringify!($given), $given);
+                    let third = ThirdArgument::$third(stringify!($given), $given);
                     self.evaluate(py, Function::$of_errors, q, &third, out)
                 }
             )+
@@ -52,7 +53,7 @@ macro_rules! methods {
                     out: Option<&Bound<'py, PyAny>>,
                     inputs: Option<&Bound<'py, PyDict>>,
                 ) -> PyResult<Bound<'py, PyAny>> {
-                    self.evaluate(py, Function::$of_inputs, q, &Third::Inputs(inputs), out)
+                    self.evaluate(py, Function::$of_inputs, q, &ThirdArgument::Inputs(inputs), out)
                 }
             )+
         }
@@ -61,8 +62,8 @@ macro_rules! methods {
 
 methods! {
     nothing {
-        /// (…, 4, 4): the nominal pose of the tool in F_0. Rows and columns of a homogeneous matrix; column 3 is the tool point,
-        /// in the length unit.
+        /// (…, 4, 4): nominal pose of the tool in F_0, as rows and columns of a homogeneous matrix.
+        /// Column 3 is the tool point, in the length unit.
         ///
         /// >>> import abbe
         /// >>> pps = abbe.load("pps")
@@ -70,16 +71,18 @@ methods! {
         /// array([1128., 1626., 1568.])
         pose = Pose;
 
-        /// (…, n + 1, 4, 4): A_1 … A_n and the tool T, each by itself, lengths in the length unit.
+        /// (…, n + 1, 4, 4): transforms A_1 … A_n and the tool T, with lengths in the length unit.
         ///
-        /// A_1 takes coordinates in F_1 to F_0, A_i those in F_i to F_{i-1}, T those of the tool to F_n. Rows and columns as those of `pose`.
+        /// A_1 maps coordinates in F_1 to F_0, A_i those in F_i to F_{i-1}, and T those of the tool
+        /// to F_n. Rows and columns as for `pose`.
         transforms = Transforms;
 
-        /// (…, 6, 6n): the error Jacobian J_e = ∂X_T/∂ε in F_0.
+        /// (…, 6, 6n): error Jacobian J_e = ∂X_T/∂ε in F_0.
         ///
-        /// Rows: x, y, z of the tool point in the length unit, then three of its orientation in rad (`rows`). Columns: e_x e_y e_z
-        /// (length unit) e_s e_r e_p (rad; about Y, Z, X) of frame 1, then of frame 2 … (`columns`). Rows that are Euler angles raise
-        /// ValueError where these are singular.
+        /// Rows: x, y, z of the tool point in the length unit, then three rows of its orientation
+        /// in rad (`rows`). Columns: e_x e_y e_z (length unit) e_s e_r e_p (rad; about Y, Z, X) of
+        /// frame 1, then of frame 2 … (`columns`). If the orientation rows are Euler angles, their
+        /// singularities raise ValueError.
         ///
         /// >>> import abbe
         /// >>> pps = abbe.load("pps")
@@ -88,50 +91,58 @@ methods! {
         /// ((6, 36), 1568.0)
         error_jacobian = ErrorJacobian;
 
-        /// (…, 6, nq): the joint Jacobian J_q = ∂X_T/∂q in F_0.
+        /// (…, 6, nq): joint Jacobian J_q = ∂X_T/∂q in F_0.
         ///
-        /// Rows as those of the error Jacobian. Columns: one for each joint variable, per rad or per length unit.
+        /// Rows as for `error_jacobian`. Columns: one per joint variable, per rad or
+        /// per length unit.
         joint_jacobian = JointJacobian;
 
-        /// (…, 6, ns): ∂X_T/∂s in F_0.
+        /// (…, 6, ns): parameter Jacobian ∂X_T/∂s in F_0.
         ///
-        /// Rows as those of the error Jacobian. Columns: one for each structural parameter in the order of `parameters`, per its
-        /// coherent unit.
+        /// Rows as for `error_jacobian`. Columns: one per structural parameter in the order of
+        /// `parameters`, per coherent unit.
         parameter_jacobian = ParameterJacobian;
     }
     errors {
-        /// (…, 6): ΔX = J_e ε in F_0, for any errors ε.
+        /// (…, 6): displacement ΔX = J_e ε in F_0 for given errors ε, real minus ideal.
         ///
-        /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`. Rows as those of the error Jacobian: what
-        /// the tool is off, real minus ideal, in the length unit and rad.
+        /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`. Rows as
+        /// for `error_jacobian`, in the length unit and rad.
         displacement(errors: Numbers) = Displacement;
 
-        /// (…, 6, 6): the covariance J_e diag(σ²) J_eᵀ of ΔX in F_0, for independent errors.
+        /// (…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.
         ///
-        /// `sigma`: the standard deviation of every error, (6n,) or (…, 6n), in the order and units of `columns`. Rows and columns
-        /// as the rows of the error Jacobian, in products of their units.
+        /// `sigma`: standard deviation of every error, (6n,) or (…, 6n), in the order and units of
+        /// `columns`. Rows and columns as the rows of `error_jacobian`, in products of their units.
         covariance(sigma: Squares) = Covariance;
     }
     inputs {
-        /// (…, n, 6): ε of the repeatable sources of the spec: for each frame F_i, in its axes, e_x e_y e_z (length unit) e_s e_r e_p (rad).
+        /// (…, n, 6): errors ε of the repeatable sources of the spec: for each frame F_i, in its
+        /// axes, e_x e_y e_z (length unit) e_s e_r e_p (rad).
         ///
-        /// `inputs`: those of the spec by name, a number in coherent units, text with a unit, or an array with a value for each
-        /// configuration; nominal if not given. So it is for all functions that take them.
+        /// `inputs`: inputs of the spec by name, each a number in coherent units, text with a unit,
+        /// or an array with one value per configuration; nominal by default. The same holds for all
+        /// functions with inputs.
         generalized_errors = GeneralizedErrors;
 
-        /// (…, 6): ΔX in F_0 that the repeatable sources of the spec cause, to first order: real minus ideal.
+        /// (…, 6): displacement ΔX in F_0 by the repeatable sources of the spec, to first order,
+        /// real minus ideal.
         ///
-        /// Rows as those of the error Jacobian, in the length unit and rad. `inputs` as for `generalized_errors`.
+        /// Rows as for `error_jacobian`, in the length unit and rad. `inputs`: as for
+        /// `generalized_errors`.
         predict = PredictedDisplacement;
 
-        /// (…, S, 6): ΔX in F_0 of each source alone (`sources`), of a random one for its magnitude.
+        /// (…, S, 6): displacement ΔX in F_0 by each source of `sources` alone; for a random
+        /// source, by its magnitude.
         ///
-        /// Columns as the rows of the error Jacobian, in the length unit and rad. `inputs` as for `generalized_errors`.
+        /// Columns as the rows of `error_jacobian`, in the length unit and rad. `inputs`: as for
+        /// `generalized_errors`.
         source_displacements = SourceDisplacements;
 
-        /// (…, 4, 4): the pose of the tool in F_0 with the errors of the repeatable sources, exactly: A_1 E_1 … A_n E_n T.
+        /// (…, 4, 4): pose of the tool in F_0 with the errors of the repeatable sources, by the
+        /// exact chain A_1 E_1 … A_n E_n T.
         ///
-        /// Rows, columns and units as those of `pose`. `inputs` as for `generalized_errors`.
+        /// Rows, columns and units as for `pose`. `inputs`: as for `generalized_errors`.
         real_pose = RealPose;
     }
 }

@@ -1,4 +1,4 @@
-//! Robots of other programs as specs, and machines as files that other programs load.
+//! Import of robots from other formats, and export of machines to files of other programs.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,19 +16,22 @@ use crate::machine::Machine;
 use crate::options::{named, one_of, within};
 use crate::report::Report;
 
-/// The spec of a robot that a URDF file describes: `file`, or the `text` of one.
+/// Converts a URDF robot to a spec, from a `file` or its `text`.
 ///
-/// `base` and `tip` are the links of F_0 and of the tool point: the root, and the last link if there is only one. `fold` puts
-/// fixed joints into the frames that follow them; without, each is a frame that has errors of its own. `round_angles` writes
-/// angles that are multiples of 45° but for rounding in the file, up to 1e-5 rad, as such. Lengths are in m.
+/// `base`, `tip`: links whose frames are F_0 and the tool point; by default the root link and the
+/// last link, if there is only one. `fold`: merge fixed joints into the frames that follow them; by
+/// default each is a frame with errors of its own. `round_angles`: round angles within 1e-5 rad of
+/// a multiple of 45° to that multiple. Lengths of the spec are in m.
 ///
-/// `.load()` of the report is the manipulator, `.spec` the text of its spec, `.notes` what was left out; `.report(folder)` writes
-/// the spec. A mistake raises SpecError, with its place. Fields as those of `abbe import --json`.
+/// `.load()` of the report returns the machine, `.spec` is the text of its spec, `.notes` lists
+/// what was left out, and `.report(folder)` writes the spec. Raises SpecError, with a place, if the
+/// file is wrong. Fields as in `abbe import --json`.
 ///
 /// >>> import abbe
 /// >>> urdf = '''<robot name="arm"> <link name="base"/> <link name="hand"/>
 /// ...   <joint name="Elbow" type="revolute"> <parent link="base"/> <child link="hand"/>
-/// ...     <axis xyz="0 0 1"/> <limit lower="-1" upper="1" effort="1" velocity="1"/> </joint> </robot>'''
+/// ...     <axis xyz="0 0 1"/> <limit lower="-1" upper="1" effort="1" velocity="1"/>
+/// ...   </joint> </robot>'''
 /// >>> abbe.import_urdf(text=urdf).load()
 /// Machine('arm': 1 frame, 1 joint variable, m)
 #[pyfunction]
@@ -49,11 +52,14 @@ pub(crate) fn import_urdf(
     imported(py, Import { file, format: Format::Urdf { base, tip, fold }, round_angles }, text)
 }
 
-/// The spec of a table of Denavit-Hartenberg numbers: a CSV file, a table with the columns theta, d, a and alpha, or the `text` of
-/// one, as the Robotics Toolbox prints it, too.
+/// Converts a table of Denavit-Hartenberg parameters to a spec. `table` is a CSV file or a table
+/// with the columns theta, d, a and alpha; `text` is such a file, or the output of the Robotics
+/// Toolbox.
 ///
-/// `convention` is "standard", Rz(theta) Tz(d) Tx(a) Rx(alpha), or "modified", Rx(alpha) Tx(a) Rz(theta) Tz(d); `units`, such as
-/// "mm,deg", are those of numbers whose heading does not say them; nothing is guessed. Else as `import_urdf`, with lengths in that unit.
+/// `convention`: "standard", Rz(theta) Tz(d) Tx(a) Rx(alpha), or "modified" (Craig), Rx(alpha)
+/// Tx(a) Rz(theta) Tz(d). `units`: units of columns whose header names none, such as "mm,deg";
+/// there is no default. The length unit of the spec is that of the table. Otherwise as
+/// `import_urdf`.
 ///
 /// >>> import abbe
 /// >>> rows = {"theta": ["q1", "q2 + 90"], "d": [0, 120], "a": [400, 0], "alpha": [0, -90],
@@ -94,21 +100,27 @@ fn imported(py: Python<'_>, job: Import, text: Option<String>) -> PyResult<Repor
         Some(text) => job.read(Document::new(job.file.display().to_string(), text), notes),
     })?;
     let (name, spec) = (format!("{}.toml", report.manipulator), report.spec.clone());
-    let found = Report::new("import", &Arc::new(report), notes, text::imported)?;
+    let found = Report::new("import", &Arc::new(report), notes, |report, _| text::imported(report))?;
     Ok(found.with_spec(&name).with_pages(move || Ok(vec![(name.clone(), spec.clone())])))
 }
 
 #[pymethods]
 impl Machine {
-    /// What was found of a machine, its repeatable sources, in files that controllers and other programs load, and what remains.
+    /// Exports the repeatable sources of the machine to files that controllers and other programs
+    /// load, and evaluates the errors that remain.
     ///
-    /// `to`: "dh", "urdf" (a copy of the nominal robot's file `urdf`, from its link `base` to `tip`), "ur-calibration", "isg-csv",
-    /// "linuxcnc" or "table"; `nodes`: how many values of each axis or joint a table has. `samples` random configurations (`seed`) are
-    /// what the differences are of, in the length unit and rad. `.files` have `.name` and `.text`, `.report(folder)` writes them. What a
-    /// format cannot hold is in `.left_out`, or raises SpecError. Fields as those of `abbe export --json`.
+    /// `to`: "dh", "urdf" (a corrected copy of the file `urdf` of the nominal robot, from its link
+    /// `base` to `tip`), "ur-calibration", "isg-csv", "linuxcnc" or "table". `nodes`: number of
+    /// table nodes per axis or joint. `samples`, `seed`: number and seed of the random
+    /// configurations at which the remaining errors are evaluated, in the length unit and rad.
+    ///
+    /// `.files` have `.name` and `.text`; `.report(folder)` writes them. `.left_out` lists what
+    /// the format cannot hold. Raises SpecError if the machine cannot be written in the format.
+    /// Fields as in `abbe export --json`.
     ///
     /// >>> import abbe
-    /// >>> report = abbe.load("machine3").with_parameters(temperature_rise="3 K").export("isg-csv", nodes=21)
+    /// >>> machine = abbe.load("machine3").with_parameters(temperature_rise="3 K")
+    /// >>> report = machine.export("isg-csv", nodes=21)
     /// >>> report.files[0].name, report.remains.position.largest < report.before.position.largest
     /// ('machine3.volcomp.csv', True)
     #[pyo3(signature = (to, *, urdf=None, base=None, tip=None, nodes=None, samples=1000, seed=0))]

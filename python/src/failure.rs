@@ -1,4 +1,4 @@
-//! Mistakes as Python exceptions.
+//! Errors as Python exceptions.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -16,7 +16,7 @@ create_exception!(
      the mistake is about the file as a whole; ``help`` is the way out, if there is one. They are those of the first mistake."
 );
 
-/// All mistakes of a file.
+/// Creates a SpecError from the diagnostics of a file.
 pub(crate) fn spec_error(py: Python<'_>, diagnostics: &Diagnostics) -> PyErr {
     let error = SpecError::new_err(diagnostics.render(false));
     let first = diagnostics.list.first();
@@ -35,7 +35,7 @@ pub(crate) fn spec_error(py: Python<'_>, diagnostics: &Diagnostics) -> PyErr {
     set().err().unwrap_or(error)
 }
 
-/// A mistake of ours is an exception too.
+/// Converts a panic, which is a bug in abbe, to a Python exception.
 pub(crate) fn guarded<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(panicked(&*panic)))
 }

@@ -1,4 +1,4 @@
-//! One function of a machine, evaluated for what a user gives.
+//! Evaluation of a function of a machine with arguments from Python.
 
 use abbe::function::Array;
 use abbe::{Description, Function, Manipulator, Quantity};
@@ -10,47 +10,47 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
 
-use crate::arrays::{empty, numbers, room, tuple};
-use crate::batch::{Argument, Batch, Refused};
+use crate::arrays::{empty, numbers, output_array, tuple};
+use crate::batch::{Argument, Batch, RejectedConfiguration};
 use crate::failure::{guarded, spec_error};
 use crate::machine::Machine;
 
-/// From how many configurations on other threads of Python may run meanwhile.
+/// Number of configurations from which other Python threads may run during an evaluation.
 const MANY: usize = 32;
 
-/// What a function takes beside the joints.
-pub(crate) enum Third<'a, 'py> {
-    /// Nothing.
+/// ThirdArgument argument of a function, after the joints and the parameters.
+pub(crate) enum ThirdArgument<'a, 'py> {
+    /// No third argument.
     None,
-    /// Numbers by this name, six a frame.
+    /// Named array with six numbers per frame.
     Numbers(&'static str, &'a Bound<'py, PyAny>),
-    /// Their squares.
+    /// Named array, whose squares are the argument.
     Squares(&'static str, &'a Bound<'py, PyAny>),
     /// Inputs by their names.
     Inputs(Option<&'a Bound<'py, PyDict>>),
 }
 
-/// Values as the batch takes them.
+/// Values in the order of a batch.
 enum Values<'py> {
     Array(PyReadonlyArrayDyn<'py, f64>),
     Own(Vec<f64>),
 }
 
-/// An argument, and for which configurations it is.
-pub(crate) struct Given<'py> {
+/// Argument, with the shape of its configurations.
+pub(crate) struct ArgumentValues<'py> {
     values: Values<'py>,
-    /// The dimensions before its own; none if it is for every configuration.
+    /// Leading dimensions; empty if one set of values is for every configuration.
     pub(crate) lead: Vec<usize>,
 }
 
 impl Machine {
-    /// A function at the configurations `q`.
+    /// Evaluates a function at the configurations `q`.
     pub(crate) fn evaluate<'py>(
         &self,
         py: Python<'py>,
         function: Function,
         q: &Bound<'py, PyAny>,
-        third: &Third<'_, 'py>,
+        third: &ThirdArgument<'_, 'py>,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let description = self.interpreter.description();
@@ -59,17 +59,17 @@ impl Machine {
         let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
         let mut lead = given.lead.clone();
         let third = match *third {
-            Third::None => None,
-            Third::Numbers(name, value) => {
+            ThirdArgument::None => None,
+            ThirdArgument::Numbers(name, value) => {
                 Some(vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?)
             }
-            Third::Squares(name, value) => {
+            ThirdArgument::Squares(name, value) => {
                 let mut given =
                     vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?;
                 given.values = Values::Own(given.values.slice()?.iter().map(|value| value * value).collect());
                 Some(given)
             }
-            Third::Inputs(inputs) => Some(self.given_inputs(inputs, &lead)?),
+            ThirdArgument::Inputs(inputs) => Some(self.given_inputs(inputs, &lead)?),
         };
         if let Some(third) = &third
             && third.lead != lead
@@ -92,11 +92,11 @@ impl Machine {
             Some(out) => out.clone(),
             None => empty(py, &shape)?,
         };
-        let mut written = room(&array, &shape)?;
+        let mut written = output_array(&array, &shape)?;
         let written = written.as_slice_mut()?;
         let s = Argument { values: &self.parameters, each: false };
         let mut arguments = vec![given.argument()?, s];
-        arguments.extend(third.as_ref().map(Given::argument).transpose()?);
+        arguments.extend(third.as_ref().map(ArgumentValues::argument).transpose()?);
         let batch = Batch { interpreter: &self.interpreter, function, layout, arguments };
         let count = lead.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));
         let count = count.ok_or_else(|| PyValueError::new_err("too many configurations"))?;
@@ -107,7 +107,7 @@ impl Machine {
                 false => py.detach(|| batch.many(count, written)),
             })
         })?;
-        done.map_err(|Refused { index, error }| {
+        done.map_err(|RejectedConfiguration { index, error }| {
             let at = index.map_or("this configuration".to_owned(), |index| format!("configuration {index}"));
             let refused = mistake::not_evaluated(&self.machine.origin, &at, &error, description);
             PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
@@ -115,12 +115,13 @@ impl Machine {
         Ok(array)
     }
 
-    /// The inputs: nominal, but for those that are given by name. All for every configuration, or all for each.
+    /// Returns the inputs: the nominal values, replaced by those given by name. If any is an array,
+    /// every configuration gets its own set.
     pub(crate) fn given_inputs<'py>(
         &self,
         inputs: Option<&Bound<'py, PyDict>>,
         lead: &[usize],
-    ) -> PyResult<Given<'py>> {
+    ) -> PyResult<ArgumentValues<'py>> {
         let description = self.interpreter.description();
         let mut nominal: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
         let mut columns = Vec::new();
@@ -147,7 +148,7 @@ impl Machine {
             }
         }
         if columns.is_empty() {
-            return Ok(Given { values: Values::Own(nominal), lead: Vec::new() });
+            return Ok(ArgumentValues { values: Values::Own(nominal), lead: Vec::new() });
         }
         let mut values = nominal.repeat(lead.iter().product());
         for (input, array) in &columns {
@@ -155,7 +156,7 @@ impl Machine {
                 u[*input] = *value;
             }
         }
-        Ok(Given { values: Values::Own(values), lead: lead.to_vec() })
+        Ok(ArgumentValues { values: Values::Own(values), lead: lead.to_vec() })
     }
 
     fn input(&self, name: &str) -> PyResult<usize> {
@@ -171,7 +172,7 @@ impl Machine {
         })
     }
 
-    /// Reads `3 kg`.
+    /// Parses `3 kg`.
     fn quantity(&self, py: Python<'_>, input: usize, text: &str) -> PyResult<f64> {
         let spec = &self.machine.spec;
         let declared = &spec.inputs[input];
@@ -182,17 +183,17 @@ impl Machine {
     }
 }
 
-/// An array whose last dimension is that of an argument.
+/// Checks that the last dimension of an array is the length of the argument.
 pub(crate) fn vec_of<'py>(
     array: PyReadonlyArrayDyn<'py, f64>,
     name: &str,
     argument: &Array,
     description: &Description,
-) -> PyResult<Given<'py>> {
+) -> PyResult<ArgumentValues<'py>> {
     let needed = argument.len(description);
     match array.shape() {
         [lead @ .., last] if *last == needed => {
-            Ok(Given { lead: lead.to_vec(), values: Values::Array(array) })
+            Ok(ArgumentValues { lead: lead.to_vec(), values: Values::Array(array) })
         }
         shape => {
             let per = match argument.quantity {
@@ -215,7 +216,7 @@ impl Values<'_> {
     }
 }
 
-impl Given<'_> {
+impl ArgumentValues<'_> {
     pub(crate) fn argument(&self) -> PyResult<Argument<'_>> {
         Ok(Argument { values: self.values.slice()?, each: !self.lead.is_empty() })
     }

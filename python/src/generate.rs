@@ -1,4 +1,4 @@
-//! The closed form as source code.
+//! Generated source code.
 
 use abbe_study::generate::{Generate, Language};
 use pyo3::exceptions::PyValueError;
@@ -10,8 +10,11 @@ use crate::options::named;
 
 #[pymethods]
 impl Machine {
-    /// The closed form as source code: `language` is "rust", "c", "js", "python" or "matlab". The same spec gives the same text; the header and
-    /// the source of C stand in it one after the other; it computes in `real`, "double" if nothing is said, or "float".
+    /// Returns the closed form as source code.
+    ///
+    /// `language`: "rust", "c", "js", "python" or "matlab". `real`: floating-point type of C,
+    /// "double" (default) or "float". The text of C is the header followed by the source. The same
+    /// spec always gives the same text.
     #[pyo3(signature = (language="rust", *, real=None))]
     fn generate(&self, py: Python<'_>, language: &str, real: Option<&str>) -> PyResult<String> {
         let language = match named("language", language, Generate::LANGUAGES)? {

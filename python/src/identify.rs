@@ -1,4 +1,4 @@
-//! Which errors a machine has, from measurements.
+//! Identification of the errors of a machine from measurements.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
 use std::path::PathBuf;
@@ -21,13 +21,20 @@ use crate::report::{Pages, Report};
 
 #[pymethods]
 impl Machine {
-    /// Which errors the real machine has, from measurements, how well each is known, and how good the result is on unseen rows.
+    /// Identifies the errors of the real machine from measurements, with their uncertainties, and
+    /// validates the result on data that were not fitted.
     ///
-    /// `data`, `test`: CSV files or tables, as for `measure`; `map`: what their columns are. `terms`: "auto" for all families of richer terms, or names of some:
-    /// joint, load, elastic, backlash, product, drift. `robust`: "huber" or "tukey". `prior`: how large errors are expected to be, as
-    /// a share of the arm and in rad, or "spec" or "auto". `time`: seconds for richer terms. `resample=b`: repetition b of the bootstrap, with
-    /// configurations drawn with replacement (`abbe.fleet.bootstrap` does many). `.report(folder)` writes found.toml and
-    /// found.map.toml, too. Fields as those of `abbe identify --json`.
+    /// `data`, `test`: measurements to fit and to test, CSV files or tables as for `measure`.
+    /// `map`: path of the map of their columns, or a shipped name. `terms`: families of additional
+    /// error terms to try: "auto" for all, or one or several of joint, load, elastic, backlash,
+    /// product, drift. `robust`: robust loss, "none", "huber" or "tukey". `prior`: prior standard
+    /// deviation of the errors, relative to the length of the arm and in rad, or "spec" or "auto".
+    /// `folds`: number of folds of the cross-validation. `time`: time limit in seconds for the
+    /// search for additional terms. `resample=b`: repetition b of a bootstrap over configurations
+    /// (`abbe.fleet.bootstrap` runs many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
+    ///
+    /// `.report(folder)` writes report.html, found.toml and found.map.toml; `.load()` returns the
+    /// identified machine. Fields as in `abbe identify --json`.
     #[pyo3(signature = (data, map, *, test=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
     fn identify(
         &self,
@@ -67,12 +74,12 @@ impl Machine {
             let report = job.run(notes)?;
             Ok((job, report))
         })?;
-        // A spec with changes has no room for what was found.
+        // An identified spec cannot be written if the machine has changes.
         let nominal = self.machine.spec.hash == self.unchanged.spec.hash
             && self.changes().is_ok_and(|changes| changes.is_empty());
         let spec_text = self.text();
         let (report, spec) = (Arc::new(report), job.machine.spec.clone());
-        let text = move |report: &_| text::identification(&spec, report);
+        let text = move |report: &_, detail| text::identification(&spec, report, detail);
         let found = Report::new("identify", &report, notes, text)?.with_spec("found.toml");
         Ok(found.with_pages(move || {
             let Identify { machine, map, .. } = &job;
@@ -91,7 +98,7 @@ impl Machine {
     }
 }
 
-/// Returns the families of terms that are named: one name, or several.
+/// Parses one or several names of families of terms.
 fn families(terms: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Family>> {
     let names: Vec<String> = match terms {
         None => Vec::new(),
@@ -102,7 +109,7 @@ fn families(terms: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Family>> {
     Ok(asked.collect::<PyResult<Vec<_>>>()?.concat())
 }
 
-/// Reads a prior: a share, or text.
+/// Parses a prior: a number, "spec" or "auto".
 fn expected(prior: Option<&Bound<'_, PyAny>>) -> PyResult<Prior> {
     let Some(prior) = prior else { return Ok(Prior::default()) };
     let read = match prior.extract::<String>() {

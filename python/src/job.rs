@@ -1,4 +1,5 @@
-//! A job of `abbe-study`, run beside Python: Ctrl-C stops it, and whoever asks is told how far it is.
+//! Execution of a job of `abbe-study` beside Python: Ctrl-C stops it, and a callback gets its
+//! progress.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
@@ -15,40 +16,40 @@ use pyo3::prelude::*;
 use crate::failure::{panicked, spec_error};
 use crate::options::within;
 
-/// How often Python looks at its signals, and is told of the progress.
-const OFTEN: Duration = Duration::from_millis(50);
+/// Interval at which signals are checked and progress is reported.
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// As much as a main thread has.
+/// Stack size of a thread, that of a main thread.
 const STACK: usize = 8 << 20;
 
-/// What a job says.
-enum Said {
+/// Message of a running job.
+enum Message {
     Note(String),
     Warning(String),
     Progress(usize, usize),
 }
 
 struct Listener<'a> {
-    said: Sender<Said>,
+    sender: Sender<Message>,
     stop: &'a AtomicBool,
     last: Instant,
 }
 
 impl Notes for Listener<'_> {
     fn note(&mut self, note: &str) {
-        let _ = self.said.send(Said::Note(note.to_owned()));
+        let _ = self.sender.send(Message::Note(note.to_owned()));
     }
 
     fn warn(&mut self, warning: &str) {
-        let _ = self.said.send(Said::Warning(warning.to_owned()));
+        let _ = self.sender.send(Message::Warning(warning.to_owned()));
     }
 
     fn progress(&mut self, done: usize, total: usize) {
-        if done >= total || self.last.elapsed() >= OFTEN {
+        if done >= total || self.last.elapsed() >= POLL_INTERVAL {
             self.last = Instant::now();
-            let _ = self.said.send(Said::Progress(done, total));
+            let _ = self.sender.send(Message::Progress(done, total));
         }
-        // Not every job asks between its parts: whoever says how far he is can be stopped there.
+        // Not every job polls `stop`; jobs that report progress can be stopped here.
         if self.stop() {
             resume_unwind(Box::new("stopped"));
         }
@@ -59,8 +60,8 @@ impl Notes for Listener<'_> {
     }
 }
 
-/// Runs a job on threads of its own, which end with it: a process that is forked later has nothing to wait for. Notes come back;
-/// warnings are those of Python, too.
+/// Runs a job on a thread pool that ends with it, so that a process forked later has no threads to
+/// wait for. Returns the result and the notes; warnings are raised as Python warnings as well.
 pub(crate) fn run<R: Send>(
     py: Python<'_>,
     threads: Option<usize>,
@@ -70,39 +71,41 @@ pub(crate) fn run<R: Send>(
     let threads = threads.map(|threads| within("threads", threads, THREADS)).transpose()?.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-    let (stop, (said, heard)) = (AtomicBool::new(false), channel());
-    let (mut result, heard) = (None, Mutex::new(heard));
+    let (stop, (sender, receiver)) = (AtomicBool::new(false), channel());
+    let (mut result, receiver) = (None, Mutex::new(receiver));
     let (mut notes, mut failure) = (Vec::new(), Ok(()));
     pool.in_place_scope(|scope| {
         let (result, stop) = (&mut result, &stop);
         scope.spawn(move |_| {
-            let mut listener = Listener { said, stop, last: Instant::now() };
+            let mut listener = Listener { sender, stop, last: Instant::now() };
             *result = Some(catch_unwind(AssertUnwindSafe(|| work(&mut listener))));
         });
         loop {
             let next = py.detach(|| {
-                heard.lock().map_or(Err(RecvTimeoutError::Disconnected), |heard| heard.recv_timeout(OFTEN))
+                receiver.lock().map_or(Err(RecvTimeoutError::Disconnected), |receiver| {
+                    receiver.recv_timeout(POLL_INTERVAL)
+                })
             });
-            let told = match next {
+            let handled = match next {
                 Err(RecvTimeoutError::Disconnected) => break,
                 Err(RecvTimeoutError::Timeout) => py.check_signals(),
-                Ok(Said::Note(note)) => {
+                Ok(Message::Note(note)) => {
                     notes.push(note);
                     Ok(())
                 }
-                Ok(Said::Warning(warning)) => {
+                Ok(Message::Warning(warning)) => {
                     let warned = warn(py, &warning);
                     notes.push(warning);
                     warned
                 }
-                Ok(Said::Progress(done, total)) => match progress {
+                Ok(Message::Progress(done, total)) => match progress {
                     Some(progress) if failure.is_ok() => {
                         progress.call1((done, total)).and_then(|_| py.check_signals())
                     }
                     _ => py.check_signals(),
                 },
             };
-            if let (Ok(()), Err(error)) = (&failure, told) {
+            if let (Ok(()), Err(error)) = (&failure, handled) {
                 stop.store(true, Ordering::Relaxed);
                 failure = Err(error);
             }

@@ -1,24 +1,24 @@
-//! Where the numbers of a function's results stand in an array of NumPy's.
+//! Layout of the results of a function in a NumPy array.
 
 use abbe::function::{Array, Count};
 use abbe::{Description, Function};
 
-/// How many numbers a pose has here, and how many in a matrix.
+/// Numbers of a pose in the results (4 × 3), and in a homogeneous matrix.
 const POSE: usize = 12;
 const MATRIX: usize = 16;
 
-/// The last result of a function, row-major; poses are 4 × 4.
+/// Layout of the last result of a function: row-major, poses as 4 × 4 matrices.
 pub(crate) struct Layout {
-    /// The dimensions of the array of one configuration.
+    /// Shape of the array of one configuration.
     pub(crate) shape: Vec<usize>,
-    /// Which results are copied, in their order.
+    /// Indices of the results in the order of the array.
     pub(crate) rows: Vec<usize>,
-    /// Whether they are poses: to every twelve a row 0, 0, 0, 1 is added.
+    /// True for poses: a row 0, 0, 0, 1 is added to every twelve numbers.
     poses: bool,
 }
 
 impl Layout {
-    /// That of a function.
+    /// Returns the layout of a function.
     pub(crate) fn new(function: Function, description: &Description) -> Self {
         let results = function.signature().results;
         let Some((last, others)) = results.split_last() else { unreachable!("every function has a result") };
@@ -32,7 +32,7 @@ impl Layout {
                 let order = (0..count).flat_map(|k| (0..POSE).map(move |i| POSE * k + 3 * (i % 4) + i / 4));
                 ([many, &[4, 4]].concat(), order.collect())
             }
-            // Columns become rows.
+            // Results are column-major, arrays row-major.
             [columns, rows] if is_matrix(last) => {
                 let order = (0..rows).flat_map(|i| (0..columns).map(move |j| rows * j + i));
                 (vec![rows, columns], order.collect())
@@ -42,12 +42,13 @@ impl Layout {
         Self { shape, rows: order.into_iter().map(|row| first + row).collect(), poses }
     }
 
-    /// How many numbers the array of one configuration has.
+    /// Returns the number of elements of the array of one configuration.
     pub(crate) fn len(&self) -> usize {
         self.shape.iter().product()
     }
 
-    /// Fills arrays of some configurations; `copy` copies [`rows`](Self::rows) of all of them, one after the other.
+    /// Fills the arrays of some configurations. `copy` copies [`rows`](Self::rows) of all of them,
+    /// one configuration after the other.
     pub(crate) fn fill(&self, array: &mut [f64], staged: &mut Vec<f64>, copy: impl FnOnce(&mut [f64])) {
         if !self.poses {
             return copy(array);
@@ -61,7 +62,7 @@ impl Layout {
     }
 }
 
-/// Whether an array holds the columns of a matrix, and not one row of six for each of something.
+/// Returns true for the columns of a matrix, false for six numbers per item.
 fn is_matrix(array: &Array) -> bool {
     matches!(array.name, "columns" | "covariance")
 }

@@ -1,11 +1,14 @@
-//! The Python package `abbe`: what `abbe-study` and `abbe-interpreter` do, for NumPy arrays.
+//! Python package `abbe`: the jobs of `abbe-study` and the functions of `abbe-interpreter` for
+//! NumPy arrays.
 //!
-//! `machine` is the class that users hold, `evaluated` its functions, `commands` single commands. A job of the same name as
-//! the command has a file of that name; `exchange` are imports and exports. `options` reads what jobs are given. `functions`
-//! evaluates: `layout` says where numbers go, `arrays` reads what users give, `measured` what they measured, `batch` runs over many
-//! configurations. `job` runs a job beside Python, `report` is what it found, `table` what Arrow reads of it, `part` a part of an
-//! analysis; `failure` makes exceptions of mistakes.
+//! `machine` is the class `Machine`, `evaluated` its functions, and `commands` its inverse
+//! kinematics and compensation. Each job has a file with the name of its command; `exchange` has
+//! imports and exports. `options` checks the arguments of jobs. `functions` evaluates functions:
+//! `layout` maps results to arrays, `arrays` converts arguments, `measured` reads measurements,
+//! `batch` loops over configurations. `job` runs a job, `report` is its result, `table` exports
+//! tables to Arrow, `part` is a part of an analysis, and `failure` converts errors to exceptions.
 
+mod analysis_report;
 mod analyze;
 mod arrays;
 mod batch;
@@ -32,7 +35,7 @@ mod report;
 mod simulate;
 mod table;
 
-/// The compiled part of the package `abbe`.
+/// Compiled part of the package `abbe`.
 #[pyo3::pymodule(gil_used = false)]
 mod _abbe {
     use pyo3::prelude::*;

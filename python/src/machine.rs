@@ -1,4 +1,4 @@
-//! The class that users hold: a manipulator, and its functions.
+//! The class `Machine`: a manipulator and its functions.
 
 use std::sync::OnceLock;
 
@@ -16,31 +16,32 @@ use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
 use crate::failure::{guarded, spec_error};
 use crate::layout::Layout;
 
-/// A manipulator: its spec, ready to be evaluated. Nothing changes it; what differs is another one.
+/// Manipulator, read from a spec and ready to be evaluated. Immutable: methods that change it
+/// return another machine.
 ///
-/// Lengths are in the unit of its spec (`length`), angles in rad, everything in the base frame F_0. `q` has one number for
-/// each joint variable in the order of `variables`, or is a table with columns of these names; all dimensions before the
-/// last, written as …, are those of the result.
+/// Lengths are in the unit of the spec (`length`), angles in rad, everything in the base frame F_0.
+/// `q` has one number per joint variable in the order of `variables`, or is a table with columns of
+/// these names. Leading dimensions, written as …, are those of the result.
 #[pyclass(frozen, module = "abbe")]
 pub(crate) struct Machine {
     pub(crate) machine: abbe_study::Machine,
-    /// The same without changes.
+    /// The machine without changes.
     pub(crate) unchanged: abbe_study::Machine,
     pub(crate) interpreter: Interpreter,
-    /// The nominal parameters.
+    /// Nominal values of the parameters.
     pub(crate) parameters: Vec<f64>,
     pub(crate) variable_names: Py<PyTuple>,
-    /// The text of a spec that is not a shipped one.
+    /// Text of the spec, unless it is a shipped one.
     pub(crate) text: Option<String>,
-    /// What was changed, in this order.
+    /// Changes in the order of their application.
     changes: Vec<Change>,
     layouts: [OnceLock<Layout>; Function::ALL.len()],
 }
 
-/// One change: a word that says which, and what it changes.
+/// Change: its kind, and its subject.
 type Change = (String, String);
 
-/// What [`restore`] takes.
+/// Arguments of [`restore`].
 type Restored<'a> = (&'a str, Option<&'a str>, Vec<Change>);
 
 impl Machine {
@@ -69,24 +70,24 @@ impl Machine {
         })
     }
 
-    /// The same with further changes.
+    /// Returns a machine with further changes.
     fn changed(&self, py: Python<'_>, more: impl IntoIterator<Item = Change>) -> PyResult<Self> {
         let changes = self.changes.iter().cloned().chain(more).collect();
         guarded(|| Self::new(py, self.unchanged.clone(), self.text.clone(), changes))
     }
 
-    /// The changes, one by one, as a job takes them.
+    /// Reads the changes, one by one, for a job.
     pub(crate) fn changes(&self) -> Result<Vec<Changes>, Diagnostics> {
         let spec = &self.unchanged.spec;
         self.changes.iter().map(|(kind, change)| change_of(kind, change).read(spec)).collect()
     }
 
-    /// The changes, one by one, as parts of an analysis take them.
+    /// Returns the changes, one by one, for a part of an analysis.
     pub(crate) fn each_change(&self) -> Vec<parts::Change> {
         self.changes.iter().map(|(kind, change)| change_of(kind, change)).collect()
     }
 
-    /// The text of its spec, as it was before changes.
+    /// Returns the text of the spec without changes.
     pub(crate) fn text(&self) -> Result<String, Diagnostics> {
         self.text.clone().map_or_else(|| self.unchanged.text(), Ok)
     }
@@ -96,7 +97,7 @@ impl Machine {
     }
 }
 
-/// One change to a spec; `number` is a value in coherent units, `set` one as it would be written.
+/// Converts a change: `number` is a value in coherent units, `set` a value as text.
 pub(crate) fn change_of(kind: &str, change: &str) -> parts::Change {
     let change = change.to_owned();
     match kind {
@@ -107,17 +108,18 @@ pub(crate) fn change_of(kind: &str, change: &str) -> parts::Change {
     }
 }
 
-/// A shipped manipulator, or the spec with this text.
-fn found(origin: &str, text: Option<&str>) -> Result<abbe_study::Machine, Diagnostics> {
+/// Finds a shipped manipulator or reads a spec file; with `text`, parses the text.
+fn find_machine(origin: &str, text: Option<&str>) -> Result<abbe_study::Machine, Diagnostics> {
     match text {
         None => abbe_study::Machine::find(origin),
         Some(text) => Ok(abbe_study::Machine::of_spec(Spec::parse(origin, text)?, origin)),
     }
 }
 
-/// Loads a manipulator: a spec file, a shipped name (`abbe.shipped()` lists them), or the `text` of a spec.
+/// Loads a manipulator from a spec file, by a shipped name (see `abbe.shipped()`), or from the
+/// `text` of a spec.
 ///
-/// A mistake in it raises SpecError, with its place and a way out.
+/// Raises SpecError, with place and remedy, if the spec is wrong.
 ///
 /// >>> import abbe
 /// >>> abbe.load("pps")
@@ -145,7 +147,7 @@ pub(crate) fn load(
     })
 }
 
-/// What pickle calls: what `Machine.__reduce__` says.
+/// Recreates a pickled machine; see `Machine.__reduce__`.
 #[pyfunction]
 #[pyo3(name = "_restore")]
 pub(crate) fn restore(
@@ -155,12 +157,12 @@ pub(crate) fn restore(
     changes: Vec<Change>,
 ) -> PyResult<Machine> {
     guarded(|| {
-        let machine = py.detach(|| found(origin, text.as_deref()));
+        let machine = py.detach(|| find_machine(origin, text.as_deref()));
         Machine::new(py, machine.map_err(|mistakes| spec_error(py, &mistakes))?, text, changes)
     })
 }
 
-/// The names of the shipped manipulators.
+/// Returns the names of the shipped manipulators.
 #[pyfunction]
 pub(crate) fn shipped() -> Vec<&'static str> {
     SHIPPED.iter().map(|shipped| shipped.name).collect()
@@ -168,73 +170,75 @@ pub(crate) fn shipped() -> Vec<&'static str> {
 
 #[pymethods]
 impl Machine {
-    /// The name of the manipulator.
+    /// Name of the manipulator.
     #[getter]
     fn name(&self) -> &str {
         &self.machine.spec.name
     }
 
-    /// The text of its spec, as it was before changes: what `abbe.load(text=…)` reads.
+    /// Text of the spec without changes, as `abbe.load(text=…)` reads it.
     #[getter(text)]
     fn spec_text(&self, py: Python<'_>) -> PyResult<String> {
         guarded(|| py.detach(|| self.text()).map_err(|mistakes| spec_error(py, &mistakes)))
     }
 
-    /// Its name for people.
+    /// Title of the manipulator.
     #[getter]
     fn title(&self) -> &str {
         &self.machine.spec.title
     }
 
-    /// The unit of every length: mm or m.
+    /// Unit of every length: "mm" or "m".
     #[getter]
     fn length(&self) -> &'static str {
         self.machine.spec.length.symbol()
     }
 
-    /// What rows 4 to 6 of displacements and Jacobians are: rotation-vector or euler-yzx.
+    /// Representation of orientations in rows 4 to 6: "rotation-vector" or "euler-yzx".
     #[getter]
     fn orientation(&self) -> &'static str {
         self.interpreter.description().orientation.name()
     }
 
-    /// The names of the six rows of displacements and Jacobians.
+    /// Names of the six rows of displacements and Jacobians.
     #[getter]
     fn rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.interpreter.description().orientation.rows())
     }
 
-    /// The names of the 6n columns of the error Jacobian: e_x1 e_y1 e_z1 e_s1 e_r1 e_p1, then those of frame 2 …
+    /// Names of the 6n columns of the error Jacobian: e_x1 e_y1 e_z1 e_s1 e_r1 e_p1, then those of
+    /// frame 2 …
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, abbe_study::jacobian::columns(self.interpreter.description().frames.len()))
+        PyTuple::new(py, abbe_study::jacobian::column_names(self.interpreter.description().frames.len()))
     }
 
-    /// The names of the joint variables, in the order of q.
+    /// Names of the joint variables, in the order of q.
     #[getter]
     fn variables(&self, py: Python<'_>) -> Py<PyTuple> {
         self.variable_names.clone_ref(py)
     }
 
-    /// The lower and upper limit of each joint variable, infinite where the spec has none.
+    /// Lower and upper limit of each joint variable in the length unit or rad; infinite if the spec
+    /// has none.
     #[getter]
     fn limits(&self) -> Vec<(f64, f64)> {
         self.interpreter.description().variables.iter().map(|one| (one.limits[0], one.limits[1])).collect()
     }
 
-    /// The home configuration.
+    /// Home configuration, in the length unit and rad.
     #[getter]
     pub(crate) fn home(&self) -> Vec<f64> {
         self.interpreter.description().variables.iter().map(|variable| variable.home).collect()
     }
 
-    /// The names of the frames F_1 … F_n.
+    /// Names of the frames F_1 … F_n.
     #[getter]
     fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.interpreter.description().frames.iter().map(|frame| &*frame.name))
     }
 
-    /// The structural parameters by their names, in coherent units: the length unit, kg, s, rad, K.
+    /// Structural parameters by name, in coherent units: the length unit, kg, s, rad, K.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let values = PyDict::new(py);
@@ -243,7 +247,7 @@ impl Machine {
         Ok(values)
     }
 
-    /// The nominal inputs by their names, in coherent units.
+    /// Nominal inputs by name, in coherent units.
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let values = PyDict::new(py);
@@ -252,13 +256,14 @@ impl Machine {
         Ok(values)
     }
 
-    /// The names of the error sources that are switched on, in the order of `source_displacements`.
+    /// Names of the enabled error sources, in the order of `source_displacements`.
     #[getter]
     fn sources<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.interpreter.description().sources.iter().map(|source| &*source.name))
     }
 
-    /// The same machine with other nominal values of parameters and inputs: numbers in coherent units, or text with a unit.
+    /// Returns a machine with other nominal values of parameters and inputs: numbers in coherent
+    /// units, or text with a unit.
     ///
     /// >>> import abbe
     /// >>> abbe.load("pps").with_parameters(x=250, y="25 cm").parameters["y"]
@@ -281,13 +286,13 @@ impl Machine {
         self.changed(py, changes)
     }
 
-    /// The same machine with these error sources switched on.
+    /// Returns a machine with these error sources enabled.
     #[pyo3(signature = (*sources))]
     fn enable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
         self.changed(py, sources.into_iter().map(|source| ("enable".to_owned(), source)))
     }
 
-    /// The same machine with these error sources switched off.
+    /// Returns a machine with these error sources disabled.
     #[pyo3(signature = (*sources))]
     fn disable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
         self.changed(py, sources.into_iter().map(|source| ("disable".to_owned(), source)))

@@ -1,4 +1,4 @@
-//! How good a machine is, from measurements.
+//! Evaluation of measurements of a machine.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,11 +16,16 @@ use crate::report::Report;
 
 #[pymethods]
 impl Machine {
-    /// How good the machine is: what was measured against the ideal machine and against what its sources predict.
+    /// Evaluates measurements: accuracy and repeatability against the ideal machine, and the
+    /// residuals after its sources.
     ///
-    /// `data`: a CSV file, or a table with the columns that the map names: a dict of arrays, a frame of pandas or polars, a table of
-    /// pyarrow; rows are then counted from 0. Those that cannot be used are in `.notes`. `map`: what the columns are, a file or a shipped name. `new_station`: the instrument stands where no map
-    /// knows. `accept`: limits such as "mean 0.15 mm, max 0.3 mm". Fields as those of `abbe measure --json`.
+    /// `data`: a CSV file, or a table with the columns of the map: a dict of arrays, a pandas or
+    /// polars frame, a pyarrow table; its rows count from 0. Rows that cannot be used are listed in
+    /// `.notes`. `map`: path of the map of the columns, or a shipped name. `new_station`: estimate
+    /// the station of the instrument from the data instead of taking it from the map. `accept`:
+    /// limits such as "mean 0.15 mm, max 0.3 mm".
+    ///
+    /// `.report(folder)` writes report.html and errors.csv. Fields as in `abbe measure --json`.
     #[pyo3(signature = (data, map, *, new_station=false, accept=None))]
     fn measure(
         &self,
@@ -43,7 +48,7 @@ impl Machine {
             Ok((job, report))
         })?;
         let (report, spec) = (Arc::new(report), job.machine.spec.clone());
-        let text = move |report: &_| text::measurement(&spec, report);
+        let text = move |report: &_, detail| text::measurement(&spec, report, detail);
         let found = Report::new("measure", &report, notes, text)?.with_rows(report.table());
         Ok(found.with_pages(move || {
             let spec = &job.machine.spec;

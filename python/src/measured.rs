@@ -1,4 +1,4 @@
-//! Measurements as users give them: the path of a CSV file, or a table in memory.
+//! Measurements: the path of a CSV file, or a table in memory.
 
 use std::path::PathBuf;
 
@@ -12,16 +12,16 @@ use pyo3::types::{PyList, PyTuple};
 use crate::failure::{guarded, spec_error};
 use crate::machine::Machine;
 
-/// Rows, or where they are.
+/// Rows of measurements.
 pub(crate) enum Measured {
-    /// In a file.
+    /// Path of a CSV file.
     File(PathBuf),
-    /// In memory: those columns that are read.
+    /// Columns in memory: those that the map names.
     Table(Columns),
 }
 
 impl Measured {
-    /// What a user gives by this name.
+    /// Converts an argument with this name to measurements.
     pub(crate) fn new(what: &str, value: &Bound<'_, PyAny>, map: &Map) -> PyResult<Self> {
         if let Ok(file) = value.extract() {
             return Ok(Self::File(file));
@@ -29,7 +29,7 @@ impl Measured {
         Self::table(what, value, Some(map.columns()))
     }
 
-    /// The same where no map says which columns are read.
+    /// Converts an argument without a map: all columns are read.
     pub(crate) fn all(what: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         value.extract().map_or_else(|_| Self::table(what, value, None), |file| Ok(Self::File(file)))
     }
@@ -44,7 +44,7 @@ impl Measured {
         Ok(Self::Table(columns.map_err(|mistakes| spec_error(py, &mistakes))?))
     }
 
-    /// Several of them, or one.
+    /// Converts a list or tuple of measurements, or a single one.
     pub(crate) fn several(what: &str, value: &Bound<'_, PyAny>, map: &Map) -> PyResult<Vec<Self>> {
         if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
             return value.try_iter()?.map(|one| Self::new(what, &one?, map)).collect();
@@ -61,7 +61,7 @@ impl Measured {
 }
 
 impl Machine {
-    /// The map in a file, or the shipped one of that name.
+    /// Reads the map in a file, or the shipped map of that name.
     pub(crate) fn map(&self, py: Python<'_>, map: &std::path::Path) -> PyResult<Map> {
         let find = || -> Result<Map, Diagnostics> { Map::find(map, &self.machine.spec) };
         guarded(|| py.detach(find).map_err(|mistakes| spec_error(py, &mistakes)))

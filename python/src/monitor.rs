@@ -1,4 +1,4 @@
-//! Whether a machine that is checked again and again is still what it was.
+//! Monitoring of a machine by repeated checks.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,10 +16,16 @@ use crate::report::Report;
 
 #[pymethods]
 impl Machine {
-    /// Whether the machine is still what it was: charts of a few points that are measured again and again.
+    /// Detects drift and jumps of a machine with control charts of a few points that are measured
+    /// repeatedly.
     ///
-    /// `data`: CSV files or tables in the order of their dates, or one with a column of dates. `tolerance`: how far the tool point may move, in the length unit or as text.
-    /// `since`: begin with the check of this date. `false_alarm`: one in so many checks. Fields as those of `abbe monitor --json`.
+    /// `data`: CSV files or tables in chronological order, or one with a date column. `map`: path
+    /// of the map of the columns, or a shipped name. `tolerance`: allowed displacement of the tool
+    /// point since the first check, in the length unit or as text with a unit. `since`: date of the
+    /// first check to use. `false_alarm`: average number of checks per false alarm, over all
+    /// charts.
+    ///
+    /// `.report(folder)` writes report.html. Fields as in `abbe monitor --json`.
     #[pyo3(signature = (data, map, *, tolerance=None, since=None, false_alarm=365))]
     fn monitor(
         &self,
@@ -45,7 +51,7 @@ impl Machine {
             Ok((job, report))
         })?;
         let (report, spec) = (Arc::new(report), job.machine.spec.clone());
-        let text = move |report: &_| text::monitoring(&spec, report);
+        let text = move |report: &_, detail| text::monitoring(&spec, report, detail);
         Ok(Report::new("monitor", &report, notes, text)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
             let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files, None)?;

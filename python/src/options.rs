@@ -1,4 +1,4 @@
-//! Options of jobs as Python gives them. Which numbers and names are allowed stands with each job in `abbe_study`.
+//! Options of jobs in Python. Their ranges and names are defined with each job in `abbe_study`.
 
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -19,7 +19,7 @@ use pyo3::types::PyString;
 
 use crate::failure::spec_error;
 
-/// Returns a number that is in the range of its option.
+/// Checks that a number is in the range of its option.
 pub(crate) fn within<T: PartialOrd + Display>(name: &str, value: T, range: RangeInclusive<T>) -> PyResult<T> {
     if range.contains(&value) {
         return Ok(value);
@@ -27,7 +27,7 @@ pub(crate) fn within<T: PartialOrd + Display>(name: &str, value: T, range: Range
     Err(PyValueError::new_err(format!("`{name}` is from {} to {}", range.start(), range.end())))
 }
 
-/// Returns the value that has this name.
+/// Returns the value with this name.
 pub(crate) fn named<T: Copy + PartialEq>(option: &str, name: &str, choices: Choices<T>) -> PyResult<T> {
     let names = || one_of(choices.0.iter().map(|(_, name, _)| *name));
     choices.find(name).ok_or_else(|| PyValueError::new_err(format!("{option}={name:?}: {}", names())))
@@ -43,13 +43,14 @@ pub(crate) fn one_of<'n>(names: impl Iterator<Item = &'n str>) -> String {
     }
 }
 
-/// Reads a time in seconds.
+/// Converts a time in seconds.
 pub(crate) fn seconds(name: &str, value: Option<f64>) -> PyResult<Option<Duration>> {
     let time = value.map(Duration::try_from_secs_f64).transpose();
     time.map_err(|error| PyValueError::new_err(format!("`{name}`: {error}")))
 }
 
-/// Returns the study of a file, of a text, or that which belongs to the machine.
+/// Reads the study of a file or of a text; without both, returns the study that belongs to the
+/// machine.
 pub(crate) fn study(
     file: Option<&Path>,
     text: Option<&str>,
@@ -61,12 +62,12 @@ pub(crate) fn study(
     }
 }
 
-/// Returns the limits that are given, or those of the map.
+/// Reads the given limits; without any, returns those of the map.
 pub(crate) fn limits(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Diagnostics> {
     text.map_or(Ok(map.accept.clone()), |text| Acceptance::read("accept", text, spec.length))
 }
 
-/// Reads a length that is not negative: a number in the unit of the spec, or text.
+/// Reads a length that must not be negative: a number in the unit of the spec, or text with a unit.
 pub(crate) fn length(name: &str, value: &Bound<'_, PyAny>, spec: &Spec) -> PyResult<f64> {
     let number: f64 = match value.cast::<PyString>() {
         Ok(text) => {

@@ -1,4 +1,4 @@
-//! Parts of an analysis, and their report.
+//! Parts of an analysis, and their merged report.
 
 use std::path::PathBuf;
 
@@ -7,29 +7,29 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::analyze::analysis;
+use crate::analysis_report::analysis;
 use crate::failure::{guarded, spec_error};
 use crate::job::run;
 use crate::report::Report;
 
-/// What was gathered over a share of a workspace: `Machine.analyze(…, shard=(i, n))`, or `Part.load` of a file of `abbe analyze
-/// --shard`. It pickles; `abbe.merge` of all parts is the report.
+/// Part of an analysis, from `Machine.analyze(…, shard=(i, n))` or `Part.load`. It can be pickled;
+/// `abbe.merge` of all parts is the report.
 #[pyclass(frozen, module = "abbe")]
 pub(crate) struct Part(pub(crate) parts::Part);
 
 #[pymethods]
 impl Part {
-    /// Reads the file of a part.
+    /// Reads a part file, written by `save` or by `abbe analyze --shard`.
     #[staticmethod]
     fn load(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
         let read = guarded(|| Ok(py.detach(|| parts::Part::read(&file))))?;
         Ok(Self(read.map_err(|mistakes| spec_error(py, &mistakes))?))
     }
 
-    /// Writes the part into a file, for `abbe merge` or `Part.load`; a file that is there is replaced.
+    /// Writes the part to a file for `Part.load` or `abbe merge`. Replaces an existing file.
     fn save(&self, py: Python<'_>, file: PathBuf) -> PyResult<()> {
         let bytes = guarded(|| Ok(py.detach(|| self.0.to_bytes())))?;
-        // Whole or not at all: whoever merges never sees half of it.
+        // Written to a temporary file and renamed: a concurrent merge never reads a partial file.
         let mut name = file.file_name().unwrap_or_default().to_owned();
         name.push(format!(".{}.tmp", std::process::id()));
         let beside = file.with_file_name(name);
@@ -38,19 +38,19 @@ impl Part {
         Ok(())
     }
 
-    /// Which share it is, from 1 on, and of how many.
+    /// Number of the part, from 1 on, and number of parts.
     #[getter]
     fn shard(&self) -> (u32, u32) {
-        (self.0.shard().number(), self.0.shard().of())
+        (self.0.shard().number(), self.0.shard().count())
     }
 
-    /// How many configurations were reached.
+    /// Number of configurations reached.
     #[getter]
     fn configurations(&self) -> usize {
         self.0.configurations()[0]
     }
 
-    /// How many could not be reached.
+    /// Number of unreachable configurations.
     #[getter]
     fn unreachable(&self) -> usize {
         self.0.configurations()[1]
@@ -58,7 +58,7 @@ impl Part {
 
     fn __repr__(&self) -> String {
         let [reached, _] = self.0.configurations();
-        format!("Part({} of '{}': {reached} configurations)", self.0.shard(), self.0.question().spec)
+        format!("Part({} of '{}': {reached} configurations)", self.0.shard(), self.0.request().spec)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
@@ -68,7 +68,7 @@ impl Part {
     }
 }
 
-/// What pickle calls.
+/// Recreates a pickled part.
 #[pyfunction]
 #[pyo3(name = "_part")]
 pub(crate) fn restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Part> {
@@ -76,9 +76,11 @@ pub(crate) fn restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Part> {
     Ok(Part(read.map_err(|mistakes| spec_error(py, &mistakes))?))
 }
 
-/// The report of an analysis from all its parts, in any order: the same, byte for byte, as that of one `Machine.analyze`.
+/// Merges all parts of an analysis, in any order. The report is byte for byte that of a single
+/// `Machine.analyze`.
 ///
-/// `parts`: Parts, or paths of their files. Parts that are missing, twice, damaged or not of one analysis raise SpecError.
+/// `parts`: Parts, or paths of their files. Raises SpecError if parts are missing, duplicate,
+/// damaged or from different analyses.
 ///
 /// >>> import abbe
 /// >>> pps = abbe.load("pps")

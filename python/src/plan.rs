@@ -1,4 +1,4 @@
-//! Where to measure.
+//! Measurement plans.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
 use std::path::PathBuf;
@@ -18,11 +18,17 @@ use crate::report::Report;
 
 #[pymethods]
 impl Machine {
-    /// Where to measure, and how well the errors of the machine will then be known where it is used.
+    /// Plans measurements, and predicts the uncertainty of the tool point after identification.
     ///
-    /// `map`: what will be measured. `sets`: a plan file; else the `count` configurations that tell most of `candidates` samples, by
-    /// `criterion` "v" or "d"; `seed` draws the samples. `model_error`: a length in the unit of the spec, or text. `.report(folder)` writes plan.csv. Fields as
-    /// those of `abbe plan --json`.
+    /// `map`: path of the map of the measurements, or a shipped name. `sets`: path of a plan file
+    /// with sets of configurations to evaluate; without it, `count` configurations are chosen from
+    /// `candidates` samples. `criterion`: "v" for the smallest mean variance of the tool point over
+    /// the workspace of `study`, "d" for the largest determinant of the information matrix. `seed`:
+    /// of random candidates; without it they are evenly distributed. `model_error`: model error at
+    /// the tool point in addition to the noise of the instrument, in the length unit or as text
+    /// with a unit.
+    ///
+    /// `.report(folder)` writes plan.csv. Fields as in `abbe plan --json`.
     #[pyo3(signature = (map, *, sets=None, count=50, criterion="v", candidates=500, model_error=None, study=None, seed=None, progress=None))]
     fn plan(
         &self,
@@ -55,7 +61,7 @@ impl Machine {
             Ok((job, report))
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec, job.map.clone());
-        let text = move |report: &_| text::plan(&spec, &map, report);
+        let text = move |report: &_, detail| text::plan(&spec, &map, report, detail);
         let found = Report::new("plan", &report, notes, text)?.with_rows(report.table(&job.map));
         Ok(found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())])))
     }

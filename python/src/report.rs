@@ -1,4 +1,4 @@
-//! What a job found, as an object of Python's.
+//! Report of a job as a Python object.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe_report::Picture;
+use abbe_report::text::Detail;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::data;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
@@ -19,50 +20,51 @@ use crate::failure::{guarded, spec_error};
 use crate::machine::{Machine, restore};
 use crate::table::Table;
 
-/// Files of a report: their names and texts.
+/// Files of a report: names and texts.
 pub(crate) type Pages = Vec<(String, String)>;
 
-/// Makes something, when it is asked for.
+/// Function that builds a part of the report on demand.
 type Make<T> = Box<dyn Fn() -> Result<T, Diagnostics> + Send + Sync>;
 
-/// What a job found: its fields have the names of `abbe … --json`, nested ones too. `print` shows the same text as the command.
+/// Result of a job. Its fields, also nested ones, have the names of the JSON report; `print` shows
+/// the answer on one screen, `full()` every table.
 #[pyclass(frozen, module = "abbe")]
 pub(crate) struct Report {
     kind: &'static str,
     json: String,
-    text: Box<dyn Fn() -> String + Send + Sync>,
+    text: Box<dyn Fn(Detail) -> String + Send + Sync>,
     html: Option<String>,
     notes: Vec<String>,
     pages: Option<Make<Pages>>,
     figures: Option<Box<dyn Fn() -> Vec<Picture> + Send + Sync>>,
     rows: Option<data::Table>,
-    /// Which of its pages is a spec.
+    /// Name of the page that is a spec.
     spec: Option<String>,
     fields: PyOnceLock<Py<PyAny>>,
 }
 
 impl Report {
-    /// A report with its fields and its text.
+    /// Creates a report with its fields and its text.
     pub(crate) fn new<R: Serialize + Send + Sync + 'static>(
         kind: &'static str,
         report: &Arc<R>,
         notes: Vec<String>,
-        text: impl Fn(&R) -> String + Send + Sync + 'static,
+        text: impl Fn(&R, Detail) -> String + Send + Sync + 'static,
     ) -> PyResult<Self> {
         let json = serde_json::to_string(&**report);
         let json = json.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         let report = Arc::clone(report);
-        let (text, fields) = (Box::new(move || text(&report)), PyOnceLock::new());
+        let (text, fields) = (Box::new(move |detail| text(&report, detail)), PyOnceLock::new());
         let (html, pages, figures, rows, spec) = (None, None, None, None, None);
         Ok(Self { kind, json, text, html, notes, pages, figures, rows, spec, fields })
     }
 
-    /// With tables for notebooks.
+    /// Adds HTML tables for notebooks.
     pub(crate) fn with_html(self, html: String) -> Self {
         Self { html: Some(html), ..self }
     }
 
-    /// With files.
+    /// Adds files.
     pub(crate) fn with_pages(
         self,
         pages: impl Fn() -> Result<Pages, Diagnostics> + Send + Sync + 'static,
@@ -70,22 +72,22 @@ impl Report {
         Self { pages: Some(Box::new(pages)), ..self }
     }
 
-    /// One of its pages is a spec.
+    /// Marks one of the pages as a spec.
     pub(crate) fn with_spec(self, page: &str) -> Self {
         Self { spec: Some(page.to_owned()), ..self }
     }
 
-    /// With figures.
+    /// Adds figures.
     pub(crate) fn with_figures(self, figures: impl Fn() -> Vec<Picture> + Send + Sync + 'static) -> Self {
         Self { figures: Some(Box::new(figures)), ..self }
     }
 
-    /// With a table of rows, which are not among the fields.
+    /// Adds a table of rows, which are not among the fields.
     pub(crate) fn with_rows(self, rows: data::Table) -> Self {
         Self { rows: Some(rows), ..self }
     }
 
-    /// All that is a table: what it is called, and its rows.
+    /// Returns the name and the rows of every field that is a table.
     fn lists(&self) -> PyResult<Vec<(String, Vec<Value>)>> {
         let mut found = Vec::new();
         let fields = serde_json::from_str(&self.json);
@@ -112,23 +114,29 @@ impl Report {
 
 #[pymethods]
 impl Report {
-    /// What was said on the way: notes and warnings.
+    /// Notes and warnings of the job.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
     }
 
-    /// All fields, as plain dicts, lists, numbers and texts.
+    /// Returns all fields as plain dicts, lists, numbers and texts.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         py.import("json")?.call_method1("loads", (&self.json,))
     }
 
-    /// The same as the command prints with --json: one line.
+    /// Returns every table and every sentence as text.
+    fn full(&self, py: Python<'_>) -> PyResult<String> {
+        guarded(|| Ok(py.detach(|| (self.text)(Detail::Full))))
+    }
+
+    /// Returns the JSON report of the command as one line.
     fn to_json(&self) -> &str {
         &self.json
     }
 
-    /// Writes its pages and pictures into a folder, which is made; what is there already raises FileExistsError, unless `overwrite`.
+    /// Writes pages and figures into a folder, which is made if necessary. Returns the file names.
+    /// Raises FileExistsError if a file exists, unless `overwrite` is true.
     #[pyo3(signature = (folder, *, overwrite=false))]
     fn report(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> PyResult<Vec<String>> {
         let pages = self.pages(py)?;
@@ -145,7 +153,8 @@ impl Report {
         Ok(pages.into_iter().map(|(name, _)| name).collect())
     }
 
-    /// The manipulator that was imported, identified, or corrected by the doctor, as `abbe.load` gives it; ValueError if there is none.
+    /// Returns the machine that was imported, identified, or corrected by the doctor. Raises
+    /// ValueError if the report has none.
     fn load(&self, py: Python<'_>) -> PyResult<Machine> {
         let pages = self.pages(py)?;
         match pages.into_iter().find(|(name, _)| self.spec.as_ref() == Some(name)) {
@@ -154,7 +163,8 @@ impl Report {
         }
     }
 
-    /// The figures by their names: notebooks show them, `.svg` is the picture, `.scene` what is drawn as plain data.
+    /// Returns the figures by name. Notebooks show them; `.svg` is the picture, `.scene` its
+    /// content as plain data.
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
         let Some(make) = &self.figures else { return Ok(found) };
@@ -168,8 +178,9 @@ impl Report {
         Ok(found)
     }
 
-    /// One figure, which notebooks show. `.svg` is its text; `.scene` is what is drawn as plain data: its panels, each with axes and
-    /// marks (lines, points, bands, bars, surfaces), all numbers in the units of the axes.
+    /// Returns one figure, which notebooks show. `.svg` is the picture; `.scene` is its content as
+    /// plain data: panels with axes and marks (lines, points, bands, bars, surfaces), all numbers
+    /// in the units of the axes.
     fn figure<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let figures = self.figures(py)?;
         figures.get_item(name)?.ok_or_else(|| {
@@ -178,14 +189,16 @@ impl Report {
         })
     }
 
-    /// The names of its tables: lists of fields that are alike, and `rows` where it has a row for each of what was measured.
+    /// Returns the names of the tables: fields that are lists of records, and `rows` if the report
+    /// has one row per measurement.
     fn tables(&self) -> PyResult<Vec<String>> {
         let rows = self.rows.iter().map(|_| "rows".to_owned());
         let lists = self.lists()?.into_iter().filter(|(_, rows)| !rows.is_empty());
         Ok(rows.chain(lists.map(|(name, _)| name)).collect())
     }
 
-    /// One table, for any reader of Arrow, without a copy. A list that is empty here is a table without rows and columns.
+    /// Returns one table, which any Arrow reader takes without a copy. An empty list is a table
+    /// without rows and columns.
     ///
     /// >>> import abbe
     /// >>> ledger = abbe.load("pps").analyze().table("ledger.sources")
@@ -196,7 +209,7 @@ impl Report {
             return Table::new(rows);
         }
         match self.lists()?.into_iter().find(|(known, _)| known == name) {
-            Some((_, rows)) => Table::of_fields(&rows),
+            Some((_, rows)) => Table::from_records(&rows),
             None => Err(none_of("table", name, &self.tables()?)),
         }
     }
@@ -212,8 +225,9 @@ impl Report {
     }
 
     fn __dir__(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        let own = ["figure", "figures", "load", "notes", "report", "table", "tables", "to_dict", "to_json"]
-            .map(str::to_owned);
+        let own =
+            ["figure", "figures", "full", "load", "notes", "report", "table", "tables", "to_dict", "to_json"]
+                .map(str::to_owned);
         let fields: Vec<String> = self.fields(py)?.call_method0("__dir__")?.extract()?;
         Ok(own.into_iter().chain(fields).collect())
     }
@@ -223,7 +237,7 @@ impl Report {
     }
 
     fn __str__(&self, py: Python<'_>) -> PyResult<String> {
-        guarded(|| Ok(py.detach(&self.text)))
+        guarded(|| Ok(py.detach(|| (self.text)(Detail::Answer))))
     }
 
     fn __repr__(&self) -> String {
@@ -237,7 +251,7 @@ fn write(path: &Path, text: &str, overwrite: bool) -> std::io::Result<()> {
     options.open(path)?.write_all(text.as_bytes())
 }
 
-/// Every list of fields, by the names of the fields on the way to it; an empty list may have been one.
+/// Collects every list of records with the dotted path of its field. An empty list may be one, too.
 fn gather(before: &str, value: Value, found: &mut Vec<(String, Vec<Value>)>) {
     match value {
         Value::Object(fields) => {

@@ -1,4 +1,4 @@
-//! Measurements of a machine whose errors are known.
+//! Simulated measurements of a machine.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
 use std::path::PathBuf;
@@ -17,11 +17,16 @@ use crate::report::Report;
 
 #[pymethods]
 impl Machine {
-    /// What an instrument would measure of the machine with the errors of its sources.
+    /// Simulates measurements of the machine with the repeatable errors of its sources.
     ///
-    /// `map`: what is measured; `data`: commands in a CSV file or a table, else `samples` random configurations. `noise`: one standard deviation
-    /// of a coordinate, in the length unit or as text; `outliers`: which share of the rows is grossly wrong; `random`: draw the random
-    /// sources, too. `.report(folder)` writes measurements.csv. Fields as those of `abbe simulate --json`.
+    /// `map`: path of the map of the columns to write, or a shipped name. `data`: joint commands in
+    /// a CSV file or a table; without it, `samples` random configurations. `noise`: standard
+    /// deviation of each coordinate, in the length unit or as text with a unit; by default the
+    /// uncertainty in the map. `outliers`: fraction of the rows that are outliers. `random`: also
+    /// draw the random sources, independently in every row. `seed`: of configurations, noise,
+    /// outliers and random sources.
+    ///
+    /// `.report(folder)` writes measurements.csv. Fields as in `abbe simulate --json`.
     #[pyo3(signature = (map, *, data=None, samples=100, noise=None, outliers=0.0, random=false, seed=0))]
     fn simulate(
         &self,
@@ -48,7 +53,7 @@ impl Machine {
             Simulate { machine, map, at, noise, outliers, random, seed }.run(notes)
         })?;
         let report = Arc::new(report);
-        let found = Report::new("simulate", &report, notes, |report| report.table.csv())?;
+        let found = Report::new("simulate", &report, notes, |report, _| report.table.csv())?;
         let found = found.with_rows(report.table.clone());
         Ok(found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())])))
     }

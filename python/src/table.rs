@@ -1,4 +1,4 @@
-//! Tables of reports, as everything that reads Arrow takes them: pandas, polars, pyarrow, duckdb.
+//! Tables of reports for readers of Arrow: pandas, polars, pyarrow, duckdb.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -17,17 +17,18 @@ use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyTuple};
 use serde_json::{Map, Value};
 
-/// A table: columns with names, of numbers or texts, or of whatever is true. Any reader of Arrow takes it without a copy:
-/// ``pandas.DataFrame.from_arrow``, ``polars.DataFrame``, ``pyarrow.table``, and duckdb by the name of the variable.
+/// Table with named columns of numbers, texts or booleans. Any Arrow reader takes it without a
+/// copy: ``pandas.DataFrame.from_arrow``, ``polars.DataFrame``, ``pyarrow.table``, and duckdb by
+/// the name of the variable.
 ///
-/// What a row does not have is null, never NaN. Units are those of the report's fields.
+/// Missing values are null, never NaN. Units are those of the fields of the report.
 #[pyclass(frozen, module = "abbe")]
 pub(crate) struct Table {
     batch: RecordBatch,
 }
 
 impl Table {
-    /// Rows with a heading.
+    /// Converts rows with a heading.
     pub(crate) fn new(table: &data::Table) -> PyResult<Self> {
         let labels = (!table.labels.is_empty())
             .then(|| Arc::new(StringArray::from_iter_values(&table.labels)) as ArrayRef);
@@ -37,11 +38,12 @@ impl Table {
             Arc::new(values.collect::<Float64Array>()) as ArrayRef
         });
         let columns = table.heading.iter().cloned().zip(labels.into_iter().chain(numbers));
-        Self::of_columns(columns.collect(), table.rows.len())
+        Self::from_columns(columns.collect(), table.rows.len())
     }
 
-    /// Fields of a report that are alike: a row for each, a column for each name; `outer.inner` where fields have fields.
-    pub(crate) fn of_fields(rows: &[Value]) -> PyResult<Self> {
+    /// Converts a list of records: one row per record, one column per field, named `outer.inner`
+    /// for nested fields.
+    pub(crate) fn from_records(rows: &[Value]) -> PyResult<Self> {
         let (mut columns, mut places) = (Vec::new(), HashMap::new());
         for (i, row) in rows.iter().enumerate() {
             let mut put = |name: String, value| {
@@ -54,10 +56,10 @@ impl Table {
             row.as_object().into_iter().for_each(|fields| flatten("", fields, &mut put));
         }
         let columns = columns.into_iter().map(|(name, cells)| (name, column(&cells)));
-        Self::of_columns(columns.collect(), rows.len())
+        Self::from_columns(columns.collect(), rows.len())
     }
 
-    fn of_columns(columns: Vec<(String, ArrayRef)>, rows: usize) -> PyResult<Self> {
+    fn from_columns(columns: Vec<(String, ArrayRef)>, rows: usize) -> PyResult<Self> {
         let (fields, arrays): (Vec<_>, Vec<_>) = columns
             .into_iter()
             .map(|(name, array)| (Field::new(name, array.data_type().clone(), true), array))
@@ -70,13 +72,13 @@ impl Table {
 
 #[pymethods]
 impl Table {
-    /// The names of its columns.
+    /// Names of the columns.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.batch.schema().fields().iter().map(|field| field.name().as_str()))
     }
 
-    /// Its columns by their names, as lists; None where a row has nothing.
+    /// Returns the columns by name, as lists with None for missing values.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let columns = PyDict::new(py);
         for (field, array) in self.batch.schema().fields().iter().zip(self.batch.columns()) {
@@ -94,7 +96,7 @@ impl Table {
         PyCapsule::new_with_value(py, schema, c"arrow_schema")
     }
 
-    /// `requested_schema` is a wish; the types stay what they are.
+    /// Exports the table. `requested_schema` is ignored, as the protocol allows.
     #[pyo3(signature = (requested_schema=None))]
     fn __arrow_c_stream__<'py>(
         &self,
@@ -102,7 +104,7 @@ impl Table {
         requested_schema: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
         let _ = requested_schema;
-        // What is counted is shared with every reader: nothing is copied.
+        // The buffers are reference-counted: the reader shares them without a copy.
         let batches = RecordBatchIterator::new([Ok(self.batch.clone())], self.batch.schema());
         PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(batches)), c"arrow_array_stream")
     }
@@ -116,7 +118,7 @@ impl Table {
     }
 }
 
-/// Every field that has no fields itself.
+/// Visits every field without nested fields, by its dotted path.
 fn flatten<'v>(before: &str, fields: &'v Map<String, Value>, put: &mut impl FnMut(String, &'v Value)) {
     for (name, value) in fields {
         let name = format!("{before}{name}");
@@ -127,7 +129,7 @@ fn flatten<'v>(before: &str, fields: &'v Map<String, Value>, put: &mut impl FnMu
     }
 }
 
-/// Cells as one type; a column without any is one of numbers, and what is neither of one kind nor a list of numbers is JSON.
+/// Converts cells to one type: a column without values to numbers, mixed types to JSON text.
 fn column(cells: &[Option<&Value>]) -> ArrayRef {
     let all = |is: fn(&Value) -> bool| cells.iter().flatten().all(|value| is(value));
     let cells = cells.iter();
@@ -151,7 +153,7 @@ fn is_numbers(value: &Value) -> bool {
     value.as_array().is_some_and(|list| list.iter().all(|one| one.is_number() || one.is_null()))
 }
 
-/// A column as a list of Python's.
+/// Converts a column to a Python list.
 fn cells<'py>(py: Python<'py>, array: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     let any = array.as_any();
     if let Some(array) = any.downcast_ref::<Float64Array>() {

@@ -1,11 +1,11 @@
-"""Descriptions of robots by others, from the package example-robot-data."""
+"""Robot descriptions of the package example-robot-data."""
 
 import os
 import site
 
 import pytest
 
-# By the file: its package, base and tip. A slide, wheels, grippers and second arms stand beside some of them.
+# Package, base and tip of each file. Some files have a slide, wheels, grippers or second arms besides the chain.
 ROBOTS = {
     "ur5": ("ur_description/urdf/ur5_robot.urdf", "base_link", "tool0"),
     "ur10": ("ur_description/urdf/ur10_robot.urdf", "base_link", "tool0"),
@@ -19,7 +19,7 @@ ROBOTS = {
 
 
 def described(path):
-    """The path of a file of example-robot-data; without the package the test is skipped."""
+    """Return the path of a file of example-robot-data. Skip the test without the package."""
     for base in site.getsitepackages():
         folder = os.path.join(base, "cmeel.prefix/share/example-robot-data/robots")
         if os.path.isdir(folder):

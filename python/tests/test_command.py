@@ -1,4 +1,4 @@
-"""The numbers of the command, to the last bit."""
+"""Numbers from Python equal those of the command to the last bit."""
 
 import json
 import os

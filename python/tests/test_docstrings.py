@@ -1,4 +1,4 @@
-"""What the examples in docstrings print."""
+"""Docstrings: every public name has one, and their examples print what they show."""
 
 import doctest
 import inspect
@@ -27,7 +27,7 @@ FUNCTIONS = {
 
 
 def test_functions_say_shape_frame_rows_and_units():
-    # What gives an array says so first: everything that takes `out`.
+    # Functions with `out` return an array; their docstrings begin with its shape.
     assert FUNCTIONS == {name for name in vars(abbe.Machine) if "out=" in (getattr(getattr(abbe.Machine, name), "__text_signature__", None) or "")}
     for name in sorted(FUNCTIONS | {"inverse"}):
         doc = inspect.getdoc(getattr(abbe.Machine, name))

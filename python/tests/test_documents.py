@@ -1,4 +1,4 @@
-"""What README and docs/python.md show."""
+"""Examples of the README and docs/python.md."""
 
 import doctest
 import os

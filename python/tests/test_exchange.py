@@ -1,4 +1,4 @@
-"""Robots in, files out: import, export and the doctor from Python are the command's, and take what is in memory."""
+"""Import, export and doctor: the same results as the command, also for data in memory."""
 
 import json
 import os
@@ -32,7 +32,7 @@ frame = "Shoulder"
 e_x = "0.7 mm"
 e_p = "-0.4 mrad"
 """
-# A shoulder that turns in the plane and an elbow at right angles to it: q1 + 30°, then q2.
+# A shoulder with offset q1 + 30° about z, and an elbow q2 with a perpendicular axis.
 DH = {"theta": ["q1 + 30", "q2"], "d": [0.0, 50.0], "a": [400.0, 300.0], "alpha": [90.0, 0.0]}
 
 
@@ -41,7 +41,7 @@ def printed(*arguments):
 
 
 def planar(q1, q2):
-    """The tool of DH by hand: Rz(q1 + 30°) Tx(400) Rx(90°) Rz(q2) Tz(50) Tx(300)."""
+    """Compute the tool point of DH by hand: Rz(q1 + 30°) Tx(400) Rx(90°) Rz(q2) Tz(50) Tx(300)."""
     t = q1 + np.pi / 6
     along, up = 400 + 300 * np.cos(q2), 300 * np.sin(q2)
     return [along * np.cos(t) + 50 * np.sin(t), along * np.sin(t) - 50 * np.cos(t), up]
@@ -54,7 +54,7 @@ def test_a_urdf_is_imported_from_a_file_and_from_text(tmp_path):
     cell = report.load()
     assert cell.variables == ("lift", "shoulder") and report.largest_difference < 1e-12
     assert abbe.load(text=report.spec).text == cell.text and "cell: from floor to tool" in str(report)
-    # Rodrigues' formula: the arm turns about (0, 0.6, 0.8) behind its origin.
+    # Rodrigues' formula: the arm turns about (0, 0.6, 0.8) through its origin.
     roll, turn = np.cos(0.3), -1.5708
     rx = np.array([[1, 0, 0], [0, roll, -np.sin(0.3)], [0, np.sin(0.3), roll]])
     rz = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
@@ -86,7 +86,7 @@ def test_the_same_as_the_command(tmp_path):
     heading = ",".join([*ur5.variables, "x", "y", "z"])
     np.savetxt(rows, np.hstack([q, ur5.pose(np.radians(q))[:, :3, 3]]), delimiter=",", header=heading, comments="")
     found = ur5.doctor(rows)
-    assert found.to_json() + "\n" == printed("doctor", "ur5", rows, "--json") and str(found) == printed("doctor", "ur5", rows)
+    assert found.to_json() + "\n" == printed("doctor", "ur5", rows, "--json") and printed("doctor", "ur5", rows).startswith(str(found))
     asked = ["export", "machine3", "--to", "linuxcnc", "--nodes", "5", "--set", "temperature_rise=3K", "--json"]
     exported = abbe.load("machine3").with_parameters(temperature_rise="3 K").export("linuxcnc", nodes=5)
     assert json.loads(printed(*asked)) == exported.to_dict() and len(exported.files) == 3
@@ -102,7 +102,7 @@ def test_a_table_of_denavit_hartenberg_numbers():
     pandas = pytest.importorskip("pandas", reason="pandas is not installed")
     arm = abbe.import_dh(pandas.DataFrame(DH), convention="standard", units="mm,deg").load()
     assert np.allclose(arm.pose([0.4, -1.1])[:3, 3], planar(0.4, -1.1), atol=1e-9) and arm.length == "mm"
-    # Numbers alone: every row is a revolute joint, and the shortest text of a number is read back as itself.
+    # Without names every row is a revolute joint. Numbers survive the conversion to text and back.
     numbers = {"theta": [0.1, 0.2], "d": [0.1 + 0.2, 0.0], "a": [1 / 3, 0.25], "alpha": [0.0, 0.0]}
     arm = abbe.import_dh(numbers, convention="modified", units="m,rad").load()
     assert arm.pose([0, 0])[2, 3] == 0.1 + 0.2 and arm.length == "m"
@@ -125,14 +125,14 @@ def test_the_doctor_reads_arrays_and_tables(tmp_path):
     [first, *others] = report.found
     assert report.fits and not others and first.reading.joints_in_degrees is True and first.reading.layout.homogeneous.by_rows is True
     assert ur5.doctor(q, pose.swapaxes(1, 2)).found[0].reading.layout.homogeneous.by_rows is False
-    # Metres, the second joint counted the other way, a quaternion with the scalar first.
+    # Metres, the second joint with the opposite sign, a scalar-first quaternion.
     turned = q * [1, -1, 1, 1, 1, 1]
     four = np.array([as_quaternion(each[:3, :3]) for each in pose])
     seen = np.hstack([pose[:, :3, 3] / 1000, four])
     report = ur5.doctor(turned, seen)
     first = report.found[0].reading
     assert first.lengths_in == "m" and first.layout.quaternion.scalar_first is True and [change.reversed for change in first.changes] == [[1]]
-    # The map that it writes reads the same rows.
+    # The written map reads the same rows.
     table = dict(zip(ur5.variables, turned.T)) | {f"seen_{k + 1}": column for k, column in enumerate(seen.T)}
     assert ur5.doctor(table).map == report.map and "sign = -1" in report.map
     assert report.report(tmp_path) == ["doctor.map.toml"]
@@ -165,13 +165,13 @@ transform = "Ty(-180)"
 def test_the_doctor_corrects_a_spec(tmp_path):
     arm = abbe.load(text=PALLETIZER)
     q = np.random.default_rng(4).uniform([-2.6, 0.7, -2.2], [2.6, 1.9, -0.4], (10, 3))
-    # The third column is the forearm against the horizon.
+    # The third column is the angle of the forearm to the horizontal.
     shown = q + q[:, [1]] * [0, 0, 1]
     report = arm.doctor(shown, arm.pose(q)[:, :3, 3])
     assert report.of_spec == ["q3 is coupled: q3 − q2 is meant"]
     assert np.abs(report.load().pose(shown) - arm.pose(q)).max() < 1e-9
     assert report.report(tmp_path) == ["doctor.map.toml", "doctor.spec.toml"]
-    # Where the map says all there is no other spec.
+    # No corrected spec if the map describes everything.
     with pytest.raises(ValueError, match="a report of doctor has no spec"):
         arm.doctor(q, arm.pose(q)[:, :3, 3]).load()
 
@@ -190,7 +190,7 @@ def test_what_is_exported(tmp_path):
         report = machine.export(to)
         assert len(report.files) == files and sorted(report.report(tmp_path / to)) == sorted(os.listdir(tmp_path / to))
         assert all((tmp_path / to / file.name).read_text() == file.text for file in report.files)
-        assert report.remains.position.largest < report.before.position.largest and "The sign" in str(report)
+        assert report.remains.position.largest < report.before.position.largest and "The sign" in report.full()
     cell = tmp_path / "cell.urdf"
     cell.write_text(CELL)
     nominal = abbe.import_urdf(cell, tip="tool").load()
@@ -202,7 +202,7 @@ def test_what_is_exported(tmp_path):
 
 
 def test_a_spec_that_was_found_is_loaded():
-    # With the found sources it predicts what was measured.
+    # With the identified sources it predicts the measurements.
     real = abbe.load(text=ur5.text + FOUND.replace("Shoulder", ur5.frames[1]))
     rows = real.simulate("ur5", samples=60, seed=1).table("rows").to_dict()
     found = ur5.identify(rows, "ur5").load()

@@ -1,6 +1,6 @@
-"""A calibrated URDF in Pinocchio: the tool is where the found spec has it, by six errors of every frame and zeros that are off.
+"""Calibrated URDF in Pinocchio: with six errors of every frame and joint zero offsets, the tool agrees with the identified spec.
 
-`pip install pin example-robot-data` brings both; what is not there is skipped.
+`pip install pin example-robot-data` installs both; tests without them are skipped.
 """
 
 import os
@@ -42,7 +42,7 @@ CELL = """<?xml version="1.0"?>
 
 
 def found(spec):
-    """The spec with six constant errors of every frame, up to 1 mm and 1 mrad, and a zero of every joint."""
+    """Return the spec with six constant errors of every frame, up to 1 mm and 1 mrad, and a zero offset of every joint."""
     machine = abbe.load(spec)
     random = np.random.default_rng(14)
     text = spec.read_text()
@@ -65,7 +65,7 @@ def run(*arguments):
 
 
 def calibrated(file, base, tip, folder, *fold):
-    """The largest differences of the calibrated and of the nominal file's tool from the found one."""
+    """Return the largest distances of the calibrated and of the nominal tool from the tool of the identified spec."""
     ends = ["--base", base, "--tip", tip]
     nominal, result = folder / "robot.toml", folder / "calibrated.urdf"
     run("import", file, *ends, *fold, "--force", "-o", nominal)

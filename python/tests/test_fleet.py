@@ -1,4 +1,4 @@
-"""Many machines identified, and one machine many times."""
+"""Identification of a fleet, and bootstrap of one machine."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ ur5 = abbe.load("ur5")
 
 
 def measured(folder, length, seed):
-    """A UR5 whose upper arm is too long, measured; the file."""
+    """Simulate measurements of a UR5 with a longer upper arm. Return the file."""
     source = f"""
 [[source]]
 name = "upper arm"
@@ -39,7 +39,7 @@ def test_one_row_a_machine(fleet):
     lengths, files = fleet
     table = abbe.fleet.identify(ur5, files, "ur5")
     assert table["machine"] == list(lengths) and {len(column) for column in table.values()} == {3}
-    # a of the second frame is an error along its x.
+    # An error of `a` of the second frame is an error along its x axis.
     found, sd = np.array(table["e_x2"]), np.array(table["e_x2 sd"])
     assert (sd > 0).all() and (np.abs(found - list(lengths.values())) < 4 * sd).all()
     alone = ur5.identify(files["second"], "ur5")
@@ -51,7 +51,7 @@ def test_bootstrap(fleet):
     _, files = fleet
     table = abbe.fleet.bootstrap(ur5, files["first"], "ur5", repetitions=60)
     sd, drawn = np.array(table["sd"]), np.array(table["bootstrap sd"], dtype=float)
-    # 60 configurations and 60 repetitions know a standard deviation to some 13 % each.
+    # With 60 configurations and 60 repetitions, each standard deviation is uncertain by about 13 %.
     assert 0.6 < np.median(drawn / sd) < 1.6
     inside = [low <= value <= high for low, value, high in zip(table["2.5 %"], table["value"], table["97.5 %"], strict=True)]
     assert np.mean(inside) > 0.9

@@ -1,4 +1,4 @@
-"""The functions of a machine: shapes, values, and what they take."""
+"""Functions of a machine: shapes, values and arguments."""
 
 import pickle
 
@@ -34,7 +34,7 @@ e_s = "3e-5/kg * payload"
 
 
 def samples(machine, count, seed=0):
-    """Configurations within the limits."""
+    """Draw configurations within the limits."""
     lower, upper = np.clip(np.array(machine.limits).T, -10, 1e4)
     return np.random.default_rng(seed).uniform(lower, upper, (count, len(machine.variables)))
 
@@ -59,10 +59,10 @@ def test_shapes_and_batches(name):
         function = getattr(machine, function)
         many = function(q)
         assert many.shape == (70, *shape) and many.flags.c_contiguous
-        # A batch is evaluated in lanes, one configuration alone by scalar code: they round differently.
+        # Batches are evaluated in lanes, single configurations by scalar code, with different rounding.
         one = np.stack([function(each) for each in q])
         assert np.all(np.abs(many - one) <= 1e-13 * (1 + np.abs(one).max(initial=0)))
-        # In lanes, a configuration has the same bits wherever it stands, and in whatever shape.
+        # In lanes, the bits of a result depend neither on its position nor on the shape of the batch.
         assert np.array_equal(function(q[::-1]), many[::-1])
         assert np.array_equal(function(q.reshape(7, 10, nq)), many.reshape(7, 10, *shape))
         out = np.full_like(many, np.nan)

@@ -1,4 +1,4 @@
-"""What nobody should pass raises an exception, and nothing worse."""
+"""Invalid arguments raise exceptions and do nothing worse."""
 
 import threading
 
@@ -21,7 +21,7 @@ class Broken:
 
 
 def wrong():
-    """Arrays of joints that are none."""
+    """Invalid arrays of joints."""
     for shape in [(), (0,), (5,), (7,), (6, 5), (1, 7), (0, 5), (2, 3, 4), (6, 0), (6, 1)]:
         yield np.zeros(shape)
         yield np.zeros(shape, dtype=">f8")

@@ -1,6 +1,6 @@
-"""Robots of URDF against Pinocchio: what `abbe import` writes has the poses and the joint Jacobian of the file.
+"""Imported URDF robots compared with Pinocchio: the same poses and joint Jacobians.
 
-`pip install pin example-robot-data` brings both; what is not there is skipped.
+`pip install pin example-robot-data` installs both; tests without them are skipped.
 """
 
 import os
@@ -59,7 +59,7 @@ def imported(file, base, tip, folder, *more):
 
 
 def largest_differences(file, base, tip, folder, *more):
-    """Of poses and of joint Jacobians, over configurations of all joints of the file; no pose depends on those beside the chain."""
+    """Return the largest differences of poses and joint Jacobians over random values of all joints; joints outside the chain have no effect."""
     machine = imported(file, base, tip, folder, *more)
     model = pin.buildModelFromUrdf(str(file), mimic=True)
     data = model.createData()
@@ -73,7 +73,7 @@ def largest_differences(file, base, tip, folder, *more):
     for q in np.random.default_rng(14).uniform(lower, upper, (CONFIGURATIONS, len(joints))):
         whole = pin.neutral(model)
         for joint, value in zip(joints, q):
-            # A joint without limits is a point of the circle.
+            # Pinocchio represents a joint without limits by cosine and sine.
             whole[joint.idx_q : joint.idx_q + joint.nq] = value if joint.nq == 1 else [np.cos(value), np.sin(value)]
         pin.computeJointJacobians(model, data, whole)
         pin.updateFramePlacements(model, data)

@@ -1,4 +1,4 @@
-"""The notebooks of docs/python, cell by cell: every output as it is stored. UPDATE_EXPECT=1 stores new ones."""
+"""Notebooks of docs/python: every cell has its stored output. UPDATE_EXPECT=1 stores new outputs."""
 
 import os
 import shutil
@@ -11,12 +11,12 @@ nbclient = pytest.importorskip("nbclient", reason="nbclient, which runs notebook
 pytest.importorskip("ipykernel", reason="ipykernel, which runs notebooks, is not installed")
 
 FOLDER = Path(__file__).parents[2] / "docs/python"
-# What a notebook shows without more than Jupyter.
+# MIME types that Jupyter shows without extensions.
 SHOWN = ("text/plain", "text/html", "image/svg+xml")
 
 
 def outputs(cell):
-    """What a cell shows: what it prints in one piece, and what its last line is."""
+    """Merge the outputs of a cell: its printed text, and the value of its last line."""
     shown = []
     for output in cell.outputs:
         if output.output_type == "stream" and shown and shown[-1].get("name") == output.name:

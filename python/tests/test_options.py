@@ -1,4 +1,4 @@
-"""Options: the defaults of Python are those of the command, and what is not allowed is refused in Python's words."""
+"""Options: the same defaults as the command, and error messages in terms of Python."""
 
 import inspect
 import os
@@ -12,12 +12,12 @@ import abbe
 COMMAND = os.environ.get("ABBE")
 ur5 = abbe.load("ur5")
 
-# What the command calls by another name.
+# Options with another name in the command.
 NAMES = {"language": "lang"}
 
 
 def defaults(method):
-    """The defaults that are numbers or texts, by the names of the command's options."""
+    """Yield the defaults that are numbers or texts, with the option names of the command."""
     for name, parameter in inspect.signature(method).parameters.items():
         if isinstance(parameter.default, int | float | str) and not isinstance(parameter.default, bool):
             yield NAMES.get(name, name.replace("_", "-")), parameter.default
@@ -31,7 +31,7 @@ def number(text):
 @pytest.mark.parametrize("job", ["bound", "export", "generate", "identify", "monitor", "plan", "simulate"])
 def test_the_defaults_are_those_of_the_command(job):
     printed = subprocess.run([COMMAND, job, "--help"], check=True, capture_output=True, text=True).stdout
-    # The words of an option end where the next one begins.
+    # The help of an option ends at the next option.
     options = dict(re.findall(r"^ +(?:-\w, )?--([\w-]+)(.*?)(?=^ +(?:-\w, )?--|\Z)", printed, re.M | re.S))
     checked = 0
     for name, default in defaults(getattr(abbe.Machine, job)):

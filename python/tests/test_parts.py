@@ -1,4 +1,4 @@
-"""Parts of an analysis: however it is divided, and by whomever, the merged report is that of one run."""
+"""Parts of an analysis: for any division, by Python or the command, the merged report is that of one run."""
 
 import os
 import pickle

@@ -1,4 +1,4 @@
-"""Pose and joint Jacobian of five manipulators against Pinocchio, from tables written here a second time."""
+"""Pose and joint Jacobian of five manipulators compared with Pinocchio, from independent tables."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def z(turn, shift=0.0):
 
 
 def standard(*rows):
-    """Denavit-Hartenberg as d, a, alpha: Rz(q) Tz(d) Tx(a) Rx(alpha); d None of a slide."""
+    """Yield the joints of a standard Denavit-Hartenberg table (d, a, alpha): Rz(q) Tz(d) Tx(a) Rx(alpha); prismatic if d is None."""
     identity = pin.SE3.Identity()
     for d, a, alpha in rows:
         joint = pin.JointModelPZ() if d is None else pin.JointModelRZ()
@@ -27,7 +27,7 @@ def standard(*rows):
 
 
 def modified(*rows):
-    """After Craig: Rx(alpha) Tx(a) Rz(q) Tz(d)."""
+    """Yield the joints of a modified table (Craig): Rx(alpha) Tx(a) Rz(q) Tz(d)."""
     for d, a, alpha in rows:
         yield x(alpha, a), pin.JointModelRZ(), z(0, d)
 

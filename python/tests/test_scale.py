@@ -1,4 +1,4 @@
-"""The recipes of docs/scale.md, as they stand there, on two cores: the same bytes as one run, and a lost worker changes nothing."""
+"""Recipes of docs/scale.md on two cores: the same bytes as one run, also after the loss of a worker."""
 
 import importlib.util
 import os
@@ -58,7 +58,7 @@ def test_dask(folder):
 
 
 def measured(folder):
-    """Two machines measured: CSV files, and their rows by name."""
+    """Simulate measurements of two machines. Return the CSV files, and their rows by name."""
     spec = (CHAPTER.parents[1] / "manipulators/specs/ur5.toml").read_text(encoding="utf-8")
     frame = abbe.load("ur5").frames[1]
     for name, length in ("a", "0.2 mm"), ("b", "-0.4 mm"):
@@ -88,11 +88,11 @@ def test_fleet_in_parquet(folder):
     found = pandas.read_csv(folder / "table.csv")
     expected = abbe.fleet.identify(abbe.load("ur5"), {name: fleet / f"{name}.csv" for name in "ab"}, "ur5")
     assert list(found["machine"]) == ["a", "b"]
-    # Written as CSV and read again.
+    # Round trip through CSV.
     assert found["e_x2"].tolist() == pytest.approx(expected["e_x2"], rel=1e-12)
 
 
-# The first of each share ends its process, as a machine does that is switched off.
+# The first worker of each part ends its process, as if its computer were switched off.
 LOST = """
 import os, sys, pathlib
 import abbe
@@ -111,7 +111,7 @@ def part(i):
 def test_ray_makes_a_lost_part_again(folder):
     setup = "import ray\nray.init(log_to_driver=False, num_cpus=2)\n@ray.remote(max_retries=3)"
     run = "print(abbe.merge(ray.get([part.remote(i) for i in (1, 2, 3)])).to_json())"
-    # Workers of Ray begin in the folder of the driver.
+    # Ray workers start in the folder of the driver.
     text = LOST.format(setup=setup, run=run).replace('"night.toml"', repr(str(folder / "night.toml")))
     (folder / "lost.py").write_text(text.replace('f"lost-{i}"', f'"{folder}/lost-2"'))
     out = printed(folder, sys.executable, "lost.py", RAY_USAGE_STATS_ENABLED="0")
@@ -142,7 +142,7 @@ def test_slurm_array(folder):
     for name in "parts.sh", "merge.sh":
         subprocess.run(["bash", "-n", folder / name], check=True)
         lines = FILES[name].splitlines()
-        # sbatch reads its options from the lines below the first, up to the first command.
+        # sbatch reads its options from the comment lines before the first command.
         assert lines[0] == "#!/usr/bin/env bash"
         options = dict(re.fullmatch(r"#SBATCH --([a-z-]+)(?:=(\S+))?", line).groups() for line in lines[1 : lines.index("set -euo pipefail")])
         assert re.fullmatch(r"\d\d:\d\d:\d\d", options["time"]) and options["job-name"]
@@ -153,7 +153,7 @@ def test_slurm_array(folder):
     for task in range(1, count + 1):
         task = dict(SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_MAX=str(count), SLURM_CPUS_PER_TASK="2")
         printed(folder, "bash", "parts.sh", PATH=path, **task)
-    # One is lost, and done again by itself.
+    # A lost task is repeated.
     (folder / "parts" / "3.part").unlink()
     again = dict(SLURM_ARRAY_TASK_ID="3", SLURM_ARRAY_TASK_MAX="3", SHARDS=str(count))
     printed(folder, "bash", "parts.sh", PATH=path, **again)
@@ -170,7 +170,7 @@ def test_kubernetes_indexed_job(folder):
     spec = job["spec"]
     assert spec["completionMode"] == "Indexed" and spec["backoffLimitPerIndex"] > 0
     pod = spec["template"]["spec"]
-    # Without it there is no limit for each index.
+    # A back-off limit per index requires this restart policy.
     assert pod["restartPolicy"] == "Never"
     [container] = pod["containers"]
     [mount], [volume] = container["volumeMounts"], pod["volumes"]

@@ -1,4 +1,4 @@
-"""Tables: those of reports for every reader of Arrow, and those that users give instead of a CSV file."""
+"""Tables: exported by reports to Arrow readers, and passed by users instead of CSV files."""
 
 import csv
 import gc
@@ -19,7 +19,7 @@ def reader(name):
 
 def by_pandas(table):
     frame = reader("pandas").DataFrame
-    # Before pandas 3 it is pyarrow that reads.
+    # Before pandas 3, pyarrow reads the table.
     read = frame.from_arrow(table) if hasattr(frame, "from_arrow") else reader("pyarrow").table(table).to_pandas()
     return {name: [None if cell != cell else cell for cell in column] for name, column in read.to_dict("list").items()}
 
@@ -74,7 +74,7 @@ def test_nothing_is_copied():
     first, second = arrow.table(table), arrow.table(table)
     address = [one["x_t"].chunk(0).buffers()[1].address for one in (first, second)]
     assert address[0] == address[1] == polars.DataFrame(table)["x_t"].to_arrow().buffers()[1].address
-    # What was read lives on without the report.
+    # The table outlives the report.
     expected = table.to_dict()["x_t"]
     del table
     gc.collect()
@@ -135,7 +135,7 @@ def test_rows_that_cannot_be_used(tmp_path):
     columns["y_t"][11] = 1e200
     said = [(row.line, row.reason) for row in ur5.identify(columns, "ur5").unusable]
     assert said == [(7, "`x_t` is missing"), (9, "`joint_2` is `inf`"), (11, "`y_t` is `1e200`: numbers go up to 1e150")]
-    # A file has its heading before, and counts lines from 1.
+    # Lines of a file count from 1 and include the header.
     of_file = [(row.line - 2, row.reason) for row in ur5.identify(written(columns, tmp_path / "data.csv"), "ur5").unusable]
     assert of_file == said
     measured = ur5.measure(columns, "ur5")
@@ -154,7 +154,7 @@ def test_rows_that_cannot_be_used(tmp_path):
 
 
 class Odd:
-    """A table that is none."""
+    """Table whose columns cannot be read."""
 
     columns = list(MEASURED)
 

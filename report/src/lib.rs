@@ -1,9 +1,11 @@
-//! Figures, pages and texts of what `abbe-study` reports: SVG files, and HTML files that need no network.
+//! Figures, pages and texts of the reports of `abbe-study`: SVG files, and HTML files that need no
+//! network.
 //!
-//! Everything comes back as texts with the names of their files; nothing here writes. `figures` builds a [`scene::Scene`] for each
-//! figure of a report, `svg` draws it, and `html` writes the pages that hold it: [`analysis`], [`measurement()`],
-//! [`identification()`], [`compensation()`] and [`monitoring()`]. [`figures()`] returns the figures of an analysis one by one.
-//! [`text`] is what a terminal and Python's `print` show.
+//! All functions return texts with their file names; nothing is written to disk. `figures` builds a
+//! [`scene::Scene`] for each figure of a report, `svg` renders it, and `html` builds the pages:
+//! [`analysis`], [`measurement()`], [`identification()`], [`compensation()`] and [`monitoring()`].
+//! [`figures()`] returns the figures of an analysis one by one. [`text`] has the texts for a
+//! terminal and for Python's `print`.
 
 mod figures;
 mod html;

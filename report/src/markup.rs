@@ -1,6 +1,6 @@
 //! Text in HTML and SVG.
 
-/// Text as HTML and SVG have it.
+/// Escapes a text for HTML and SVG.
 pub(crate) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;")

@@ -1,60 +1,67 @@
-//! The files of an analysis: every figure, and the page that holds them all.
+//! Files of an analysis: its figures, and the page with all of them.
 
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Figures;
+use abbe_study::study_file::Content;
 
-use crate::figures::{self, Named};
+use crate::figures::{self, NamedFigure};
 use crate::scene::Scene;
 use crate::{html, svg};
 
-/// The page that holds everything.
+/// Name of the page.
 pub const PAGE: &str = "report.html";
 
-/// A file of a report.
+/// File of a report.
 #[derive(Clone, Debug)]
 pub struct File {
-    /// Its name, without a folder.
+    /// Name, without a folder.
     pub name: String,
-    /// What is in it.
+    /// Content.
     pub text: String,
 }
 
-/// A figure of an analysis.
+/// Figure of an analysis.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// The name of its file, without the ending.
+    /// File name without extension.
     pub name: String,
-    /// The figure as plain data.
+    /// Figure as plain data.
     pub scene: Scene,
-    /// The figure as SVG.
+    /// Figure as SVG.
     pub svg: String,
 }
 
 /// Returns the figures of an analysis, in the order of its page.
 ///
-/// Only what was gathered is drawn: a report without figures has none.
+/// A report without data for figures has none.
 pub fn figures(report: &Report) -> Vec<Picture> {
     let picture =
-        |(named, scene): (Named, Scene)| Picture { name: named.name, svg: svg::file(&scene), scene };
+        |(named, scene): (NamedFigure, Scene)| Picture { name: named.name, svg: svg::file(&scene), scene };
     scenes(report).into_iter().map(picture).collect()
 }
 
-fn scenes(report: &Report) -> Vec<(Named<'_>, Scene)> {
+/// Builds the scenes in the order of the page: the Pareto chart, the cloud, and the others.
+fn scenes(report: &Report) -> Vec<(NamedFigure<'_>, Scene)> {
     let gathered = report.figures.as_ref().map_or(&[][..], |figures| &figures.figures);
-    let named = Named::all(gathered, report);
+    let mut named = NamedFigure::all(gathered, report);
+    named.sort_by_key(|named| match named.request.content {
+        Content::Pareto => 0,
+        Content::Cloud => 1,
+        _ => 2,
+    });
     let scenes = named.iter().map(|named| figures::scene(named, report)).collect::<Vec<_>>();
     named.into_iter().zip(scenes).collect()
 }
 
-/// Returns the figures of an analysis as SVG, and `report.html`, which shows them and says everything else.
+/// Returns the files of an analysis: its figures as SVG, and `report.html`, which contains them.
 ///
-/// Only what was gathered is drawn: a report without figures is a page without pictures.
+/// The page of a report without data for figures has none.
 pub fn analysis(report: &Report) -> Vec<File> {
     let none = Figures::default();
     let Figures { left_out, .. } = report.figures.as_ref().unwrap_or(&none);
     let scenes = scenes(report);
     let page = html::page(&scenes, figures::sampled(report).as_ref(), left_out, report);
-    let file = |(named, scene): &(Named, Scene)| File {
+    let file = |(named, scene): &(NamedFigure, Scene)| File {
         name: format!("{}.svg", named.name),
         text: svg::file(scene),
     };

@@ -1,22 +1,24 @@
-//! What generated manipulators and their users call.
+//! The types, the exact chain and the error analysis that generated manipulators and their users
+//! call.
 //!
-//! A manipulator is a chain `A_T = A_1 A_2 … A_n · T` of frames, each followed in the real machine by six
-//! small [generalized errors](Component). Generated modules (and the interpreter) give the closed form of its
-//! pose and of its error Jacobian `J_e = ∂X_T/∂ε`, so that `ΔX ≈ J_e ε`; this crate gives them their types,
-//! the exact chain to check them against, and the analysis of a machine's errors over its workspace.
+//! A manipulator is a chain `A_T = A_1 A_2 … A_n · T` of frames. In the real machine six small
+//! [generalized errors](Component) follow each frame. Generated modules (and the interpreter)
+//! evaluate its pose and its error Jacobian `J_e = ∂X_T/∂ε` in closed form, so that `ΔX ≈ J_e ε`.
+//! This crate defines their types, the exact chain that verifies them, and the analysis of a
+//! machine's errors over its workspace.
 //!
-//! The core is `no_std`, never allocates, and is all that poses, Jacobians and compensated commands need. Only `std` is on
-//! by default:
+//! The core is `no_std` and never allocates. It suffices for poses, Jacobians and compensated
+//! commands. Only the feature `std` is on by default:
 //!
-//! | feature | brings | and builds |
+//! | feature | adds | dependencies |
 //! |---|---|---|
-//! | `std` | the platform's own functions in place of `libm`'s | |
-//! | `nalgebra` | poses and Jacobians as nalgebra types, without copying | nalgebra |
-//! | `lanes` | the module `lanes`: many configurations at once | bytemuck, pulp |
-//! | `analysis` | the modules `analysis` (errors over a workspace) and `laws` (tests of your manipulator) | those of `lanes` and `nalgebra`, rand |
-//! | `identify` | the modules `identify` (errors from measurements) and `control` (charts of a machine that is checked again and again) | those of `analysis` |
-//! | `parallel` | sweeps on all cores: the same results, sooner | those of `analysis`, rayon |
-//! | `serde` | errors, and parts of budgets, that can be written and read | those of `analysis`, serde |
+//! | `std` | the platform's math functions in place of `libm`'s | |
+//! | `nalgebra` | views of poses and Jacobians as nalgebra types, without copying | nalgebra |
+//! | `lanes` | the module `lanes`: batches of configurations in SIMD lanes | bytemuck, pulp |
+//! | `analysis` | the modules `analysis` (errors over a workspace) and `laws` (tests for your own manipulator) | those of `lanes` and `nalgebra`, rand |
+//! | `identify` | the modules `identify` (errors from measurements) and `control` (control charts for repeated checks) | those of `analysis` |
+//! | `parallel` | multithreaded sweeps with the same results | those of `analysis`, rayon |
+//! | `serde` | serialization of errors and of partial budgets | those of `analysis`, serde |
 //!
 //! | convention | here |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Files that are read: no more of them than fits, and no longer than somebody writes into them.
+//! Bounded reading of files: limits of size and of time.
 
 use std::fmt;
 use std::fs::{self, File};
@@ -10,28 +10,28 @@ use std::time::Duration;
 
 use crate::diagnostic::nearest_file;
 
-/// How long nothing may come through a pipe.
+/// Maximum time without data from a pipe.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// How much of a pipe is handed on at once, in bytes.
+/// Chunk size for reading a pipe, in bytes.
 const PIECE: usize = 1 << 16;
 
-/// Why a file cannot be read, and a way out.
+/// Reason why a file cannot be read, and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unfit {
-    /// What is wrong, in one sentence.
+    /// Description of the problem, in one sentence.
     pub message: String,
-    /// The way out.
+    /// Suggested remedy.
     pub help: String,
 }
 
 impl Unfit {
-    /// A reason and a way out.
+    /// Creates the reason for a refusal, with a suggested fix.
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: help.into() }
     }
 
-    /// What an error of reading says; `help` is the way out where the error knows none.
+    /// Converts a read error. `help` is the remedy if the error has none of its own.
     pub fn from_error(error: &io::Error, help: &str) -> Self {
         match error.get_ref().and_then(|inner| inner.downcast_ref::<Self>()) {
             Some(unfit) => unfit.clone(),
@@ -54,7 +54,8 @@ impl From<Unfit> for io::Error {
     }
 }
 
-/// A file that is being read. What does not fit is an error that holds an [`Unfit`].
+/// A file open for reading. A file that cannot be accepted gives an error that contains an
+/// [`Unfit`].
 #[derive(Debug)]
 pub struct Bounded {
     source: Source,
@@ -65,7 +66,7 @@ pub struct Bounded {
 #[derive(Debug)]
 enum Source {
     File(File),
-    /// What comes through a pipe or out of a device, by a thread of its own: it can be waited for with patience.
+    /// A pipe or device, read by a separate thread so that waiting can time out.
     Pipe {
         pieces: Receiver<io::Result<Vec<u8>>>,
         piece: Vec<u8>,
@@ -75,7 +76,7 @@ enum Source {
 }
 
 impl Bounded {
-    /// Opens a file of which at most so many bytes are read.
+    /// Opens a file; reading more than `most` bytes is an error.
     pub fn open(path: &Path, most: u64) -> io::Result<Self> {
         Self::open_patiently(path, most, PATIENCE)
     }
@@ -116,7 +117,7 @@ impl Bounded {
         Ok(Self { source, most, left: most })
     }
 
-    /// All of a file, which has at most so many bytes.
+    /// Reads a whole file of at most `most` bytes.
     pub fn read_all(path: &Path, most: u64) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         Self::open(path, most)?.read_to_end(&mut bytes)?;
@@ -135,8 +136,8 @@ impl Read for Bounded {
                         Err(RecvTimeoutError::Disconnected) => return Ok(0),
                         Err(RecvTimeoutError::Timeout) => {
                             let seconds = patience.as_secs();
-                            let message = format!("nothing has come through this pipe for {seconds} s");
-                            let help = "start what writes into it, or give the path of a file";
+                            let message = format!("no data from this pipe for {seconds} s");
+                            let help = "start the program that writes to it, or give the path of a file";
                             return Err(Unfit::new(message, help).into());
                         }
                     };
@@ -152,7 +153,7 @@ impl Read for Bounded {
     }
 }
 
-/// The error itself, with what may have been meant if nothing is there.
+/// Adds a suggestion to the error if the file does not exist.
 fn or_nearest(error: io::Error, path: &Path) -> io::Error {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir());
     let help = match (error.kind(), folder) {
@@ -168,10 +169,10 @@ fn or_nearest(error: io::Error, path: &Path) -> io::Error {
 
 fn too_large(most: u64) -> Unfit {
     let message = format!("this file is larger than {} MiB", most >> 20);
-    Unfit::new(message, "is this the file you meant? Nothing that is read here is that long")
+    Unfit::new(message, "check that this is the right file")
 }
 
-/// What a file is that is no text in UTF-8, by how it begins.
+/// Recognizes common file types that are not UTF-8 text by their first bytes.
 pub fn not_text(head: &[u8]) -> Option<Unfit> {
     const KINDS: [(&[u8], &str, &str); 10] = [
         (b"\x1f\x8b", "is compressed by gzip", "unpack it: `gunzip FILE`"),
@@ -230,7 +231,7 @@ mod tests {
         let mut bytes = Vec::new();
         let read = Bounded::open_patiently(&pipe, most, Duration::from_millis(20))
             .and_then(|mut input| input.read_to_end(&mut bytes));
-        assert_eq!(unfit(read.map(|_| bytes)), "nothing has come through this pipe for 0 s");
+        assert_eq!(unfit(read.map(|_| bytes)), "no data from this pipe for 0 s");
         fs::remove_file(pipe).unwrap();
         let folder = Bounded::read_all(Path::new("/"), most);
         assert_eq!(unfit(folder), "this is a directory, not a file");

@@ -1,11 +1,11 @@
-//! Cells of CSV files that a spreadsheet would run.
+//! Cells of CSV files that a spreadsheet would execute.
 //!
-//! A text that begins with `=`, `+`, `-`, `@` or a control character is a formula there, unless it is a number. An apostrophe
-//! before it makes it a text; whoever reads the file takes that away again.
+//! A spreadsheet takes text that starts with `=`, `+`, `-`, `@` or a control character as a formula
+//! unless it is a number. A leading apostrophe makes it text; the reader removes it again.
 
 use std::borrow::Cow;
 
-/// A text as it is written into a cell.
+/// Escapes a text for a cell.
 ///
 /// ```
 /// use abbe_spec::cell::harmless;
@@ -20,12 +20,13 @@ pub fn harmless(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// What was meant by a cell: the opposite of [`harmless`].
+/// Returns the text of a cell: the inverse of [`harmless`].
 pub fn meant(cell: &str) -> &str {
     cell.strip_prefix('\'').filter(|text| begins_a_formula(text)).unwrap_or(cell)
 }
 
-/// … behind apostrophes: those of the text itself are told from ours by one more.
+/// Returns `true` for a formula, possibly after apostrophes: text that starts with apostrophes is
+/// escaped by one more.
 fn begins_a_formula(text: &str) -> bool {
     text.trim_start_matches('\'').starts_with(['=', '+', '-', '@', '\t', '\r', '\n'])
 }

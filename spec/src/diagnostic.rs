@@ -1,4 +1,4 @@
-//! Mistakes in an input file, with their places, shown as rustc would show them.
+//! Diagnostics: mistakes in an input file with their location, rendered in the style of rustc.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -13,35 +13,36 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 /// A range of bytes of the input file.
 pub type Span = Range<usize>;
 
-/// The most mistakes shown at once; what lies beyond is counted.
+/// Maximum number of diagnostics shown; the rest are counted.
 const SHOWN: usize = 20;
 
-/// The most names in a sentence.
+/// Maximum number of names listed in a sentence.
 const LISTED: usize = 20;
 
-/// For so many mistakes of a file the nearest name is looked for: fewer are shown, and names may be thousands.
+/// Number of diagnostics of a file up to which the nearest name is searched: no more are shown, and
+/// there may be thousands of names.
 const SOUGHT: usize = 100;
 
-/// The most files of a folder among which the nearest is looked for.
+/// Maximum number of files of a folder that are compared with a missing name.
 const LOOKED_AT: usize = 10_000;
 
-/// One mistake: what is wrong, where, and a way out.
+/// A diagnostic: what is wrong, its location, and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// What is wrong, in one sentence.
+    /// Description of the mistake, in one sentence.
     pub message: String,
-    /// Where; none if the file could not be read at all.
+    /// Location; `None` for the file as a whole.
     pub span: Option<Span>,
-    /// What stands under the caret.
+    /// Text under the caret.
     pub label: String,
-    /// Other places that matter, such as the first of two equal names.
+    /// Other relevant locations, such as the first of two equal names.
     pub context: Vec<(Span, String)>,
-    /// The way out.
+    /// Suggested remedy.
     pub help: Option<String>,
 }
 
 impl Diagnostic {
-    /// A mistake at `span`.
+    /// Creates a diagnostic at `span`.
     pub fn new(span: Span, message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -52,44 +53,44 @@ impl Diagnostic {
         }
     }
 
-    /// A mistake of the file as a whole.
+    /// Creates a diagnostic of the file as a whole.
     pub fn whole_file(message: impl Into<String>) -> Self {
         Self { span: None, ..Self::new(0..0, message) }
     }
 
-    /// Says under the caret what is wrong there.
+    /// Sets the text under the caret.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
 
-    /// Shows another place.
+    /// Adds another location.
     pub fn context(mut self, span: Span, label: impl Into<String>) -> Self {
         self.context.push((span, label.into()));
         self
     }
 
-    /// Says a way out.
+    /// Sets the suggested remedy.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 }
 
-/// All mistakes that one stage found in one file. Displays as plain text, one mistake after the other.
+/// Diagnostics of one file. Displayed as plain text, one after the other.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Diagnostics {
-    /// The file's name as the user gave it.
+    /// Name of the file as given by the user.
     pub path: String,
-    /// The file's text, empty if it could not be read.
+    /// Text of the file; empty if it could not be read.
     pub text: Arc<str>,
-    /// At least one mistake, in the order of the file.
+    /// One or more diagnostics, in the order of the file.
     pub list: Vec<Diagnostic>,
 }
 
 impl std::error::Error for Diagnostics {}
 
-/// As displayed, so that an `unwrap` shows it as it is meant to be read.
+/// Shown as displayed, so that `unwrap` prints readable text.
 impl fmt::Debug for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "\n{self}\n")
@@ -103,7 +104,7 @@ impl fmt::Display for Diagnostics {
 }
 
 impl Diagnostics {
-    /// The text for people, with colours if `styled`.
+    /// Renders the diagnostics, in color if `styled`.
     pub fn render(&self, styled: bool) -> String {
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.decor_style(DecorStyle::Ascii);
@@ -138,7 +139,7 @@ impl Diagnostics {
         vec![group]
     }
 
-    /// The part of a span that is worth a caret: its first line, on character boundaries.
+    /// Clips a span to its first line, on character boundaries.
     fn clip(&self, span: &Span) -> Span {
         let start = self.text.floor_char_boundary(span.start.min(self.text.len()));
         let end = self.text.ceil_char_boundary(span.end.clamp(start, self.text.len()));
@@ -147,9 +148,9 @@ impl Diagnostics {
     }
 }
 
-/// The nearest of `known` to a word that is not among them, as the second half of a help text.
+/// Returns the known name most similar to a word, if any is similar enough.
 pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // One slip of the finger is always near, also in words too short to be alike otherwise.
+    // A single edit always counts as similar, even in short words.
     let similarity = |candidate: &str| match strsim::damerau_levenshtein(word, candidate) {
         1 if word.chars().count() > 2 => 1.0,
         _ => strsim::jaro_winkler(word, candidate),
@@ -162,7 +163,7 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
         .map(|(_, candidate)| candidate)
 }
 
-/// The file in the same folder whose name is nearest to that of one that is not there.
+/// Returns the file in the same folder whose name is most similar to that of a missing one.
 pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
     let folder = missing.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?.take(LOOKED_AT).flatten();
@@ -170,18 +171,18 @@ pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
     let mut names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     names.sort();
     let word = missing.file_name()?.to_str()?;
-    // One ending is like another: the names before it must be alike as well.
+    // Extensions are too short to compare, so the stems must be similar as well.
     let alike = |name: &&str| nearest(stem(word), [stem(name)]).is_some();
     let names = names.iter().map(String::as_str).filter(alike);
     nearest(word, names).map(|name| missing.with_file_name(name))
 }
 
-/// A file's name without its ending.
+/// Returns a file name without its extension.
 fn stem(name: &str) -> &str {
     Path::new(name).file_stem().and_then(OsStr::to_str).unwrap_or_default()
 }
 
-/// Names in a sentence, and how many more there are.
+/// Lists names in a sentence, and the number of names left out.
 pub fn listed(names: &[&str]) -> String {
     let shown: Vec<String> = names.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
     match names.len().saturating_sub(LISTED) {
@@ -190,7 +191,8 @@ pub fn listed(names: &[&str]) -> String {
     }
 }
 
-/// As [`nearest`], for the mistake of a file that comes after `found` others.
+/// Returns the most similar name like [`nearest`], unless there are already `found` or more
+/// diagnostics than are shown.
 pub(crate) fn nearest_after<'a>(
     found: usize,
     word: &str,
@@ -199,7 +201,8 @@ pub(crate) fn nearest_after<'a>(
     if found < SOUGHT { nearest(word, known) } else { None }
 }
 
-/// `did you mean …?`, or else what is known, for the mistake that comes after `found` others.
+/// Returns `did you mean …?`, or else the list of known names, for the diagnostic after `found`
+/// others.
 pub(crate) fn suggestion(found: usize, word: &str, known: &[&str], what: &str) -> String {
     match nearest_after(found, word, known.iter().copied()) {
         Some(name) => format!("did you mean `{name}`?"),
@@ -208,7 +211,7 @@ pub(crate) fn suggestion(found: usize, word: &str, known: &[&str], what: &str) -
     }
 }
 
-/// The first of some names, and how many more there are.
+/// Lists the first of some names, and the number of names left out.
 pub(crate) fn first(names: &[&str]) -> String {
     let shown = names[..names.len().min(LISTED)].join(", ");
     match names.len().saturating_sub(LISTED) {

@@ -1,4 +1,5 @@
-//! A TOML file with the place of everything in it: the cursor with which spec and study files are read.
+//! TOML documents with the location of every item, from which specs, studies, maps and plans are
+//! read.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -9,34 +10,37 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::bounded::{Bounded, Unfit, not_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
-use crate::expr::{Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Place, Scope, parse_expression};
+use crate::expr::{
+    Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Scope, TextLocation, parse_expression,
+};
 use crate::keys::Keys;
 use crate::not_toml::not_toml;
 
-/// The largest file that is read; a chain of a hundred frames takes some 30 kB.
+/// Maximum size of a file in bytes; a chain of a hundred frames takes about 30 kB.
 const LARGEST: u64 = 4 << 20;
 
-/// A file's name and text, and the mistakes found in it so far.
+/// A file with the diagnostics found so far.
 #[derive(Debug)]
 pub struct Document {
-    /// The file's name as the user gave it.
+    /// Name of the file as given by the user.
     pub path: String,
-    /// The file's text.
+    /// Text of the file.
     pub text: Arc<str>,
-    /// The mistakes found so far.
+    /// Diagnostics found so far.
     pub found: Vec<Diagnostic>,
-    /// The folder that it is in; none of a text that is in no file.
+    /// Folder of the file; `None` for text that is not in a file.
     pub folder: Option<PathBuf>,
-    /// Further files that were read for it, and what is in them.
+    /// Additional files read for this one, and their contents.
     pub(crate) beside: Vec<(PathBuf, Vec<u8>)>,
-    /// Every file that was read for it, its own first.
+    /// Every file that was read, this one first.
     pub files: Vec<PathBuf>,
-    /// Mistakes that say what is missing, and is there under a name with a slip: by their places and messages.
+    /// Diagnostics about a missing key that is present under a misspelled name, by location and
+    /// message.
     pub(crate) meant: HashSet<(Span, String)>,
 }
 
 impl Document {
-    /// A text that has been read already.
+    /// Creates a document from text.
     pub fn new(path: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
         Self {
             path: path.into(),
@@ -49,7 +53,8 @@ impl Document {
         }
     }
 
-    /// Reads a file. Missing, unreadable, too large and not UTF-8 are [`Diagnostics`] like any other mistake.
+    /// Reads a file. A file that is missing, unreadable, too large or not UTF-8 gives
+    /// [`Diagnostics`] like any other mistake.
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
         let name = path.display().to_string();
         let fail =
@@ -71,18 +76,18 @@ impl Document {
         let valid = bytes.utf8_error().valid_up_to();
         let text: Arc<str> = String::from_utf8_lossy(bytes.as_bytes()).into();
         let mistake = Diagnostic::new(valid..valid + 1, "this file is not UTF-8 text")
-            .label("the first byte that is no text")
+            .label("not a UTF-8 character")
             .help("save it as UTF-8, or write names without accents");
         Err(fail(text, mistake))
     }
 
-    /// The tables of `text`, which is the document's own, or every mistake of syntax.
+    /// Parses `text`, the document's own, or records all syntax errors.
     pub fn tables<'t>(&mut self, text: &'t str) -> Option<Spanned<DeTable<'t>>> {
         let (table, errors) = DeTable::parse_recoverable(text);
         let mut last_line = None;
         for error in &errors {
             let end = text.len();
-            // What follows a mistake in the same line is mostly its consequence.
+            // Further errors on the same line are mostly consequences of the first.
             let line = error
                 .span()
                 .map(|span| text.as_bytes()[..span.start.min(end)].iter().filter(|b| **b == b'\n').count());
@@ -91,8 +96,14 @@ impl Document {
             }
             let message = error.message().lines().collect::<Vec<_>>().join(", ");
             let span = error.span().unwrap_or(end..end);
-            self.found
-                .push(Diagnostic::new(span, message).help("the file is TOML: `key = value`, `[table]`"));
+            let is_table = text.get(..span.start).is_some_and(|before| before.ends_with('['));
+            let help = match text.get(span.clone()) {
+                Some(name) if is_table && message == "duplicate key" => {
+                    format!("write `[[{name}]]` for an array of tables, or merge the two tables")
+                }
+                _ => "the file is TOML: `key = value`, `[table]`".to_owned(),
+            };
+            self.found.push(Diagnostic::new(span, message).help(help));
         }
         if let Some(mistake) = not_toml(text, &self.found) {
             self.found = vec![mistake];
@@ -100,12 +111,12 @@ impl Document {
         errors.is_empty().then_some(table)
     }
 
-    /// Notes a mistake.
+    /// Records a diagnostic.
     pub fn mistake(&mut self, diagnostic: Diagnostic) {
         self.found.push(diagnostic);
     }
 
-    /// Ends the reading: the result, or everything that was found, in the order of the file.
+    /// Finishes reading: returns the result, or all diagnostics in the order of the file.
     pub fn finish<T>(self, result: Option<T>) -> Result<T, Diagnostics> {
         match result {
             Some(result) if self.found.is_empty() => Ok(result),
@@ -128,7 +139,7 @@ impl Document {
         self.mistake(Diagnostic::new(item.span(), message).label(format!("expected {expected}")).help(help));
     }
 
-    /// A string.
+    /// Reads a string.
     pub fn string(&mut self, item: &Item<'_>) -> Option<String> {
         if let DeValue::String(text) = item.value.get_ref() {
             return Some(text.to_string());
@@ -137,7 +148,7 @@ impl Document {
         None
     }
 
-    /// `true` or `false`.
+    /// Reads `true` or `false`.
     pub fn boolean(&mut self, item: &Item<'_>) -> Option<bool> {
         if let DeValue::Boolean(value) = item.value.get_ref() {
             return Some(*value);
@@ -146,7 +157,7 @@ impl Document {
         None
     }
 
-    /// One of a few words.
+    /// Reads one of a few words.
     pub fn choice<T: Copy>(&mut self, item: &Item<'_>, choices: &[(&str, T)]) -> Option<T> {
         let word = self.string(item)?;
         if let Some((_, value)) = choices.iter().find(|(name, _)| *name == word) {
@@ -166,7 +177,7 @@ impl Document {
         None
     }
 
-    /// A table.
+    /// Reads a table.
     pub fn section<'d>(&mut self, item: &Item<'d>) -> Option<Section<'d>> {
         if let DeValue::Table(table) = item.value.get_ref() {
             return Some(Section {
@@ -180,7 +191,7 @@ impl Document {
         None
     }
 
-    /// An array, with its entries as items of the same key.
+    /// Reads an array, whose entries become items of the same key.
     pub fn array<'d>(&mut self, item: &Item<'d>, expected: &str) -> Option<Vec<Item<'d>>> {
         if let DeValue::Array(array) = item.value.get_ref() {
             let array: &DeArray<'_> = array;
@@ -195,7 +206,21 @@ impl Document {
         None
     }
 
-    /// An array of exactly `N` entries.
+    /// Reads an array of tables, `[[key]]`. A single table `[key]` is a mistake of its own.
+    pub fn array_of_tables<'d>(&mut self, item: &Item<'d>, key: &str) -> Option<Vec<Item<'d>>> {
+        if item.is_table() {
+            let message = format!("`{}` must be an array of tables, not a single table", item.key);
+            self.mistake(
+                Diagnostic::new(item.span(), message)
+                    .label("a single table")
+                    .help(format!("write `[[{key}]]` instead of `[{key}]`")),
+            );
+            return None;
+        }
+        self.array(item, &format!("tables, each a [[{key}]]"))
+    }
+
+    /// Reads an array of exactly `N` entries.
     pub fn entries<'d, const N: usize>(&mut self, item: &Item<'d>, expected: &str) -> Option<[Item<'d>; N]> {
         let entries = self.array(item, expected)?;
         let count = entries.len();
@@ -210,7 +235,7 @@ impl Document {
         })
     }
 
-    /// Whether there are no more of something than can be worked with; if there are, that is a mistake.
+    /// Records a diagnostic and returns `None` if there are more than `most` of something.
     pub fn at_most(
         &mut self,
         item: &Item<'_>,
@@ -220,29 +245,29 @@ impl Document {
         help: &str,
     ) -> Option<()> {
         if count > most {
-            let message = format!("there are {count} {what}; {most} can be worked with");
+            let message = format!("too many {what}: found {count}, the maximum is {most}");
             self.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
         }
         (count <= most).then_some(())
     }
 
-    /// A string with its place in the file.
-    pub(crate) fn text<'d>(&mut self, item: &Item<'d>) -> Option<(&'d str, Place)> {
+    /// Reads a string with its location in the file.
+    pub(crate) fn text<'d>(&mut self, item: &Item<'d>) -> Option<(&'d str, TextLocation)> {
         let DeValue::String(text) = item.value.get_ref() else {
             self.wrong_type(item, "a string");
             return None;
         };
         let span = item.span();
         let raw = &self.text[span.clone()];
-        // Quotes stand before the text; escapes make it differ from what stands in the file.
+        // Quotes precede the text; a text with escapes differs from the file.
         let place = match raw.find(&**text) {
-            Some(offset) if !text.is_empty() && offset <= 4 => Place::Exact(span.start + offset),
-            _ => Place::Within(span),
+            Some(offset) if !text.is_empty() && offset <= 4 => TextLocation::Exact(span.start + offset),
+            _ => TextLocation::Within(span),
         };
         Some((text, place))
     }
 
-    /// A number or an expression in a string.
+    /// Reads a number, or an expression in a string.
     pub fn expression(&mut self, item: &Item<'_>, scope: &Scope, entry: Entry<'_>) -> Option<Expression> {
         let span = item.span();
         let (text, place) = match item.value.get_ref() {
@@ -269,19 +294,19 @@ impl Document {
             Ok(value) => {
                 let what = match value {
                     _ if value.is_nan() => "NaN",
-                    _ if value.is_infinite() => "infinite, or too large for a number",
-                    _ => "so large: numbers go up to 1e150",
+                    _ if value.is_infinite() => "infinite or larger than 1.8e308",
+                    _ => "larger than 1e150",
                 };
                 self.mistake(
                     Diagnostic::new(span.clone(), format!("{} cannot be {what}", entry.what))
                         .label("expected a finite number")
-                        .help("leave the entry out where there is no limit"),
+                        .help("leave the entry out if there is no limit"),
                 );
                 None
             }
             Err(_) => {
                 self.mistake(
-                    Diagnostic::new(span.clone(), "numbers are written in decimal here")
+                    Diagnostic::new(span.clone(), "expected a decimal number")
                         .help("write `255`, not `0xff`"),
                 );
                 None
@@ -289,16 +314,16 @@ impl Document {
         };
         let dimension = entry.dimension.unwrap_or(Dimension::NONE);
         if !dimension.takes_bare(value?) {
-            let message = format!("{} must be {dimension}, not a pure number", entry.what);
+            let message = format!("{} must be {dimension}, not a number without a unit", entry.what);
             let help =
-                format!("give it a unit, in quotes: `\"{text} {}\"`", dimension.unit(scope.length.symbol()));
+                format!("add a unit, in quotes: `\"{text} {}\"`", dimension.unit(scope.length.symbol()));
             self.mistake(Diagnostic::new(span, message).label("this has no unit").help(help));
             return None;
         }
         Some(Expression::number(value?, dimension, place))
     }
 
-    /// A constant: its value in the coherent system and its dimension.
+    /// Reads a constant: its value in coherent units and its dimension.
     pub fn constant(&mut self, item: &Item<'_>, scope: &Scope, entry: Entry<'_>) -> Option<(f64, Dimension)> {
         let expression = self.expression(item, scope, entry)?;
         expression.constant().zip(expression.whole().dimension)
@@ -310,55 +335,55 @@ impl Document {
 pub struct Item<'d> {
     /// The key.
     pub key: String,
-    /// Where the key stands.
+    /// Location of the key.
     pub key_span: Span,
     value: &'d Spanned<DeValue<'d>>,
 }
 
 impl<'d> Item<'d> {
-    /// Where the value stands.
+    /// Returns the location of the value.
     pub fn span(&self) -> Span {
         self.value.span()
     }
 
-    /// The item of that key, if the value is a table that has it.
+    /// Returns the item of a key if the value is a table that contains it.
     pub(crate) fn key_of_table(&self, key: &str) -> Option<Self> {
         let (key, value) = self.value.get_ref().as_table()?.get_key_value(key)?;
         Some(Self { key: key.get_ref().to_string(), key_span: key.span(), value })
     }
 
-    /// Whether the value is a string.
+    /// Returns `true` if the value is a string.
     pub fn is_text(&self) -> bool {
         self.value.get_ref().is_str()
     }
 
-    /// Whether the value is a table.
+    /// Returns `true` if the value is a table.
     pub fn is_table(&self) -> bool {
         self.value.get_ref().is_table()
     }
 }
 
-/// What any table may say for people: nothing else may read it.
+/// Keys that every table may have for human readers only.
 const TEXTS: [&str; 2] = ["description", "reference"];
 
 /// A table of the file.
 #[derive(Clone, Debug)]
 pub struct Section<'d> {
     table: &'d DeTable<'d>,
-    /// Where its name stands.
+    /// Location of the table's name.
     pub span: Span,
-    /// Its name.
+    /// Name of the table.
     pub name: String,
     is_root: bool,
 }
 
 impl<'d> Section<'d> {
-    /// The file itself.
+    /// Creates the section of the whole file.
     pub fn root(table: &'d Spanned<DeTable<'d>>) -> Self {
         Self { table: table.get_ref(), span: 0..0, name: "this file".to_owned(), is_root: true }
     }
 
-    /// All its items, in order.
+    /// Iterates over all items, in order.
     pub fn items(&self) -> impl Iterator<Item = Item<'d>> + use<'d> {
         self.table.iter().map(|(key, value)| Item {
             key: key.get_ref().to_string(),
@@ -367,7 +392,7 @@ impl<'d> Section<'d> {
         })
     }
 
-    /// The item of that key.
+    /// Returns the item of a key.
     pub fn get(&self, key: &str) -> Option<Item<'d>> {
         self.table.get_key_value(key).map(|(key, value)| Item {
             key: key.get_ref().to_string(),
@@ -376,13 +401,13 @@ impl<'d> Section<'d> {
         })
     }
 
-    /// The item of that key, or a mistake that says it is missing.
+    /// Returns the item of a key, or records that it is missing.
     pub fn required(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
         let form = if self.is_root { format!("a table `[{key}]`") } else { format!("`{key} = …`") };
         self.required_as(key, &form, document)
     }
 
-    /// As [`required`](Self::required), of tables that stand in a list.
+    /// Returns the item of a key for an array of tables, or records that it is missing.
     pub fn required_list(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
         self.required_as(key, &format!("a table `[[{key}]]` for each"), document)
     }
@@ -399,15 +424,16 @@ impl<'d> Section<'d> {
         format!("`{key}` is missing in {}", self.name)
     }
 
-    /// The text of that key in one line, empty if there is none. What is no text is a mistake; of `description` and `reference`
-    /// [`check_keys`](Self::check_keys) says so.
+    /// Returns the text of a key on one line; empty if there is none. A value that is no string is
+    /// a mistake, which for `description` and `reference` [`check_keys`](Self::check_keys) records.
     pub fn optional_text(&self, key: &str, document: &mut Document) -> String {
         let item = self.get(key).filter(|item| item.is_text() || !TEXTS.contains(&key));
         let text = item.and_then(|item| document.string(&item)).unwrap_or_default();
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Notes every key that is not known, with the nearest that is, and a `description` or `reference` that is no text.
+    /// Records every unknown key with the most similar known one, and every `description` or
+    /// `reference` that is no string.
     pub fn check_keys(&self, known: &[&Keys], document: &mut Document) {
         for item in self.items().filter(|item| TEXTS.contains(&item.key.as_str())) {
             if known.iter().any(|keys| keys.contain(&item.key)) {
@@ -419,7 +445,7 @@ impl<'d> Section<'d> {
             let names = known.iter().flat_map(|keys| keys.keys).copied().collect::<Vec<_>>();
             let help = suggestion(document.found.len(), &item.key, &names, "known keys");
             document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(help));
-            // What is told as a slip need not be told as missing as well.
+            // A misspelled key is not reported as missing as well.
             let near = nearest_after(document.found.len() - 1, &item.key, names);
             if let Some(meant) = near.filter(|meant| self.get(meant).is_none()) {
                 document.meant.insert((self.span.clone(), self.missing(meant)));

@@ -1,19 +1,19 @@
-//! Which of our files a file is, if it is not the one that was to be read.
+//! Recognizes a file of another kind than the expected one.
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Section};
 
-/// The files that are read: the table that only they have, what they are, and how they are given.
+/// Kinds of files: the table that only they have, their name, and how to pass them.
 const KINDS: [(&str, &str, &str); 4] = [
-    ("manipulator", "a spec", "a spec is the first argument of a command: `abbe check SPEC`"),
-    ("study", "a study", "give a study by `--study FILE`, after its spec"),
-    ("data", "a map", "give a map by `--map FILE`, after its spec"),
-    ("plan", "a plan", "give a plan by `--sets FILE`, after its spec and map"),
+    ("manipulator", "a spec", "pass a spec as the first argument: `abbe check SPEC`"),
+    ("study", "a study", "pass a study with `--study FILE`"),
+    ("data", "a map", "pass a map with `--map FILE`"),
+    ("plan", "a plan", "pass a plan with `--sets FILE`"),
 ];
 
 impl Document {
-    /// Whether the file can be what is to be read, which has the table `own`. If it is another kind of file, that is
-    /// its one mistake.
+    /// Returns `true` if the file may be of the kind with the table `own`. If it is of another
+    /// kind, that becomes its only diagnostic.
     pub fn is_kind(&mut self, root: &Section<'_>, own: &str) -> bool {
         let Some((_, expected, _)) = KINDS.iter().find(|(table, ..)| *table == own) else { return true };
         if root.get(own).is_some() {

@@ -1,4 +1,4 @@
-//! What a manipulator is: a TOML file, read and checked.
+//! Describes a manipulator: a TOML file, read and checked.
 //!
 //! ```
 //! use abbe_spec::Spec;
@@ -16,16 +16,24 @@
 //! # Ok::<(), abbe_spec::diagnostic::Diagnostics>(())
 //! ```
 //!
-//! A [`document`] is a file with the place of everything in it, and [`expr`] are the expressions in it, with units and
-//! dimensions; a [`Spec`] is what the file says once nothing is wrong with it, and a [`diagnostic`] says what is. Nothing behind
-//! it can fail. Files of other kinds (studies, maps, plans) are read with the same means.
+//! A [`document`] is a file with the location of every item, and [`expr`] has its expressions with
+//! units and dimensions. A [`Spec`] is the contents of a valid file, and a [`diagnostic`] describes
+//! a mistake. No later stage can fail. Files of other kinds (studies, maps, plans) are read by the
+//! same means.
+//!
+//! Later crates report by [`mistake`] and [`notes`], and show values by [`number`].
 
 pub mod bounded;
 pub mod cell;
+pub mod csv_writer;
 pub mod diagnostic;
 pub mod document;
 pub mod expr;
 pub mod keys;
+pub mod mistake;
+pub mod notes;
+pub mod number;
+pub mod toml_text;
 pub mod value;
 
 mod kind;

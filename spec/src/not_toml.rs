@@ -1,49 +1,46 @@
-//! What a file is that is no TOML.
+//! Recognizes files that are not TOML.
 
 use crate::diagnostic::Diagnostic;
 
-/// A file with more mistakes of syntax before the first heading of a table is something else.
+/// Number of syntax errors before the first table header beyond which a file is not TOML.
 const MISTAKES: usize = 5;
 
-/// One mistake in place of many of syntax, if the text is no TOML at all.
+/// Replaces many syntax errors by one diagnostic if the text is not TOML at all.
 pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
     let first = found.first()?;
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let start = lines().next()?;
     let separated = |line: &str| line.split([',', ';', '\t']).count() > 2 && !line.contains('=');
-    // A text about TOML may show some further down.
+    // A text about TOML may contain examples further down.
     let before = |mistake: &Diagnostic| {
         let end = mistake.span.as_ref().map_or(text.len(), |span| span.start);
         text.get(..end).unwrap_or(text)
     };
     let heading = |line: &str| line.starts_with('[') && line.ends_with(']') && !line.contains(',');
     let (what, help) = if start.starts_with('<') {
-        ("XML", "write the spec of a robot in URDF: `abbe import FILE.urdf --tip LINK -o SPEC`")
+        ("XML", "convert a URDF file to a spec: `abbe import FILE.urdf --tip LINK -o SPEC`")
     } else if start.starts_with('{') {
         ("JSON", "in TOML, `\"key\": value` is `key = value`, and a group is a `[table]`")
     } else if lines().take(3).all(separated) {
-        (
-            "a table of data",
-            "data are the argument after the spec, with a map: `abbe measure SPEC DATA --map MAP`",
-        )
+        ("a table of data", "pass data after the spec, with a map: `abbe measure SPEC DATA --map MAP`")
     } else if let Some(language) = language(start) {
-        (language, "the files of abbe are TOML; code is made from them: `abbe generate SPEC --out FILE`")
+        (language, "specs are TOML files; `abbe generate SPEC --out FILE` generates code from them")
     } else if lines()
         .take(3)
         .all(|line| line.split_once(':').is_some_and(|(key, _)| !key.contains(['=', '"'])))
     {
         ("YAML", "in TOML, `key: value` is `key = value`, and a group is a `[table]`")
     } else if found.len() > MISTAKES && !before(&found[MISTAKES]).lines().any(|line| heading(line.trim())) {
-        ("something else", "the files of abbe are TOML: `key = value`, `[table]`")
+        ("something else", "expected TOML: `key = value`, `[table]`")
     } else {
         return None;
     };
     let message = format!("this file is not TOML; it seems to be {what}");
-    let mistake = Diagnostic { message, ..first.clone() }.label("here it is not TOML").help(help);
+    let mistake = Diagnostic { message, ..first.clone() }.label("not TOML").help(help);
     Some(mistake)
 }
 
-/// The language of a program, by its first line that is no comment of TOML.
+/// Recognizes a programming language by the first line that is no TOML comment.
 fn language(start: &str) -> Option<&'static str> {
     const BEGINS: [(&str, &[&str]); 3] = [
         ("Rust", &["//!", "///", "use ", "pub ", "fn ", "mod ", "impl ", "struct "]),

@@ -1,17 +1,19 @@
-//! Values and names that stand outside a spec: on a command line, in a study.
+//! Values and names outside of a spec: on a command line or in a study.
 
 use abbe_core::LengthUnit;
 
 use crate::diagnostic::{Diagnostic, Span, listed, nearest};
 use crate::document::Document;
 use crate::expr::{
-    Allowed, Dimension, Entry, FUNCTION_NAMES, Place, Scope, Token, UNIT_NAMES, parse_expression, tokens,
+    Allowed, Dimension, Entry, FUNCTION_NAMES, Scope, TextLocation, Token, UNIT_NAMES, parse_expression,
+    tokens,
 };
 
-/// The value of the number, or of the expression of numbers, at `span` of the document's text.
+/// Returns the value of the number, or of the constant expression, at `span` of the document's
+/// text.
 ///
-/// It is in the coherent system with that length unit; a bare number is so already. `what` it is goes into
-/// mistakes, such as `the value of d1`.
+/// The value is in coherent units with the given length unit, as bare numbers are. `what` describes
+/// it in diagnostics, such as `the value of d1`.
 ///
 /// ```
 /// # use abbe_spec::document::Document;
@@ -37,7 +39,7 @@ pub fn parse_value(
         document.mistake(Diagnostic::new(span, format!("{what} is missing")).help("write 0 for nothing"));
         return None;
     }
-    let place = Place::Exact(span.start);
+    let place = TextLocation::Exact(span.start);
     let mistakes = document.found.len();
     match tokens(text, &place) {
         Ok(tokens) => {
@@ -64,7 +66,7 @@ pub fn parse_value(
     Some(value).filter(|value| value.is_finite())
 }
 
-/// The mistake that a word is neither a unit nor a function, if it is neither.
+/// Returns the diagnostic of a word that is neither a unit nor a function.
 fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
     let known = [&UNIT_NAMES[..], &FUNCTION_NAMES, &["pi"]].concat();
     if known.contains(&word) {
@@ -78,9 +80,10 @@ fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
     Some(Diagnostic::new(span, message).label("unknown here").help(help))
 }
 
-/// The index of a name among those that are known, or a mistake at `span` that offers them.
+/// Returns the index of a name among the known ones, or records a mistake at `span` with
+/// suggestions.
 ///
-/// `what` they are, in the singular: `source`.
+/// `what` names one of them in the singular: `source`.
 pub fn find_name(
     document: &mut Document,
     span: Span,

@@ -1,4 +1,4 @@
-//! Limits for rows that nothing was fitted to, and whether they are met.
+//! Acceptance limits on the errors of test rows.
 
 use abbe::LengthUnit;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
@@ -10,42 +10,42 @@ use serde::Serialize;
 use crate::number;
 use crate::sizes::Sizes;
 
-/// The figures that can be limited, by the names that limits call them.
-pub(crate) const FIGURES: [&str; 4] = ["mean", "rms", "p95", "max"];
+/// Names of the figures that can be limited.
+pub(crate) const FIGURE_NAMES: [&str; 4] = ["mean", "rms", "p95", "max"];
 
-/// Limits of position errors, by the names of figures: `mean`, `rms`, `p95`, `max`. The length unit.
+/// Acceptance limits on position errors, in the length unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Acceptance {
-    /// Each figure and what it may be at most.
+    /// Name of each limited figure, with its limit.
     pub limits: Vec<(&'static str, f64)>,
 }
 
-/// A limit, and what was found.
+/// A limit compared with its figure.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Limit {
-    /// `mean`, `rms`, `p95` or `max`.
+pub struct LimitCheck {
+    /// Name of the figure: `mean`, `rms`, `p95` or `max`.
     pub figure: &'static str,
-    /// What it may be at most.
+    /// Largest permitted value, in the length unit.
     pub limit: f64,
-    /// What it is.
+    /// Actual value, in the length unit.
     pub value: f64,
-    /// Whether that is no more.
+    /// Indicates that the value does not exceed the limit.
     pub met: bool,
 }
 
-/// Whether unseen rows are within the limits that were declared.
+/// Acceptance verdict on rows that were not used for fitting.
 #[derive(Clone, Debug, Serialize)]
-pub struct Accepted {
-    /// Which rows: `the test rows`.
+pub struct AcceptanceVerdict {
+    /// Name of the rows, such as `the test rows`.
     pub rows: &'static str,
-    /// Limit by limit.
-    pub limits: Vec<Limit>,
-    /// Whether all are met.
+    /// Comparisons, one per limit.
+    pub limits: Vec<LimitCheck>,
+    /// Indicates that all limits are met.
     pub met: bool,
 }
 
 impl Acceptance {
-    /// Reads `mean 0.15 mm, max 0.3 mm`; `option` is where mistakes are shown.
+    /// Parses `mean 0.15 mm, max 0.3 mm`. Mistakes are reported under the name `option`.
     pub fn read(option: &str, text: &str, length: LengthUnit) -> Result<Self, Diagnostics> {
         let mut document = Document::new(option, text);
         let mut limits = Vec::new();
@@ -55,11 +55,11 @@ impl Acceptance {
             let end = at + part.trim_end().len();
             at += part.len() + 1;
             let name = text[start..end.max(start)].split_whitespace().next().unwrap_or_default();
-            let Some(figure) = FIGURES.into_iter().find(|figure| *figure == name) else {
+            let Some(figure) = FIGURE_NAMES.into_iter().find(|figure| *figure == name) else {
                 let message = format!("there is no figure `{}`", name.escape_debug());
                 let help = format!(
                     "write a figure and its limit: `mean 0.15 mm, max 0.3 mm`; there are {}",
-                    FIGURES.join(", ")
+                    FIGURE_NAMES.join(", ")
                 );
                 document.mistake(Diagnostic::new(start..end.max(start), message).help(help));
                 continue;
@@ -71,14 +71,15 @@ impl Acceptance {
         document.finish(Some(Self { limits }))
     }
 
-    /// The limit of the largest error, or without that of the figure that is nearest to it.
-    pub fn largest(&self) -> Option<f64> {
+    /// Returns the limit on the largest error; without one, the limit on the next figure in the
+    /// order `p95`, `rms`, `mean`.
+    pub fn largest_error(&self) -> Option<f64> {
         let limit = |figure: &str| self.limits.iter().find(|(name, _)| *name == figure);
-        FIGURES.iter().rev().find_map(|figure| limit(figure)).map(|(_, limit)| *limit)
+        FIGURE_NAMES.iter().rev().find_map(|figure| limit(figure)).map(|(_, limit)| *limit)
     }
 
-    /// The verdict; none without limits.
-    pub fn judge(&self, rows: &'static str, sizes: &Sizes) -> Option<Accepted> {
+    /// Compares the figures with the limits; returns `None` without limits.
+    pub fn verdict(&self, rows: &'static str, sizes: &Sizes) -> Option<AcceptanceVerdict> {
         let limit = |(figure, limit): &(&'static str, f64)| {
             let value = match *figure {
                 "mean" => sizes.mean,
@@ -86,21 +87,21 @@ impl Acceptance {
                 "p95" => sizes.p95,
                 _ => sizes.max,
             };
-            Limit { figure, limit: *limit, value, met: value <= *limit }
+            LimitCheck { figure, limit: *limit, value, met: value <= *limit }
         };
-        let limits: Vec<Limit> = self.limits.iter().map(limit).collect();
+        let limits: Vec<LimitCheck> = self.limits.iter().map(limit).collect();
         let met = limits.iter().all(|limit| limit.met);
-        (!limits.is_empty()).then_some(Accepted { rows, limits, met })
+        (!limits.is_empty()).then_some(AcceptanceVerdict { rows, limits, met })
     }
 }
 
-impl Accepted {
-    /// `Accepted: mean 0.12 mm of at most 0.15 mm … on the test rows.`
+impl AcceptanceVerdict {
+    /// Returns the verdict in a sentence.
     pub fn sentence(&self, length: LengthUnit) -> String {
-        let limit = |limit: &Limit| {
+        let limit = |limit: &LimitCheck| {
             let [value, most] = [limit.value, limit.limit].map(|value| number::length(value, length));
-            let more = if limit.met { "" } else { ", which is too much" };
-            format!("{} {value} of at most {most}{more}", limit.figure)
+            let more = if limit.met { "" } else { ", exceeded" };
+            format!("{} {value} (limit {most}){more}", limit.figure)
         };
         let limits: Vec<String> = self.limits.iter().map(limit).collect();
         let verdict = if self.met { "Accepted" } else { "Not accepted" };
@@ -116,18 +117,18 @@ mod tests {
     use crate::sizes::Sizes;
 
     #[test]
-    fn limits_are_read_and_judged() {
+    fn limits_are_parsed_and_compared() {
         let limits =
             Acceptance::read("--accept", "mean 0.15 mm, max 300 um", LengthUnit::Millimetre).unwrap();
         assert_eq!(limits.limits, [("mean", 0.15), ("max", 0.3)]);
         let sizes = Sizes { mean: 0.1, standard_error: None, rms: 0.2, max: 0.31, p95: 0.2 };
-        let verdict = limits.judge("the test rows", &sizes).unwrap();
+        let verdict = limits.verdict("the test rows", &sizes).unwrap();
         assert!(!verdict.met && verdict.limits[0].met);
         assert_eq!(
             verdict.sentence(LengthUnit::Millimetre),
-            "Not accepted on the test rows: mean 0.1 mm of at most 0.15 mm; max 0.31 mm of at most 0.3 mm, which is too much."
+            "Not accepted on the test rows: mean 0.1 mm (limit 0.15 mm); max 0.31 mm (limit 0.3 mm), exceeded."
         );
-        assert!(Acceptance::default().judge("the test rows", &sizes).is_none());
+        assert!(Acceptance::default().verdict("the test rows", &sizes).is_none());
         for wrong in ["median 1 mm", "mean", "mean 1 deg", ""] {
             assert!(Acceptance::read("--accept", wrong, LengthUnit::Millimetre).is_err(), "{wrong}");
         }

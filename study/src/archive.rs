@@ -1,4 +1,4 @@
-//! Zip archives of files that are stored as they are (PKWARE's APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16).
+//! Zip archives of uncompressed files (PKWARE's APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16).
 
 use abbe_codegen::print::SourceFile;
 
@@ -6,18 +6,18 @@ const LOCAL_HEADER: u32 = 0x0403_4b50;
 const CENTRAL_HEADER: u32 = 0x0201_4b50;
 const END_OF_DIRECTORY: u32 = 0x0605_4b50;
 
-/// Any reader understands what is stored.
+/// Version 1.0, which suffices for stored files.
 const VERSION_NEEDED: u16 = 10;
 const MADE_ON_UNIX: u16 = 3 << 8 | 20;
 const NAME_IS_UTF8: u16 = 1 << 11;
 const STORED: u16 = 0;
-/// The first of January 1980.
+/// 1 January 1980, in MS-DOS format.
 const DATE: u16 = 1 << 5 | 1;
-/// `-rw-r--r--`, of a regular file.
+/// Mode `-rw-r--r--` of a regular file.
 const MODE: u32 = 0o100_644 << 16;
 
-/// Returns a zip archive of files, as simulators load a functional mock-up unit. The same files give the same bytes: all are of
-/// 1980.
+/// Returns a zip archive of files, such as a functional mock-up unit. The bytes depend only on the
+/// files: all are dated 1980.
 pub fn archive(files: &[SourceFile]) -> Vec<u8> {
     let (mut archive, mut directory) = (Vec::new(), Vec::new());
     for SourceFile { name, text } in files {
@@ -61,7 +61,7 @@ fn numbers32(values: &[u32]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
-/// The checksum of zip, reflected, with the polynomial 0x04c11db7.
+/// CRC-32 of zip: reflected, with the polynomial 0x04c11db7.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32| (crc >> 1) ^ (0xedb8_8320 * (crc & 1));
     !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc)))
@@ -77,7 +77,7 @@ mod tests {
         assert_eq!(crc32(b""), 0);
     }
 
-    /// Reads the central directory, and from it every file.
+    /// Reads all files of an archive through its central directory.
     fn read(archive: &[u8]) -> Vec<(String, String)> {
         let at16 = |at: usize| u16::from_le_bytes(archive[at..at + 2].try_into().unwrap());
         let at32 = |at: usize| u32::from_le_bytes(archive[at..at + 4].try_into().unwrap());
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn files_come_back_as_they_were() {
+    fn files_round_trip() {
         let file = |(name, text): &(&str, &str)| SourceFile { name: (*name).into(), text: (*text).into() };
         let files = [("a.xml", "<a/>\n"), ("sources/größe.c", ""), ("b", "ÄÖ\0\n")];
         let written = archive(&files.iter().map(file).collect::<Vec<_>>());

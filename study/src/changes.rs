@@ -1,4 +1,4 @@
-//! What differs from the spec in one run: values of parameters and inputs, sources switched on and off.
+//! Changes to a spec for one run: values of parameters and inputs, sources switched on and off.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
@@ -8,17 +8,17 @@ use abbe_spec::value::{find_name, parse_value};
 
 use crate::number;
 
-/// Changes to a spec, in the order in which they are made.
+/// Changes to a spec, applied in order.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
     values: Vec<(Symbol, f64)>,
-    /// Indices of sources, and whether they are to take part.
+    /// Indices of sources, with `true` for those switched on.
     switches: Vec<(usize, bool)>,
 }
 
 impl Changes {
-    /// Reads lists of `NAME=VALUE`, of sources to switch on and of sources to switch off; mistakes are shown as those of
-    /// the options `--set`, `--enable` and `--disable`.
+    /// Parses lists of `NAME=VALUE` and of sources to switch on and off. Mistakes are reported
+    /// under the options `--set`, `--enable` and `--disable`.
     pub fn read(
         set: &[String],
         enable: &[String],
@@ -49,8 +49,8 @@ impl Changes {
         Ok(changes)
     }
 
-    /// Reads `NAME=VALUE` with a number in coherent units.
-    pub fn number(change: &str, spec: &Spec) -> Result<Self, Diagnostics> {
+    /// Parses `NAME=VALUE` with a number in coherent units.
+    pub fn parse_number(change: &str, spec: &Spec) -> Result<Self, Diagnostics> {
         let (mut changes, mut document) = (Self::default(), Document::new("--set", change));
         let Some((name, value)) = change.split_once('=') else {
             document.mistake(Diagnostic::new(0..change.len(), "expected NAME=VALUE"));
@@ -68,12 +68,12 @@ impl Changes {
         document.finish(Some(changes))
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no changes.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty() && self.switches.is_empty()
     }
 
-    /// Sets a parameter or input, if the value is within its range.
+    /// Sets a parameter or input; reports a mistake if an input is outside its range.
     pub fn set(&mut self, document: &mut Document, span: Span, spec: &Spec, symbol: Symbol, value: f64) {
         if let Symbol::Input(input) = symbol {
             let input = &spec.inputs[input];
@@ -90,14 +90,14 @@ impl Changes {
         self.values.push((symbol, value));
     }
 
-    /// Switches a source on or off.
+    /// Switches a source on or off; reports a mistake if there is no source with this name.
     pub fn switch(&mut self, document: &mut Document, span: Span, name: &str, spec: &Spec, on: bool) {
         let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
         let found = find_name(document, span, name, &names, "source");
         self.switches.extend(found.map(|source| (source, on)));
     }
 
-    /// The inputs that are set.
+    /// Iterates over the indices of the inputs that are set.
     pub fn inputs(&self) -> impl Iterator<Item = usize> {
         self.values.iter().filter_map(|(symbol, _)| match symbol {
             Symbol::Input(i) => Some(*i),
@@ -105,7 +105,7 @@ impl Changes {
         })
     }
 
-    /// Makes the changes: what is set becomes nominal.
+    /// Applies the changes. Values become the nominal ones.
     pub fn apply(&self, spec: &mut Spec) {
         for &(symbol, value) in &self.values {
             match symbol {
@@ -120,7 +120,7 @@ impl Changes {
     }
 }
 
-/// The parameter or input of that name.
+/// Finds a parameter or input by name; reports a mistake if there is none.
 pub fn find_symbol(
     document: &mut Document,
     span: Span,
@@ -144,7 +144,8 @@ pub fn find_symbol(
     Some((symbol, dimension))
 }
 
-/// Reads every use of an option, as the lines of one document: all mistakes come at once.
+/// Parses all values of an option as lines of one document, so that all mistakes are reported at
+/// once.
 fn each_line(
     option: &str,
     values: &[String],

@@ -1,7 +1,7 @@
-//! Whether every number of a report is one.
+//! Checks that a report has only finite numbers.
 //!
-//! Configurations that cannot be evaluated are mistakes where they are met, with their place. What gets here all the same
-//! was worked out of numbers that are each finite: squares of what is far too large, a share of nothing.
+//! Configurations that cannot be evaluated are reported earlier, with their values. This check
+//! finds results of finite numbers that overflow, or ratios with a zero denominator.
 
 use std::fmt::{self, Display};
 
@@ -14,13 +14,13 @@ use serde::{Serialize, Serializer};
 
 use crate::mistake;
 
-/// What may be infinite, and is said to be so: freedom without end, joints without limits, tests without a spread.
-const ENDLESS: [&str; 7] =
+/// Names of fields that may be infinite by definition.
+const MAY_BE_INFINITE: [&str; 7] =
     ["degrees_of_freedom", "effective_degrees_of_freedom", "limits", "range", "condition", "f", "t"];
 
-/// The report itself, or the mistake that a number in it is not finite, with its place in the report.
+/// Returns the report, or a diagnostic that names the first number in it that is not finite.
 pub fn finite<R: Serialize>(subject: impl Display, report: R) -> Result<R, Diagnostics> {
-    match report.serialize(&mut Looking { path: Vec::new(), text: String::new() }) {
+    match report.serialize(&mut FiniteCheck { path: Vec::new(), text: String::new() }) {
         Err(NotFinite(place)) if !place.is_empty() => {
             let message = format!("`{place}` of the result is not a finite number");
             let help = "a number that went in is far too large or too small: are the units of the spec, the map and the \
@@ -31,14 +31,14 @@ pub fn finite<R: Serialize>(subject: impl Display, report: R) -> Result<R, Diagn
     }
 }
 
-/// Where it is in a report.
-struct Looking {
+/// Serializer that checks numbers and tracks its position in the report.
+struct FiniteCheck {
     path: Vec<String>,
-    /// The last text: that of a key, if it was one.
+    /// Text of the last string, which may be a map key.
     text: String,
 }
 
-/// The place of a number that is not finite; none for what has no place.
+/// Path of a number that is not finite; empty for any other error.
 #[derive(Debug)]
 struct NotFinite(String);
 
@@ -56,14 +56,14 @@ impl ser::Error for NotFinite {
     }
 }
 
-impl Looking {
-    fn number(&self, value: f64) -> Result<(), NotFinite> {
-        let may_be_endless =
-            || value.is_infinite() && self.path.iter().any(|name| ENDLESS.contains(&name.as_str()));
-        if value.is_finite() || may_be_endless() { Ok(()) } else { Err(NotFinite(self.path.join("."))) }
+impl FiniteCheck {
+    fn check_number(&self, value: f64) -> Result<(), NotFinite> {
+        let may_be_infinite =
+            || value.is_infinite() && self.path.iter().any(|name| MAY_BE_INFINITE.contains(&name.as_str()));
+        if value.is_finite() || may_be_infinite() { Ok(()) } else { Err(NotFinite(self.path.join("."))) }
     }
 
-    fn within<T: ?Sized + Serialize>(&mut self, name: String, value: &T) -> Result<(), NotFinite> {
+    fn check_entry<T: ?Sized + Serialize>(&mut self, name: String, value: &T) -> Result<(), NotFinite> {
         self.path.push(name);
         value.serialize(&mut *self)?;
         self.path.pop();
@@ -71,14 +71,14 @@ impl Looking {
     }
 }
 
-/// The entries of a list, a table or a structure.
+/// Entries of a list, map or structure.
 struct Entries<'l> {
-    looking: &'l mut Looking,
+    check: &'l mut FiniteCheck,
     count: usize,
     key: String,
 }
 
-macro_rules! nothing_to_see {
+macro_rules! always_finite {
     ($($name:ident: $kind:ty),* $(,)?) => {
         $(fn $name(self, _: $kind) -> Result<(), NotFinite> {
             Ok(())
@@ -86,7 +86,7 @@ macro_rules! nothing_to_see {
     };
 }
 
-impl<'l> Serializer for &'l mut Looking {
+impl<'l> Serializer for &'l mut FiniteCheck {
     type Ok = ();
     type Error = NotFinite;
     type SerializeSeq = Entries<'l>;
@@ -97,7 +97,7 @@ impl<'l> Serializer for &'l mut Looking {
     type SerializeStruct = Entries<'l>;
     type SerializeStructVariant = Entries<'l>;
 
-    nothing_to_see! {
+    always_finite! {
         serialize_bool: bool, serialize_i8: i8, serialize_i16: i16, serialize_i32: i32, serialize_i64: i64,
         serialize_u8: u8, serialize_u16: u16, serialize_u32: u32, serialize_u64: u64, serialize_char: char,
         serialize_bytes: &[u8], serialize_unit_struct: &'static str,
@@ -109,11 +109,11 @@ impl<'l> Serializer for &'l mut Looking {
     }
 
     fn serialize_f32(self, value: f32) -> Result<(), NotFinite> {
-        self.number(f64::from(value))
+        self.check_number(f64::from(value))
     }
 
     fn serialize_f64(self, value: f64) -> Result<(), NotFinite> {
-        self.number(value)
+        self.check_number(value)
     }
 
     fn serialize_none(self) -> Result<(), NotFinite> {
@@ -147,11 +147,11 @@ impl<'l> Serializer for &'l mut Looking {
         variant: &'static str,
         value: &T,
     ) -> Result<(), NotFinite> {
-        self.within(variant.to_owned(), value)
+        self.check_entry(variant.to_owned(), value)
     }
 
     fn serialize_seq(self, _: Option<usize>) -> Result<Entries<'l>, NotFinite> {
-        Ok(Entries { looking: self, count: 0, key: String::new() })
+        Ok(Entries { check: self, count: 0, key: String::new() })
     }
 
     fn serialize_tuple(self, _: usize) -> Result<Entries<'l>, NotFinite> {
@@ -192,20 +192,20 @@ impl<'l> Serializer for &'l mut Looking {
 }
 
 impl Entries<'_> {
-    fn next<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), NotFinite> {
+    fn check_next<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), NotFinite> {
         self.count += 1;
-        self.looking.within(self.count.to_string(), value)
+        self.check.check_entry(self.count.to_string(), value)
     }
 }
 
-macro_rules! listed {
+macro_rules! list_traits {
     ($($list:ident: $add:ident),*) => {
         $(impl $list for Entries<'_> {
             type Ok = ();
             type Error = NotFinite;
 
             fn $add<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), NotFinite> {
-                self.next(value)
+                self.check_next(value)
             }
 
             fn end(self) -> Result<(), NotFinite> {
@@ -215,14 +215,14 @@ macro_rules! listed {
     };
 }
 
-macro_rules! named {
+macro_rules! struct_traits {
     ($($structure:ident),*) => {
         $(impl $structure for Entries<'_> {
             type Ok = ();
             type Error = NotFinite;
 
             fn serialize_field<T: ?Sized + Serialize>(&mut self, name: &'static str, value: &T) -> Result<(), NotFinite> {
-                self.looking.within(name.to_owned(), value)
+                self.check.check_entry(name.to_owned(), value)
             }
 
             fn end(self) -> Result<(), NotFinite> {
@@ -232,27 +232,27 @@ macro_rules! named {
     };
 }
 
-listed!(
+list_traits!(
     SerializeSeq: serialize_element,
     SerializeTuple: serialize_element,
     SerializeTupleStruct: serialize_field,
     SerializeTupleVariant: serialize_field
 );
-named!(SerializeStruct, SerializeStructVariant);
+struct_traits!(SerializeStruct, SerializeStructVariant);
 
 impl SerializeMap for Entries<'_> {
     type Ok = ();
     type Error = NotFinite;
 
     fn serialize_key<T: ?Sized + Serialize>(&mut self, key: &T) -> Result<(), NotFinite> {
-        key.serialize(&mut *self.looking)?;
-        self.key = std::mem::take(&mut self.looking.text);
+        key.serialize(&mut *self.check)?;
+        self.key = std::mem::take(&mut self.check.text);
         Ok(())
     }
 
     fn serialize_value<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), NotFinite> {
         let key = std::mem::take(&mut self.key);
-        self.looking.within(key, value)
+        self.check.check_entry(key, value)
     }
 
     fn end(self) -> Result<(), NotFinite> {
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_is_named() {
+    fn the_message_names_the_field() {
         let report = |value: f64| Report {
             name: "a".to_owned(),
             degrees_of_freedom: f64::INFINITY,

@@ -1,4 +1,4 @@
-//! The closed form of a manipulator as source code.
+//! Closed form of a manipulator as source code.
 
 pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
 use abbe_spec::diagnostic::Diagnostics;
@@ -9,34 +9,37 @@ use crate::mistake;
 use crate::notes::Notes;
 use crate::options::Choices;
 
-/// What is the code of this manipulator?
+/// Job of `abbe generate`: writes the code of a manipulator.
 #[derive(Clone)]
 pub struct Generate {
-    /// Whose.
+    /// Machine to generate code for.
     pub machine: Machine,
-    /// In which language.
+    /// Target language.
     pub language: Language,
 }
 
-/// One entry for each value of a constant `ALL`.
+/// Creates one entry for each value of a constant `ALL`.
 macro_rules! all {
     ($type:ident: $($i:literal)*) => {
         Choices(&[$(($type::ALL[$i], $type::ALL[$i].name(), "")),*])
     };
 }
 
+// Every language is offered.
+const _: () = assert!(Generate::LANGUAGES.0.len() == Language::ALL.len());
+
 impl Generate {
-    /// Languages; C and the functional mock-up unit as they are if nothing else is said.
+    /// Target languages, with C and the functional mock-up unit in their default variants.
     pub const LANGUAGES: Choices<Language> = all!(Language: 0 1 2 3 4 5);
 
-    /// Types of numbers of C.
+    /// Floating-point types for C.
     pub const REALS: Choices<Real> = all!(Real: 0 1);
 
     /// Versions of FMI.
     pub const VERSIONS: Choices<Fmi> = all!(Fmi: 0 1);
 
-    /// The files: one, or several that belong together. The same spec gives the same bytes. An error if the language's numbers
-    /// cannot hold one of the manipulator's.
+    /// Returns the generated files, one or several. The bytes depend only on the spec. Fails if a
+    /// number of the spec does not fit the language's floating-point type.
     pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>, Diagnostics> {
         let spec = &self.machine.spec;
         match self.language.lost(spec) {

@@ -18,43 +18,43 @@ use crate::mistake;
 use crate::notes::Notes;
 use crate::number;
 
-/// What are `J_e` and `ε` here?
+/// Job of `abbe jacobian`: evaluates `J_e` and `ε` at one configuration.
 #[derive(Clone)]
 pub struct Jacobian {
-    /// Whose.
+    /// Machine to evaluate.
     pub machine: Machine,
-    /// The joint variables in their order, in the length unit and rad; home if not given.
+    /// Joint variables in order, in the length unit or rad; `None` for home.
     pub q: Option<Vec<f64>>,
 }
 
-/// What [`Jacobian`] finds. Lengths in the spec's unit, angles in rad, everything in `F_0`.
+/// Result of [`Jacobian`]. Lengths are in the spec's unit, angles in rad, vectors in `F_0`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The manipulator.
+    /// Name of the manipulator.
     pub name: String,
-    /// The unit of every length.
+    /// Symbol of the length unit.
     pub length: &'static str,
-    /// What rows 4–6 are: `rotation-vector` or `euler-yzx`.
+    /// Convention of rows 4–6: `rotation-vector` or `euler-yzx`.
     pub orientation: &'static str,
-    /// The configuration.
+    /// Joint variables of the configuration.
     pub q: Vec<f64>,
-    /// `A_T`, row by row.
+    /// Nominal pose `A_T` of the tool, 4 × 4, row by row.
     pub pose: [[f64; 4]; 4],
-    /// The names of the rows of `J_e`.
+    /// Names of the rows of `J_e`.
     pub rows: [&'static str; 6],
-    /// The names of its columns: `e_x1 … e_p1`, then those of frame 2, …
+    /// Names of the columns of `J_e`: `e_x1 … e_p1`, then those of frame 2, …
     pub columns: Vec<String>,
-    /// `J_e`, row by row.
+    /// Error Jacobian `J_e`, 6 × 6n, row by row.
     pub error_jacobian: [Vec<f64>; 6],
-    /// `ε`: the sum of the repeatable sources, six per frame as the columns.
+    /// Generalized errors `ε`, the sum of the repeatable sources, in the order of the columns.
     pub generalized_errors: Vec<f64>,
-    /// What was evaluated, for names and units.
+    /// The spec, for names and units.
     #[serde(skip)]
     pub spec: Arc<Spec>,
 }
 
 impl Jacobian {
-    /// Evaluates both; notes what is beyond its limits.
+    /// Evaluates the configuration. Notes each variable that is outside its limits.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let spec = &self.machine.spec;
         let interpreter = Interpreter::new(Arc::clone(spec));
@@ -70,7 +70,7 @@ impl Jacobian {
         let pose = interpreter
             .error_jacobian(&q, &s, &mut columns)
             .and_then(|_| interpreter.generalized_errors(&q, &s, &u, &mut errors))
-            // With the bits of every other pose: that beside J_e is computed in another order.
+            // The pose computed beside J_e may differ in its last bits; use the one of `pose`.
             .and_then(|()| interpreter.pose(&q, &s))
             .map_err(|error| {
                 let error = first_effect(&interpreter, [&q, &s, &u], error);
@@ -94,7 +94,7 @@ impl Report {
         columns: &[[f64; 6]],
         errors: &[[f64; 6]],
     ) -> Self {
-        // Adding 0 makes −0 a plain 0.
+        // Adding 0 turns −0 into 0.
         let row = |i: usize| columns.iter().map(|column| column[i] + 0.0).collect();
         Self {
             name: description.name.to_string(),
@@ -103,7 +103,7 @@ impl Report {
             q,
             pose: pose.rows().map(|row| row.map(|entry| entry + 0.0)),
             rows: description.orientation.rows(),
-            columns: self::columns(description.frames.len()),
+            columns: column_names(description.frames.len()),
             error_jacobian: std::array::from_fn(row),
             generalized_errors: errors.as_flattened().iter().map(|error| error + 0.0).collect(),
             spec,
@@ -111,13 +111,15 @@ impl Report {
     }
 }
 
-/// The names of the columns of `J_e` for so many frames: `e_x1 … e_p1`, then those of frame 2, …
-pub fn columns(frames: usize) -> Vec<String> {
+/// Returns the names of the columns of `J_e` for this number of frames: `e_x1 … e_p1`, then those
+/// of frame 2, …
+pub fn column_names(frames: usize) -> Vec<String> {
     let names = (1..=frames).flat_map(|i| Component::ALL.map(|component| format!("{}{i}", component.name())));
     names.collect()
 }
 
-/// The effect that makes a generalized error not finite, if it is the first such effect.
+/// Returns the error of the effect that makes a generalized error not finite, if it is the first
+/// such effect; otherwise the given error.
 fn first_effect(interpreter: &Interpreter, [q, s, u]: [&[f64]; 3], error: Error) -> Error {
     let description = interpreter.description();
     let mut effects = vec![0.0; description.effects.len()];
@@ -147,10 +149,10 @@ fn note_beyond_limits(variable: &Variable, value: f64, spec: &Spec, notes: &mut 
     }
 }
 
-/// Reads the values of `--q`, as many as there are variables: `500,0.2m,0,-90deg,pi/180,0`.
+/// Parses the values of `--q`, one per variable: `500,0.2m,0,-90deg,pi/180,0`.
 pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnostics> {
     let mut document = Document::new("--q", text);
-    let spans = values(text);
+    let spans = value_spans(text);
     if spans.len() != spec.variables.len() {
         let names = spec.variables.iter().map(|variable| variable.name.as_str()).collect::<Vec<_>>();
         let message = format!("{} joint variables are needed, {} are given", names.len(), spans.len());
@@ -174,8 +176,8 @@ pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnos
     document.finish(Some(q))
 }
 
-/// What stands between the commas; those in parentheses do not count.
-fn values(text: &str) -> Vec<Span> {
+/// Returns the spans between commas outside parentheses.
+fn value_spans(text: &str) -> Vec<Span> {
     if text.trim().is_empty() {
         return Vec::new();
     }

@@ -1,26 +1,28 @@
-//! What can be asked of a manipulator, and what comes out: every command of `abbe` without its arguments and its text.
+//! Jobs on a manipulator: every command of `abbe`, without its arguments and its text output.
 //!
-//! A **job** is one question. It is a struct that holds what is asked, owned and plain, and has one function,
+//! A **job** is a struct that holds its options and inputs, owned and plain, and has one function,
 //!
 //! ```text
 //! pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics>
 //! ```
 //!
-//! The rules that all jobs keep, so that a command, a Python module and a test can call them alike:
+//! All jobs follow the same rules, so that the command, the Python module and tests call them
+//! alike:
 //!
-//! - **One folder per job**, named as the command: `check/`, `jacobian/`, `analyze/`, `measure/` … The struct of the
-//!   question has the command's name ([`Machine`] first, then what else is asked); its report is one struct that
-//!   derives `Serialize`, owns everything in it and borrows nothing. Serialized it is what `--json` prints. What only a
-//!   text or a page needs stands in the same report, marked `#[serde(skip)]`.
-//! - **A mistake in what is asked is `Diagnostics`**, with the file or option and the place: [`mistake::with_help`] makes one
-//!   without a place, [`mistake::not_evaluated`] that of a configuration without a finite result.
-//! - **What is said on the way goes to [`Notes`]**: a note, a warning, how far the work is; and a job that takes long
-//!   asks it whether to stop. Nothing here prints, exits, or knows arguments. `&mut ()` hears nothing.
-//! - **Files are named by the caller.** A job reads the ones it is given and writes none: what is to be written comes
-//!   back as text or rows. [`Reads`] says which ones it rests on, so that nobody writes over them.
-//! - Numbers are in the spec's coherent system, as in the spec and in `abbe`. [`number`] is how people read them: views
-//!   use it, reports hold numbers.
-//! - The spec of a [`Machine`] is changed once, by [`Machine::change`], before the job starts.
+//! - **One folder per job**, named after the command: `check/`, `jacobian/`, `analyze/`, `measure/`
+//!   … The job has the command's name; its first field is the [`Machine`]. Its report is one struct
+//!   that derives `Serialize` and owns its data. Serialized, it is the output of `--json`. Fields
+//!   that only text or pages need are marked `#[serde(skip)]`.
+//! - **Invalid input returns `Diagnostics`**, with the file or option and the place.
+//!   [`mistake::with_help`] creates one without a place, [`mistake::not_evaluated`] one for a
+//!   configuration without a finite result.
+//! - **Messages and progress go to [`Notes`]**, which can also interrupt a long job. Nothing here
+//!   prints, exits, or knows command-line arguments. `&mut ()` ignores all messages.
+//! - **The caller names all files.** A job reads the files it is given and writes none; output is
+//!   returned as text or rows. [`Reads`] lists the input files, which must not be overwritten.
+//! - Reports hold numbers in the spec's coherent units, like the spec and `abbe`. [`number`]
+//!   formats them for display.
+//! - [`Machine::change`] changes the spec once, before the job starts.
 //!
 //! A study in ten lines:
 //!
@@ -28,8 +30,8 @@
 //! use abbe_study::analyze::Analyze;
 //! use abbe_study::{Machine, Study};
 //!
-//! let machine = Machine::find("pps")?; // or the path of a spec of your own
-//! let study = Study::find(None, &machine)?; // the one that is shipped with it
+//! let machine = Machine::find("pps")?; // or the path of your own spec
+//! let study = Study::find(None, &machine)?; // the shipped study
 //! let report = Analyze::new(machine, study).run(&mut ())?;
 //! assert_eq!(report.budget.configurations, 999);
 //! let [first, ..] = &report.budget.tighten_first()[..] else { panic!("there are sources") };
@@ -38,8 +40,9 @@
 //! # Ok::<(), abbe_spec::diagnostic::Diagnostics>(())
 //! ```
 //!
-//! [`Machine`] is a spec with its name, and its generated code if it is shipped; [`Changes`] what differs from it in one
-//! run; [`study_file`] the study files, [`workspace`] the configurations that they ask for; [`data`] measurements.
+//! [`Machine`] is a spec with its name, and with its generated code if it is shipped. [`Changes`]
+//! are the changes of one run. [`study_file`] holds study files, [`workspace`] the configurations
+//! that they describe, and [`data`] measurements.
 
 pub mod analyze;
 pub mod bound;
@@ -59,7 +62,6 @@ pub mod simulate;
 
 pub mod data;
 pub mod hash;
-pub mod mistake;
 pub mod number;
 pub mod options;
 pub mod study_file;
@@ -68,24 +70,24 @@ pub mod workspace;
 mod acceptance;
 mod archive;
 mod changes;
-mod extrapolated;
+mod extrapolation;
 mod finite;
 mod interpretations;
 mod lines;
 mod listing;
 mod machine;
 mod named;
-mod notes;
 mod reads;
 mod sizes;
-mod toml_text;
 
-pub use acceptance::{Acceptance, Accepted, Limit};
+pub use abbe_spec::mistake;
+pub use abbe_spec::notes::Notes;
+use abbe_spec::{notes, toml_text};
+pub use acceptance::{Acceptance, AcceptanceVerdict, LimitCheck};
 pub use changes::{Changes, find_symbol};
-pub use extrapolated::{Extrapolated, Known};
+pub use extrapolation::{Extrapolation, ToolPointDeviation};
 pub use finite::finite;
 pub use listing::Listing;
 pub use machine::{Evaluator, Machine};
-pub use notes::Notes;
 pub use reads::Reads;
 pub use study_file::Study;

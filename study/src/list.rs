@@ -1,4 +1,4 @@
-//! The shipped manipulators.
+//! Shipped manipulators.
 
 use abbe::VariableKind;
 use abbe_manipulators::SHIPPED;
@@ -9,37 +9,37 @@ use serde::Serialize;
 use crate::machine::Machine;
 use crate::notes::Notes;
 
-/// What is shipped?
+/// Job of `abbe list`: lists the shipped manipulators.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct List;
 
 /// A shipped manipulator.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShippedManipulator {
-    /// What a command is told.
+    /// Name to pass to commands.
     pub name: String,
-    /// Its name for people.
+    /// Title for display.
     pub title: String,
-    /// How many frames it has.
+    /// Number of frames.
     pub frames: usize,
-    /// What each frame does, base to tip: `P` slides, `R` turns, `F` is fixed.
+    /// Joint of each frame, base to tip: `P` prismatic, `R` revolute, `F` fixed.
     pub joints: String,
-    /// The unit of its lengths.
+    /// Symbol of the length unit.
     pub length: &'static str,
-    /// How many error sources it has.
+    /// Number of error sources.
     pub sources: usize,
-    /// Whether a study is shipped with it.
+    /// Indicates that a study is shipped with it.
     pub study: bool,
 }
 
 impl List {
-    /// Every shipped manipulator, in the order of their names.
+    /// Returns all shipped manipulators, sorted by name.
     pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<ShippedManipulator>, Diagnostics> {
-        let described = SHIPPED.iter().map(|shipped| {
+        let manipulators = SHIPPED.iter().map(|shipped| {
             let machine = Machine::shipped(shipped)?;
             Ok(describe(&machine.spec, shipped.study.is_some()))
         });
-        described.collect()
+        manipulators.collect()
     }
 }
 

@@ -1,16 +1,16 @@
-//! A table as words, for text and for HTML.
+//! Table of text cells, for text and HTML.
 
 use std::ops::Range;
 
 use serde::Serialize;
 
-/// What a table says: the first column is words, those in `numbers` are flush right.
+/// Table of text cells. Columns in `numbers` are right-aligned.
 #[derive(Clone, Debug, Serialize)]
 pub struct Listing {
-    /// The name of every column.
+    /// Names of the columns.
     pub header: Vec<&'static str>,
-    /// Cell by cell.
+    /// Cells, row by row.
     pub rows: Vec<Vec<String>>,
-    /// The columns that hold numbers.
+    /// Range of the numeric columns.
     pub numbers: Range<usize>,
 }

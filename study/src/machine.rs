@@ -16,27 +16,26 @@ use abbe_spec::{Magnitude, Source, Spec};
 use crate::changes::Changes;
 use crate::named;
 
-/// A spec, and what was shipped with it.
+/// Spec of a manipulator, with its generated code and study if it is a shipped one.
 #[derive(Clone)]
 pub struct Machine {
-    /// What its file says, with the changes that were made.
+    /// Spec, with the changes applied.
     pub spec: Arc<Spec>,
-    /// What it is called in messages: the path of its file, or the shipped name.
+    /// Name in messages: the path of its file, or the shipped name.
     pub origin: String,
-    /// Its file, if it was read from one.
+    /// File that it was read from.
     pub file: Option<PathBuf>,
-    /// What is shipped with it, if it is a shipped one.
+    /// Files and generated code of a shipped manipulator.
     pub shipped: Option<&'static Shipped>,
-    /// Whether the spec is no longer that of the generated code.
+    /// True if the spec differs from that of the generated code.
     changed: bool,
-    /// The inputs that were set: they stay where they are.
+    /// Indices of the inputs that changes fix.
     fixed_inputs: Vec<usize>,
 }
 
 impl Machine {
-    /// Reads the spec that an argument names.
-    ///
-    /// A file that exists, and whatever looks like a path, is a file; all else must be a shipped name.
+    /// Reads the spec that an argument names: a file if it exists or looks like a path, else a
+    /// shipped name.
     pub fn find(argument: impl AsRef<OsStr>) -> Result<Self, Diagnostics> {
         let path = Path::new(&argument);
         let name = path.to_string_lossy();
@@ -54,13 +53,13 @@ impl Machine {
         }
     }
 
-    /// A shipped manipulator, with the file name that its generated code carries.
+    /// Returns a shipped manipulator.
     pub fn shipped(shipped: &'static Shipped) -> Result<Self, Diagnostics> {
         let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec)?;
         Ok(Self::new(spec, shipped.name, Some(shipped)))
     }
 
-    /// A spec of one's own; `origin` is what messages call it.
+    /// Returns the machine of a spec that messages name `origin`.
     pub fn of_spec(spec: Spec, origin: &str) -> Self {
         Self::new(spec, origin, None)
     }
@@ -76,15 +75,15 @@ impl Machine {
         }
     }
 
-    /// Makes changes: what is set becomes nominal. Generated code, which knows nothing of them, is not run any more.
+    /// Applies changes: values that are set become nominal. The generated code no longer applies.
     pub fn change(&mut self, changes: &Changes) {
         changes.apply(Arc::make_mut(&mut self.spec));
         self.changed |= !changes.is_empty();
         self.fixed_inputs.extend(changes.inputs());
     }
 
-    /// Adds what is not known of the magnitudes of repeatable sources: of each whose magnitude has a standard deviation σ a
-    /// random source, normal, whose errors are σ times those of magnitude 1.
+    /// Adds the uncertainty of magnitudes: for each repeatable source with a standard deviation σ
+    /// of its magnitude, a normal random source with σ times the errors of magnitude 1.
     pub fn add_magnitude_errors(&mut self) {
         let errors = self.spec.sources.iter().filter_map(magnitude_error).collect::<Vec<_>>();
         if self.spec.sources.iter().any(is_magnitude_error) || !errors.is_empty() {
@@ -95,13 +94,13 @@ impl Machine {
         }
     }
 
-    /// The inputs that changes have set: no workspace moves them.
+    /// Returns the indices of the inputs that changes fix: no workspace varies them.
     pub fn fixed_inputs(&self) -> &[usize] {
         &self.fixed_inputs
     }
 
-    /// The functions of the manipulator: its generated code if it is shipped, not changed, and `compiled` may be used; else
-    /// its spec, interpreted.
+    /// Returns the functions of the manipulator: generated code if it is shipped, unchanged and
+    /// `compiled` allows it, else an interpreter of its spec.
     pub fn evaluator(&self, compiled: bool) -> Evaluator {
         match self.shipped {
             Some(shipped) if compiled && !self.changed => Evaluator::Compiled(shipped.compiled),
@@ -109,7 +108,7 @@ impl Machine {
         }
     }
 
-    /// The text of the spec, as it was before changes.
+    /// Returns the text of the spec before changes.
     pub fn text(&self) -> Result<String, Diagnostics> {
         match self.shipped {
             Some(shipped) => Ok(shipped.spec.to_owned()),
@@ -121,11 +120,11 @@ impl Machine {
     }
 }
 
-/// A manipulator that can be evaluated, one way or the other.
+/// Manipulator as generated code or as an interpreted spec.
 pub enum Evaluator {
-    /// By its generated code.
+    /// Generated code.
     Compiled(&'static dyn Sweepable),
-    /// By its spec.
+    /// Interpreter of the spec.
     Interpreted(Box<Interpreter>),
 }
 

@@ -1,4 +1,4 @@
-//! What an argument names: a file, or something shipped.
+//! Resolves arguments that name a file or a shipped item.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use abbe_spec::diagnostic::{Diagnostic, Diagnostics, nearest_file};
 use abbe_spec::document::Document;
 use abbe_spec::value::find_name;
 
-/// Whether it can be a path only: it is there, or looks like one.
+/// Returns true if an argument is a path: the file exists, or the text looks like one.
 pub(crate) fn is_path(argument: &Path) -> bool {
     let name = argument.to_string_lossy();
     name.contains(std::path::is_separator)
@@ -14,7 +14,8 @@ pub(crate) fn is_path(argument: &Path) -> bool {
         || (argument.exists() && !argument.is_dir())
 }
 
-/// A file, or the shipped one of that name; `folder` is where it is shipped, `what` what it is.
+/// Reads a file, or the shipped document with that name. `folder` is the folder of the shipped
+/// documents, `what` their kind in messages.
 pub(crate) fn document(
     option: &str,
     argument: &Path,
@@ -35,12 +36,12 @@ pub(crate) fn document(
     }
 }
 
-/// Neither shipped nor a file: the nearest of both.
+/// Returns the diagnostic for an argument that names neither, with the nearest names.
 pub(crate) fn unknown(option: &str, argument: &str, names: &[&str], what: &str) -> Diagnostics {
     let mut document = Document::new(option, argument);
     find_name(&mut document, 0..argument.len(), argument, names, what);
     let Document { path, text, found, .. } = document;
-    // `arm` where there is `arm.toml`.
+    // Suggest `arm.toml` for `arm`.
     let near = [argument.to_owned() + ".toml", argument.to_owned()].into_iter();
     let near = near.filter(|_| !argument.is_empty()).find_map(|name| nearest_file(Path::new(&name)));
     let label = |mistake: Diagnostic| match &near {

@@ -1,46 +1,46 @@
-//! Options of jobs: the ranges, defaults and names of their values, told once for the command and for Python.
+//! Ranges, defaults and names of options, defined once for the command and Python.
 //!
-//! Each job has its own in the file `options.rs` of its folder.
+//! Options of a job are in `options.rs` of its folder.
 
 use std::ops::RangeInclusive;
 
 use abbe_spec::DhConvention;
 
-/// Numbers of threads that a job may run on.
+/// Valid numbers of threads.
 pub const THREADS: RangeInclusive<usize> = 1..=1024;
 
-/// Conventions of a table of Denavit-Hartenberg numbers.
+/// Conventions of Denavit-Hartenberg parameters.
 pub const CONVENTIONS: Choices<DhConvention> = Choices(&[
     (DhConvention::Standard, DhConvention::Standard.name(), ""),
     (DhConvention::Modified, DhConvention::Modified.name(), ""),
 ]);
 
-/// A number that an option takes.
+/// A numeric option.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Number<T> {
-    /// The value if none is given.
+pub struct NumericOption<T> {
+    /// Default value.
     pub default: T,
-    /// The least and the largest value.
+    /// Smallest and largest valid value.
     pub range: RangeInclusive<T>,
 }
 
-/// The values of an option that is chosen by name: value, name, and one sentence where the name does not say it.
+/// Choices of an option: value, name, and a sentence where the name needs an explanation.
 #[derive(Clone, Copy, Debug)]
 pub struct Choices<T: 'static>(pub &'static [(T, &'static str, &'static str)]);
 
 impl<T: Copy + PartialEq> Choices<T> {
-    /// Finds the value of a name.
+    /// Finds the value for a name.
     pub fn find(self, wanted: &str) -> Option<T> {
         self.0.iter().find(|(_, name, _)| *name == wanted).map(|(value, ..)| *value)
     }
 
-    /// Returns the name of a value; empty if it cannot be chosen.
+    /// Returns the name of a value; empty if it is not a choice.
     pub fn name(self, wanted: T) -> &'static str {
         self.0.iter().find(|(value, ..)| *value == wanted).map_or("", |(_, name, _)| name)
     }
 }
 
-/// Returns a share, which is from 0 to 1.
+/// Checks that a share is between 0 and 1.
 pub fn share(value: f64) -> Result<f64, &'static str> {
     if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share is from 0 to 1") }
 }

@@ -1,4 +1,4 @@
-//! Which files a question rests on: whoever writes its answer must not write over them.
+//! Input files of jobs, which output must not overwrite.
 
 use std::path::{Path, PathBuf};
 
@@ -18,9 +18,9 @@ use crate::plan::{Choice, Plan, Sets};
 use crate::simulate::{Places, Simulate};
 use crate::study_file::Study;
 
-/// What was read from files.
+/// Access to the files that an input was read from.
 pub trait Reads {
-    /// These files, in any order; nothing of what is shipped.
+    /// Returns the files, in any order. Shipped files are not included.
     fn files(&self) -> Vec<PathBuf>;
 }
 
@@ -30,7 +30,7 @@ impl Reads for () {
     }
 }
 
-/// Files that are named one by one.
+/// Files that are listed individually.
 impl Reads for Vec<PathBuf> {
     fn files(&self) -> Vec<PathBuf> {
         self.clone()
@@ -91,7 +91,8 @@ impl Reads for Places {
     }
 }
 
-// Every field is named: what is added to a job may come from a file, and must be thought of here.
+// The patterns name every field, so that a new field does not compile until its files are
+// considered.
 
 impl Reads for Check {
     fn files(&self) -> Vec<PathBuf> {

@@ -1,20 +1,20 @@
-//! Position errors, by their mean and their largest.
+//! Statistics of position errors.
 
 use abbe::identify::Figures;
 use serde::Serialize;
 
-/// Position errors.
+/// Statistics of the norms of position errors, in the length unit.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Sizes {
-    /// The mean of their norms.
+    /// Mean norm.
     pub mean: f64,
-    /// The standard error of that, configurations counted; none if there is only one.
+    /// Standard error of the mean, by the number of configurations; `None` if there is only one.
     pub standard_error: Option<f64>,
-    /// The root mean square.
+    /// Root mean square.
     pub rms: f64,
-    /// The largest.
+    /// Largest norm.
     pub max: f64,
-    /// What 95 % of them do not exceed.
+    /// 95th percentile.
     pub p95: f64,
 }
 

@@ -1,4 +1,4 @@
-//! How long the generated compensator of the paper's positioner takes: the quickest of many runs.
+//! Time of the generated compensator of the paper's positioner: the shortest of many runs.
 //!
 //! `cargo bench -p abbe-tests --bench compensator`
 

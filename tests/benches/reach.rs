@@ -1,5 +1,5 @@
-//! Boxes of tool points, each reached by inverse kinematics: in reach, out of reach, and half and half. What is reached, what limits
-//! stop and what is out of reach is measured apart.
+//! Inverse kinematics for boxes of tool points: in reach, out of reach, and mixed. Points that are
+//! reached, stopped by limits and out of reach are measured separately.
 //!
 //! `cargo bench -p abbe-tests --bench reach`
 
@@ -10,20 +10,20 @@ use abbe::analysis::{BLOCK, BaseBox, ReachError, ToolOrientation, Workspace, bas
 use abbe_manipulators::{general6r::General6r, iiwa::Iiwa, pps::Pps, puma560::Puma560, ur5::Ur5};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// How many points along each side.
+/// Number of points along each side.
 const SIDE: usize = 8;
 
-/// What becomes of a point.
+/// Outcomes of a point.
 const OUTCOMES: [&str; 3] = ["reached", "stopped by limits", "out of reach"];
 
-/// Sides in metres.
+/// Sides of a box in metres.
 type Sides = [[f64; 2]; 3];
 
 const NEAR: Sides = [[0.3, 0.5], [-0.2, 0.2], [0.3, 0.6]];
 const FAR: Sides = [[1.5, 2.5], [-1.0, 1.0], [0.0, 2.0]];
 const AROUND: Sides = [[-1.1, 1.1], [-1.1, 1.1], [-0.7, 1.5]];
 
-/// The outcome of each of these points.
+/// Returns the outcome of each point.
 fn outcomes(workspace: &impl Workspace, indices: &[usize]) -> Vec<usize> {
     let mut outcomes = Vec::with_capacity(indices.len());
     for block in indices.chunks(BLOCK) {

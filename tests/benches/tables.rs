@@ -1,4 +1,5 @@
-//! A table of 1,000 points beside a sine, in lanes: at equal distances and at uneven ones.
+//! Lookup in a table of 1,000 points compared with a sine, in lanes, with equidistant and with
+//! uneven points.
 //!
 //! `cargo bench -p abbe-tests --bench tables`
 
@@ -11,12 +12,12 @@ use abbe::{LookupTable, Scalar};
 use abbe_spec::Spec;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// How many values are looked up.
+/// Number of lookups.
 const COUNT: usize = 4096;
-/// How many points the tables have.
+/// Number of points of the tables.
 const POINTS: usize = 1000;
 
-/// A table over 0 mm to 999 mm.
+/// Returns the spec of a table over 0 mm to 999 mm.
 fn table(interpolation: &str, place: impl Fn(usize) -> f64) -> Spec {
     let list = |value: &dyn Fn(usize) -> f64| {
         (0..POINTS).map(|k| format!("{:?}", value(k))).collect::<Vec<_>>().join(", ")
@@ -34,7 +35,7 @@ fn table(interpolation: &str, place: impl Fn(usize) -> f64) -> Spec {
     .expect("a spec")
 }
 
-/// A sum of what a function gives.
+/// Sums the values of a function.
 #[derive(Clone, Copy)]
 struct Sum<'a> {
     table: Option<&'a LookupTable<'a>>,
@@ -47,7 +48,7 @@ impl Kernel for Sum<'_> {
     #[inline(always)]
     fn run<R: Register>(self) -> f64 {
         let mut sum = Lanes::<R>::constant(0.0);
-        // The choice is outside of the loops, so that each is what a caller would write.
+        // The choice is outside the loops, as in a caller's code.
         if let Some(table) = self.table {
             for x in self.x.chunks_exact(R::WIDTH) {
                 sum = sum + table.value(Lanes::<R>::from_fn(|lane| x[lane]));

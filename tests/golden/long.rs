@@ -50,7 +50,7 @@
 /// | 39 | 38 | q38 |
 /// | 40 | 39 | q39 |
 ///
-/// | source | is an error of |
+/// | source | location |
 /// |---|---|
 /// | sag | frame 3 |
 /// | bow | frame 30 |
@@ -82,24 +82,24 @@ pub mod long {
         Orientation, Parameter, Source, Text, Variable, VariableKind,
     };
 
-    /// How many frames there are: n.
+    /// Number of frames n.
     pub const FRAMES: usize = 40;
-    /// How many generalized errors there are: 6n, the length of ε.
+    /// Number of generalized errors: 6n, the length of ε.
     pub const ERRORS: usize = 240;
-    /// How many joint variables there are: the length of `q`.
+    /// Number of joint variables: the length of `q`.
     pub const VARIABLES: usize = 40;
-    /// How many structural parameters there are: the length of `s`.
+    /// Number of structural parameters: the length of `s`.
     pub const PARAMETERS: usize = 1;
-    /// How many inputs there are: the length of `u`.
+    /// Number of inputs: the length of `u`.
     pub const INPUTS: usize = 1;
-    /// How many errors the sources cause.
+    /// Number of errors that the sources cause.
     pub const EFFECTS: usize = 6;
-    /// How many sources there are.
+    /// Number of enabled sources.
     pub const SOURCES: usize = 3;
-    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    /// Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.
     pub const DISTINCT: usize = 9;
 
-    /// Names, units, limits, sources.
+    /// Description of the manipulator: names, units, limits, sources.
     pub static DESCRIPTION: Description = Description {
         name: Text::Constant("long"),
         title: Text::Constant("long"),
@@ -411,18 +411,18 @@ pub mod long {
         ]),
     };
 
-    /// The structural parameters `s`, which may be set at run time.
+    /// Structural parameters `s`, which can be set at run time.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Parameters {
-        /// In m.
+        /// Unit: m.
         pub reach: f64,
     }
 
     impl Parameters {
-        /// Their nominal values.
+        /// Nominal values.
         pub const NOMINAL: Self = Self { reach: 0.4 };
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; PARAMETERS] {
             [self.reach]
         }
@@ -434,18 +434,18 @@ pub mod long {
         }
     }
 
-    /// The inputs `u`: what changes from use to use.
+    /// Inputs `u`, which can change with every call.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
-        /// In kg.
+        /// Unit: kg.
         pub load: f64,
     }
 
     impl Inputs {
-        /// Their default values.
+        /// Default values.
         pub const NOMINAL: Self = Self { load: 2.0 };
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; INPUTS] {
             [self.load]
         }
@@ -462,15 +462,15 @@ pub mod long {
         Long
     }
 
-    /// The same as functions of plain arrays, generic over the scalar and without checks: what is
-    /// not finite stays so.
+    /// Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values
+    /// propagate.
     ///
-    /// What is returned is `cos ρ`; where that is 0, rows 4–6 are not finite.
+    /// Functions with Euler angles return `cos ρ`; where it is 0, rows 4–6 are not finite.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::Scalar;
 
-        /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
+        /// Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -713,7 +713,7 @@ pub mod long {
             cos_roll
         }
 
-        /// The errors that the sources cause, one per entry of the description's effects.
+        /// Errors that each source causes, one per entry of the description's effects.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
@@ -777,7 +777,8 @@ pub mod long {
             ];
         }
 
-        /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
+        /// Generalized errors ε of the repeatable sources: `e_x e_y e_z` (along x, y, z) and `e_s
+        /// e_r e_p` (about y, z, x) of each frame.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
@@ -914,9 +915,9 @@ pub mod long {
             errors[30] = [zero, zero, t3, zero, T::constant(0.0003), zero];
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
+        /// Pose and the distinct entries of `J_e`, which are neither zero nor repeated: for each
+        /// frame its x, y and z axis, then the moments (rows 1–3) of `e_s e_r e_p`, and for Euler
+        /// angles their rows 4–6. `abbe::distinct` expands them to columns.
         #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
@@ -981,8 +982,7 @@ pub mod long {
             cos_roll
         }
 
-        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
-        /// Jacobian.
+        /// Displacement `ΔX = J_e ε` for any ε, with the rows of `J_e`.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1056,8 +1056,8 @@ pub mod long {
             cos_roll
         }
 
-        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
-        /// order of ε.
+        /// Covariance `J_e diag(σ²) J_eᵀ` of ΔX, column-major, from the variance of each error of
+        /// each frame, in the order of ε.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1259,7 +1259,7 @@ pub mod long {
             cos_roll
         }
 
-        /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
+        /// Displacement `ΔX = J_e ε` due to the repeatable sources, with the rows of `J_e`.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1273,8 +1273,8 @@ pub mod long {
             self::displacement(q, s, &errors, displacement)
         }
 
-        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
-        /// Jacobian.
+        /// Displacement ΔX due to each source alone, for a random source at its magnitude, with the
+        /// rows of `J_e`.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1312,7 +1312,7 @@ pub mod long {
             margin
         }
 
-        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
+        /// Exact pose of the tool point in `F_0` with the errors of the repeatable sources: `A_1
         /// E_1 … A_n E_n T`.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
@@ -1412,9 +1412,9 @@ pub mod long {
             *pose = [[t1, t2, t3], [t4, t5, t6], [t7, t8, t9], [t10, t11, t12]];
         }
 
-        /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
-        /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
-        /// the frame.
+        /// Exact pose of the tool point in `F_0` with the errors of every source times its
+        /// magnitude. In each link the order is: deviations of the numbers of `A_i`, errors
+        /// elsewhere on the link, errors of the frame.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1648,7 +1648,7 @@ pub mod long {
             ];
         }
 
-        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
+        /// Pose of `real_pose`, and nominal `J_q` with rotation-vector rows: one column per
         /// variable.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
@@ -1703,7 +1703,7 @@ pub mod long {
             real_pose(q, s, u, pose);
         }
 
-        /// Transform and column of everything that a symbol moves.
+        /// Transform and column of every nonzero twist.
         const JOINT_TWISTS: [(usize, usize); 41] = [
             (0, 0),
             (1, 1),
@@ -1748,14 +1748,14 @@ pub mod long {
             (40, 2),
         ];
 
-        /// Transform and column of everything that a symbol moves.
+        /// Transform and column of every nonzero twist.
         const PARAMETER_TWISTS: [(usize, usize); 2] = [(0, 0), (40, 0)];
 
         /// Column of `J_e` and source of every effect.
         const EFFECT_COLUMNS: [(usize, usize); 6] =
             [(18, 0), (21, 0), (23, 0), (182, 1), (184, 1), (124, 2)];
 
-        /// What is constant in each entry.
+        /// Constant term of each entry.
         const MOTION_CONSTANTS: [f64; 504] = [
             1.0,
             0.0,
@@ -2263,7 +2263,7 @@ pub mod long {
             0.0,
         ];
 
-        /// Entry, term, and the factor with which the term is added.
+        /// Entry, term, and factor of the term.
         const MOTION_FACTORS: [(usize, usize, f64); 188] = [
             (12, 0, 1.0),
             (13, 1, 1.0),
@@ -2455,7 +2455,7 @@ pub mod long {
             (501, 63, 1.0),
         ];
 
-        /// What is constant in each entry.
+        /// Constant term of each entry.
         const JOINT_TWIST_CONSTANTS: [f64; 246] = [
             0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
             1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0,
@@ -2474,17 +2474,17 @@ pub mod long {
             0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.2,
         ];
 
-        /// Entry, term, and the factor with which the term is added.
+        /// Entry, term, and factor of the term.
         const JOINT_TWIST_FACTORS: [(usize, usize, f64); 1] = [(241, 63, -0.2)];
 
-        /// What is constant in each entry.
+        /// Constant term of each entry.
         const PARAMETER_TWIST_CONSTANTS: [f64; 12] =
             [0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
-        /// Entry, term, and the factor with which the term is added.
+        /// Entry, term, and factor of the term.
         const PARAMETER_TWIST_FACTORS: [(usize, usize, f64); 0] = [];
 
-        /// What the entries of all transforms are sums of.
+        /// Terms of which the entries of all transforms are sums.
         #[inline(always)]
         fn chain_terms<T: Scalar>(q: &[T; VARIABLES], s: &[T; PARAMETERS], terms: &mut [T; 64]) {
             let [
@@ -2585,7 +2585,7 @@ pub mod long {
             ];
         }
 
-        /// No motion, `A_1 … A_n` and the tool, each by itself.
+        /// Identity, `A_1 … A_n` and the tool transform.
         #[inline(always)]
         fn chain_links<T: Scalar>(terms: &[T; 64], links: &mut [[[T; 3]; 4]; FRAMES + 2]) {
             let entries = links.as_flattened_mut().as_flattened_mut();
@@ -2597,7 +2597,7 @@ pub mod long {
             }
         }
 
-        /// `F_0 … F_n` and the tool, all in `F_0`.
+        /// Poses of `F_0 … F_n` and the tool in `F_0`.
         #[inline(always)]
         fn chain_frames<T: Scalar>(terms: &[T; 64], frames: &mut [[[T; 3]; 4]; FRAMES + 2]) {
             chain_links(terms, frames);

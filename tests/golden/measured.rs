@@ -7,10 +7,10 @@
 /// - Rows: x, y, z of the tool point; small rotation about x, y, z of `F_0`.
 /// - Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).
 ///
-/// Derivatives are one-sided, and that of `sign` is 0, in frame 1: at the ends of `pitch`; frame 2:
-/// where the argument of `sign` is 0, where the argument of `abs` is 0, at the points of `stretch`,
-/// where the arguments of `max` are equal; frame 3: at the points of `torque`, where the arguments
-/// of `min` are equal.
+/// Derivatives are one-sided (0 for `sign`) in frame 1: at the ends of `pitch`; frame 2: where the
+/// argument of `sign` is 0, where the argument of `abs` is 0, at the points of `stretch`, where the
+/// arguments of `max` are equal; frame 3: at the points of `torque`, where the arguments of `min`
+/// are equal.
 ///
 /// | frame | name | variable |
 /// |---|---|---|
@@ -18,7 +18,7 @@
 /// | 2 | shoulder | q2 |
 /// | 3 | elbow | q3 |
 ///
-/// | source | is an error of |
+/// | source | location |
 /// |---|---|
 /// | rail, as it was measured | frame rail |
 /// | windup | frame elbow |
@@ -48,24 +48,24 @@ pub mod measured {
         Orientation, Parameter, Source, Text, Variable, VariableKind,
     };
 
-    /// How many frames there are: n.
+    /// Number of frames n.
     pub const FRAMES: usize = 3;
-    /// How many generalized errors there are: 6n, the length of ε.
+    /// Number of generalized errors: 6n, the length of ε.
     pub const ERRORS: usize = 18;
-    /// How many joint variables there are: the length of `q`.
+    /// Number of joint variables: the length of `q`.
     pub const VARIABLES: usize = 3;
-    /// How many structural parameters there are: the length of `s`.
+    /// Number of structural parameters: the length of `s`.
     pub const PARAMETERS: usize = 6;
-    /// How many inputs there are: the length of `u`.
+    /// Number of inputs: the length of `u`.
     pub const INPUTS: usize = 3;
-    /// How many errors the sources cause.
+    /// Number of errors that the sources cause.
     pub const EFFECTS: usize = 6;
-    /// How many sources there are.
+    /// Number of enabled sources.
     pub const SOURCES: usize = 3;
-    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    /// Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.
     pub const DISTINCT: usize = 6;
 
-    /// Names, units, limits, sources.
+    /// Description of the manipulator: names, units, limits, sources.
     pub static DESCRIPTION: Description = Description {
         name: Text::Constant("measured"),
         title: Text::Constant("A rail as it was measured, and what one can say of an arm on it"),
@@ -124,25 +124,25 @@ pub mod measured {
         ]),
     };
 
-    /// The structural parameters `s`, which may be set at run time.
+    /// Structural parameters `s`, which can be set at run time.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Parameters {
         /// Of the flange; mm.
         pub depth: f64,
-        /// In mm.
+        /// Unit: mm.
         pub fine: f64,
-        /// In mm.
+        /// Unit: mm.
         pub wide: f64,
-        /// In mm.
+        /// Unit: mm.
         pub lever: f64,
-        /// In s.
+        /// Unit: s.
         pub period: f64,
-        /// In s.
+        /// Unit: s.
         pub run: f64,
     }
 
     impl Parameters {
-        /// Their nominal values.
+        /// Nominal values.
         pub const NOMINAL: Self = Self {
             depth: 50.8,
             fine: 0.00025,
@@ -152,7 +152,7 @@ pub mod measured {
             run: 900.0,
         };
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; PARAMETERS] {
             [
                 self.depth,
@@ -171,26 +171,26 @@ pub mod measured {
         }
     }
 
-    /// The inputs `u`: what changes from use to use.
+    /// Inputs `u`, which can change with every call.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
-        /// In kg.
+        /// Unit: kg.
         pub payload: f64,
-        /// In mm*kg/s^2.
+        /// Unit: mm*kg/s^2.
         pub preload: f64,
-        /// In kg/mm/s^2.
+        /// Unit: kg/mm/s^2.
         pub pressure: f64,
     }
 
     impl Inputs {
-        /// Their default values.
+        /// Default values.
         pub const NOMINAL: Self = Self {
             payload: 9.0718474,
             preload: 400.0,
             pressure: 80.0,
         };
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; INPUTS] {
             [self.payload, self.preload, self.pressure]
         }
@@ -208,13 +208,13 @@ pub mod measured {
         Measured
     }
 
-    /// The same as functions of plain arrays, generic over the scalar and without checks: what is
-    /// not finite stays so.
+    /// Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values
+    /// propagate.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::{ErrorColumns, Scalar};
 
-        /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
+        /// Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -334,9 +334,9 @@ pub mod measured {
             error_columns(q, s, pose, columns);
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
+        /// Pose and the distinct entries of `J_e`, which are neither zero nor repeated: for each
+        /// frame its x, y and z axis, then the moments (rows 1–3) of `e_s e_r e_p`, and for Euler
+        /// angles their rows 4–6. `abbe::distinct` expands them to columns.
         #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
@@ -347,7 +347,7 @@ pub mod measured {
             error_columns(q, s, pose, distinct);
         }
 
-        /// Both: a column is given as soon as it is known.
+        /// Computes either form of `J_e` and passes on each column as soon as it is known.
         #[inline(always)]
         fn error_columns<T: Scalar>(
             q: &[T; VARIABLES],
@@ -635,7 +635,7 @@ pub mod measured {
             columns[3] = [t29, t30, t31, zero, zero, zero];
         }
 
-        /// The errors that the sources cause, one per entry of the description's effects.
+        /// Errors that each source causes, one per entry of the description's effects.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
@@ -661,7 +661,8 @@ pub mod measured {
             *effects = [t2, t3, t5, t7, t11, t12];
         }
 
-        /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
+        /// Generalized errors ε of the repeatable sources: `e_x e_y e_z` (along x, y, z) and `e_s
+        /// e_r e_p` (about y, z, x) of each frame.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
@@ -688,8 +689,7 @@ pub mod measured {
             errors[2] = [t5, zero, zero, zero, t7, zero];
         }
 
-        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
-        /// Jacobian.
+        /// Displacement `ΔX = J_e ε` for any ε, with the rows of `J_e`.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -743,8 +743,8 @@ pub mod measured {
             *displacement = [t30, t24, t29, t32, t27, t31];
         }
 
-        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
-        /// order of ε.
+        /// Covariance `J_e diag(σ²) J_eᵀ` of ΔX, column-major, from the variance of each error of
+        /// each frame, in the order of ε.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -877,7 +877,7 @@ pub mod measured {
             covariance[5] = [t106, t97, t104, t96, t90, t94];
         }
 
-        /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
+        /// Displacement `ΔX = J_e ε` due to the repeatable sources, with the rows of `J_e`.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -924,8 +924,8 @@ pub mod measured {
             *displacement = [t27, t22, t26, t29, t25, t28];
         }
 
-        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
-        /// Jacobian.
+        /// Displacement ΔX due to each source alone, for a random source at its magnitude, with the
+        /// rows of `J_e`.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -995,7 +995,7 @@ pub mod measured {
             displacements[2] = [t47, t42, t46, t48, t45, t49];
         }
 
-        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
+        /// Exact pose of the tool point in `F_0` with the errors of the repeatable sources: `A_1
         /// E_1 … A_n E_n T`.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
@@ -1074,9 +1074,9 @@ pub mod measured {
             ];
         }
 
-        /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
-        /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
-        /// the frame.
+        /// Exact pose of the tool point in `F_0` with the errors of every source times its
+        /// magnitude. In each link the order is: deviations of the numbers of `A_i`, errors
+        /// elsewhere on the link, errors of the frame.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1169,7 +1169,7 @@ pub mod measured {
             ];
         }
 
-        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
+        /// Pose of `real_pose`, and nominal `J_q` with rotation-vector rows: one column per
         /// variable.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
@@ -1257,8 +1257,8 @@ pub mod measured {
             columns[2] = [t49, t50, t51, t53, t54, t55];
         }
 
-        /// Of the rail, by a laser tracker. `straightness`: monotone cubics through 10 points from
-        /// 0 to 2000, no number beyond.
+        /// Of the rail, by a laser tracker. `straightness`: monotone cubic interpolation of 10
+        /// points from 0 to 2000, NaN outside.
         const STRAIGHTNESS_TABLE: ::abbe::LookupTable<'static> = ::abbe::LookupTable {
             first: 0.0,
             scale: 0.03599999999999999,
@@ -1316,7 +1316,8 @@ pub mod measured {
             steps: 2,
         };
 
-        /// `pitch`: monotone cubics through 5 points from 0 to 2000, held beyond.
+        /// `pitch`: monotone cubic interpolation of 5 points from 0 to 2000, end value held
+        /// outside.
         const PITCH_TABLE: ::abbe::LookupTable<'static> = ::abbe::LookupTable {
             first: 0.0,
             scale: 0.0019999999999999996,
@@ -1353,7 +1354,8 @@ pub mod measured {
             steps: 0,
         };
 
-        /// `stretch`: straight lines through 5 points from 0 to 2.5, held beyond.
+        /// `stretch`: piecewise linear interpolation of 5 points from 0 to 2.5, end value held
+        /// outside.
         const STRETCH_TABLE: ::abbe::LookupTable<'static> = ::abbe::LookupTable {
             first: 0.0,
             scale: 3.1999999999999997,
@@ -1370,7 +1372,7 @@ pub mod measured {
             steps: 1,
         };
 
-        /// `torque`: straight lines through 7 points from -3 to 3, no number beyond.
+        /// `torque`: piecewise linear interpolation of 7 points from -3 to 3, NaN outside.
         const TORQUE_TABLE: ::abbe::LookupTable<'static> = ::abbe::LookupTable {
             first: -3.0,
             scale: 0.9999999999999999,

@@ -26,7 +26,7 @@
 /// | 5 | roll | q5 |
 /// | 6 | pitch | q6 |
 ///
-/// | source | is an error of |
+/// | source | location |
 /// |---|---|
 /// | base rail curvature | frame lateral |
 /// | spin encoder | joint q4 |
@@ -61,24 +61,24 @@ pub mod pps {
         Parameter, Source, Text, Variable, VariableKind,
     };
 
-    /// How many frames there are: n.
+    /// Number of frames n.
     pub const FRAMES: usize = 6;
-    /// How many generalized errors there are: 6n, the length of ε.
+    /// Number of generalized errors: 6n, the length of ε.
     pub const ERRORS: usize = 36;
-    /// How many joint variables there are: the length of `q`.
+    /// Number of joint variables: the length of `q`.
     pub const VARIABLES: usize = 6;
-    /// How many structural parameters there are: the length of `s`.
+    /// Number of structural parameters: the length of `s`.
     pub const PARAMETERS: usize = 13;
-    /// How many inputs there are: the length of `u`.
+    /// Number of inputs: the length of `u`.
     pub const INPUTS: usize = 0;
-    /// How many errors the sources cause.
+    /// Number of errors that the sources cause.
     pub const EFFECTS: usize = 45;
-    /// How many sources there are.
+    /// Number of enabled sources.
     pub const SOURCES: usize = 7;
-    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    /// Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.
     pub const DISTINCT: usize = 9;
 
-    /// Names, units, limits, sources.
+    /// Description of the manipulator: names, units, limits, sources.
     pub static DESCRIPTION: Description = Description {
         name: Text::Constant("pps"),
         title: Text::Constant("NPTC patient positioning system"),
@@ -227,7 +227,7 @@ pub mod pps {
         ]),
     };
 
-    /// The structural parameters `s`, which may be set at run time.
+    /// Structural parameters `s`, which can be set at run time.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Parameters {
         /// Height of the arm over the rail at d2 = 0; mm.
@@ -260,7 +260,7 @@ pub mod pps {
     }
 
     impl Parameters {
-        /// Their nominal values.
+        /// Nominal values.
         pub const NOMINAL: Self = Self {
             y_offset: 600.0,
             z_offset: 718.0,
@@ -277,7 +277,7 @@ pub mod pps {
             assembly_turn: 0.0006586,
         };
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; PARAMETERS] {
             [
                 self.y_offset,
@@ -303,15 +303,15 @@ pub mod pps {
         }
     }
 
-    /// The inputs `u`: what changes from use to use.
+    /// Inputs `u`, which can change with every call.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {}
 
     impl Inputs {
-        /// Their default values.
+        /// Default values.
         pub const NOMINAL: Self = Self {};
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; INPUTS] {
             []
         }
@@ -328,15 +328,15 @@ pub mod pps {
         Pps
     }
 
-    /// The same as functions of plain arrays, generic over the scalar and without checks: what is
-    /// not finite stays so.
+    /// Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values
+    /// propagate.
     ///
-    /// What is returned is `cos ρ`; where that is 0, rows 4–6 are not finite.
+    /// Functions with Euler angles return `cos ρ`; where it is 0, rows 4–6 are not finite.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::{ErrorColumns, Scalar};
 
-        /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
+        /// Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -475,9 +475,9 @@ pub mod pps {
             error_columns(q, s, pose, columns)
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
+        /// Pose and the distinct entries of `J_e`, which are neither zero nor repeated: for each
+        /// frame its x, y and z axis, then the moments (rows 1–3) of `e_s e_r e_p`, and for Euler
+        /// angles their rows 4–6. `abbe::distinct` expands them to columns.
         #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
@@ -488,7 +488,7 @@ pub mod pps {
             error_columns(q, s, pose, distinct)
         }
 
-        /// Both: a column is given as soon as it is known.
+        /// Computes either form of `J_e` and passes on each column as soon as it is known.
         #[inline(always)]
         fn error_columns<T: Scalar>(
             q: &[T; VARIABLES],
@@ -841,7 +841,7 @@ pub mod pps {
             r5_11.mul_add(r5_11, t1 * t1).sqrt()
         }
 
-        /// The errors that the sources cause, one per entry of the description's effects.
+        /// Errors that each source causes, one per entry of the description's effects.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
@@ -927,7 +927,8 @@ pub mod pps {
             ];
         }
 
-        /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
+        /// Generalized errors ε of the repeatable sources: `e_x e_y e_z` (along x, y, z) and `e_s
+        /// e_r e_p` (about y, z, x) of each frame.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
@@ -989,8 +990,7 @@ pub mod pps {
             errors[2] = [t5, t12, assembly_shift, t6, t14, t16];
         }
 
-        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
-        /// Jacobian.
+        /// Displacement `ΔX = J_e ε` for any ε, with the rows of `J_e`.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1075,8 +1075,8 @@ pub mod pps {
             cos_roll
         }
 
-        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
-        /// order of ε.
+        /// Covariance `J_e diag(σ²) J_eᵀ` of ΔX, column-major, from the variance of each error of
+        /// each frame, in the order of ε.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1296,7 +1296,7 @@ pub mod pps {
             cos_roll
         }
 
-        /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
+        /// Displacement `ΔX = J_e ε` due to the repeatable sources, with the rows of `J_e`.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1391,8 +1391,8 @@ pub mod pps {
             cos_roll
         }
 
-        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
-        /// Jacobian.
+        /// Displacement ΔX due to each source alone, for a random source at its magnitude, with the
+        /// rows of `J_e`.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1509,7 +1509,7 @@ pub mod pps {
             cos_roll
         }
 
-        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
+        /// Exact pose of the tool point in `F_0` with the errors of the repeatable sources: `A_1
         /// E_1 … A_n E_n T`.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
@@ -1731,9 +1731,9 @@ pub mod pps {
             ];
         }
 
-        /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
-        /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
-        /// the frame.
+        /// Exact pose of the tool point in `F_0` with the errors of every source times its
+        /// magnitude. In each link the order is: deviations of the numbers of `A_i`, errors
+        /// elsewhere on the link, errors of the frame.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1945,7 +1945,7 @@ pub mod pps {
             ];
         }
 
-        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
+        /// Pose of `real_pose`, and nominal `J_q` with rotation-vector rows: one column per
         /// variable.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(

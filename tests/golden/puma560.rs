@@ -23,7 +23,7 @@
 /// | 5 | wrist bend | q5 |
 /// | 6 | flange | q6 |
 ///
-/// | source | is an error of |
+/// | source | location |
 /// |---|---|
 /// | waist encoder | joint q1 |
 /// | shoulder encoder | joint q2 |
@@ -56,24 +56,24 @@ pub mod puma560 {
         Source, Text, Variable, VariableKind,
     };
 
-    /// How many frames there are: n.
+    /// Number of frames n.
     pub const FRAMES: usize = 6;
-    /// How many generalized errors there are: 6n, the length of ε.
+    /// Number of generalized errors: 6n, the length of ε.
     pub const ERRORS: usize = 36;
-    /// How many joint variables there are: the length of `q`.
+    /// Number of joint variables: the length of `q`.
     pub const VARIABLES: usize = 6;
-    /// How many structural parameters there are: the length of `s`.
+    /// Number of structural parameters: the length of `s`.
     pub const PARAMETERS: usize = 0;
-    /// How many inputs there are: the length of `u`.
+    /// Number of inputs: the length of `u`.
     pub const INPUTS: usize = 0;
-    /// How many errors the sources cause.
+    /// Number of errors that the sources cause.
     pub const EFFECTS: usize = 8;
-    /// How many sources there are.
+    /// Number of enabled sources.
     pub const SOURCES: usize = 6;
-    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    /// Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.
     pub const DISTINCT: usize = 6;
 
-    /// Names, units, limits, sources.
+    /// Description of the manipulator: names, units, limits, sources.
     pub static DESCRIPTION: Description = Description {
         name: Text::Constant("puma560"),
         title: Text::Constant("Unimation PUMA 560"),
@@ -177,15 +177,15 @@ pub mod puma560 {
         ]),
     };
 
-    /// The structural parameters `s`, which may be set at run time.
+    /// Structural parameters `s`, which can be set at run time.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Parameters {}
 
     impl Parameters {
-        /// Their nominal values.
+        /// Nominal values.
         pub const NOMINAL: Self = Self {};
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; PARAMETERS] {
             []
         }
@@ -197,15 +197,15 @@ pub mod puma560 {
         }
     }
 
-    /// The inputs `u`: what changes from use to use.
+    /// Inputs `u`, which can change with every call.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {}
 
     impl Inputs {
-        /// Their default values.
+        /// Default values.
         pub const NOMINAL: Self = Self {};
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; INPUTS] {
             []
         }
@@ -222,13 +222,13 @@ pub mod puma560 {
         Puma560
     }
 
-    /// The same as functions of plain arrays, generic over the scalar and without checks: what is
-    /// not finite stays so.
+    /// Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values
+    /// propagate.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::{ErrorColumns, Scalar};
 
-        /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
+        /// Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -354,9 +354,9 @@ pub mod puma560 {
             error_columns(q, s, pose, columns);
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
+        /// Pose and the distinct entries of `J_e`, which are neither zero nor repeated: for each
+        /// frame its x, y and z axis, then the moments (rows 1–3) of `e_s e_r e_p`, and for Euler
+        /// angles their rows 4–6. `abbe::distinct` expands them to columns.
         #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
@@ -367,7 +367,7 @@ pub mod puma560 {
             error_columns(q, s, pose, distinct);
         }
 
-        /// Both: a column is given as soon as it is known.
+        /// Computes either form of `J_e` and passes on each column as soon as it is known.
         #[inline(always)]
         fn error_columns<T: Scalar>(
             q: &[T; VARIABLES],
@@ -607,7 +607,7 @@ pub mod puma560 {
             self::pose(q, s, pose);
         }
 
-        /// The errors that the sources cause, one per entry of the description's effects.
+        /// Errors that each source causes, one per entry of the description's effects.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -627,7 +627,8 @@ pub mod puma560 {
             ];
         }
 
-        /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
+        /// Generalized errors ε of the repeatable sources: `e_x e_y e_z` (along x, y, z) and `e_s
+        /// e_r e_p` (about y, z, x) of each frame.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -650,8 +651,7 @@ pub mod puma560 {
             errors[5] = [zero; 6];
         }
 
-        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
-        /// Jacobian.
+        /// Displacement `ΔX = J_e ε` for any ε, with the rows of `J_e`.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -713,8 +713,8 @@ pub mod puma560 {
             *displacement = [t33, t34, t27, t35, t36, t31];
         }
 
-        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
-        /// order of ε.
+        /// Covariance `J_e diag(σ²) J_eᵀ` of ΔX, column-major, from the variance of each error of
+        /// each frame, in the order of ε.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -891,7 +891,7 @@ pub mod puma560 {
             covariance[3] = [t143, t146, t136, t133, t135, t129];
         }
 
-        /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
+        /// Displacement `ΔX = J_e ε` due to the repeatable sources, with the rows of `J_e`.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -903,8 +903,8 @@ pub mod puma560 {
             *displacement = [zero; 6];
         }
 
-        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
-        /// Jacobian.
+        /// Displacement ΔX due to each source alone, for a random source at its magnitude, with the
+        /// rows of `J_e`.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -982,7 +982,7 @@ pub mod puma560 {
             displacements[5] = [zero, zero, zero, t32, t34, t35];
         }
 
-        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
+        /// Exact pose of the tool point in `F_0` with the errors of the repeatable sources: `A_1
         /// E_1 … A_n E_n T`.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
@@ -994,9 +994,9 @@ pub mod puma560 {
             self::pose(q, s, pose);
         }
 
-        /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
-        /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
-        /// the frame.
+        /// Exact pose of the tool point in `F_0` with the errors of every source times its
+        /// magnitude. In each link the order is: deviations of the numbers of `A_i`, errors
+        /// elsewhere on the link, errors of the frame.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1061,7 +1061,7 @@ pub mod puma560 {
             ];
         }
 
-        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
+        /// Pose of `real_pose`, and nominal `J_q` with rotation-vector rows: one column per
         /// variable.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(

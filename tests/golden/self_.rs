@@ -9,15 +9,14 @@
 /// - Rows: x, y, z of the tool point; small rotation about x, y, z of `F_0`.
 /// - Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).
 ///
-/// Derivatives are one-sided, and that of `sign` is 0, in frame 2: where the argument of `abs` is
-/// 0.
+/// Derivatives are one-sided (0 for `sign`) in frame 2: where the argument of `abs` is 0.
 ///
 /// | frame | name | variable |
 /// |---|---|---|
 /// | 1 | first \| \`frame\` | Some |
 /// | 2 | x | self_ |
 ///
-/// | source | is an error of |
+/// | source | location |
 /// |---|---|
 /// | "quoted" \\ name | frame x |
 ///
@@ -47,24 +46,24 @@ pub mod self_ {
         Orientation, Parameter, Source, Text, Variable, VariableKind,
     };
 
-    /// How many frames there are: n.
+    /// Number of frames n.
     pub const FRAMES: usize = 2;
-    /// How many generalized errors there are: 6n, the length of ε.
+    /// Number of generalized errors: 6n, the length of ε.
     pub const ERRORS: usize = 12;
-    /// How many joint variables there are: the length of `q`.
+    /// Number of joint variables: the length of `q`.
     pub const VARIABLES: usize = 2;
-    /// How many structural parameters there are: the length of `s`.
+    /// Number of structural parameters: the length of `s`.
     pub const PARAMETERS: usize = 10;
-    /// How many inputs there are: the length of `u`.
+    /// Number of inputs: the length of `u`.
     pub const INPUTS: usize = 2;
-    /// How many errors the sources cause.
+    /// Number of errors that the sources cause.
     pub const EFFECTS: usize = 2;
-    /// How many sources there are.
+    /// Number of enabled sources.
     pub const SOURCES: usize = 1;
-    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    /// Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.
     pub const DISTINCT: usize = 6;
 
-    /// Names, units, limits, sources.
+    /// Description of the manipulator: names, units, limits, sources.
     pub static DESCRIPTION: Description = Description {
         name: Text::Constant("self_"),
         title: Text::Constant("A robot with <unlucky> [names]"),
@@ -116,33 +115,33 @@ pub mod self_ {
         ]),
     };
 
-    /// The structural parameters `s`, which may be set at run time.
+    /// Structural parameters `s`, which can be set at run time.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Parameters {
         /// Not \[quite\] \<pi\>; m.
         pub q: f64,
-        /// In rad or a pure number.
+        /// Unit: rad or a pure number.
         pub None: f64,
-        /// In m.
+        /// Unit: m.
         pub ERRORS: f64,
-        /// In rad or a pure number.
+        /// Unit: rad or a pure number.
         pub T: f64,
-        /// In K.
+        /// Unit: K.
         pub zero: f64,
-        /// In m^2.
+        /// Unit: m^2.
         pub t1: f64,
-        /// In rad or a pure number.
+        /// Unit: rad or a pure number.
         pub r1_11: f64,
-        /// In m^3*kg/s^2.
+        /// Unit: m^3*kg/s^2.
         pub EI: f64,
-        /// In s.
+        /// Unit: s.
         pub pose: f64,
-        /// In rad or a pure number.
+        /// Unit: rad or a pure number.
         pub _s: f64,
     }
 
     impl Parameters {
-        /// Their nominal values.
+        /// Nominal values.
         pub const NOMINAL: Self = Self {
             q: 3.14,
             None: 0.5,
@@ -156,7 +155,7 @@ pub mod self_ {
             _s: 1.0,
         };
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; PARAMETERS] {
             [
                 self.q,
@@ -179,23 +178,23 @@ pub mod self_ {
         }
     }
 
-    /// The inputs `u`: what changes from use to use.
+    /// Inputs `u`, which can change with every call.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
-        /// In m*kg/s^2.
+        /// Unit: m*kg/s^2.
         pub u: f64,
-        /// In rad or a pure number.
+        /// Unit: rad or a pure number.
         pub columns: f64,
     }
 
     impl Inputs {
-        /// Their default values.
+        /// Default values.
         pub const NOMINAL: Self = Self {
             u: 20.0,
             columns: 6.2832,
         };
 
-        /// The values in the order of [`DESCRIPTION`].
+        /// Returns the values in the order of [`DESCRIPTION`].
         pub const fn to_array(self) -> [f64; INPUTS] {
             [self.u, self.columns]
         }
@@ -212,13 +211,13 @@ pub mod self_ {
         ManipulatorSelf
     }
 
-    /// The same as functions of plain arrays, generic over the scalar and without checks: what is
-    /// not finite stays so.
+    /// Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values
+    /// propagate.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::{ErrorColumns, Scalar};
 
-        /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
+        /// Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -351,9 +350,9 @@ pub mod self_ {
             error_columns(q, s, pose, columns);
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
+        /// Pose and the distinct entries of `J_e`, which are neither zero nor repeated: for each
+        /// frame its x, y and z axis, then the moments (rows 1–3) of `e_s e_r e_p`, and for Euler
+        /// angles their rows 4–6. `abbe::distinct` expands them to columns.
         #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
@@ -364,7 +363,7 @@ pub mod self_ {
             error_columns(q, s, pose, distinct);
         }
 
-        /// Both: a column is given as soon as it is known.
+        /// Computes either form of `J_e` and passes on each column as soon as it is known.
         #[inline(always)]
         fn error_columns<T: Scalar>(
             q: &[T; VARIABLES],
@@ -630,7 +629,7 @@ pub mod self_ {
             columns[3] = [t35, t36, zero, zero, zero, None_];
         }
 
-        /// The errors that the sources cause, one per entry of the description's effects.
+        /// Errors that each source causes, one per entry of the description's effects.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -649,7 +648,8 @@ pub mod self_ {
             *effects = [t2, t6];
         }
 
-        /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
+        /// Generalized errors ε of the repeatable sources: `e_x e_y e_z` (along x, y, z) and `e_s
+        /// e_r e_p` (about y, z, x) of each frame.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -664,8 +664,7 @@ pub mod self_ {
             errors[1] = [zero; 6];
         }
 
-        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
-        /// Jacobian.
+        /// Displacement `ΔX = J_e ε` for any ε, with the rows of `J_e`.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -718,8 +717,8 @@ pub mod self_ {
             *displacement = [t23, t24, t20, t25, t26, t22];
         }
 
-        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
-        /// order of ε.
+        /// Covariance `J_e diag(σ²) J_eᵀ` of ΔX, column-major, from the variance of each error of
+        /// each frame, in the order of ε.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -861,7 +860,7 @@ pub mod self_ {
             covariance[3] = [t108, t110, t101, t98, t100, t94];
         }
 
-        /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
+        /// Displacement `ΔX = J_e ε` due to the repeatable sources, with the rows of `J_e`.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -873,8 +872,8 @@ pub mod self_ {
             *displacement = [zero; 6];
         }
 
-        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
-        /// Jacobian.
+        /// Displacement ΔX due to each source alone, for a random source at its magnitude, with the
+        /// rows of `J_e`.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -913,7 +912,7 @@ pub mod self_ {
             displacements[0] = [t11, t12, t13, t14, t15, t16];
         }
 
-        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
+        /// Exact pose of the tool point in `F_0` with the errors of the repeatable sources: `A_1
         /// E_1 … A_n E_n T`.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
@@ -925,9 +924,9 @@ pub mod self_ {
             self::pose(q, s, pose);
         }
 
-        /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
-        /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
-        /// the frame.
+        /// Exact pose of the tool point in `F_0` with the errors of every source times its
+        /// magnitude. In each link the order is: deviations of the numbers of `A_i`, errors
+        /// elsewhere on the link, errors of the frame.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1006,7 +1005,7 @@ pub mod self_ {
             ];
         }
 
-        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
+        /// Pose of `real_pose`, and nominal `J_q` with rotation-vector rows: one column per
         /// variable.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(

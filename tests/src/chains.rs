@@ -1,8 +1,8 @@
-//! Specs that are not shipped: chains of any length, and what shipped ones have not.
+//! Specs for tests: chains of any length, and features that the shipped specs lack.
 
 use std::fmt::Write;
 
-/// The spec of a chain of frames in general position, alternating revolute and prismatic.
+/// Returns the spec of a chain of frames in general position, alternately revolute and prismatic.
 pub fn general_chain(frames: usize) -> String {
     let mut text = "[manipulator]\nname = \"chain\"\nlength = \"m\"\n".to_owned();
     for i in 0..frames {
@@ -22,7 +22,7 @@ pub fn general_chain(frames: usize) -> String {
     text
 }
 
-/// The spec of a chain of revolute joints, neighbouring axes askew.
+/// Returns the spec of a chain of revolute joints with skew neighboring axes.
 pub fn revolute_chain(frames: usize) -> String {
     let mut text = "[manipulator]\nname = \"chain\"\nlength = \"m\"\n".to_owned();
     for i in 0..frames {
@@ -37,7 +37,8 @@ pub fn revolute_chain(frames: usize) -> String {
     text
 }
 
-/// The spec of an arm of six revolute joints with so many parameters, all of them in its lengths.
+/// Returns the spec of an arm of six revolute joints with `count` parameters, all of them in its
+/// lengths.
 pub fn many_parameters(count: usize) -> String {
     let mut text = "[manipulator]\nname = \"many\"\nlength = \"m\"\n[parameters]\n".to_owned();
     for i in 0..count {
@@ -55,8 +56,8 @@ pub fn many_parameters(count: usize) -> String {
     text
 }
 
-/// A chain of 40 frames, long enough to be generated as loops: Euler rows, a parameter in two places, a variable in
-/// two, sources of both classes.
+/// Returns the spec of a chain of 40 frames, long enough to be generated as loops: Euler rows, a
+/// parameter in two places, a variable in two, and sources of both classes.
 pub fn long_chain() -> String {
     let chain = general_chain(40).replacen("name = \"chain\"\nlength = \"m\"\n", LONG_HEAD, 1).replacen(
         "d = \"0.2\"",
@@ -98,8 +99,8 @@ frame = "20"
 e_r = "1e-4"
 "#;
 
-/// A spec with variables in several frames, twice in one, inside a matrix, a screw, an axis in any direction, and a
-/// variable in the tool.
+/// Returns a spec with variables in several frames, twice in one frame, inside a matrix and in the
+/// tool, with a screw joint and an axis in general direction.
 pub fn coupled_joints() -> &'static str {
     r#"
         [manipulator]
@@ -136,8 +137,9 @@ pub fn coupled_joints() -> &'static str {
     "#
 }
 
-/// An arm like those that exist: 2 to 8 joints, some prismatic, neighbouring axes mostly parallel or at right angles,
-/// many lengths 0, in all forms that a spec knows; `index` says which.
+/// Returns the spec of a realistic random arm: 2 to 8 joints, some prismatic, neighboring axes
+/// mostly parallel or perpendicular, many lengths 0, in all notations of specs. `index` selects the
+/// arm.
 pub fn random_arm(index: u64) -> String {
     let mut state = index.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(0x2545_F491_4F6C_DD1D);
     let mut below = |count: u64| {
@@ -192,7 +194,8 @@ pub fn random_arm(index: u64) -> String {
     text
 }
 
-/// A spec without gravity and loads, with a full compliance at every frame, and a mass and a wrench at the tool.
+/// Adds gravity, a full compliance at every frame, and a mass and a wrench at the tool to a spec
+/// without loads.
 pub fn elastic_links(spec: &str) -> String {
     let mut text = spec.replacen("[manipulator]", "[manipulator]\ngravity = [0, 0, \"-9.81 m/s^2\"]", 1);
     let frames: Vec<&str> =

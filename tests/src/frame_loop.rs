@@ -1,17 +1,18 @@
-//! What one would write by hand: a loop over frames, on nalgebra's matrices. The baseline of the benchmarks.
+//! Handwritten baseline of the benchmarks: a loop over frames, on nalgebra matrices.
 
 use abbe::Component;
 use nalgebra::{Matrix3, Vector3};
 
-/// A rigid motion by columns: x, y, z axis and position.
+/// Rigid motion by columns: x, y, z axes and position.
 pub type Columns = [[f64; 3]; 4];
 
-/// A frame in `F_0`: its axes and its origin.
+/// Frame in `F_0`: axes and origin.
 pub type Frame = (Matrix3<f64>, Vector3<f64>);
 
-/// Pose of the tool point and the 6 × 6n columns of `J_e`, rotation-vector rows, from `A_1 … A_n` and the tool.
+/// Returns the pose of the tool point, and computes the 6 × 6n columns of `J_e` with
+/// rotation-vector rows, from `A_1 … A_n` and the tool.
 ///
-/// `poses` has room for as many frames as there are transforms.
+/// `poses` is scratch space with one entry per transform.
 pub fn error_jacobian(transforms: &[Columns], poses: &mut [Frame], columns: &mut [[f64; 6]]) -> Columns {
     let mut axes = Matrix3::identity();
     let mut position = Vector3::zeros();

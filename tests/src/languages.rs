@@ -1,11 +1,11 @@
-//! What every generated language is held against: the same arguments, and names that mean something in one of them.
+//! Reference of the generated languages: common arguments, and names with a meaning in one of them.
 
 use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_inputs, nominal_parameters};
 use abbe::compensator::compensate;
 use abbe::function::{Array, COMPENSATED, Signature};
 use abbe::{Function, Manipulator, Pose, VariableKind};
 
-/// Words of languages, and names that their functions use.
+/// Spec with keywords of languages, and names that their functions use.
 pub const NAMES: &str = r#"
 [manipulator]
 name = "arguments"
@@ -41,7 +41,7 @@ e_x = "1e-4 m/N*NaN*cos(new)"
 e_r = "-1e-3*atan2(function, class)*sqrt(Math)"
 "#;
 
-/// q, s, u, errors, variances and magnitudes.
+/// Returns configurations: q, s, u, errors, variances and magnitudes.
 pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     let description = robot.description();
     let (s, u) = (nominal_parameters(description), nominal_inputs(description));
@@ -62,7 +62,7 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(configuration).collect()
 }
 
-/// The arrays that functions take, in the order in which a configuration has their numbers.
+/// Returns the arrays that functions take, in the order of their numbers in a configuration.
 pub fn given_arrays() -> Vec<&'static Array> {
     let mut arrays: Vec<&Array> = Vec::new();
     for array in Function::ALL.into_iter().flat_map(|function| function.signature().arguments) {
@@ -73,7 +73,7 @@ pub fn given_arrays() -> Vec<&'static Array> {
     arrays
 }
 
-/// What a function takes of a configuration.
+/// Returns the arguments of a function from a configuration.
 pub fn arguments(robot: &dyn Manipulator, signature: &Signature, given: &[f64]) -> Vec<f64> {
     let mut rest = given;
     let mut taken = Vec::new();
@@ -87,9 +87,10 @@ pub fn arguments(robot: &dyn Manipulator, signature: &Signature, given: &[f64]) 
     taken
 }
 
-/// Holds what functions gave in another language against what they give here, to 1e-13 of the largest number of a result, and
-/// corrected commands to 1e-9. `found` has every function's results for the first configuration, then for the next. Returns
-/// the largest difference, that of corrected commands apart.
+/// Compares the results of functions in another language with those in Rust, to 1e-13 of the
+/// largest number of a result, and compensated commands to 1e-9. `found` has the results of every
+/// function for the first configuration, then for the next. Returns the largest difference, without
+/// compensated commands.
 pub fn assert_alike(
     robot: &dyn Manipulator,
     evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
@@ -126,7 +127,8 @@ pub fn assert_alike(
     worst
 }
 
-/// Holds corrected commands, and what is wrong before and after, against the same in Rust: to 1e-9 of a metre or a rad.
+/// Compares compensated commands, and the errors before and after, with those in Rust, to 1e-9 of a
+/// metre or a rad.
 pub fn assert_compensated(
     robot: &dyn Manipulator,
     evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,

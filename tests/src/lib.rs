@@ -1,5 +1,5 @@
-//! What crosses crates is tested in `tests/`. Here stands what several of these tests need, and generated code as
-//! it is checked in, so that it is compiled as users compile it, with warnings denied.
+//! Common parts of the tests that cross crates, in `tests/`, and checked-in generated code, which
+//! is compiled as users compile it, with warnings denied.
 #![deny(warnings, missing_docs, clippy::all)]
 
 pub mod abuse;
@@ -11,11 +11,11 @@ mod thorough;
 
 pub use thorough::{is_tested, sample_size, thorough};
 
-/// The specs in `specs/`.
+/// Specs in `specs/`.
 pub mod specs {
     use std::path::PathBuf;
 
-    /// The path of one of them.
+    /// Returns the path of a spec.
     pub fn path(name: &str) -> PathBuf {
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("specs").join(format!("{name}.toml"))
     }

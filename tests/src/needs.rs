@@ -1,22 +1,22 @@
-//! Tests that need what is not everywhere: measurements of others, tools, time. Where it is missing they are reported as
-//! ignored, with the reason, never as passed. Of each crate they are one executable, `tests/needs`, which has
-//! `harness = false` and [`run`] in `main`.
+//! Tests with requirements: public measurements, tools, or time. If a requirement is missing, the
+//! test is reported as ignored, with the reason, never as passed. Each crate has one executable for
+//! them, `tests/needs`, which has `harness = false` and [`run`] in `main`.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 use libtest_mimic::{Arguments, Completion, Trial};
 
-/// What is missing: the reason why a test is ignored.
+/// Missing requirement: the reason why a test is ignored.
 pub struct Missing(pub String);
 
-/// A test that may find what it needs missing. It panics where it fails.
+/// Test that returns [`Missing`] if a requirement is missing, and panics if it fails.
 pub type Test = fn() -> Result<(), Missing>;
 
-/// The tests of a module, each with its name.
+/// Tests of a module, with their names.
 pub type Tests = &'static [(&'static str, Test)];
 
-/// Runs tests by name, those of each module as `module::name`.
+/// Runs tests, named `module::name`.
 #[must_use]
 pub fn run(modules: &[(&str, Tests)]) -> ExitCode {
     let trial = |module: &str, (name, test): &'static (&'static str, Test)| {
@@ -28,30 +28,31 @@ pub fn run(modules: &[(&str, Tests)]) -> ExitCode {
     libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit_code()
 }
 
-/// Time for all that a test can do: `ABBE_THOROUGH=1`.
+/// Requires a thorough run: `ABBE_THOROUGH=1`.
 ///
 /// # Errors
 ///
-/// Nobody asked for it.
+/// Returns [`Missing`] in an ordinary run.
 pub fn thorough() -> Result<(), Missing> {
     if crate::thorough() { Ok(()) } else { Err(Missing("it takes long: ABBE_THOROUGH=1 runs it".to_owned())) }
 }
 
-/// A file of the public measurements of UR5 and WAM, which stand beside the repository, if at all.
+/// Returns the path of a file of the public measurements of UR5 and WAM, in a folder beside the
+/// repository.
 ///
 /// # Errors
 ///
-/// The file is not there.
+/// Returns [`Missing`] if there is no such file.
 pub fn measured_data(file: &str) -> Result<PathBuf, Missing> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/ur5_wam_jacobi").join(file);
     if path.exists() { Ok(path) } else { Err(Missing(format!("the measured data are not here: {file}"))) }
 }
 
-/// A Python that has these modules: `PYTHON`, or `python3`.
+/// Returns a Python with these modules: `PYTHON`, or `python3`.
 ///
 /// # Errors
 ///
-/// It has not.
+/// Returns [`Missing`] if it lacks one of them.
 pub fn python(modules: &str) -> Result<String, Missing> {
     let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let tried = Command::new(&python).args(["-c", &format!("import {modules}")]).output();
@@ -61,11 +62,11 @@ pub fn python(modules: &str) -> Result<String, Missing> {
     }
 }
 
-/// What `program --version` prints, which must end with that version (an empty one: any).
+/// Returns the output of `program --version`, which must end with `version` (any if empty).
 ///
 /// # Errors
 ///
-/// The program is not there, fails, or is of another version.
+/// Returns [`Missing`] if the program is not installed, fails, or has another version.
 pub fn tool(program: &str, version: &str) -> Result<String, Missing> {
     let output = Command::new(program).arg("--version").output();
     let printed = output.ok().filter(|output| output.status.success());

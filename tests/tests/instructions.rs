@@ -1,7 +1,8 @@
-//! Instruction counts by valgrind: within 2 % of those that are checked in.
+//! Instruction counts by valgrind, within 2 % of the checked-in ones.
 //!
-//! Needs valgrind, gungraun-runner and the compiler they were counted with, and is ignored without: `.ci/run` installs the
-//! first two, and runs this; `cargo test` does not. A change is written by `UPDATE_EXPECT=1 cargo test -p abbe-tests --test instructions`.
+//! Requires valgrind, gungraun-runner and the compiler of the checked-in counts, and is otherwise
+//! ignored. `.ci/run` installs the first two and runs it; `cargo test` does not. `UPDATE_EXPECT=1
+//! cargo test -p abbe-tests --test instructions` updates the counts.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -18,14 +19,14 @@ fn main() -> ExitCode {
 
 const TESTS: Tests = &[("as_many_as_are_checked_in", as_many_as_are_checked_in)];
 
-/// The version that the runner must have: that of the crate.
+/// Returns the required version of the runner: that of the crate.
 fn version() -> &'static str {
     let lock = include_str!("../../Cargo.lock");
     let (_, entry) = lock.split_once("name = \"gungraun\"\nversion = \"").expect("the crate is locked");
     entry.split('"').next().expect("a version")
 }
 
-/// Counts by the name of the benchmark.
+/// Returns the counts by the name of the benchmark.
 fn counted() -> BTreeMap<String, u64> {
     let arguments = [
         "bench",

@@ -1,6 +1,7 @@
-//! Every function of every shipped manipulator in batches: 450 kernels, which take longer to compile than all other tests.
+//! Every function of every shipped manipulator in batches: 450 kernels, whose compilation takes
+//! longer than that of all other tests.
 //!
-//! `cargo test --workspace --test kernels`, which the tests of `needs` run where there is time.
+//! `cargo test --workspace --test kernels`, which the tests of `needs` execute in a thorough run.
 
 #[path = "suite/batches/laws.rs"]
 mod laws;
@@ -8,7 +9,7 @@ mod laws;
 use abbe::lanes::Batches;
 use abbe_manipulators::{SHIPPED, general6r, iiwa, machine3, panda, pps, puma560, scara, stanford, ur5, wam};
 
-/// The shipped manipulators: all their functions are compiled for lanes here.
+/// Shipped manipulators, with all their functions compiled for lanes.
 const COMPILED: [&dyn Batches; SHIPPED.len()] = [
     &general6r::General6r,
     &iiwa::Iiwa,

@@ -1,37 +1,40 @@
-//! The budget backwards: how large the sources may be for a tolerance.
+//! The inverse budget: admissible sizes of the sources for a tolerance.
 
 use super::Budget;
 use crate::Measurand;
 
-/// A normal error is within its bound, 3σ, with this probability.
+/// Probability that a normal error is within its bound, 3σ.
 const WITHIN_BOUND: f64 = 0.997_300_203_936_739_8;
 
-/// How large the sources may be for a tolerance T. Scales are multiples of what the sources are now; none where nothing
-/// limits them, because they do nothing.
+/// Admissible sizes of the sources for a tolerance T. Scales are multiples of the present sizes.
+/// `None` for a source without effect, which nothing limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Admissible {
-    /// Each source alone, as if there were no other: `T / max ‖ΔX_k‖`.
+    /// Scale of each source without the others: `T / max ‖ΔX_k‖`.
     pub alone: Vec<Option<f64>>,
-    /// All by the same factor, so that the paper's radius `max ‖Σ repeatable‖ + ‖RSS random‖` is T: `T / radius`.
+    /// Common scale of all sources at which the paper's radius `max ‖Σ repeatable‖ + ‖RSS random‖`
+    /// is T: `T / radius`.
     pub together: Option<f64>,
-    /// What every source may contribute if all contribute alike: `a = T / n` with n sources that do something.
+    /// Contribution of each source if all contribute equally: `a = T / n` with n sources that have
+    /// an effect.
     pub share: Option<f64>,
-    /// Each source at its equal share: `a / max ‖ΔX_k‖`.
+    /// Scale of each source at its equal share: `a / max ‖ΔX_k‖`.
     pub equal: Vec<Option<f64>>,
-    /// How likely T is met with equal shares, at least. 1 if all random sources are bounded: wherever each is worst, and
-    /// whatever their signs, `Σ ‖ΔX_k‖ ≤ n a`. Otherwise 0.9973^m, the probability that the m normal ones are all within
-    /// their bounds.
+    /// Lower bound of the probability that T is met with equal shares. 1 if all random sources are
+    /// bounded, since `Σ ‖ΔX_k‖ ≤ n a` for any signs and any worst configurations. Otherwise
+    /// 0.9973^m, the probability that the m normal errors are all within their bounds.
     pub equal_probability: f64,
 }
 
 impl Admissible {
-    /// For the position errors of a budget and a tolerance in the length unit.
+    /// Computes the admissible sizes for the position errors of a budget and a tolerance in the
+    /// length unit.
     pub fn new(budget: &Budget, tolerance: f64) -> Self {
-        Self::of_measurand(budget, Measurand::Position, tolerance)
+        Self::for_measurand(budget, Measurand::Position, tolerance)
     }
 
-    /// For the errors of a measurand and a tolerance in its unit.
-    pub fn of_measurand(budget: &Budget, measurand: Measurand, tolerance: f64) -> Self {
+    /// Computes the admissible sizes for a measurand and a tolerance in its unit.
+    pub fn for_measurand(budget: &Budget, measurand: Measurand, tolerance: f64) -> Self {
         let (sources, combined, _) = budget.errors(measurand);
         let radius = combined.radius.value;
         let largest = || sources.iter().map(|errors| errors.plain_max.norm);
@@ -51,12 +54,13 @@ impl Admissible {
 }
 
 impl Budget {
-    /// The sources in the order in which they should be tightened for position: the largest gain per percent first.
+    /// Returns the sources in the order in which to tighten them for position: the largest gain per
+    /// percent first.
     pub fn tighten_first(&self) -> Vec<usize> {
         self.tighten_first_for(Measurand::Position)
     }
 
-    /// The same for a measurand.
+    /// Returns the sources in the order in which to tighten them for a measurand.
     pub fn tighten_first_for(&self, measurand: Measurand) -> Vec<usize> {
         let (_, _, gains) = self.errors(measurand);
         let mut order = (0..gains.len()).collect::<Vec<_>>();
@@ -64,12 +68,13 @@ impl Budget {
         order
     }
 
-    /// The rank of each source by its largest position error, 1 for the largest; equal ones in their order.
+    /// Returns the rank of each source by its largest position error, 1 for the largest. Equal
+    /// errors are ranked in the order of the sources.
     pub fn ranks(&self) -> Vec<usize> {
         self.ranks_for(Measurand::Position)
     }
 
-    /// The same for a measurand.
+    /// Returns the rank of each source by its largest error of a measurand.
     pub fn ranks_for(&self, measurand: Measurand) -> Vec<usize> {
         let (sources, ..) = self.errors(measurand);
         let norm = |i: usize| sources[i].plain_max.norm;

@@ -1,14 +1,15 @@
-//! Sums that do not depend on how what is summed was divided.
+//! Sums that do not depend on the partition of the summands.
 
 use core::ops::Range;
 
-/// Sums over consecutive chunks, added in pairs: 2i and 2i + 1, then pairs of pairs, and so on. Which numbers are added is the
-/// same however the chunks were divided, and so is every bit of the sums.
+/// Pairwise sums over consecutive chunks: chunks 2i and 2i + 1 are added, then pairs of pairs, and
+/// so on. The additions are the same for every partition of the chunks, and so is every bit of the
+/// sums.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct AlignedSums(Vec<Node>);
 
-/// The sums over 2^`level` chunks.
+/// Sums over 2^`level` chunks.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Node {
@@ -18,12 +19,12 @@ struct Node {
 }
 
 impl AlignedSums {
-    /// Of one chunk, by its number.
-    pub(super) fn of(chunk: usize, sums: Vec<f64>) -> Self {
+    /// Creates the sums of one chunk, by its number.
+    pub(super) fn from_chunk(chunk: usize, sums: Vec<f64>) -> Self {
         Self(vec![Node { first: chunk, level: 0, sums }])
     }
 
-    /// Takes in those that follow.
+    /// Appends the sums of the following chunks.
     pub(super) fn append(&mut self, other: Self) {
         for node in other.0 {
             self.0.push(node);
@@ -38,17 +39,19 @@ impl AlignedSums {
         }
     }
 
-    /// Whether these, which may come from a file, are sums of `count` numbers over these chunks.
-    pub(super) fn is_of(&self, chunks: Range<usize>, count: usize) -> bool {
+    /// Returns whether these are sums of `count` numbers over the chunks. They may come from a
+    /// file.
+    pub(super) fn is_valid_for(&self, chunks: Range<usize>, count: usize) -> bool {
         let mut expected = Self::default();
-        chunks.for_each(|chunk| expected.append(Self::of(chunk, Vec::new())));
+        chunks.for_each(|chunk| expected.append(Self::from_chunk(chunk, Vec::new())));
         let is_alike = |(node, expected): (&Node, &Node)| {
             (node.first, node.level, node.sums.len()) == (expected.first, expected.level, count)
         };
         self.0.len() == expected.0.len() && self.0.iter().zip(&expected.0).all(is_alike)
     }
 
-    /// All of them; the last ones, which have no pair, are added first. Nothing if there were no chunks.
+    /// Returns the total. The last nodes, which are unpaired, are added first. Empty without
+    /// chunks.
     pub(super) fn total(mut self) -> Vec<f64> {
         let mut total = self.0.pop().map(|node| node.sums).unwrap_or_default();
         while let Some(mut node) = self.0.pop() {
@@ -70,7 +73,7 @@ mod tests {
     fn over(range: core::ops::Range<usize>) -> AlignedSums {
         let mut sums = AlignedSums::default();
         for chunk in range {
-            sums.append(AlignedSums::of(chunk, vec![1.0 / (chunk + 1) as f64, chunk as f64]));
+            sums.append(AlignedSums::from_chunk(chunk, vec![1.0 / (chunk + 1) as f64, chunk as f64]));
         }
         sums
     }
@@ -89,7 +92,7 @@ mod tests {
             }
             assert_eq!(divided, all, "{parts}");
         }
-        // Parts may be put together in any order that keeps them in line.
+        // The order of merging does not matter as long as the parts are consecutive.
         let mut last = over(300..600);
         last.append(over(600..count));
         let mut first = over(0..300);

@@ -1,9 +1,9 @@
-//! Budgets in parts: a workspace is divided into chunks, and what was gathered of some merges with that of others.
+//! Error budgets in parts: a workspace is divided into chunks, whose partial results merge.
 
 use core::ops::{ControlFlow, Range};
 
-use super::gathering::{self, Beginning, Gathering, Scattered};
 use super::partial_budget::PartialBudget;
+use super::partial_errors::{self, InitialErrors, PartialErrors, SampleErrors};
 use super::{Budget, BudgetOptions, OrientationErrors, RemainingErrors, Residual, Watch, remaining_errors};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::workspace::One;
@@ -11,16 +11,17 @@ use crate::{Measurand, Subset, Workspace};
 use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register, Sweepable};
 use abbe_core::{Class, Scalar};
 
-/// How many configurations the error sphere and ellipsoid begin with.
+/// Number of configurations from which the error sphere and ellipsoid are initialized.
 const SCATTERED: usize = 512;
-/// Into how many chunks a workspace is cut at least, and the most blocks of one.
+/// Smallest number of chunks of a large workspace, and largest number of blocks of a chunk.
 const CHUNKS: usize = 64;
 const LARGEST_CHUNK: usize = 64;
 
-/// What the sources do over a workspace, section 5 of the paper.
+/// Computes the error budget of a workspace, section 5 of the paper.
 ///
-/// Nothing is stored, blocks are evaluated in parallel (feature `parallel`), and on one instruction set the result is the same to the last bit for
-/// any number of threads, and however a [`BudgetSweep`] of it is divided. Errors as for [`sweep`](crate::sweep).
+/// Nothing is stored, and blocks are evaluated in parallel (feature `parallel`). On one instruction
+/// set the result is the same to the last bit for any number of threads, and for any division of a
+/// [`BudgetSweep`] into parts. Errors as for [`sweep`](crate::sweep).
 pub fn error_budget(
     manipulator: &dyn Sweepable,
     workspace: &dyn Workspace,
@@ -32,10 +33,10 @@ pub fn error_budget(
     Ok(sweep.finish(all))
 }
 
-/// An error budget that is made in parts, on one machine or on several.
+/// Error budget that is computed in parts, on one machine or on several.
 ///
-/// The chunks of a workspace follow from its size alone. However they are divided into parts, on one instruction set
-/// the budget is the same to the last bit.
+/// The chunks of a workspace depend on its size alone. On one instruction set the budget is the
+/// same to the last bit for any division of the chunks into parts.
 ///
 /// ```
 /// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
@@ -56,14 +57,15 @@ pub struct BudgetSweep<'a> {
     workspace: &'a dyn Workspace,
     classes: Vec<Class>,
     residuals: Option<&'a [Option<Residual>]>,
-    position: Beginning,
-    orientation: Beginning,
-    /// How many configurations a chunk has; the last one may have fewer.
+    position: InitialErrors,
+    orientation: InitialErrors,
+    /// Number of configurations of a chunk. The last one may have fewer.
     chunk: usize,
 }
 
 impl<'a> BudgetSweep<'a> {
-    /// Looks at some configurations from everywhere, from which all parts begin. Errors as for [`sweep`].
+    /// Prepares the sweep with a sample of configurations, which initializes all parts. Errors as
+    /// for [`sweep`].
     pub fn new(
         manipulator: &'a dyn Sweepable,
         workspace: &'a dyn Workspace,
@@ -73,14 +75,14 @@ impl<'a> BudgetSweep<'a> {
         let mut home = Vec::new();
         sweep(manipulator, &One(workspace.home()), &mut |row| home.extend_from_slice(row.sources))
             .map_err(|Unevaluated { error, .. }| Unevaluated { configuration: None, error })?;
-        // If one of these cannot be evaluated, the sweep over all of them will say which.
+        // If one of these cannot be evaluated, the sweep over all of them reports it.
         let known = &manipulator.description().sources;
-        let mut scattered = Measurand::ALL.map(|measurand| Scattered::new(measurand, known));
+        let mut sample = Measurand::ALL.map(|measurand| SampleErrors::new(measurand, known));
         let _ = sweep(manipulator, &Subset { workspace, count: SCATTERED }, &mut |row| {
-            scattered.iter_mut().for_each(|scattered| scattered.add(known, row));
+            sample.iter_mut().for_each(|sample| sample.add(known, row));
         });
         let classes = known.iter().map(|source| source.class).collect::<Vec<_>>();
-        let [first, second] = scattered;
+        let [first, second] = sample;
         Ok(Self {
             manipulator,
             workspace,
@@ -92,19 +94,19 @@ impl<'a> BudgetSweep<'a> {
         })
     }
 
-    /// Into how many chunks the workspace is cut: some sixty, and more of them if each would have more than 4096
+    /// Returns the number of chunks: about 64, or more so that none has more than 4096
     /// configurations.
     pub fn chunks(&self) -> usize {
         self.workspace.len().div_ceil(self.chunk)
     }
 
-    /// The configurations of some chunks, by their indices.
+    /// Returns the indices of the configurations of some chunks.
     pub fn configurations(&self, chunks: &Range<usize>) -> Range<usize> {
         let at = |chunk: usize| self.workspace.len().min(chunk.saturating_mul(self.chunk));
         at(chunks.start)..at(chunks.end)
     }
 
-    /// Evaluates some chunks, and no more than those that are done when the watcher ends it. Errors as for [`sweep`].
+    /// Evaluates some chunks; fewer if the watcher stops. Errors as for [`sweep`].
     pub fn part(&self, chunks: Range<usize>, watch: &mut dyn Watch) -> Result<PartialBudget, Unevaluated> {
         let chunks = chunks.start..chunks.end.min(self.chunks()).max(chunks.start);
         let mut total = self.none(chunks.start);
@@ -125,17 +127,17 @@ impl<'a> BudgetSweep<'a> {
         Ok(total)
     }
 
-    /// Whether a part, which may come from a file, can be one of this sweep.
+    /// Returns whether a part can belong to this sweep. It may come from a file.
     pub fn fits(&self, part: &PartialBudget) -> bool {
         let PartialBudget { chunks, position, orientation, compensation, configurations, unreachable } = part;
         let description = self.manipulator.description();
         let sources = self.classes.len();
-        let mut indices = [position, orientation].into_iter().flat_map(Gathering::indices);
+        let mut indices = [position, orientation].into_iter().flat_map(PartialErrors::indices);
         let mut remaining = compensation.iter().flat_map(RemainingErrors::indices);
         chunks.start <= chunks.end
             && chunks.end <= self.chunks()
-            && position.is_of(sources, chunks.clone())
-            && orientation.is_of(sources, chunks.clone())
+            && position.is_valid_for(sources, chunks.clone())
+            && orientation.is_valid_for(sources, chunks.clone())
             && compensation.is_some() == self.residuals.is_some()
             && configurations.checked_add(unreachable.count) == Some(self.configurations(chunks).len())
             && unreachable.is_sound(description.variables.len())
@@ -143,7 +145,7 @@ impl<'a> BudgetSweep<'a> {
             && remaining.all(|index| index < self.workspace.len())
     }
 
-    /// The budget of what was gathered.
+    /// Returns the budget of the complete sweep.
     pub fn finish(&self, part: PartialBudget) -> Budget {
         let count = part.configurations;
         let (sources, combined, gains, least_likely) = part.position.finish(&self.position, count);
@@ -166,7 +168,7 @@ impl<'a> BudgetSweep<'a> {
     }
 }
 
-/// Some blocks of configurations, one after the other.
+/// Chunk: consecutive blocks of configurations.
 struct Chunk<'s, 'a> {
     sweep: &'s BudgetSweep<'a>,
     number: usize,
@@ -174,7 +176,7 @@ struct Chunk<'s, 'a> {
 }
 
 impl<'a> Kernel for Chunk<'_, 'a> {
-    /// What was gathered, and the blocks themselves, if they are to be shown.
+    /// Partial budget, and the blocks themselves if rows are requested.
     type Output = Result<(PartialBudget, Vec<Block<'a>>), Unevaluated>;
 
     #[inline(always)]
@@ -183,9 +185,9 @@ impl<'a> Kernel for Chunk<'_, 'a> {
         let (mut part, mut blocks) = (self.sweep.none(self.number), Vec::new());
         part.chunks.end += 1;
         let range = self.sweep.configurations(&part.chunks);
-        let mut position = gathering::Lane::<R>::new(&self.sweep.position);
-        let mut orientation = gathering::Lane::<R>::new(&self.sweep.orientation);
-        let mut compensated = remaining_errors::Lane::<R>::new();
+        let mut position = partial_errors::ErrorsAccumulator::<R>::new(&self.sweep.position);
+        let mut orientation = partial_errors::ErrorsAccumulator::<R>::new(&self.sweep.orientation);
+        let mut compensated = remaining_errors::RemainingErrorsAccumulator::<R>::new();
         let mut indices = Vec::with_capacity(range.len());
         let mut block = Block::new(manipulator, workspace, BLOCK.min(range.len()));
         for first in range.clone().step_by(BLOCK) {

@@ -1,4 +1,4 @@
-//! What all sources do together over the workspace.
+//! Combined errors of all sources over the workspace.
 
 use super::Ellipsoid;
 use super::enclosing_sphere::Sphere;
@@ -8,13 +8,13 @@ use super::sums::Sums;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// The largest value over the workspace, and where.
+/// Largest value over the workspace, and its configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extreme {
-    /// The value, in the length unit; 0 for an empty workspace.
+    /// Value, in the length unit. 0 for an empty workspace.
     pub value: f64,
-    /// Index of its configuration; none for an empty workspace.
+    /// Index of the configuration. `None` for an empty workspace.
     pub configuration: Option<usize>,
 }
 
@@ -26,53 +26,56 @@ impl Extreme {
     }
 }
 
-/// What all sources do together over the workspace.
+/// Combined errors of all sources over the workspace.
 ///
-/// | way | repeatable sources r_k | random sources with bounds b_k |
+/// | method | repeatable sources r_k | random sources with bounds b_k |
 /// |---|---|---|
 /// | the paper's | Σ r_k, with signs | root sum of squares of the b_k |
 /// | GUM | | standard deviation: root sum of squares of b_k/√3 (uniform), b_k/√6 (triangular), b_k/√2 (arcsine), b_k/3 (normal) |
 /// | worst case | Σ \|r_k\| | Σ \|b_k\| |
 ///
-/// Of positions in the length unit, of orientations in rad; all 0 for an empty workspace.
+/// Positions are in the length unit, orientations in rad. All figures are 0 for an empty workspace.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Combined {
-    /// max ‖Σ repeatable‖: the radius of the error sphere about zero.
+    /// max ‖Σ repeatable‖: radius of the error sphere about zero.
     pub repeatable_radius: Extreme,
     /// max ‖RSS random‖.
     pub random_radius: Extreme,
     /// max over the configurations of ‖Σ repeatable‖ + ‖RSS random‖.
     pub radius: Extreme,
-    /// The largest \|Σ repeatable\| along x, y, z of `F_0`.
+    /// Largest \|Σ repeatable\| along x, y, z of `F_0`.
     pub repeatable: [f64; 3],
-    /// The largest root sum of squares along x, y, z of `F_0`.
+    /// Largest root sum of squares along x, y, z of `F_0`.
     pub random: [f64; 3],
-    /// Root mean squares over the configurations of the three norms: repeatable, random, both added.
+    /// Root mean squares over the configurations of the three norms: repeatable, random, and their
+    /// sum.
     pub rms: [f64; 3],
-    /// The largest standard deviation along x, y, z of `F_0`.
+    /// Largest standard deviation along x, y, z of `F_0`.
     pub standard_deviation: [f64; 3],
-    /// max √(tr Σ): the standard deviation of the position.
+    /// max √(tr Σ): standard deviation of the position.
     pub standard_radius: Extreme,
-    /// The largest sum of absolute values of all sources along x, y, z of `F_0`.
+    /// Largest sum of absolute values of all sources along x, y, z of `F_0`.
     pub worst_case: [f64; 3],
-    /// max Σ ‖·‖ over all sources, whatever their signs. No draw makes more if the random sources are bounded; of a normal
-    /// one the bound is 3σ, which 0.27 % of its draws exceed.
+    /// max Σ ‖·‖ over all sources, for any signs. No draw exceeds it if the random sources are
+    /// bounded; the bound of a normal one is 3σ, which 0.27 % of its draws exceed.
     pub worst_case_radius: Extreme,
-    /// max over the configurations of ‖Σ repeatable‖ + Σ ‖b_k‖: the repeatable sources as they are, the random ones at
-    /// their bounds, all in that direction. No draw makes more if these are bounded.
+    /// max over the configurations of ‖Σ repeatable‖ + Σ ‖b_k‖: the actual repeatable sources, and
+    /// the random ones at their bounds in the same direction. No draw exceeds it if these are
+    /// bounded.
     pub bounded_radius: Extreme,
-    /// The 95 % ellipsoid where the standard deviation in any direction is largest.
+    /// 95 % ellipsoid at the configuration with the largest standard deviation in any direction.
     pub ellipsoid: Ellipsoid,
-    /// The smallest sphere around the position errors Σ repeatable of all configurations.
+    /// Smallest sphere around the position errors Σ repeatable of all configurations.
     pub enclosing: Sphere,
 }
 
-/// Largest eigenvalues that differ by less than this share of them count as equal.
+/// Relative difference below which largest eigenvalues count as equal.
 const ALIKE: f64 = 1e-9;
 
 impl Combined {
-    /// Takes in what follows, but for the spheres, which [`PartialCombined`] has.
+    /// Merges the figures of other configurations, except for the spheres, which
+    /// [`PartialCombined`] holds.
     fn merge(&mut self, other: &Self) {
         for (here, other) in [
             (&mut self.repeatable_radius, &other.repeatable_radius),
@@ -100,7 +103,7 @@ impl Combined {
     }
 }
 
-/// What was gathered over some configurations: [`Combined`] without the last steps.
+/// Partial result over some configurations: [`Combined`] before the final steps.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct PartialCombined {
@@ -109,19 +112,19 @@ pub(super) struct PartialCombined {
 }
 
 impl PartialCombined {
-    /// Of no configurations, beginning with the ellipsoid of some.
+    /// Creates the result of no configurations, initialized with an ellipsoid.
     pub(super) fn new(ellipsoid: Ellipsoid) -> Self {
         let combined = Combined { ellipsoid, ..Combined::default() };
         Self { combined, outline: Outline::default() }
     }
 
-    /// Takes in what follows.
+    /// Merges the result of the following configurations.
     pub(super) fn merge(&mut self, other: &Self) {
         self.combined.merge(&other.combined);
         self.outline.merge(&other.outline);
     }
 
-    /// Indices of the configurations that it names.
+    /// Returns the indices of the configurations in the result.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
         let combined = &self.combined;
         let radii = [combined.repeatable_radius, combined.random_radius, combined.radius];
@@ -130,12 +133,13 @@ impl PartialCombined {
         extremes.chain([combined.ellipsoid.configuration]).flatten()
     }
 
-    /// Of the sum of the repeatable sources.
+    /// Returns the outline of the sum of the repeatable sources.
     pub(super) fn outline(&self) -> &Outline {
         &self.outline
     }
 
-    /// The result for so many configurations, with the sums of squares of the three norms, and some points.
+    /// Completes the figures of `count` configurations, from the sums of squares of the three norms
+    /// and some known points.
     pub(super) fn finish(self, count: usize, squares: [f64; 3], view: &View, known: &[[f64; 3]]) -> Combined {
         let mut combined = self.combined;
         combined.rms = squares.map(|sum| (sum / count.max(1) as f64).sqrt());
@@ -146,9 +150,9 @@ impl PartialCombined {
     }
 }
 
-/// Gathers what all sources do together in lanes.
-pub(super) struct Lane<R: Register> {
-    outline: outline::Lane<R>,
+/// Accumulates the combined errors in lanes.
+pub(super) struct CombinedAccumulator<R: Register> {
+    outline: outline::OutlineAccumulator<R>,
     ellipsoid: Ellipsoid,
     repeatable_square: Peak<R>,
     random_square: Peak<R>,
@@ -163,12 +167,12 @@ pub(super) struct Lane<R: Register> {
     squares: [Lanes<R>; 3],
 }
 
-impl<R: Register> Lane<R> {
-    /// Beginning with the ellipsoid of some configurations from everywhere, and the view of their errors.
+impl<R: Register> CombinedAccumulator<R> {
+    /// Initializes the accumulation with the ellipsoid and the view of a sample of configurations.
     pub(super) fn new(ellipsoid: Ellipsoid, view: View) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
-            outline: outline::Lane::new(view),
+            outline: outline::OutlineAccumulator::new(view),
             ellipsoid,
             repeatable_square: Peak::none(),
             random_square: Peak::none(),
@@ -184,7 +188,7 @@ impl<R: Register> Lane<R> {
         }
     }
 
-    /// Takes in the configurations of a tile; `index` says which those at its places are.
+    /// Adds the configurations of a tile. `index` maps places to indices of configurations.
     #[inline(always)]
     pub(super) fn add(&mut self, sums: &Sums<R>, index: impl Fn(usize) -> usize) {
         let &Sums { place, weight, .. } = sums;
@@ -213,7 +217,8 @@ impl<R: Register> Lane<R> {
         self.outline.add(sums.repeatable, weight);
     }
 
-    /// Whether `λ I − Σ` with the largest eigenvalue λ so far is not positive definite somewhere (Sylvester).
+    /// Returns whether `λ I − Σ`, with the largest eigenvalue λ so far, is not positive definite in
+    /// some lane (Sylvester's criterion).
     #[inline(always)]
     fn may_be_longer(&self, covariance: &[Lanes<R>; 6]) -> bool {
         let [longest, ..] = self.ellipsoid.principal.deviations;
@@ -224,7 +229,7 @@ impl<R: Register> Lane<R> {
         let determinant = c * minor - yz * (a * yz - xy * xz) - xz * (b * xz - xy * yz);
         let zero = Lanes::constant(0.0);
         let least = a.min(minor).min(determinant);
-        // Where there is no random error all are 0, and nothing is longer.
+        // Without random errors all are 0, and the ellipsoid is unchanged.
         zero.more_than(least).any()
     }
 
@@ -248,7 +253,8 @@ impl<R: Register> Lane<R> {
         }
     }
 
-    /// What was gathered, with the indices of the places; and the sums of squares of the three norms.
+    /// Returns the partial result, with indices of configurations, and the sums of squares of the
+    /// three norms.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (PartialCombined, [f64; 3]) {
         let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
             let (value, configuration) =

@@ -1,23 +1,23 @@
-//! The smallest sphere around points.
+//! Smallest sphere around a set of points.
 
 use nalgebra::{Matrix3, Vector3};
 
-/// A sphere around all points of a cloud. Lengths in the length unit.
+/// Sphere around all points of a cloud, in the length unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sphere {
-    /// Its centre.
+    /// Center.
     pub centre: [f64; 3],
-    /// Its radius.
+    /// Radius.
     pub radius: f64,
-    /// How much smaller the smallest sphere may be, at most: 0 where this is it.
+    /// Upper bound of the excess over the radius of the smallest sphere. 0 if this is the smallest.
     pub excess: f64,
 }
 
-/// A point this much outside, in shares of the radius, is inside.
+/// Relative distance beyond the radius at which a point still counts as inside.
 const ROUNDING: f64 = 1e-12;
 
-/// The smallest sphere around some points.
+/// Smallest sphere around some points.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Ball {
     pub(super) centre: Vector3<f64>,
@@ -25,10 +25,11 @@ pub(super) struct Ball {
 }
 
 impl Ball {
-    /// Takes in the furthest point again and again until all are inside; the radius grows every time.
+    /// Adds the furthest point to the support until all points are inside. The radius grows with
+    /// every step.
     pub(super) fn around(points: &[Vector3<f64>]) -> Self {
         let Some(first) = points.first() else { return Self::default() };
-        // At most four of them, on the sphere.
+        // At most four points, on the sphere.
         let mut support = vec![*first];
         let mut ball = Self { centre: *first, radius: 0.0 };
         loop {
@@ -39,7 +40,7 @@ impl Ball {
             tried.push(furthest);
             let Some((larger, on)) = smallest(&tried).filter(|(larger, _)| larger.radius > ball.radius)
             else {
-                // Rounding is all that is left: the sphere takes the point in about its centre.
+                // Only rounding errors remain: extend the sphere to the point about its center.
                 return Self { radius: (furthest - ball.centre).norm(), ..ball };
             };
             (ball, support) = (larger, on);
@@ -51,8 +52,8 @@ impl Ball {
     }
 }
 
-/// The smallest ball around at most five points, and those that are on it: of the balls of all subsets of up to
-/// four the smallest that holds all.
+/// Returns the smallest ball around at most five points, and the points on it: the smallest ball of
+/// a subset of up to four points that contains all points.
 fn smallest(points: &[Vector3<f64>]) -> Option<(Ball, Vec<Vector3<f64>>)> {
     let subsets = (1_u32..1 << points.len()).filter(|subset| subset.count_ones() <= 4);
     let balls = subsets.filter_map(|subset| {
@@ -64,8 +65,8 @@ fn smallest(points: &[Vector3<f64>]) -> Option<(Ball, Vec<Vector3<f64>>)> {
     balls.min_by(|a, b| a.0.radius.total_cmp(&b.0.radius))
 }
 
-/// The ball through one to four points with its centre `p_0 + Σ λ_j d_j` in their span, `d_j = p_j − p_0`:
-/// `d_iᵀ d_j λ_j = d_iᵀ d_i / 2`. None if they are in line or in one plane with too many.
+/// Returns the ball through one to four points with its center `p_0 + Σ λ_j d_j` in their span,
+/// `d_j = p_j − p_0`: `d_iᵀ d_j λ_j = d_iᵀ d_i / 2`. Returns `None` for degenerate points.
 fn circumscribed(points: &[Vector3<f64>]) -> Option<Ball> {
     let (first, others) = points.split_first()?;
     let d = Vector3::from_fn(|j, _| others.get(j).map(|point| point - first).unwrap_or_default());

@@ -1,34 +1,35 @@
-//! The error budget of a workspace, its options, and who looks on.
+//! The error budget of a workspace, its options, and its progress callbacks.
 
 use super::{Combined, RemainingErrors, Residual, SourceErrors};
 use crate::sweep::Row;
 use crate::{Measurand, UnreachableSummary};
 
-/// What the sources of a manipulator do over a workspace, to first order.
+/// Error budget: effects of the sources of a manipulator over a workspace, to first order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
-    /// Each source alone, in the order of the description.
+    /// Figures of each source, in the order of the description.
     pub sources: Vec<SourceErrors>,
-    /// All together.
+    /// Figures of all sources together.
     pub combined: Combined,
-    /// By how much the radius shrinks if a source is made smaller by one percent, in the length unit. Less than
-    /// nothing where it counteracts the others.
+    /// Decrease of the radius for a source reduced by one percent, in the length unit. Negative for
+    /// a source that counteracts the others.
     pub gains: Vec<f64>,
-    /// The same figures of rows 4–6.
+    /// Figures of the orientation, rows 4–6.
     pub orientation: OrientationErrors,
-    /// Indices of the configurations at which the tolerances of position and orientation are least likely met, by an
-    /// approximation, the least first; no more than 32, and none without a tolerance.
+    /// Indices of the configurations at which the tolerances of position and orientation are least
+    /// likely to be met, by an approximation, the least likely first. At most 32, none without a
+    /// tolerance.
     pub least_likely: [Vec<usize>; 2],
-    /// What is left after compensation, if it was asked for.
+    /// Remaining errors after compensation, if requested.
     pub compensation: Option<RemainingErrors>,
-    /// How many configurations were reached and evaluated.
+    /// Number of configurations reached and evaluated.
     pub configurations: usize,
-    /// Those that could not be reached.
+    /// Unreachable configurations.
     pub unreachable: UnreachableSummary,
 }
 
 impl Budget {
-    /// The figures of a measurand: each source alone, all together, and the gains.
+    /// Returns the figures of a measurand: each source, all together, and the gains.
     pub fn errors(&self, measurand: Measurand) -> (&[SourceErrors], &Combined, &[f64]) {
         match measurand {
             Measurand::Position => (&self.sources, &self.combined, &self.gains),
@@ -39,8 +40,9 @@ impl Budget {
         }
     }
 
-    /// Where the tolerance of a measurand is least likely met, [`least_likely`](Self::least_likely) of it.
-    pub fn least_likely_of(&self, measurand: Measurand) -> &[usize] {
+    /// Returns the configurations at which the tolerance of a measurand is least likely to be met,
+    /// [`least_likely`](Self::least_likely).
+    pub fn least_likely_for(&self, measurand: Measurand) -> &[usize] {
         &self.least_likely[measurand as usize]
     }
 }
@@ -48,32 +50,35 @@ impl Budget {
 /// Options of a budget.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BudgetOptions<'a> {
-    /// What compensation leaves of each source, none of random ones; nothing if there is no compensation.
+    /// Residual of each source after compensation, `None` for random sources. `None` without
+    /// compensation.
     pub residuals: Option<&'a [Option<Residual>]>,
-    /// How large the norms of the errors of position (length unit) and orientation (rad) may be, if that is said.
+    /// Tolerances for the norms of the errors of position (length unit) and orientation (rad).
     pub tolerances: [Option<f64>; 2],
 }
 
-/// What the sources do to the orientation of the tool over a workspace: rows 4–6, rad.
+/// Errors of the orientation of the tool over a workspace: rows 4–6, in rad.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrientationErrors {
-    /// Each source alone, in the order of the description.
+    /// Figures of each source, in the order of the description.
     pub sources: Vec<SourceErrors>,
-    /// All together.
+    /// Figures of all sources together.
     pub combined: Combined,
-    /// By how much the radius shrinks if a source is made smaller by one percent.
+    /// Decrease of the radius for a source reduced by one percent.
     pub gains: Vec<f64>,
 }
 
-/// Who looks on while a budget is made. `()` does not.
+/// Callbacks during the computation of a budget. `()` ignores them.
 pub trait Watch {
-    /// Whether every configuration is to be shown: it takes longer than the budget itself.
+    /// Returns whether to call [`row`](Self::row) for every configuration, which takes longer than
+    /// the budget itself.
     fn rows(&self) -> bool {
         false
     }
-    /// A configuration that was reached; in order.
+    /// Receives a configuration that was reached; in order.
     fn row(&mut self, _row: &Row) {}
-    /// All configurations before this one are done with; whether to go on. Who ends it gets the budget of these.
+    /// Reports that all configurations before this one are done. Returns whether to continue;
+    /// otherwise the budget covers these configurations.
     fn done(&mut self, _before: usize) -> bool {
         true
     }
@@ -81,7 +86,7 @@ pub trait Watch {
 
 impl Watch for () {}
 
-/// Every configuration is shown to a function.
+/// Calls the function for every configuration.
 impl<F: FnMut(&Row)> Watch for F {
     fn rows(&self) -> bool {
         true

@@ -1,17 +1,17 @@
-//! Which source to make smaller first.
+//! Gains: the decrease of the radius for each source made smaller.
 
 use super::peak;
 use super::sums::Sums;
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
 
-/// By how much a source is made smaller.
+/// Reduction of a source.
 const PERCENT: f64 = 0.01;
 
-/// The radius that remains of every source made smaller by one percent, over some configurations.
+/// Radius with each source reduced by one percent, over some configurations.
 ///
-/// `ρ_k = max_q ‖Σ r − r_k/100‖ + ‖RSS‖` for a repeatable source, and for a random one the root sum of squares with
-/// `0.99 b_k`. The maximum is looked for again, because it may move.
+/// `ρ_k = max_q ‖Σ r − r_k/100‖ + ‖RSS‖` for a repeatable source; for a random one the root sum of
+/// squares has `0.99 b_k`. The maximum is searched anew, since it may move.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gains {
@@ -19,45 +19,46 @@ pub(super) struct Gains {
 }
 
 impl Gains {
-    /// Of no configurations.
+    /// Creates the result of no configurations.
     pub(super) fn new(sources: usize) -> Self {
         Self { remaining: vec![0.0; sources] }
     }
 
-    /// Takes in what follows.
+    /// Merges the result of other configurations.
     pub(super) fn merge(&mut self, other: &Self) {
         for (remaining, other) in self.remaining.iter_mut().zip(&other.remaining) {
             *remaining = remaining.max(*other);
         }
     }
 
-    /// Of how many sources it is.
+    /// Returns the number of sources.
     pub(super) fn len(&self) -> usize {
         self.remaining.len()
     }
 
-    /// By how much the radius shrinks for each source; less than nothing where it counteracts the others.
+    /// Returns the decrease of the radius for each source. Negative for a source that counteracts
+    /// the others.
     pub(super) fn gains(self, radius: f64) -> Vec<f64> {
         self.remaining.into_iter().map(|remaining| radius - remaining).collect()
     }
 }
 
-/// Gathers [`Gains`] in lanes.
-pub(super) struct Lane<R: Register> {
+/// Accumulates [`Gains`] in lanes.
+pub(super) struct GainsAccumulator<R: Register> {
     remaining: Vec<Lanes<R>>,
-    /// The least of them in any lane.
+    /// Smallest remaining radius in any lane.
     least: f64,
 }
 
-impl<R: Register> Lane<R> {
+impl<R: Register> GainsAccumulator<R> {
     pub(super) fn new(sources: usize) -> Self {
         Self { remaining: vec![Lanes::constant(0.0); sources], least: 0.0 }
     }
 
-    /// Takes in the configurations of a tile, with the norm of each source.
+    /// Adds the configurations of a tile, given the norm of each source.
     #[inline(always)]
     pub(super) fn add(&mut self, classes: &[Class], rows: &[Lanes<R>], norm_of: &[Lanes<R>], sums: &Sums<R>) {
-        // Less of one source adds no more than its share.
+        // Reducing one source adds at most its share to the radius.
         let at_most = sums.norms.mul_add(Lanes::constant(PERCENT), sums.radius);
         if !at_most.more_than(Lanes::constant(self.least)).any() {
             return;
@@ -72,7 +73,7 @@ impl<R: Register> Lane<R> {
                         core::array::from_fn(|i| rows[6 * k + i].neg_mul_add(percent, sums.repeatable[i]));
                     peak::square(rest).sqrt() + sums.random_norm
                 }
-                // The square of the norm of a root sum of squares is the sum of the squares of all norms.
+                // The squared norm of a root sum of squares is the sum of the squared norms.
                 Class::Random(_) => {
                     let rest = (norm_of[k] * norm_of[k]).neg_mul_add(less, sums.random_square);
                     sums.repeatable_norm + rest.max(zero).sqrt()

@@ -1,19 +1,20 @@
-//! Where a tolerance is least likely met, by an approximation that a sweep can afford.
+//! Configurations at which a tolerance is least likely to be met, by a fast approximation.
 
 use super::sums::Sums;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// How many configurations are kept.
+/// Number of configurations kept.
 const KEPT: usize = 32;
-/// Variances below this share of the tolerance's square are none.
+/// Smallest significant variance, relative to the square of the tolerance.
 const NONE: f64 = 1e-24;
 
-/// The configurations at which a tolerance T is least likely met, the least first.
+/// Configurations at which a tolerance T is least likely to be met, the least likely first.
 ///
-/// The square of the norm of an error with mean b and covariance C has the mean `κ_1 = |b|² + tr C` and the variance
-/// `κ_2 = 2 tr C² + 4 bᵀ C b`. Its root is nearly normal, with the mean `√(κ_1 − κ_2/(4 κ_1))` and the standard deviation
-/// `√κ_2 / (2 √κ_1)`: configurations are ranked by how many of these T is above that mean.
+/// The squared norm of an error with mean b and covariance C has the mean `κ_1 = |b|² + tr C` and
+/// the variance `κ_2 = 2 tr C² + 4 bᵀ C b`. Its root is nearly normal, with the mean
+/// `√(κ_1 − κ_2/(4 κ_1))` and the standard deviation `√κ_2 / (2 √κ_1)`. Configurations are ranked
+/// by the distance of T from that mean in standard deviations.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct LeastLikely(Vec<(f64, usize)>);
@@ -27,34 +28,34 @@ impl LeastLikely {
         }
     }
 
-    /// Takes in those of other configurations.
+    /// Merges the result of other configurations.
     pub(super) fn merge(&mut self, other: &Self) {
         other.0.iter().for_each(|(deviations, index)| self.add(*deviations, *index));
     }
 
-    /// Indices of the configurations.
+    /// Returns the indices of the configurations.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
         self.0.iter().map(|(_, index)| *index)
     }
 
-    /// Indices of the configurations.
+    /// Returns the indices of the configurations, the least likely first.
     pub(super) fn finish(self) -> Vec<usize> {
         self.0.into_iter().map(|(_, index)| index).collect()
     }
 }
 
-/// Gathers a [`LeastLikely`] in lanes.
-pub(super) struct Lane {
+/// Accumulates a [`LeastLikely`] in lanes.
+pub(super) struct LeastLikelyAccumulator {
     tolerance: f64,
     kept: LeastLikely,
 }
 
-impl Lane {
+impl LeastLikelyAccumulator {
     pub(super) fn new(tolerance: f64) -> Self {
         Self { tolerance, kept: LeastLikely::default() }
     }
 
-    /// Takes in the configurations of a tile; `index` says which those at its places are.
+    /// Adds the configurations of a tile. `index` maps places to indices of configurations.
     #[inline(always)]
     pub(super) fn add<R: Register>(&mut self, sums: &Sums<R>, index: impl Fn(usize) -> usize) {
         let number = Lanes::<R>::constant;

@@ -1,7 +1,8 @@
-//! What every source does alone over a workspace, what they do together, and what a tolerance allows.
+//! Error budgets: the effect of every source over a workspace, their combination, and admissible
+//! sizes for a tolerance.
 //!
-//! [`error_budget`] gathers all of it in one sweep, in lanes: each kind of figure has its `Lane`, which takes in tile after
-//! tile, and what that comes to, which is merged chunk after chunk.
+//! [`error_budget`] computes all of it in one sweep, in lanes. Each kind of figure has an
+//! accumulator, which takes tile after tile, and a partial result, which merges chunk after chunk.
 
 mod admissible;
 mod aligned_sums;
@@ -11,10 +12,10 @@ mod ellipsoid;
 mod enclosing_sphere;
 mod error_budget;
 mod gains;
-mod gathering;
 mod least_likely;
 mod outline;
 mod partial_budget;
+mod partial_errors;
 mod peak;
 mod remaining_errors;
 mod source_errors;

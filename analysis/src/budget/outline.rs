@@ -1,4 +1,4 @@
-//! The outline of a cloud, and the smallest sphere around it.
+//! The outline of a cloud of points, and the smallest sphere around it.
 
 use std::collections::BTreeMap;
 
@@ -9,15 +9,15 @@ use super::peak;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// Points this much nearer to the centre than the sphere of some are not kept, in shares of its radius.
+/// Relative width of the shell of points that are kept, inside the sphere of the sample.
 const SHELL: f64 = 0.1;
-/// The most directions in which points are kept.
+/// Largest number of directions in which points are kept.
 const MOST: usize = 1 << 13;
-/// The finest grid has two to this power cells along an edge.
+/// Binary logarithm of the number of cells along an edge of the finest grid.
 const FINEST: u32 = 30;
 
-/// From where outlines are seen: the centre of the smallest sphere around some points. Those within the inner radius are
-/// forgotten.
+/// Viewpoint of an outline: the center of the smallest sphere around some points. Points within the
+/// inner radius are dropped.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     pub(super) centre: [f64; 3],
@@ -25,40 +25,40 @@ pub(super) struct View {
 }
 
 impl View {
-    pub(super) fn of(points: &[[f64; 3]]) -> Self {
+    pub(super) fn around(points: &[[f64; 3]]) -> Self {
         let ball = Ball::around(&vectors(points).collect::<Vec<_>>());
         Self { centre: ball.centre.into(), inner: (1.0 - SHELL) * ball.radius }
     }
 }
 
-/// Of every direction the farthest point of a cloud, as seen from a centre.
+/// Farthest point of a cloud in every direction from a center.
 ///
-/// Directions are the cells of a grid on the faces of a cube, so fine that different ones stay apart; while there are too many
-/// the cells double their width. What is kept follows from the points alone, neither from their order nor from how they were
-/// divided: outlines of parts merge into the outline of all.
+/// Directions are the cells of a grid on the faces of a cube, fine enough to separate different
+/// directions. While there are too many, the cells double their width. The result depends on the
+/// points alone, not on their order or partition: outlines of parts merge into the outline of all.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Outline {
-    /// How far the farthest of those is that are not kept for being well inside, if there are any.
+    /// Distance of the farthest point that was dropped inside the inner radius, if any.
     inside: Option<f64>,
-    /// How often the cells have doubled their width.
+    /// Number of times the cells have doubled their width.
     doubled: u32,
     cells: BTreeMap<u64, Farthest>,
 }
 
-/// What is known of the points in a direction.
+/// Farthest points in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Farthest {
     point: [f64; 3],
     distance: f64,
-    /// How far the farthest of the others is, if there are others.
+    /// Distance of the second farthest point, if any.
     other: Option<f64>,
 }
 
 impl Farthest {
-    /// Takes in another one. Of two that are equally far the one with the larger coordinates stays, so that order does not
-    /// matter.
+    /// Merges another one. Of two points at equal distances the one with the larger coordinates
+    /// stays, so that the order does not matter.
     fn merge(&mut self, mut next: Self) {
         let order = |one: &Self| (one.distance, one.point);
         if order(&next) > order(self) {
@@ -95,19 +95,19 @@ impl Outline {
         }
     }
 
-    /// Takes in another outline, seen from the same centre.
+    /// Merges another outline from the same center.
     pub(super) fn merge(&mut self, other: &Self) {
         self.inside = farther(self.inside, other.inside);
         while self.doubled < other.doubled {
             self.double();
         }
         for (cell, farthest) in &other.cells {
-            // Cells may double their width on the way.
+            // Cells may double their width in the process.
             self.put(parent(*cell, self.doubled - other.doubled), *farthest);
         }
     }
 
-    /// Whether the cells, which may come from a file, are some of those of the cube.
+    /// Returns whether all cells are valid. They may come from a file.
     pub(super) fn is_sound(&self) -> bool {
         let is_cell = |cell: &u64| {
             let (face, place) = (cell >> (2 * FINEST), [cell >> FINEST, *cell]);
@@ -117,12 +117,14 @@ impl Outline {
         self.doubled <= FINEST && self.cells.len() <= MOST && self.cells.keys().all(is_cell)
     }
 
-    /// The smallest sphere around the cloud, of which some points are known anyway.
+    /// Returns the smallest sphere around the cloud, given some known points.
     ///
-    /// With `v` from the centre of the view to that of the sphere, a point at distance d in direction u is
-    /// `√(d² − 2d u·v + v²)` from the latter. Within a cell `u·v` varies by no more than its width w times `|v|`, and the square is
-    /// convex in d: points that are not kept are within the larger of its values at 0 and at the farthest of them, and
-    /// those well inside within `|v| + d`. Where this is no more than the radius, the sphere is the smallest.
+    /// With `v` from the center of the view to that of the sphere, the distance of the latter from
+    /// a point at distance d in direction u is `√(d² − 2d u·v + v²)`. Within a cell `u·v` varies by
+    /// at most its width w times `|v|`, and the square is convex in d. Dropped points in a cell are
+    /// therefore within the larger of its values at 0 and at the second farthest point, and those
+    /// inside the inner radius within `|v| + d`. If this is at most the radius, the sphere is the
+    /// smallest.
     pub(super) fn sphere(&self, view: &View, known: &[[f64; 3]]) -> Sphere {
         let kept = self.cells.values().map(|farthest| farthest.point.into());
         let Ball { centre, radius } = Ball::around(&vectors(known).chain(kept).collect::<Vec<_>>());
@@ -139,7 +141,7 @@ impl Outline {
     }
 }
 
-/// The larger of two distances, if there are two.
+/// Returns the larger of two distances that may be missing.
 fn farther(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     one.into_iter().chain(other).reduce(f64::max)
 }
@@ -148,7 +150,8 @@ fn vectors(points: &[[f64; 3]]) -> impl Iterator<Item = Vector3<f64>> {
     points.iter().copied().map(Vector3::from)
 }
 
-/// Number of the cell in which a direction meets the cube around the centre: its face, and its place along both edges.
+/// Returns the number of the cell in which a direction meets the cube around the center: its face,
+/// and its position along both edges.
 fn cell(from: [f64; 3], doubled: u32) -> u64 {
     let mut axis = 0;
     for i in 1..3 {
@@ -159,39 +162,40 @@ fn cell(from: [f64; 3], doubled: u32) -> u64 {
     let face = 2 * axis as u64 + u64::from(from[axis] < 0.0);
     let place = |i: usize| {
         let share = (from[(axis + i) % 3] / from[axis].abs() + 1.0) / 2.0;
-        // At the last edge, too; of a point in the centre it is 0.
+        // Clamped at the last edge. NaN, at the center, gives 0.
         ((share * f64::from(1_u32 << FINEST)) as u64).min((1 << FINEST) - 1)
     };
     parent(face << (2 * FINEST) | place(1) << FINEST | place(2), doubled)
 }
 
-/// The cell that holds this one when their width has doubled so often.
+/// Returns the cell that contains this one after the width has doubled `doubled` times.
 fn parent(cell: u64, doubled: u32) -> u64 {
     let mask = (1 << FINEST) - 1;
     let (face, first, second) = (cell >> (2 * FINEST), cell >> FINEST & mask, cell & mask);
     face << (2 * FINEST) | first >> doubled << FINEST | second >> doubled
 }
 
-/// Two unit vectors in a cell are no farther apart: by the diagonal of the cell on the cube, whose faces are at 1. Seen from the centre
-/// that is at most as long.
+/// Returns an upper bound of the distance of two unit vectors in a cell: the diagonal of the cell
+/// on the cube, whose faces are at distance 1. The central projection to the sphere does not
+/// lengthen it.
 fn width(doubled: u32) -> f64 {
     core::f64::consts::SQRT_2 * 2.0 / f64::from(1_u32 << (FINEST - doubled))
 }
 
-/// Gathers an [`Outline`] in lanes.
-pub(super) struct Lane<R: Register> {
+/// Accumulates an [`Outline`] in lanes.
+pub(super) struct OutlineAccumulator<R: Register> {
     view: View,
-    /// The largest square of a distance inside; −1 if there is none.
+    /// Largest squared distance within the inner radius. −1 if there is none.
     inside: Lanes<R>,
     outside: Vec<[f64; 3]>,
 }
 
-impl<R: Register> Lane<R> {
+impl<R: Register> OutlineAccumulator<R> {
     pub(super) fn new(view: View) -> Self {
         Self { view, inside: Lanes::constant(-1.0), outside: Vec::new() }
     }
 
-    /// Takes in the points of a tile; those of weight 0 repeat the last.
+    /// Adds the points of a tile. Points of weight 0 repeat the last one.
     #[inline(always)]
     pub(super) fn add(&mut self, points: [Lanes<R>; 3], weight: Lanes<R>) {
         let centre = self.view.centre.map(Lanes::constant);
@@ -238,11 +242,12 @@ mod tests {
         outline
     }
 
-    /// More directions than are kept: the outline of all, whatever the order and however it was divided.
+    /// Checks that an outline with more directions than are kept does not depend on order and
+    /// partition.
     #[test]
     fn outlines_of_parts_merge_into_that_of_all() {
         let points = cloud(40_000);
-        let view = View::of(&points[..100]);
+        let view = View::around(&points[..100]);
         let all = outline(&points, &view);
         assert!(all.doubled > 0 && all.cells.len() > MOST / 8);
         let backwards = points.iter().rev().copied().collect::<Vec<_>>();
@@ -255,7 +260,7 @@ mod tests {
             assert_eq!(all, first);
             assert_eq!(all, other);
         }
-        // Again and again the same points are no others.
+        // Repeated points change nothing.
         let few = &points[..100];
         assert_eq!(outline(&[few, few].concat(), &view), outline(few, &view));
     }
@@ -264,9 +269,9 @@ mod tests {
     fn the_sphere_is_the_smallest_or_says_by_how_much_it_may_be_larger() {
         let points = cloud(40_000);
         let smallest = Ball::around(&vectors(&points).collect::<Vec<_>>()).radius;
-        // The better the view, the less.
+        // The excess decreases with a better view.
         for (known, excess) in [(3, 0.02), (30, 0.01), (512, 0.005)] {
-            let view = View::of(&points[..known]);
+            let view = View::around(&points[..known]);
             let sphere = outline(&points, &view).sphere(&view, &points[..known]);
             let reach = |point: &[f64; 3]| norm(core::array::from_fn(|k| point[k] - sphere.centre[k]));
             let farthest = points.iter().map(reach).fold(0.0, f64::max);
@@ -274,16 +279,16 @@ mod tests {
             assert!(sphere.radius - sphere.excess <= smallest * (1.0 + 1e-9), "{known}");
             assert!(sphere.excess < excess * smallest, "{known}: {}", sphere.excess);
         }
-        // Where every direction is kept there is nothing that it could be larger by.
+        // Without dropped points there is no excess.
         let few = &points[..4000];
-        let view = View::of(&few[..30]);
+        let view = View::around(&few[..30]);
         let sphere = outline(few, &view).sphere(&view, &few[..30]);
         assert_eq!(sphere.excess, 0.0);
         let smallest = Ball::around(&vectors(few).collect::<Vec<_>>()).radius;
         assert!((sphere.radius / smallest - 1.0).abs() < 1e-9);
     }
 
-    /// Two points in a cell are no farther apart, seen from the centre, than its width says.
+    /// Checks that two points in a cell are no farther apart, in unit vectors, than its width.
     #[test]
     fn cells_are_as_wide_as_they_say() {
         for doubled in [20, 25, 28] {

@@ -1,30 +1,30 @@
-//! A part of a budget: what was gathered over some chunks of a workspace, which merges with what follows.
+//! Partial budgets over some chunks of a workspace, which merge.
 
 use core::fmt;
 use core::ops::Range;
 
 use super::RemainingErrors;
-use super::gathering::Gathering;
+use super::partial_errors::PartialErrors;
 use crate::UnreachableSummary;
 
-/// What was gathered over some consecutive chunks of a [`BudgetSweep`](super::BudgetSweep).
+/// Partial result over consecutive chunks of a [`BudgetSweep`](super::BudgetSweep).
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PartialBudget {
     pub(super) chunks: Range<usize>,
-    pub(super) position: Gathering,
-    pub(super) orientation: Gathering,
+    pub(super) position: PartialErrors,
+    pub(super) orientation: PartialErrors,
     pub(super) compensation: Option<RemainingErrors>,
     pub(super) configurations: usize,
     pub(super) unreachable: UnreachableSummary,
 }
 
-/// A part that does not begin where the one before it ends.
+/// Error of appending a part that does not begin where the previous one ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Gap {
-    /// The first chunk that is missing, or there twice.
+    /// Chunk at which the part should begin.
     pub expected: usize,
-    /// The chunk that comes instead.
+    /// Chunk at which it begins.
     pub found: usize,
 }
 
@@ -37,34 +37,35 @@ impl fmt::Display for Gap {
 impl core::error::Error for Gap {}
 
 impl PartialBudget {
-    /// Returns the part of no chunks that begins at one; of so many sources, with what compensation leaves if that is gathered.
+    /// Creates the empty part that begins at a chunk. `compensated` says whether remaining errors
+    /// are computed.
     pub(super) fn none(chunk: usize, sources: usize, compensated: bool) -> Self {
         Self {
             chunks: chunk..chunk,
-            position: Gathering::new(sources),
-            orientation: Gathering::new(sources),
+            position: PartialErrors::new(sources),
+            orientation: PartialErrors::new(sources),
             compensation: compensated.then(RemainingErrors::none),
             configurations: 0,
             unreachable: UnreachableSummary::default(),
         }
     }
 
-    /// The chunks that it is of.
+    /// Returns the chunks of the part.
     pub fn chunks(&self) -> Range<usize> {
         self.chunks.clone()
     }
 
-    /// How many configurations were reached and evaluated.
+    /// Returns the number of configurations reached and evaluated.
     pub fn configurations(&self) -> usize {
         self.configurations
     }
 
-    /// How many could not be reached.
+    /// Returns the number of unreachable configurations.
     pub fn unreachable(&self) -> usize {
         self.unreachable.count
     }
 
-    /// Takes in the part that follows, of the same sweep. Error [`Gap`] if it begins elsewhere.
+    /// Appends the following part of the same sweep. Returns [`Gap`] if it begins elsewhere.
     pub fn append(&mut self, next: Self) -> Result<(), Gap> {
         if next.chunks.start != self.chunks.end {
             return Err(Gap { expected: self.chunks.end, found: next.chunks.start });
@@ -73,7 +74,7 @@ impl PartialBudget {
         Ok(())
     }
 
-    /// Takes in the part that follows.
+    /// Appends the following part.
     pub(super) fn put(&mut self, next: Self) {
         self.position.append(next.position);
         self.orientation.append(next.orientation);

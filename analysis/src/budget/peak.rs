@@ -1,9 +1,9 @@
-//! The largest value in every lane, and where.
+//! Maximum per lane, with its place.
 
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// The largest value in every lane, and the place of the first configuration with it.
+/// Largest value in every lane, and the place of the first configuration with it.
 #[derive(Clone, Copy)]
 pub(super) struct Peak<R: Register> {
     value: Lanes<R>,
@@ -23,7 +23,8 @@ impl<R: Register> Peak<R> {
         self.place = more.select(place, self.place);
     }
 
-    /// The largest of all lanes and its place, the first if there are several. None if nothing was added.
+    /// Returns the largest value of all lanes and its place, the first of several. Returns `None`
+    /// if nothing was added.
     #[inline(always)]
     pub(super) fn finish(self) -> Option<(f64, usize)> {
         let lanes = self.value.to_slice().iter().zip(self.place.to_slice());
@@ -35,25 +36,25 @@ impl<R: Register> Peak<R> {
     }
 }
 
-/// The largest of all lanes.
+/// Returns the largest value of all lanes.
 #[inline(always)]
 pub(super) fn largest<R: Register>(lanes: Lanes<R>) -> f64 {
     lanes.to_slice().iter().fold(f64::NEG_INFINITY, |largest, value| largest.max(*value))
 }
 
-/// The least of all lanes.
+/// Returns the smallest value of all lanes.
 #[inline(always)]
 pub(super) fn least<R: Register>(lanes: Lanes<R>) -> f64 {
     lanes.to_slice().iter().fold(f64::INFINITY, |least, value| least.min(*value))
 }
 
-/// The sum of all lanes, from the first on.
+/// Returns the sum of all lanes, in the order of the lanes.
 #[inline(always)]
 pub(super) fn sum<R: Register>(lanes: Lanes<R>) -> f64 {
     lanes.to_slice().iter().sum()
 }
 
-/// `x² + y² + z²`.
+/// Returns `x² + y² + z²`.
 #[inline(always)]
 pub(super) fn square<R: Register>([x, y, z]: [Lanes<R>; 3]) -> Lanes<R> {
     x.mul_add(x, y.mul_add(y, z * z))

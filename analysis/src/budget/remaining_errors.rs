@@ -1,4 +1,4 @@
-//! What is left after compensation.
+//! Errors that remain after compensation.
 
 use super::combined::Extreme;
 use super::peak::Peak;
@@ -6,40 +6,41 @@ use super::sums::Sums;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// What compensation leaves of a repeatable source.
+/// Error that remains of a repeatable source after compensation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Residual {
-    /// This share of its error, with unknown sign: `f ‖r_k(q)‖`.
+    /// Share of its error, with unknown sign: `f ‖r_k(q)‖`.
     Share(f64),
-    /// An error of at most this norm, in the length unit, wherever there is one at all.
+    /// Error of at most this norm, in the length unit, wherever the source has an error.
     Bound(f64),
 }
 
-/// What compensation leaves of all sources, and the total absolute accuracy, gathered configuration by
-/// configuration. Random errors cannot be compensated: they remain as they are.
+/// Errors that remain of all sources after compensation, and the total absolute accuracy, as maxima
+/// over the configurations. Random errors cannot be compensated and remain unchanged.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RemainingErrors {
-    /// max √(Σ ρ_k²) with the residuals ρ_k of the repeatable sources: their signs are unknown and independent.
+    /// max √(Σ ρ_k²) with the residuals ρ_k of the repeatable sources, for unknown and independent
+    /// signs.
     pub residual: Extreme,
-    /// max Σ ρ_k: all in one direction.
+    /// max Σ ρ_k, for residuals all in one direction.
     pub residual_sum: Extreme,
-    /// max √(Σ ρ_k²) + ‖RSS random‖, the total as the paper adds it up.
+    /// max √(Σ ρ_k²) + ‖RSS random‖, the paper's total.
     pub total: Extreme,
 }
 
 impl RemainingErrors {
-    /// Of no configurations.
+    /// Creates the result of no configurations.
     pub(super) fn none() -> Self {
         Self::default()
     }
 
-    /// Indices of the configurations that it names.
+    /// Returns the indices of the configurations in the result.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
         [self.residual, self.residual_sum, self.total].into_iter().filter_map(|extreme| extreme.configuration)
     }
 
-    /// Takes in what follows.
+    /// Merges the result of other configurations.
     pub(super) fn merge(&mut self, other: &Self) {
         for (here, other) in [
             (&mut self.residual, other.residual),
@@ -53,19 +54,19 @@ impl RemainingErrors {
     }
 }
 
-/// Gathers [`RemainingErrors`] in lanes.
-pub(super) struct Lane<R: Register> {
+/// Accumulates [`RemainingErrors`] in lanes.
+pub(super) struct RemainingErrorsAccumulator<R: Register> {
     square: Peak<R>,
     sum: Peak<R>,
     total: Peak<R>,
 }
 
-impl<R: Register> Lane<R> {
+impl<R: Register> RemainingErrorsAccumulator<R> {
     pub(super) fn new() -> Self {
         Self { square: Peak::none(), sum: Peak::none(), total: Peak::none() }
     }
 
-    /// Takes in the configurations of a tile, with the norm of each source.
+    /// Adds the configurations of a tile, given the norm of each source.
     #[inline(always)]
     pub(super) fn add(&mut self, residuals: &[Option<Residual>], norm_of: &[Lanes<R>], sums: &Sums<R>) {
         let zero = Lanes::constant(0.0);
@@ -74,7 +75,7 @@ impl<R: Register> Lane<R> {
             let residual = match *residual {
                 None => continue,
                 Some(Residual::Share(share)) => *norm * Lanes::constant(share),
-                // Wherever there is an error at all.
+                // Only where the source has an error.
                 Some(Residual::Bound(bound)) => norm.more_than(zero).select(Lanes::constant(bound), zero),
             };
             sum = sum + residual;

@@ -1,22 +1,22 @@
-//! What one source does alone over the workspace, in three metrics.
+//! Errors of a single source over the workspace, in three metrics.
 
 use super::enclosing_sphere::Sphere;
 use super::peak::{self, Peak};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
 
-/// A figure per axis, and of the norm. Of positions along the axes of `F_0` in the length unit, of orientations rows 4–6 in
-/// rad.
+/// Figure per axis, and of the norm: positions along the axes of `F_0` in the length unit, or
+/// orientations (rows 4–6) in rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Figures {
-    /// Along x.
+    /// Figure along x.
     pub x: f64,
-    /// Along y.
+    /// Figure along y.
     pub y: f64,
-    /// Along z.
+    /// Figure along z.
     pub z: f64,
-    /// Of the norm.
+    /// Norm.
     pub norm: f64,
 }
 
@@ -26,59 +26,60 @@ impl From<[f64; 4]> for Figures {
     }
 }
 
-/// What one source does alone over the workspace.
+/// Errors of a single source over the workspace.
 ///
-/// ΔX(q) is the position error (or rows 4–6) of a repeatable source. Of a random one b(q) is the bound: what is drawn lies
-/// anywhere between −b(q) and +b(q), all effects of the source together.
+/// ΔX(q) is the position error (or rows 4–6) of a repeatable source. For a random source b(q) is
+/// the bound: its error lies between −b(q) and +b(q), with all effects of the source fully
+/// correlated.
 ///
 /// | metric | repeatable | random |
 /// |---|---|---|
 /// | plain maximum | max \|ΔX\|; max ‖ΔX‖ | max \|b\|; max ‖b‖ |
-/// | half peak-to-peak | (max ΔX − min ΔX) / 2; radius of the smallest sphere around all ΔX | as plain: the interval is symmetric |
+/// | half peak-to-peak | (max ΔX − min ΔX) / 2; radius of the smallest sphere around all ΔX | equal to the plain maximum: the interval is symmetric |
 /// | relative to home | max \|ΔX(q) − ΔX(home)\|; max ‖ΔX(q) − ΔX(home)‖ | worst difference of two draws: max \|b(q)\| + \|b(home)\|; max ‖b(q) ± b(home)‖ |
 ///
-/// All are zero for an empty workspace.
+/// All figures are zero for an empty workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SourceErrors {
     /// Index of the source.
     pub source: usize,
     /// Repeatable or random.
     pub class: Class,
-    /// The largest error.
+    /// Largest error.
     pub plain_max: Figures,
-    /// Half of what the error varies by.
+    /// Half the range of the error.
     pub half_peak_to_peak: Figures,
-    /// The largest difference from the error at home.
+    /// Largest difference from the error at home.
     pub relative_to_home: Figures,
-    /// The root mean square of the norm of the error over the configurations.
+    /// Root mean square of the norm of the error over the configurations.
     pub rms: f64,
-    /// Index of the configuration with the largest norm; none for an empty workspace.
+    /// Index of the configuration with the largest norm. `None` for an empty workspace.
     pub worst: Option<usize>,
 }
 
-/// What one source does over some configurations: [`SourceErrors`] without the last steps.
+/// Partial result over some configurations: [`SourceErrors`] before the final steps.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Tally {
+pub(super) struct PartialSourceErrors {
     least: [f64; 3],
     largest: [f64; 4],
     worst: Option<usize>,
     relative: f64,
 }
 
-impl Tally {
-    /// Of no configurations.
+impl PartialSourceErrors {
+    /// Creates the result of no configurations.
     pub(super) fn new() -> Self {
-        // Finite, so that JSON can hold them.
+        // Finite, so that JSON can represent them.
         Self { least: [f64::MAX; 3], largest: [f64::MIN; 4], worst: None, relative: 0.0 }
     }
 
-    /// Index of the configuration where the norm is largest.
+    /// Returns the index of the configuration with the largest norm.
     pub(super) fn worst(&self) -> Option<usize> {
         self.worst
     }
 
-    /// Takes in what follows.
+    /// Merges the result of the following configurations.
     pub(super) fn merge(&mut self, other: &Self) {
         if other.largest[3] > self.largest[3] {
             self.worst = other.worst;
@@ -92,7 +93,8 @@ impl Tally {
         self.relative = self.relative.max(other.relative);
     }
 
-    /// The errors of a source with this error (bound, if random) at home, this sphere around all and this mean square.
+    /// Completes the figures of a source, given its error (or bound) at home, the sphere around all
+    /// its errors, and their mean square.
     pub(super) fn finish(
         self,
         source: usize,
@@ -106,11 +108,11 @@ impl Tally {
         let (plain_max, half_peak_to_peak, relative_to_home) = if worst.is_none() {
             (none, none, none)
         } else {
-            // Never −0.
+            // The absolute value avoids −0.
             let plain = |i: usize| largest[i].max(-least[i]).abs();
             let plain_max = Figures::from([plain(0), plain(1), plain(2), largest[3]]);
             let half = |i: usize| (largest[i] - least[i]) / 2.0;
-            // The difference of two draws `t b(q) − t' b(home)` is worst where t and t' are ±1.
+            // The difference of two draws `t b(q) − t' b(home)` is largest for t and t' = ±1.
             let [x, y, z] = core::array::from_fn(|i| match class {
                 Class::Repeatable => (largest[i] - home[i]).max(home[i] - least[i]).abs(),
                 Class::Random(_) => plain(i) + home[i].abs(),
@@ -126,8 +128,8 @@ impl Tally {
     }
 }
 
-/// Gathers a [`Tally`] in lanes.
-pub(super) struct Lane<R: Register> {
+/// Accumulates a [`PartialSourceErrors`] in lanes.
+pub(super) struct SourceErrorsAccumulator<R: Register> {
     random: bool,
     home: [Lanes<R>; 3],
     least: [Lanes<R>; 3],
@@ -137,8 +139,8 @@ pub(super) struct Lane<R: Register> {
     relative: Lanes<R>,
 }
 
-impl<R: Register> Lane<R> {
-    /// Of a source with this error (bound, if random) at home.
+impl<R: Register> SourceErrorsAccumulator<R> {
+    /// Initializes the accumulation for a source with this error (or bound) at home.
     pub(super) fn new(class: Class, home: [f64; 3]) -> Self {
         let (zero, infinite) = (Lanes::constant(0.0), Lanes::constant(f64::INFINITY));
         Self {
@@ -152,7 +154,7 @@ impl<R: Register> Lane<R> {
         }
     }
 
-    /// Takes in the rows of some tiles, with the places and the weights of their configurations.
+    /// Adds the rows of a tile, with the places and the weights of their configurations.
     #[inline(always)]
     pub(super) fn add(&mut self, here: [Lanes<R>; 3], place: Lanes<R>, weight: Lanes<R>) {
         for (row, (least, largest)) in here.iter().zip(self.least.iter_mut().zip(&mut self.largest)) {
@@ -170,12 +172,13 @@ impl<R: Register> Lane<R> {
         }
     }
 
-    /// What was gathered, with the index of the place that is worst; and the sum of the squares of the norm.
-    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Tally, f64) {
-        let Some((square, place)) = self.square.finish() else { return (Tally::new(), 0.0) };
+    /// Returns the partial result, with the index of the worst configuration, and the sum of the
+    /// squared norms.
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (PartialSourceErrors, f64) {
+        let Some((square, place)) = self.square.finish() else { return (PartialSourceErrors::new(), 0.0) };
         let [a, b, c] = self.largest.map(peak::largest);
         let root = |square: f64| square.max(0.0).sqrt();
-        let tally = Tally {
+        let tally = PartialSourceErrors {
             least: self.least.map(peak::least),
             largest: [a, b, c, root(square)],
             worst: Some(index(place)),

@@ -1,26 +1,27 @@
-//! What all sources do together in the configurations of one tile.
+//! Combined errors of all sources at the configurations of one tile.
 
 use super::{peak, variance};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
 
-/// What all sources do together in the configurations of one tile, in three rows.
+/// Combined errors of all sources at the configurations of one tile, in three rows.
 pub(super) struct Sums<R: Register> {
-    /// Where the configurations stand in their chunk.
+    /// Places of the configurations in their chunk.
     pub(super) place: Lanes<R>,
-    /// 1; 0 in lanes that repeat the last configuration.
+    /// Weight: 1, or 0 in lanes that repeat the last configuration.
     pub(super) weight: Lanes<R>,
     /// Σ r of the repeatable sources, the square of its norm, and its norm.
     pub(super) repeatable: [Lanes<R>; 3],
     pub(super) repeatable_square: Lanes<R>,
     pub(super) repeatable_norm: Lanes<R>,
-    /// Σ b² of the random sources row by row, the sum of the three, and its root.
+    /// Σ b² of the random sources row by row, the sum of the three rows, and its root.
     pub(super) squares: [Lanes<R>; 3],
     pub(super) random_square: Lanes<R>,
     pub(super) random_norm: Lanes<R>,
     /// ‖Σ r‖ + √Σ b².
     pub(super) radius: Lanes<R>,
-    /// Sums of the absolute values of all sources, row by row, and of their norms; of the norms of the random ones.
+    /// Sums of the absolute values of all sources, row by row; of their norms; and of the norms of
+    /// the random sources.
     pub(super) absolute: [Lanes<R>; 3],
     pub(super) norms: Lanes<R>,
     pub(super) random_norms: Lanes<R>,
@@ -29,8 +30,8 @@ pub(super) struct Sums<R: Register> {
 }
 
 impl<R: Register> Sums<R> {
-    /// Of the rows of a tile, the first of the three of the first source first, six of each source. `norm_of` takes the
-    /// norm of each source.
+    /// Combines the rows of a tile, beginning with the first of the three rows of the first source,
+    /// with six rows per source. Fills `norm_of` with the norm of each source.
     #[inline(always)]
     pub(super) fn new(
         classes: &[Class],

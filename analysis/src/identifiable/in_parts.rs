@@ -1,24 +1,28 @@
-//! The rank of a chain of any length, from parts of it that move on their own.
+//! The rank of a chain of any length, computed from parts with separate joints.
 //!
-//! Seen from the tool, an error `ε_i` before the transform `A_{i+1}` counts `P Ad(A_{i+1} … A_n T)⁻¹ ε_i`, where `P` keeps what
-//! is measured. Let `A = A_1 … A_b` be the first part, `M_i(q) = Ad(A_{i+1} … A_b)⁻¹`, and `S` all that follows. Errors that no
-//! measurement sees add up to zero everywhere, and so also where only the first part has moved from `q` to `q′`:
+//! As seen from the tool, an error `ε_i` before the transform `A_{i+1}` contributes
+//! `P Ad(A_{i+1} … A_n T)⁻¹ ε_i`, where `P` projects to the measured rows. Let `A = A_1 … A_b` be
+//! the first part, `M_i(q) = Ad(A_{i+1} … A_b)⁻¹`, and `S` the rest of the chain. The contributions
+//! of unobservable errors add up to zero at every configuration, and therefore also if only the
+//! first part moves from `q` to `q′`:
 //!
 //! ```text
 //! D ε = P Ad(S)⁻¹ Σ_{i<b} (M_i(q) − M_i(q′)) ε_i = 0        for all q, q′, S
 //! ```
 //!
-//! for what follows has not moved. Where that holds, `μ = Σ_{i<b} M_i ε_i` is the same in every configuration as far as it is
-//! seen: the part's errors act as `μ` at frame b does, and what is left to ask is whether `ε_b + μ, ε_{b+1}, …` are seen by the
-//! rest of the chain. So the space of errors that are not seen is that of `D` times that of the rest, and
+//! since the rest has not moved. Then the observable part of `μ = Σ_{i<b} M_i ε_i` is the same at
+//! every configuration: the errors of the part act like `μ` at frame b, and it remains to determine
+//! whether the rest of the chain observes `ε_b + μ, ε_{b+1}, …`. So the space of unobservable
+//! errors is the product of that of `D` and that of the rest, and
 //!
 //! ```text
 //! rank(chain) = rank(D) + rank(rest)
 //! ```
 //!
-//! without any assumption on the parts but that they share no variable. The last part moves against nothing; its rank is that
-//! of the sum itself. A lower pair has `D ε = 0` for the kernel of its `ad(S_i)` alone if poses are measured: 4 remain of each
-//! revolute joint, 2 of each prismatic one, 0 of a fixed frame, and 6 of the last part.
+//! for any parts that share no variable. The last part has no rest to move against; its rank is
+//! that of the sum itself. For a lower pair and measured poses, the kernel of `D` is that of its
+//! `ad(S_i)`: 4 errors remain for each revolute joint, 2 for each prismatic one, 0 for a fixed
+//! frame, and 6 for the last part.
 
 use nalgebra::DMatrix;
 
@@ -26,15 +30,15 @@ use super::{Identifiability, Measurement, Parts, not_finite, singular_values};
 use crate::{Configuration, Unevaluated, sampling};
 use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
 
-/// What [`identifiable`](super::identifiable()) counts, part by part: the work grows with the length of the chain, not with
-/// its cube, and so do the rounding errors.
+/// Computes the same as [`identifiable`](super::identifiable()), part by part. The work and the
+/// rounding errors grow linearly with the length of the chain, not with its cube.
 ///
-/// Every part is moved through the configurations while what follows it stands in those of others: joints have to be
-/// independent of each other, as those of [`random_joint_samples`](crate::random_joint_samples) are, and three times
-/// as many configurations as [`Parts::longest`] are enough: their rows outnumber the unknowns of every part by half if points
-/// are measured, and by more if poses are.
+/// Each part moves through the configurations while the rest stays at others. The joint values must
+/// therefore be independent, as those of [`random_joint_samples`](crate::random_joint_samples) are.
+/// Three times [`Parts::longest`] configurations suffice: the rows then outnumber the unknowns of
+/// every part by half if points are measured, and by more if poses are.
 ///
-/// [`Error::Count`] if `parts` are not those of `A_1 … A_n, T`.
+/// Returns [`Error::Count`] if `parts` are not those of `A_1 … A_n, T`.
 pub fn identifiable_in_parts(
     manipulator: &dyn Manipulator,
     parts: &Parts,
@@ -57,10 +61,10 @@ pub fn identifiable_in_parts(
 
     let unknowns = 6 * (frames + usize::from(base));
     let mut values = Vec::with_capacity(unknowns);
-    // The tool point as seen from the end of the part.
+    // Tool points relative to the end of the part.
     let mut points = vec![[0.0; 3]; configurations.len()];
     for range in parts.ranges.iter().rev() {
-        // Of the transforms in it up to its end.
+        // Products of its transforms from each one to the end of the part.
         let mut tails: Vec<Vec<Pose>> =
             transforms.iter().map(|transforms| transforms[range.clone()].to_vec()).collect();
         for tails in &mut tails {
@@ -69,7 +73,7 @@ pub fn identifiable_in_parts(
             }
         }
         let is_last = range.end == frames + 1;
-        // The first transform comes after the base frame.
+        // The first transform follows the base frame.
         let skipped = usize::from(range.start == 0 && !base);
         let matrix = part(&tails, &points, measurement, is_last, skipped);
         values.extend(singular_values(triangle(matrix)).ok_or_else(|| at(None, not_finite()))?);
@@ -80,8 +84,9 @@ pub fn identifiable_in_parts(
     Ok(Identifiability::new(unknowns, values))
 }
 
-/// `D`, or of the last part the sum itself: a block of rows for each configuration, a column for each error. Lengths are in
-/// those of the part, so that all columns of `M_i` are of order 1, and rows in the root of their number.
+/// Returns `D`, or the sum itself for the last part: a block of rows per configuration, a column
+/// per error. Lengths are relative to the size of the part, so that all columns of `M_i` are of
+/// order 1. Rows are divided by the root of their number.
 fn part(
     tails: &[Vec<Pose>],
     points: &[[f64; 3]],
@@ -118,7 +123,8 @@ fn part(
     matrix
 }
 
-/// How an error moves a point of the frame at `tail`, in the axes of that frame: its velocity, and the rotation.
+/// Returns the velocity of a point of the frame at `tail` by an error, and its rotation, in the
+/// axes of that frame.
 fn motion(tail: &Pose, component: Component, point: [f64; 3], length: f64) -> [f64; 6] {
     let axis = component.axis();
     let [x, y, z, _] = tail.0;
@@ -136,7 +142,7 @@ fn motion(tail: &Pose, component: Component, point: [f64; 3], length: f64) -> [f
     [u, v, w, along[0], along[1], along[2]]
 }
 
-/// A matrix with the same singular values that is no taller than wide.
+/// Returns a matrix with the same singular values and at most as many rows as columns.
 fn triangle(matrix: DMatrix<f64>) -> DMatrix<f64> {
     if matrix.is_empty() { matrix } else { matrix.qr().r() }
 }

@@ -1,4 +1,4 @@
-//! How many combinations of the generalized errors a set of measurements can tell apart.
+//! The number of combinations of the generalized errors that measurements can identify.
 
 mod in_parts;
 mod parts;
@@ -13,23 +13,24 @@ use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
 pub use in_parts::identifiable_in_parts;
 pub use parts::Parts;
 
-/// Singular values at or below this share of the largest count as zero.
+/// Relative singular value at or below which a value counts as zero.
 pub const RANK_THRESHOLD: f64 = 1e-9;
 
-/// A column whose entries are no larger, in arm lengths and rad, is zero but for rounding: of a rotation about the tool point.
+/// Largest entry, in arm lengths and rad, of a column that is zero up to rounding errors, as for a
+/// rotation about the tool point.
 const ROUNDING: f64 = 1e-13;
 
-/// What is measured at every configuration.
+/// Quantity measured at every configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measurement {
-    /// The pose of the tool point: six rows. Three targets that are not in line say the same.
+    /// Pose of the tool point: six rows. Three targets not in line are equivalent.
     Pose,
-    /// The tool point alone: three rows.
+    /// Tool point alone: three rows.
     Point,
 }
 
 impl Measurement {
-    /// How many rows of a twist it sees.
+    /// Returns the number of measured rows of a twist.
     fn rows(self) -> usize {
         match self {
             Self::Pose => 6,
@@ -38,20 +39,21 @@ impl Measurement {
     }
 }
 
-/// The rank of the stacked error Jacobians.
+/// Rank of the stacked error Jacobians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
-    /// How many combinations of the unknowns the measurements determine.
+    /// Number of identifiable combinations of the unknowns.
     pub rank: usize,
-    /// How many unknowns there are: 6 per frame, and 6 of the base frame if asked for.
+    /// Number of unknowns: 6 per frame, and 6 for the base frame if included.
     pub unknowns: usize,
-    /// All singular values, largest first, of the matrix with columns of unit length, or of the matrices of all parts. The
-    /// rank is theirs above [`RANK_THRESHOLD`] times the first.
+    /// Singular values, largest first, of the matrix with columns of unit length, or of the
+    /// matrices of all parts. The rank is the number of values above [`RANK_THRESHOLD`] times the
+    /// first.
     pub singular_values: Vec<f64>,
 }
 
 impl Identifiability {
-    /// In any order.
+    /// Counts singular values, in any order.
     fn new(unknowns: usize, mut singular_values: Vec<f64>) -> Self {
         singular_values.sort_by(|a, b| b.total_cmp(a));
         let threshold = singular_values.first().map_or(0.0, |largest| largest * RANK_THRESHOLD);
@@ -59,20 +61,21 @@ impl Identifiability {
         Self { rank, unknowns, singular_values }
     }
 
-    /// The smallest singular value that counts and the largest that does not: a gap of many orders of
-    /// magnitude says that the rank is certain.
+    /// Returns the smallest singular value above the threshold and the largest below it. A gap of
+    /// many orders of magnitude makes the rank certain.
     pub fn gap(&self) -> (Option<f64>, Option<f64>) {
         let last = self.rank.checked_sub(1).and_then(|i| self.singular_values.get(i));
         (last.copied(), self.singular_values.get(self.rank).copied())
     }
 }
 
-/// How many of the errors `ε` (with `base`, also those of a frame `E_0` at `F_0`) can be told apart by
-/// measuring at these configurations.
+/// Computes how many of the errors `ε` are identifiable by measurements at these configurations.
+/// With `base`, the errors of a frame `E_0` at `F_0` are included.
 ///
-/// Take them from [`joint_samples`](super::joint_samples) with the joints that will be moved; some 50
-/// show the rank of any arm. Columns are normalized, so that mm and rad weigh the same. The work grows with the number
-/// of configurations and the square of the number of frames; [`identifiable_in_parts`] counts what long chains have.
+/// Take the configurations from [`joint_samples`](super::joint_samples) with the joints that will
+/// be moved; about 50 determine the rank of any arm. Columns are normalized, so that mm and rad
+/// have the same weight. The work is proportional to the number of configurations and to the square
+/// of the number of frames; use [`identifiable_in_parts`] for long chains.
 pub fn identifiable(
     manipulator: &dyn Manipulator,
     configurations: &[Configuration],
@@ -87,8 +90,9 @@ pub fn identifiable(
     let unknowns = own + if base { 6 } else { 0 };
     let rows = measurement.rows();
 
-    // Only the triangle R of the stack's QR decomposition is kept: same singular values, bounded memory. At least as many
-    // rows as it has come between two decompositions: otherwise most of the work would be the triangle's own.
+    // Only the triangle R of the stack's QR decomposition is kept: same singular values, bounded
+    // memory. At least as many rows as R has are added between two decompositions, so that R does
+    // not dominate the work.
     let count = (unknowns / rows).max(super::BLOCK);
     let mut triangle = DMatrix::<f64>::zeros(0, unknowns);
     let mut columns = vec![[0.0; 6]; own];
@@ -102,7 +106,7 @@ pub fn identifiable(
             let base = Component::ALL.iter().filter(|_| base).map(|c| base_column(*c, &pose));
             for (j, column) in own.chain(base).enumerate() {
                 for k in 0..rows {
-                    // Lengths in arm lengths, so that position and orientation rows compare.
+                    // Lengths in arm lengths, so that position and orientation rows are comparable.
                     let value = if k < 3 { column[k] / arm } else { column[k] };
                     if !value.is_finite() {
                         let error = Error::NotFinite { quantity: Quantity::Jacobian, index: j };
@@ -126,12 +130,13 @@ pub fn identifiable(
     Ok(Identifiability::new(unknowns, values))
 }
 
-/// What is not a number, or takes more steps than any matrix of numbers.
+/// Returns the error of a matrix that is not finite or whose decomposition does not converge.
 fn not_finite() -> Error {
     Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }
 }
 
-/// The column of an error of `E_0`: `(e; 0)` for a translation, `(a × p_T; a)` for a rotation.
+/// Returns the column of an error of `E_0`: `(e; 0)` for a translation, `(a × p_T; a)` for a
+/// rotation.
 fn base_column(component: Component, pose: &Pose) -> [f64; 6] {
     let axis = component.axis();
     let mut column = [0.0; 6];

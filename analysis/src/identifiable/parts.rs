@@ -1,18 +1,18 @@
-//! The parts of a chain that move on their own.
+//! The parts of a chain with separate joints.
 
 use core::ops::Range;
 
-/// Consecutive transforms among `A_1 … A_n, T` that share their joint variables with no others.
+/// Partition of the transforms `A_1 … A_n, T` into consecutive parts that share no joint variables.
 ///
-/// Where every joint moves one frame, each transform is a part.
+/// Each transform is a part of its own if every joint moves one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parts {
-    /// Of `A_1 … A_n, T`, from 0: each begins where the one before ends.
+    /// Ranges of `A_1 … A_n, T`, from 0, without gaps.
     pub(super) ranges: Vec<Range<usize>>,
 }
 
 impl Parts {
-    /// From the joint variables on which each of `A_1 … A_n` and `T` depends.
+    /// Partitions a chain, given the joint variables on which each of `A_1 … A_n` and `T` depends.
     ///
     /// ```
     /// use abbe::analysis::Parts;
@@ -38,17 +38,17 @@ impl Parts {
         Self { ranges }
     }
 
-    /// How many there are.
+    /// Returns the number of parts.
     pub fn count(&self) -> usize {
         self.ranges.len()
     }
 
-    /// How many transforms the longest has.
+    /// Returns the number of transforms of the longest part.
     pub fn longest(&self) -> usize {
         self.ranges.iter().map(Range::len).max().unwrap_or(0)
     }
 
-    /// How many transforms there are in all.
+    /// Returns the number of transforms.
     pub(super) fn transforms(&self) -> usize {
         self.ranges.last().map_or(0, |range| range.end)
     }

@@ -1,4 +1,4 @@
-//! Normally distributed vectors: how likely is a norm, and which norm is not exceeded with a probability.
+//! Normal and Student vectors in space: probabilities and quantiles of their norms.
 
 mod principal;
 mod quadrature;

@@ -4,21 +4,23 @@ use nalgebra::{Matrix3, SymmetricEigen};
 
 use crate::decompose::symmetric_eigen;
 
-/// A variance of less than this share of the largest is none: the error lies in a plane or on a line.
+/// Relative variance below which an axis counts as constant: the error lies in a plane or on a
+/// line.
 pub const FLAT: f64 = 1e-12;
 
-/// The principal axes of a covariance, the longest first.
+/// Principal axes of a covariance, the longest first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Principal {
-    /// The standard deviations along them, 0 where there is none.
+    /// Standard deviations along the axes. 0 along constant axes.
     pub deviations: [f64; 3],
-    /// Their directions, unit vectors.
+    /// Directions of the axes, unit vectors.
     pub axes: [[f64; 3]; 3],
 }
 
 impl Principal {
-    /// Of a covariance, symmetric and positive semidefinite. Where it is not finite, no deviation is.
+    /// Decomposes a covariance, symmetric and positive semidefinite. If it is not finite, the
+    /// deviations are infinite.
     pub fn new(covariance: [[f64; 3]; 3]) -> Self {
         let Some(SymmetricEigen { eigenvectors, eigenvalues }) = symmetric_eigen(Matrix3::from(covariance))
         else {
@@ -34,12 +36,12 @@ impl Principal {
         }
     }
 
-    /// In how many directions there is a variance: 0 to 3.
+    /// Returns the number of axes with a variance, 0 to 3.
     pub fn rank(&self) -> usize {
         self.deviations.iter().filter(|deviation| **deviation > 0.0).count()
     }
 
-    /// The components of a vector along the axes.
+    /// Returns the components of a vector along the axes.
     pub fn components(&self, vector: [f64; 3]) -> [f64; 3] {
         self.axes.map(|axis| axis.iter().zip(vector).map(|(a, v)| a * v).sum())
     }

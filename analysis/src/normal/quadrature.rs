@@ -1,7 +1,7 @@
 //! Integrals and roots of smooth functions.
 
-/// The nodes of Gauss and Kronrod with 7 and 15 points on [−1, 1] that are not negative, with the weights of both; those
-/// of Gauss are 0 where it has no node.
+/// Nonnegative nodes of the Gauss–Kronrod rule with 7 and 15 points on [−1, 1], and the weights of
+/// both. The Gauss weight is 0 where the 7-point rule has no node.
 const NODES: [(f64, f64, f64); 8] = [
     (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
     (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),
@@ -12,11 +12,11 @@ const NODES: [(f64, f64, f64); 8] = [
     (0.207_784_955_007_898_47, 0.204_432_940_075_298_89, 0.0),
     (0.0, 0.209_482_141_084_727_82, 0.417_959_183_673_469_4),
 ];
-/// How often an interval is halved at most.
+/// Largest number of bisections of an interval.
 const DEPTH: usize = 30;
 
-/// `∫ f` from `from` to `to`. An interval is halved until its two rules, with 7 and with 15 points, differ by less than
-/// `error`; the better of the two is taken, so that the error is far less than that.
+/// Returns `∫ f` from `from` to `to`. Bisects an interval until its two rules, with 7 and 15
+/// points, differ by less than `error`, and uses the 15-point rule, whose error is far smaller.
 pub(super) fn integral(f: &dyn Fn(f64) -> f64, from: f64, to: f64, error: f64) -> f64 {
     let quarter = (to - from) / 4.0;
     let part =
@@ -42,7 +42,8 @@ fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, error: f64, depth: usize
     adaptive(f, from, middle, error, depth - 1) + adaptive(f, middle, to, error, depth - 1)
 }
 
-/// The root of an increasing function between two ends: chords (Illinois), until the bracket is closed.
+/// Returns the root of an increasing function in a bracket, by the Illinois variant of the secant
+/// method, until the bracket is closed.
 pub(super) fn root(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (mut below, mut above) = (value(low), value(high));
     let mut side = 0;

@@ -1,4 +1,4 @@
-//! Against closed forms, a series with a bound of its own, and draws.
+//! Tests against closed forms, a series with its own error bound, and draws.
 
 use core::f64::consts::{PI, SQRT_2};
 
@@ -13,7 +13,7 @@ fn vector(mean: [f64; 3], [x, y, z]: [f64; 3]) -> NormalVector {
     NormalVector::new(mean, [[x * x, 0.0, 0.0], [0.0, y * y, 0.0], [0.0, 0.0, z * z]])
 }
 
-/// Φ(b) − Φ(a).
+/// Returns Φ(b) − Φ(a).
 fn between(a: f64, b: f64) -> f64 {
     (libm::erf(b / SQRT_2) - libm::erf(a / SQRT_2)) / 2.0
 }
@@ -36,7 +36,7 @@ fn spheres_in_one_two_and_three_dimensions() {
     }
 }
 
-/// The noncentral χ with three degrees of freedom in closed form:
+/// Checks the noncentral χ with three degrees of freedom in closed form:
 /// `Φ(r − m) − Φ(−r − m) − (φ(r − m) − φ(r + m)) / m`.
 #[test]
 fn a_sphere_beside_the_centre() {
@@ -55,9 +55,10 @@ fn a_sphere_beside_the_centre() {
     }
 }
 
-/// Ruben's series (Kotz, Johnson and Boyd 1967) of `P(Σ (m_i + σ_i Z_i)² ≤ x)` in χ² with n + 2k degrees of freedom, with β the least
-/// variance: all its terms are positive, and those that are left out are together no more than what their weights lack of 1.
-/// It has nothing in common with an integral. Returns the sum and that bound.
+/// Returns Ruben's series (Kotz, Johnson and Boyd 1967) of `P(Σ (m_i + σ_i Z_i)² ≤ x)` in χ² with
+/// `n + 2k` degrees of freedom, and a bound of its truncation error. β is the smallest variance, so
+/// that all terms are positive and the truncated ones sum to at most one minus the sum of the
+/// weights. The method is independent of integration.
 fn ruben(mean: [f64; 3], deviations: [f64; 3], radius: f64) -> (f64, f64) {
     let n = deviations.iter().filter(|d| **d > 0.0).count();
     let variances = deviations.iter().filter(|d| **d > 0.0).map(|d| d * d).collect::<Vec<_>>();
@@ -120,7 +121,7 @@ fn the_series_of_ruben() {
 fn quantiles_come_back_as_probabilities() {
     let mut random = stream(9, 0);
     for case in 0..if thorough() { 40 } else { 10 } {
-        // Any shape, needles and plates among them.
+        // Any shape, including needles and plates.
         let deviations = [0; 3].map(|_| 10_f64.powf(-6.0 * random.random::<f64>()));
         let mean = [0; 3].map(|_| if case % 2 == 0 { 0.0 } else { 2.0 * random.random::<f64>() - 1.0 });
         let vector = vector(mean, deviations);
@@ -144,14 +145,14 @@ fn quantiles_come_back_as_probabilities() {
 fn nothing_varies() {
     let still = vector([3.0, 0.0, 4.0], [0.0; 3]);
     assert_eq!((still.within(4.999), still.within(5.001), still.quantile(0.95)), (0.0, 1.0, 5.0));
-    // Beside the line on which it varies: nothing is nearer than that.
+    // Off the line of variation: the norm is at least the distance.
     let line = vector([0.0, 0.0, 2.0], [1.0, 0.0, 0.0]);
     assert_eq!(line.within(1.9), 0.0);
     assert!((line.within(5_f64.sqrt()) - between(-1.0, 1.0)).abs() < 1e-12);
     assert_eq!(vector([0.0; 3], [1.0; 3]).within(-1.0), 0.0);
 }
 
-/// Millions of draws of each rank: within four standard errors.
+/// Compares with millions of draws of each rank, within four standard errors.
 #[test]
 fn draws_of_each_rank() {
     let count = sample_size(10_000_000);
@@ -162,7 +163,7 @@ fn draws_of_each_rank() {
     ];
     for (rank, covariance) in (1..).zip(covariances) {
         let matrix = nalgebra::Matrix3::from(covariance);
-        // Any root of the covariance will do: here by rows of its eigenvectors.
+        // Any root of the covariance works: here from its eigenvectors.
         let eigen = matrix.symmetric_eigen();
         let root = eigen.eigenvectors
             * nalgebra::Matrix3::from_diagonal(
@@ -181,8 +182,9 @@ fn draws_of_each_rank() {
     }
 }
 
-/// Student's t in closed form: a line with one and two degrees of freedom, a round plane with any
-/// (`P(‖T‖ ≤ r) = 1 − (1 + r²/ν)^(−ν/2)`), and known quantiles; with many it is the normal one to first order in 1/ν.
+/// Checks Student's t-distribution in closed form: a line with one and two degrees of freedom, an
+/// isotropic plane with any (`P(‖T‖ ≤ r) = 1 − (1 + r²/ν)^(−ν/2)`), and known quantiles. For many
+/// degrees of freedom it is normal to first order in 1/ν.
 #[test]
 fn student_in_closed_form() {
     let student = |variances: [f64; 3], nu: f64| {
@@ -219,7 +221,7 @@ fn student_in_closed_form() {
     }
 }
 
-/// Of several shapes: against draws, within four standard errors.
+/// Compares several shapes with draws, within four standard errors.
 #[test]
 fn student_vectors_against_draws() {
     let mut random = stream(21, 0);
@@ -243,7 +245,8 @@ fn student_vectors_against_draws() {
     }
 }
 
-/// With three degrees of freedom or more no shape has a larger quantile than a line of the same trace.
+/// Checks that with three or more degrees of freedom no shape has a larger quantile than a line of
+/// the same trace.
 #[test]
 fn a_line_has_the_largest_quantile() {
     let mut random = stream(22, 0);

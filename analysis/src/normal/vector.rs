@@ -1,26 +1,26 @@
-//! The norm of a normally distributed vector in space.
+//! The norm of a normal vector in space.
 
 use core::f64::consts::{SQRT_2, TAU};
 
 use super::principal::Principal;
 use super::quadrature::{integral, root};
 
-/// How far a probability of [`NormalVector::within`] may be off, as long as the mean is no more than 10⁴ times the
-/// largest standard deviation.
+/// Bound of the error of [`NormalVector::within`], if the mean is at most 10⁴ times the largest
+/// standard deviation.
 pub const PROBABILITY_ERROR: f64 = 1e-9;
 
-/// Beyond so many standard deviations is a share of 3e-12.
+/// Standard deviations at which tails are truncated: the probability beyond is 3e-12.
 const TAIL: f64 = 7.0;
-/// How far the two rules of an integral may differ; the better one is far nearer than that. The outer integral sees the noise
-/// of the inner one.
+/// Largest difference of the two rules of an integral; the result is far more accurate. The outer
+/// tolerance allows for the noise of the inner integral.
 const OUTER: f64 = 1e-9;
 const INNER: f64 = 1e-10;
 
-/// A vector `X = m + √λ_1 Z_1 a_1 + √λ_2 Z_2 a_2 + √λ_3 Z_3 a_3` with independent standard normal Z, along the principal axes
-/// of its covariance. Some or all of the λ may be 0.
+/// Normal vector `X = m + √λ_1 Z_1 a_1 + √λ_2 Z_2 a_2 + √λ_3 Z_3 a_3` with independent standard
+/// normal Z, along the principal axes of its covariance. Some or all of the λ may be 0.
 ///
-/// The square of its norm is `Σ (m_i + √λ_i Z_i)²`. Its distribution has no closed form; it is integrated over the
-/// shorter axes, on which the others depend smoothly:
+/// The square of its norm is `Σ (m_i + √λ_i Z_i)²`, whose distribution has no closed form. It is
+/// integrated over the shorter axes, on which the integrand depends smoothly:
 ///
 /// ```text
 /// P_1(r) = Φ((r − m_1)/σ_1) − Φ((−r − m_1)/σ_1)
@@ -40,25 +40,26 @@ const INNER: f64 = 1e-10;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalVector {
-    /// Along the principal axes, the longest first; no component is negative, which changes no norm.
+    /// Mean along the principal axes, the longest first. Components are nonnegative, which changes
+    /// no norm.
     mean: [f64; 3],
     pub(super) deviations: [f64; 3],
 }
 
 impl NormalVector {
-    /// With a mean, and a covariance that is symmetric and positive semidefinite.
+    /// Creates the vector from its mean, and its covariance, symmetric and positive semidefinite.
     pub fn new(mean: [f64; 3], covariance: [[f64; 3]; 3]) -> Self {
         let principal = Principal::new(covariance);
         Self { mean: principal.components(mean).map(f64::abs), deviations: principal.deviations }
     }
 
-    /// The probability `P(‖X‖ ≤ radius)`, right to [`PROBABILITY_ERROR`].
+    /// Returns the probability `P(‖X‖ ≤ radius)`, with an error below [`PROBABILITY_ERROR`].
     pub fn within(&self, radius: f64) -> f64 {
         self.three(radius).clamp(0.0, 1.0)
     }
 
-    /// The norm that is not exceeded with a probability between 0 and 1: `within(quantile(p))` is p to 2e-9, unless all
-    /// of the covariance is 0.
+    /// Returns the quantile of the norm for a probability between 0 and 1: `within(quantile(p))` is
+    /// p to 2e-9, unless the covariance is zero.
     pub fn quantile(&self, probability: f64) -> f64 {
         let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let (mean, deviation) = (length(self.mean), length(self.deviations));
@@ -68,20 +69,20 @@ impl NormalVector {
         root(0.0, mean + TAIL * deviation, |radius| self.within(radius) - probability)
     }
 
-    /// The part of an axis on which the vector may be, and within a radius.
+    /// Returns the part of an axis with significant density within a radius.
     fn range(&self, axis: usize, radius: f64) -> [f64; 2] {
         let (mean, reach) = (self.mean[axis], TAIL * self.deviations[axis]);
         [(mean - reach).max(-radius), (mean + reach).min(radius)]
     }
 
-    /// φ_i at a distance from its mean.
+    /// Returns φ_i at a distance from its mean.
     fn density(&self, axis: usize, from_mean: f64) -> f64 {
         let deviation = self.deviations[axis];
         let z = from_mean / deviation;
         (-z * z / 2.0).exp() / (deviation * TAU.sqrt())
     }
 
-    /// Along the first axis.
+    /// Returns the probability along the first axis.
     fn one(&self, radius: f64) -> f64 {
         let (mean, deviation) = (self.mean[0], self.deviations[0]);
         if deviation == 0.0 {
@@ -91,7 +92,7 @@ impl NormalVector {
         (libm::erf((radius - mean) / unit) + libm::erf((radius + mean) / unit)) / 2.0
     }
 
-    /// In the plane of the first two.
+    /// Returns the probability in the plane of the first two axes.
     fn two(&self, radius: f64) -> f64 {
         if self.deviations[1] == 0.0 {
             return self.remaining(1, radius).map_or(0.0, |rest| self.one(rest));
@@ -105,7 +106,7 @@ impl NormalVector {
             return integral(&along, from, to, self.error(INNER));
         }
         let along = |angle: f64| {
-            // t − m without a difference of large numbers: r cos θ − m = (r − m) − 2 r sin²(θ/2).
+            // t − m without cancellation: r cos θ − m = (r − m) − 2 r sin²(θ/2).
             let from_mean = (radius - self.mean[1]) - 2.0 * radius * (angle / 2.0).sin().powi(2);
             let rest = radius * angle.sin();
             self.density(1, from_mean) * self.one(rest) * rest
@@ -114,7 +115,7 @@ impl NormalVector {
         integral(&along, angle(to), angle(from), self.error(INNER))
     }
 
-    /// In space.
+    /// Returns the probability in space.
     fn three(&self, radius: f64) -> f64 {
         if self.deviations[2] == 0.0 {
             return self.remaining(2, radius).map_or(0.0, |rest| self.two(rest));
@@ -127,19 +128,20 @@ impl NormalVector {
         integral(&along, from, to, self.error(OUTER))
     }
 
-    /// What is left of a radius beside an axis along which nothing varies.
+    /// Returns the radius that remains in the plane perpendicular to a constant axis, or `None` if
+    /// the mean along it exceeds the radius.
     fn remaining(&self, axis: usize, radius: f64) -> Option<f64> {
         (self.mean[axis] <= radius).then(|| leg(radius, self.mean[axis]))
     }
 
-    /// Where the rules of an integral must agree; not closer than rounding lets them.
+    /// Returns the tolerance of an integral, not below the rounding errors.
     fn error(&self, least: f64) -> f64 {
         let mean = self.mean.iter().fold(0.0_f64, |largest, m| largest.max(*m));
         least.max(1e-15 * mean / self.deviations[0])
     }
 }
 
-/// `√(r² − t²)`.
+/// Returns `√(r² − t²)`.
 fn leg(radius: f64, t: f64) -> f64 {
     ((radius - t) * (radius + t)).max(0.0).sqrt()
 }

@@ -1,4 +1,4 @@
-//! Errors drawn at random on the exact chain.
+//! Monte Carlo simulation on the exact chain.
 
 mod monte_carlo;
 mod quantile;

@@ -1,4 +1,4 @@
-//! Errors drawn at one configuration, on the exact chain with true rotations.
+//! Monte Carlo simulation at one configuration, on the exact chain with exact rotations.
 
 use super::Quantile;
 use crate::sampling::{draw, norm, stream};
@@ -7,43 +7,45 @@ use crate::workspace::One;
 use crate::{Configuration, Ellipsoid, Measurand, Sweepable, Unevaluated, covariance, sweep};
 use abbe_core::{Class, Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
 
-/// How many draws come from one stream of random numbers, and are made at once.
+/// Number of draws per stream of random numbers and per block.
 const DRAWS: usize = 4096;
 
-/// What is drawn at one configuration: all sources together, repeatable ones as they are, of random ones one
-/// magnitude for all effects. Position errors in `F_0`, length unit.
+/// Result of a simulation at one configuration. Repeatable sources are fixed; each random source
+/// has one random magnitude for all its effects. Position errors are in `F_0` and in the length
+/// unit.
 ///
-/// With the feature `serde` it serializes as in the report of `abbe analyze`, where both places share the number of draws.
+/// With the feature `serde` it serializes as in the report of `abbe analyze`, where both places
+/// share the number of draws.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MonteCarlo {
-    /// How many draws.
+    /// Number of draws.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub draws: usize,
-    /// The 50, 95 and 99 % quantiles of the norm of the whole error.
+    /// The 50, 95 and 99 % quantiles of the norm of the total error.
     pub quantiles: [Quantile; 3],
-    /// The largest norm that was drawn.
+    /// Largest norm of a draw.
     pub largest: f64,
-    /// The mean error: the repeatable sources, and what the rotations of random ones add.
+    /// Mean error: the repeatable sources, and second-order effects of random rotations.
     pub mean: [f64; 3],
-    /// The covariance of the draws.
+    /// Covariance of the draws.
     pub covariance: [[f64; 3]; 3],
-    /// The standard error of each of its entries, `√(Var(d_i d_j) / N)`.
+    /// Standard error of each entry of the covariance, `√(Var(d_i d_j) / N)`.
     #[cfg_attr(feature = "serde", serde(rename = "covariance_standard_error"))]
     pub standard_error: [[f64; 3]; 3],
-    /// The same covariance to first order, `J_e Σ J_eᵀ`.
+    /// Covariance to first order, `J_e Σ J_eᵀ`.
     #[cfg_attr(feature = "serde", serde(rename = "first_order_covariance"))]
     pub first_order: [[f64; 3]; 3],
-    /// The share of the draws within the first-order 95 % ellipsoid about the error without random sources; none
-    /// where that is flat. It is 0.95 for normal sources, for others not.
+    /// Share of the draws within the first-order 95 % ellipsoid about the error without random
+    /// sources, 0.95 only for normal sources. `None` if the ellipsoid is flat.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub inside_ellipsoid: Option<f64>,
 }
 
-/// Draws all sources at a configuration, `draws` times. The result follows from the seed alone,
-/// not from the number of threads.
+/// Draws all sources at a configuration, `draws` times. The result depends on the seed, not on the
+/// number of threads.
 ///
-/// Eight bytes are held for every draw. Errors as for [`sweep`] and [`drawn_pose`].
+/// Uses eight bytes of memory per draw. Errors as for [`sweep`] and [`drawn_pose`].
 pub fn monte_carlo(
     manipulator: &dyn Sweepable,
     configuration: &Configuration,
@@ -99,7 +101,7 @@ pub fn monte_carlo(
         draws,
         quantiles: [0.5, 0.95, 0.99].map(|probability| Quantile::from_sorted(&norms, probability)),
         largest: norms.last().copied().unwrap_or_default(),
-        // Never −0.
+        // Adding 0 avoids −0.
         mean: core::array::from_fn(|i| without_random[i] + mean[i] + 0.0),
         covariance,
         standard_error,
@@ -108,13 +110,13 @@ pub fn monte_carlo(
     })
 }
 
-/// `Σ_i (a_i · d / l_i)² ≤ 1` with the semi-axes l and their directions a.
+/// Returns whether `Σ_i (a_i · d / l_i)² ≤ 1` with the semi-axes l and their directions a.
 fn inside(Ellipsoid { semi_axes, principal, .. }: &Ellipsoid, d: [f64; 3]) -> bool {
     let along = principal.components(d);
     along.iter().zip(semi_axes).map(|(along, length)| (along / length).powi(2)).sum::<f64>() <= 1.0
 }
 
-/// Sums over draws d: of them, of their products, of the squares of these.
+/// Sums over draws d, over their products, and over the squares of these.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     count: usize,
@@ -150,12 +152,12 @@ impl Sums {
         }
     }
 
-    /// Mean, covariance and the standard errors of that: `Cov = E[d dᵀ] − m mᵀ`.
+    /// Returns the mean, the covariance `Cov = E[d dᵀ] − m mᵀ`, and its standard errors.
     fn moments(&self) -> ([f64; 3], [[f64; 3]; 3], [[f64; 3]; 3]) {
         let count = self.count.max(1) as f64;
         let mean = self.d.map(|sum| sum / count);
         let matrix = |entry: &dyn Fn(usize, usize) -> f64| {
-            // Never −0.
+            // Adding 0 avoids −0.
             core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j) + 0.0))
         };
         let covariance = matrix(&|i, j| {

@@ -1,21 +1,22 @@
-//! Quantiles of a sample, and how well it knows them.
+//! Quantiles of a sample, with standard errors.
 
-/// A quantile of a sample.
+/// Quantile of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Quantile {
-    /// Which share of what is drawn is at most this large.
+    /// Probability: the share of the values at or below the quantile.
     pub probability: f64,
-    /// The value, in the length unit.
+    /// Value, in the length unit.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error of the value.
     pub standard_error: f64,
 }
 
 impl Quantile {
-    /// Of N sorted values, `x_⌈pN⌉`. How many of them lie below the true quantile is binomial with the standard
-    /// deviation `d = √(N p (1 − p))`; the standard error is what the values vary by over that many ranks,
-    /// `(x_{pN+d} − x_{pN−d}) / 2`, whatever the distribution.
+    /// Returns the quantile `x_⌈pN⌉` of N sorted values. The number of values below the true
+    /// quantile is binomial with the standard deviation `d = √(N p (1 − p))`; the standard error is
+    /// half the difference of the values at that many ranks to either side,
+    /// `(x_{pN+d} − x_{pN−d}) / 2`, for any distribution.
     pub(super) fn from_sorted(sorted: &[f64], probability: f64) -> Self {
         let count = sorted.len() as f64;
         let at = |rank: f64| {
@@ -38,7 +39,7 @@ mod tests {
         let sorted = (1..=10_000).map(|i| f64::from(i) / 10_000.0).collect::<Vec<_>>();
         let Quantile { value, standard_error, .. } = Quantile::from_sorted(&sorted, 0.5);
         assert!((value - 0.5).abs() < 1e-12);
-        // √(p (1 − p) / N) over a density of 1.
+        // √(p (1 − p) / N) divided by a density of 1.
         assert!((standard_error - 0.005).abs() < 1e-4);
         assert_eq!(Quantile::from_sorted(&[], 0.5).value, 0.0);
         assert_eq!(Quantile::from_sorted(&[3.0], 0.99).value, 3.0);

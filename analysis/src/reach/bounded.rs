@@ -1,15 +1,17 @@
 //! Linear least squares within bounds: `min ‖A p + b‖` for `l ≤ p ≤ u`, by an active set.
 //!
-//! Stark and Parker, *Bounded-variable least squares: an algorithm and applications*, 1995: of the free variables the
-//! unbounded solution is taken as far as the first bound, which then holds its variable; a held one is set free where the gradient
-//! points inside. Every change lowers the sum of squares, so that no set comes twice.
+//! Stark and Parker, *Bounded-variable least squares: an algorithm and applications*, 1995. The
+//! unbounded solution of the free variables is followed up to the first bound, which then fixes its
+//! variable. A fixed variable is freed where the gradient points inwards. Every change lowers the
+//! sum of squares, so no active set recurs.
 
 use nalgebra::{DMatrix, DVector};
 
-/// A gradient below this share of what its column and the residual could make is none.
+/// Smallest significant gradient, relative to the norms of its column and of the residual.
 const ROUNDING: f64 = 1e-13;
 
-/// The solution, from `p = 0` on, which the bounds must admit; `a` has full column rank. None if it has not.
+/// Returns the solution, starting from `p = 0`, which the bounds must contain. `a` must have full
+/// column rank; returns `None` if it has not.
 pub(super) fn bounded(
     a: &DMatrix<f64>,
     b: &DVector<f64>,
@@ -27,7 +29,8 @@ pub(super) fn bounded(
         (at_lower.max(at_upper), least)
     };
     let mut free: Vec<bool> = (0..n).map(|j| outward(j, &p).0 < 0.0).collect();
-    // Every variable is held and set free a few times at most; rounding must not make it more.
+    // Each variable is fixed and freed a few times at most. The limit guards against cycles by
+    // rounding errors.
     for _ in 0..10 * n + 10 {
         let moving: Vec<usize> = (0..n).filter(|j| free[*j]).collect();
         if !moving.is_empty() {
@@ -35,7 +38,7 @@ pub(super) fn bounded(
             moving.iter().for_each(|j| held[*j] = 0.0);
             let wanted = -(a * &held + b);
             let solved = solve(a.select_columns(&moving), wanted)?;
-            // How far towards it the first bound is.
+            // Relative distance to the first bound along the step.
             let mut share = 1.0;
             let mut first = None;
             for (&j, to) in moving.iter().zip(solved.iter()) {
@@ -54,7 +57,7 @@ pub(super) fn bounded(
                 continue;
             }
         }
-        // The held variable that gains most by going inside.
+        // Free the fixed variable with the largest gain.
         let inward = (0..n).filter(|j| !free[*j] && lower[*j] < upper[*j]).filter_map(|j| {
             let (outward, least) = outward(j, &p);
             (outward < -least).then_some((j, outward / a.column(j).norm()))
@@ -67,7 +70,7 @@ pub(super) fn bounded(
     Some(p)
 }
 
-/// Unbounded, by QR.
+/// Solves the unbounded problem by QR decomposition.
 fn solve(a: DMatrix<f64>, mut b: DVector<f64>) -> Option<DVector<f64>> {
     let n = a.ncols();
     let qr = a.qr();
@@ -83,7 +86,7 @@ mod tests {
     use super::bounded;
     use crate::sampling::halton;
 
-    /// Against every set of variables held at every bound: the best of all that is admitted.
+    /// Compares the result with the best over all active sets.
     #[test]
     fn it_is_the_best_of_all_sets() {
         for seed in 0..200 {

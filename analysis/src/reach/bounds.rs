@@ -1,42 +1,46 @@
-//! Where the tool of a chain of lower pairs can be at most: known without a search.
+//! Enclosures of the reachable positions of a chain of lower pairs, which prove without a search
+//! that a target is out of reach.
 //!
-//! From the tip to the base, all places of a point are enclosed by an [`Extent`] at the axis of each joint, without limits and
-//! within them. Every step encloses at least what is there, so that a point outside is not reached.
+//! From the tip to the base, an [`Extent`] about the axis of each joint encloses all positions of a
+//! point, without limits and within them. Every step encloses at least the reachable positions, so
+//! a point outside is unreachable.
 //!
-//! The pose of the tool tells where more points are: those of the last axis, which its joint does not move. And of the chain from
-//! the tool to the base, `A_T⁻¹`, the same holds: the pose tells where base and first axis are, as seen from the tool.
+//! The tool pose determines further points: those of the last axis, which its joint does not move.
+//! The same applies to the chain from the tool to the base, `A_T⁻¹`: the pose determines the
+//! positions of the base and of the first axis relative to the tool.
 
 use super::Target;
 use super::extent::{ANY, Extent, Interval, inside, sum, times};
 use super::joint_chain::{Joint, JointChain, scaled, shift};
-use super::quest::{Problem, Prospect};
+use super::target_search::{Problem, Reachability};
 use abbe_core::{Pose, VariableKind};
 
-/// Axes whose angle has a smaller squared sine are next to each other everywhere.
+/// Squared sine of the angle below which two axes count as parallel.
 const PARALLEL: f64 = 1e-4;
 
-/// Where a target can be.
+/// Enclosures for the targets of a chain.
 pub(super) struct Bounds {
     arm: f64,
-    /// Points of the tool's frame, the tool point first, and where they are as seen from `F_0`.
+    /// Points of the tool's frame, the tool point first, with their enclosures in `F_0`.
     of_tool: Vec<Bound>,
-    /// Points of `F_0`, as seen from the tool.
+    /// Points of `F_0`, with their enclosures relative to the tool.
     of_base: Vec<Bound>,
 }
 
-/// Where a point of the end of a chain can be.
+/// Point at the end of a chain with its enclosures.
 struct Bound {
     point: [f64; 3],
-    /// Limits aside, and within them.
+    /// Enclosure without limits, and within them.
     regions: [Region; 2],
 }
 
-/// Where a point at the end of a chain can be.
+/// Enclosure of a point at the end of a chain.
 struct Region {
-    /// From the base of the chain to the first axis, and the extent about that.
+    /// Transform from the base of the chain to the first axis; the extent is about that axis.
     to_axis: Pose,
     extent: Extent,
-    /// Along x, y and z of the base: sharper where slides come first.
+    /// Intervals of x, y and z of the base: sharper than the extent where prismatic joints come
+    /// first.
     sides: [Interval; 3],
 }
 
@@ -49,22 +53,23 @@ impl Bounds {
         Self { arm: problem.arm, of_tool, of_base }
     }
 
-    /// What is known of a target.
-    pub(super) fn prospect(&self, target: &Target) -> Prospect {
+    /// Classifies a target.
+    pub(super) fn reachability(&self, target: &Target) -> Reachability {
         match target {
-            Target::Point(point) => self.of_tool[0].prospect(point.map(|x| x / self.arm)),
+            Target::Point(point) => self.of_tool[0].reachability(point.map(|x| x / self.arm)),
             Target::Pose(pose) => {
                 let pose = scaled(pose, self.arm);
                 let back = pose.inverse();
-                let of_tool = self.of_tool.iter().map(|bound| bound.prospect(pose.apply(bound.point)));
-                let of_base = self.of_base.iter().map(|bound| bound.prospect(back.apply(bound.point)));
-                of_tool.chain(of_base).min().unwrap_or(Prospect::Open)
+                let of_tool = self.of_tool.iter().map(|bound| bound.reachability(pose.apply(bound.point)));
+                let of_base = self.of_base.iter().map(|bound| bound.reachability(back.apply(bound.point)));
+                of_tool.chain(of_base).min().unwrap_or(Reachability::Open)
             }
         }
     }
 }
 
-/// Of the end of a chain, and of points of its last axis if it turns: next to the end, and next to the axis before.
+/// Returns the enclosures of the end of a chain and, if its last joint is revolute, of the points
+/// of its axis nearest to the end and to the axis before.
 fn bounds(chain: &JointChain, limits: &[Interval]) -> Vec<Bound> {
     let of = |point: [f64; 3], chain: &JointChain| Bound {
         point,
@@ -88,25 +93,25 @@ fn bounds(chain: &JointChain, limits: &[Interval]) -> Vec<Bound> {
 }
 
 impl Bound {
-    /// Of a target that has the point here, in arm lengths.
-    fn prospect(&self, here: [f64; 3]) -> Prospect {
+    /// Classifies a target with the point at `here`, in arm lengths.
+    fn reachability(&self, here: [f64; 3]) -> Reachability {
         let [anyhow, within] = &self.regions;
         match (within.holds(here), anyhow.holds(here)) {
-            (true, _) => Prospect::Open,
-            (false, true) => Prospect::BeyondLimits,
-            (false, false) => Prospect::Never,
+            (true, _) => Reachability::Open,
+            (false, true) => Reachability::BeyondLimits,
+            (false, false) => Reachability::Never,
         }
     }
 }
 
 impl Region {
-    /// With joints between these limits.
+    /// Encloses the end of a chain with joints within these limits.
     fn new(chain: &JointChain, limits: &dyn Fn(usize) -> Interval) -> Self {
         let chain = chain.centred();
         let slides = |joint: &&Joint| joint.kind == VariableKind::Prismatic;
         let first_turn = chain.joints.iter().take_while(slides).count();
-        let mut extent = Extent::of(chain.tool.position());
-        // As seen from the base, in front of the slides that come first.
+        let mut extent = Extent::from_point(chain.tool.position());
+        // Extent in the frame before the first revolute joint.
         let mut turned = (first_turn == chain.joints.len()).then_some(extent);
         for (j, joint) in chain.joints.iter().enumerate().rev() {
             extent = match joint.kind {
@@ -117,7 +122,7 @@ impl Region {
                 turned = Some(extent);
             }
             if j > 0 {
-                extent = extent.seen_from(&joint.before);
+                extent = extent.in_preceding_frame(&joint.before);
             }
         }
         let mut frame = Pose::IDENTITY;
@@ -136,7 +141,7 @@ impl Region {
                 let side = |i: usize| sum(turned.along([x[i], y[i], z[i]]), [at[i]; 2]);
                 (frame, [side(0), side(1), side(2)])
             }
-            // Slides only: the point goes along.
+            // Prismatic joints only: the point itself.
             None => (frame, frame.then(&chain.tool).position().map(|x| [x; 2])),
         };
         let to_axis = chain.joints.first().map_or(point, |joint| joint.before).inverse();
@@ -144,7 +149,7 @@ impl Region {
         Self { to_axis, extent, sides }
     }
 
-    /// Whether a point, in arm lengths, may be reached.
+    /// Returns whether a point, in arm lengths, may be reachable.
     fn holds(&self, point: [f64; 3]) -> bool {
         self.extent.holds(self.to_axis.apply(point))
             && point.into_iter().zip(self.sides).all(|(value, side)| inside(value, side))
@@ -168,8 +173,9 @@ mod tests {
         Pose(columns)
     }
 
-    /// Chains of every mix of turns and slides, their axes in general position, parallel, at right angles and meeting; values
-    /// within limits, narrow and wide, and beyond them: each point is where it may be, and so is the base as seen from the tool.
+    /// Checks chains of all mixes of revolute and prismatic joints, with axes in general position,
+    /// parallel, perpendicular and intersecting, within narrow and wide limits, and beyond them:
+    /// each point is in its enclosure, and so is the base relative to the tool.
     #[test]
     fn what_is_reached_is_never_called_out_of_reach() {
         for seed in 0..1000 {
@@ -201,7 +207,7 @@ mod tests {
             let back: Vec<Interval> = limits.iter().rev().map(|[lower, upper]| [-upper, -lower]).collect();
             let (of_tool, of_base) = (bounds(&chain, &limits), bounds(&chain.reversed(), &back));
             for index in 0..300 {
-                // Both ends, too.
+                // Includes both ends.
                 let q: Vec<f64> = (0..count)
                     .map(|j| {
                         let share = (1.2 * halton(1 + index, j) - 0.1).clamp(0.0, 1.0);
@@ -209,12 +215,12 @@ mod tests {
                     })
                     .collect();
                 let further: Vec<f64> = q.iter().map(|value| 10.0 * value).collect();
-                for (q, least) in [(q, Prospect::Open), (further, Prospect::BeyondLimits)] {
+                for (q, least) in [(q, Reachability::Open), (further, Reachability::BeyondLimits)] {
                     let pose = chain.pose(&q);
                     for (bounds, pose) in [(&of_tool, pose), (&of_base, pose.inverse())] {
                         for bound in bounds {
-                            let prospect = bound.prospect(pose.apply(bound.point));
-                            assert!(prospect >= least, "{seed}, {index}: {q:?}, {:?}", bound.point);
+                            let reachability = bound.reachability(pose.apply(bound.point));
+                            assert!(reachability >= least, "{seed}, {index}: {q:?}, {:?}", bound.point);
                         }
                     }
                 }
@@ -222,13 +228,14 @@ mod tests {
         }
     }
 
-    /// An elbow that does not fold: nothing is reached within what its limits leave, nor behind its shoulder's.
+    /// Checks an elbow that cannot fold: points that its limits or the shoulder's limits exclude
+    /// are outside.
     #[test]
     fn limits_of_turns_are_looked_at() {
         let joint = |at: f64| Joint { before: shift([at, 0.0, 0.0]), kind: VariableKind::Revolute };
         let chain = JointChain { joints: vec![joint(0.0), joint(0.4)], tool: shift([0.3, 0.0, 0.0]) };
         let region = Region::new(&chain, &|j| [[-2.0, 2.0], [-PI / 2.0, PI / 2.0]][j]);
-        // At right angles it reaches 0.5, and 0.6435 further round than the shoulder.
+        // At a right angle it reaches 0.5, and 0.6435 rad beyond the shoulder's limit.
         let at = |radius: f64, angle: f64| [radius * angle.cos(), radius * angle.sin(), 0.0];
         for (radius, angle, held) in [
             (0.51, 0.0, true),
@@ -243,7 +250,7 @@ mod tests {
         }
     }
 
-    /// Two links in a plane: the ring between |a − b| and a + b, and nothing beside it.
+    /// Checks a planar arm of two links: the enclosure is the ring between |a − b| and a + b.
     #[test]
     fn a_ring_is_a_ring() {
         let joint = |at: f64| Joint { before: shift([at, 0.0, 0.0]), kind: VariableKind::Revolute };
@@ -262,7 +269,7 @@ mod tests {
         }
     }
 
-    /// Slides along x, y and z: a box.
+    /// Checks prismatic joints along x, y and z: the enclosure is a box.
     #[test]
     fn slides_are_a_box() {
         let joint = |before: Pose| Joint { before, kind: VariableKind::Prismatic };

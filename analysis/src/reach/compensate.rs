@@ -1,16 +1,19 @@
-//! Corrected joint commands for any manipulator, interpreted ones too: as many steps as it takes.
+//! Compensated joint commands for any manipulator, with as many iterations as necessary.
 
 use super::real_tool::RealTool;
 use abbe_core::compensator::{Compensated, compensate};
 use abbe_core::twist;
 use abbe_core::{Error, Manipulator, Pose, drawn_pose};
 
-/// Commands that bring the real tool to `target`, from `q` on, or to where the ideal tool is at `q` if none is given.
+/// Computes commands that bring the real tool to `target`, or to the ideal pose at `q` if `target`
+/// is `None`.
 ///
-/// The steps of [`compensate`], and where they do not arrive, bounded and damped ones on the derivatives of the real chain until
-/// nothing is gained: first the tool point, then as much of the turn as is possible, within the limits, and of all commands
-/// that do this the ones nearest to `q`. They are sought from `q` and from a few places within 0.3 rad of it, and a tenth of an arm
-/// length: an arm that would have to turn over is left where it is. [`obstacle`](super::obstacle()) says why not all is reached. Errors as for
+/// Starts with the steps of [`compensate`]. If these do not converge, bounded and damped steps on
+/// the derivatives of the real chain follow until the error stops decreasing. The position of the
+/// tool point has priority over its orientation; among equivalent commands within the limits the
+/// result is the one nearest to `q`. Searches start from `q` and from a few points within 0.3 rad
+/// and a tenth of an arm length of it: an arm that would have to flip over stays in its posture.
+/// [`obstacle`](super::obstacle()) explains a remaining error. Errors as for
 /// [`Manipulator::generalized_errors`] and [`Manipulator::joint_jacobian`].
 pub fn compensated(
     manipulator: &dyn Manipulator,

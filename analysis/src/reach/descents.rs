@@ -1,8 +1,9 @@
-//! Damped Newton steps on a chain of lower pairs, several targets at once: one in each lane.
+//! Damped Newton steps on a chain of lower pairs for several targets at once: one target per lane.
 //!
-//! Every lane goes its own way, by numbers of its own alone: what it finds does not depend on what is in the others.
+//! Each lane depends on its own numbers alone: its result does not depend on the targets in the
+//! others.
 
-// Loops, and no closures: those could stay without the instruction set.
+// Loops instead of closures, which could be compiled without the instruction set.
 #![allow(clippy::needless_range_loop)]
 
 use core::ops::ControlFlow;
@@ -10,45 +11,47 @@ use core::ops::ControlFlow;
 use super::bounds::Bounds;
 use super::joint_chain::{JointChain, scaled};
 use super::lane_chain::LaneChain;
-use super::quest::{Descent, Ended, ITERATIONS, Patience, Problem, Quest, REACHED, ROUNDING, STAGNATION};
 use super::residual::Residual;
+use super::target_search::{
+    Descent, DescentEnd, ITERATIONS, Patience, Problem, REACHED, ROUNDING, STAGNATION, TargetSearch,
+};
 use super::{ReachError, Target};
 use abbe_core::lanes::{Kernel, Lanes, Register};
 use abbe_core::{Error, Pose, Quantity, Scalar};
 
-/// The most lanes that there are.
+/// Largest number of lanes.
 const WIDEST: usize = 8;
 
-/// Targets of one kind: points of three rows, or poses of six.
+/// Targets of one kind: points (3 rows) or poses (6 rows).
 pub(super) struct Descents<'a, const ROWS: usize> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) chain: &'a JointChain,
     pub(super) targets: &'a [Target],
     pub(super) bounds: &'a Bounds,
-    /// The first start that is tried.
+    /// Index of the first start.
     pub(super) start: usize,
 }
 
-/// What a lane is at.
+/// State of the search in one lane.
 struct Lane {
     target: usize,
-    quest: Quest,
+    target_search: TargetSearch,
     bounded: bool,
     patience: Patience,
     iteration: usize,
-    /// When it is looked at what was gained.
+    /// Iteration at which the progress is next checked.
     looked_at: usize,
-    /// Whether nothing was evaluated yet.
+    /// `true` before the first evaluation.
     fresh: bool,
-    /// Whether no variable can move.
+    /// `true` if no variable can move.
     stuck: bool,
     norm: f64,
     before: f64,
     damping: f64,
 }
 
-/// The numbers of all lanes: variables in rad and arm lengths.
-struct Numbers<R: Register, const ROWS: usize> {
+/// States of all lanes: variables in rad and arm lengths.
+struct LaneStates<R: Register, const ROWS: usize> {
     q: Vec<Lanes<R>>,
     candidate: Vec<Lanes<R>>,
     step: Vec<Lanes<R>>,
@@ -58,7 +61,7 @@ struct Numbers<R: Register, const ROWS: usize> {
     target: [[Lanes<R>; 3]; 4],
     here: Residual<R, ROWS>,
     there: Residual<R, ROWS>,
-    /// The norm of what was evaluated last.
+    /// Norm at the candidate.
     after: Lanes<R>,
 }
 
@@ -70,31 +73,31 @@ impl<const ROWS: usize> Kernel for Descents<'_, ROWS> {
         let mut results: Vec<Option<Result<Vec<f64>, ReachError>>> = vec![None; self.targets.len()];
         let mut waiting = 0..self.targets.len();
         let chain = LaneChain::<R>::new(self.chain);
-        let mut numbers = Numbers::<R, ROWS>::new(chain.joints.len());
+        let mut states = LaneStates::<R, ROWS>::new(chain.joints.len());
         let mut lanes: [Option<Lane>; WIDEST] = [const { None }; WIDEST];
         for (place, lane) in lanes[..R::WIDTH].iter_mut().enumerate() {
-            *lane = self.next_target(&mut waiting, place, &mut numbers);
+            *lane = self.next_target(&mut waiting, place, &mut states);
         }
         while lanes.iter().any(Option::is_some) {
-            numbers.there.evaluate(&chain, &numbers.candidate, &numbers.target);
-            numbers.after = numbers.there.norm;
-            numbers.take_over(&lanes);
+            states.there.evaluate(&chain, &states.candidate, &states.target);
+            states.after = states.there.norm;
+            states.take_over(&lanes);
             for place in 0..R::WIDTH {
                 let Some(lane) = &mut lanes[place] else { continue };
-                let Some(ended) = lane.ended(&numbers, place, self.problem) else { continue };
-                let prospect = || self.bounds.prospect(&self.targets[lane.target]);
-                match lane.quest.next(self.problem, ended, prospect) {
+                let Some(ended) = lane.ended(&states, place, self.problem) else { continue };
+                let reachability = || self.bounds.reachability(&self.targets[lane.target]);
+                match lane.target_search.next(self.problem, ended, reachability) {
                     ControlFlow::Continue(descent) => {
                         lane.begin(&descent);
-                        numbers.load(self.problem, place, &descent);
+                        states.load(self.problem, place, &descent);
                     }
                     ControlFlow::Break(result) => {
                         results[lane.target] = Some(result);
-                        lanes[place] = self.next_target(&mut waiting, place, &mut numbers);
+                        lanes[place] = self.next_target(&mut waiting, place, &mut states);
                     }
                 }
             }
-            numbers.steps(&chain, &mut lanes);
+            states.steps(&chain, &mut lanes);
         }
         results.into_iter().flatten().collect()
     }
@@ -105,7 +108,7 @@ impl<const ROWS: usize> Descents<'_, ROWS> {
         &self,
         waiting: &mut core::ops::Range<usize>,
         place: usize,
-        numbers: &mut Numbers<R, ROWS>,
+        states: &mut LaneStates<R, ROWS>,
     ) -> Option<Lane> {
         let target = waiting.next()?;
         let pose = match self.targets[target] {
@@ -116,15 +119,15 @@ impl<const ROWS: usize> Descents<'_, ROWS> {
             Target::Pose(pose) => pose,
         };
         let pose = scaled(&pose, self.problem.arm);
-        for (column, values) in numbers.target.iter_mut().zip(pose.0) {
+        for (column, values) in states.target.iter_mut().zip(pose.0) {
             for (lanes, value) in column.iter_mut().zip(values) {
                 put(lanes, place, value);
             }
         }
-        let (quest, descent) = Quest::new(self.problem, self.start);
+        let (target_search, descent) = TargetSearch::new(self.problem, self.start);
         let mut lane = Lane {
             target,
-            quest,
+            target_search,
             bounded: true,
             patience: descent.patience,
             iteration: 0,
@@ -136,7 +139,7 @@ impl<const ROWS: usize> Descents<'_, ROWS> {
             damping: 0.0,
         };
         lane.begin(&descent);
-        numbers.load(self.problem, place, &descent);
+        states.load(self.problem, place, &descent);
         Some(lane)
     }
 }
@@ -148,15 +151,15 @@ impl Lane {
         (self.norm, self.before, self.damping) = (f64::INFINITY, f64::INFINITY, 0.0);
     }
 
-    /// Takes note of what a step has brought. Where the descent ended, if it did.
+    /// Updates the state after a step. Returns the result of the descent if it has ended.
     fn ended<R: Register, const ROWS: usize>(
         &mut self,
-        numbers: &Numbers<R, ROWS>,
+        states: &LaneStates<R, ROWS>,
         place: usize,
         problem: &Problem<'_>,
-    ) -> Option<Result<Ended, Error>> {
-        let norm = numbers.after.to_slice()[place];
-        let ended = || Some(Ok(numbers.ended(problem, place, self.bounded)));
+    ) -> Option<Result<DescentEnd, Error>> {
+        let norm = states.after.to_slice()[place];
+        let ended = || Some(Ok(states.ended(problem, place, self.bounded)));
         if self.fresh && !norm.is_finite() {
             return Some(Err(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }));
         }
@@ -165,7 +168,7 @@ impl Lane {
             self.damping = if self.damping > squared { self.damping / 10.0 } else { 0.0 };
             (self.norm, self.fresh) = (norm, false);
         } else {
-            // Rounding is all that is left.
+            // Only rounding errors remain.
             if self.norm <= REACHED * 1e-2 || self.damping > 1e3 || self.stuck {
                 return ended();
             }
@@ -186,13 +189,13 @@ impl Lane {
     }
 }
 
-/// Whether a step is worth taking.
+/// Returns whether a step reduces the norm enough.
 #[inline(always)]
 fn accepts(before: f64, after: f64) -> bool {
     after < before * (1.0 - STAGNATION)
 }
 
-impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
+impl<R: Register, const ROWS: usize> LaneStates<R, ROWS> {
     fn new(count: usize) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
@@ -208,7 +211,7 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
         }
     }
 
-    /// Where a descent begins.
+    /// Loads the start of a descent into a lane.
     fn load(&mut self, problem: &Problem<'_>, place: usize, descent: &Descent) {
         for (j, &i) in problem.free.iter().enumerate() {
             let unit = problem.unit(j);
@@ -221,7 +224,7 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
         }
     }
 
-    /// Goes there where it is worth it.
+    /// Moves the lanes whose candidate is better to it.
     #[inline(always)]
     fn take_over(&mut self, lanes: &[Option<Lane>; WIDEST]) {
         let before = Lanes::<R>::from_fn(|place| match &lanes[place] {
@@ -241,7 +244,7 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
         self.here.replace(&self.there, better);
     }
 
-    /// A step of every lane. Variables at a limit that it would push further out stay where they are.
+    /// Computes a step in every lane. Variables at a limit that the step would exceed stay fixed.
     #[inline(always)]
     fn steps(&mut self, chain: &LaneChain<R>, lanes: &mut [Option<Lane>; WIDEST]) {
         let (zero, one) = (Lanes::<R>::constant(0.0), Lanes::<R>::constant(1.0));
@@ -252,7 +255,7 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
             let mut held = zero;
             for j in 0..self.q.len() {
                 let ([lower, upper], q, step) = (self.limits[j], self.q[j], self.step[j]);
-                // Either is zero unless at that limit, and then the step outwards.
+                // Nonzero only at that limit, for an outward step.
                 let below = q.more_than(lower).select(zero, (-step).max(zero));
                 let above = upper.more_than(q).select(zero, step.max(zero));
                 let outwards = (below + above).more_than(zero);
@@ -263,7 +266,7 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
                 break;
             }
         }
-        // No joint turns by more than 1 rad at once: linear models do not reach further.
+        // Limits rotations to 1 rad per step, the reach of the linear model.
         let (mut largest, mut any) = (one, zero);
         for (joint, step) in chain.joints.iter().zip(&self.step) {
             let size = step.abs();
@@ -290,7 +293,7 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
         }
     }
 
-    fn ended(&self, problem: &Problem<'_>, place: usize, bounded: bool) -> Ended {
+    fn ended(&self, problem: &Problem<'_>, place: usize, bounded: bool) -> DescentEnd {
         let mut q = problem.starts[0].clone();
         for (j, &i) in problem.free.iter().enumerate() {
             let value = self.q[j].to_slice()[place] * problem.unit(j);
@@ -302,15 +305,16 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
         let norm = |rows: &[f64]| rows.iter().fold(0.0, |norm: f64, row| norm.hypot(*row));
         let norm_of_all = self.here.norm.to_slice()[place];
         let position = norm(position);
-        // The rows of a turn by θ have the norm 2 sin θ/2; beyond a right angle the norm of all says more.
+        // The rows of a rotation by θ have the norm 2 sin θ/2. Beyond a right angle the total norm
+        // is more accurate.
         let chord =
             if turn.is_empty() { 0.0 } else { (norm_of_all.powi(2) - position.powi(2)).max(0.0).sqrt() };
         let chord = if chord < 1.0 { norm(turn) } else { chord };
-        Ended { q, norm: norm_of_all, position, turn: 2.0 * (chord / 2.0).min(1.0).asin() }
+        DescentEnd { q, norm: norm_of_all, position, turn: 2.0 * (chord / 2.0).min(1.0).asin() }
     }
 }
 
-/// Sets the value of a lane.
+/// Sets the value of one lane.
 fn put<R: Register>(lanes: &mut Lanes<R>, place: usize, value: f64) {
     bytemuck::cast_slice_mut::<Lanes<R>, f64>(core::slice::from_mut(lanes))[place] = value;
 }

@@ -1,36 +1,38 @@
-//! Where points may be, as seen from the axis of a joint.
+//! Enclosures of positions in cylindrical and spherical coordinates about the axis of a joint.
 
 use core::f64::consts::{PI, TAU};
 
 use crate::sampling::norm;
 use abbe_core::Pose;
 
-/// By how much bounds are widened, in arm lengths: more than what rounding and the numbers of the chain can make.
+/// Widening of the enclosures, in arm lengths: exceeds the rounding errors and those of the chain's
+/// constants.
 pub(super) const SLACK: f64 = 1e-7;
 
 pub(super) type Interval = [f64; 2];
 
-/// All there is.
+/// Unbounded interval.
 pub(super) const ANY: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Points enclosed: how far they are along an axis, off it, and away from its origin, and at which angle about it.
+/// Enclosure of points: intervals of the coordinate along an axis, the distance from the axis, the
+/// distance from the origin, and the angle about the axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     along: Interval,
     off: Interval,
     away: Interval,
-    /// From x towards y; any where this is a turn wide.
+    /// Angle from x towards y. A width of a full turn or more means any angle.
     about: Interval,
 }
 
 impl Extent {
-    /// A point.
-    pub(super) fn of(point: [f64; 3]) -> Self {
+    /// Encloses a point.
+    pub(super) fn from_point(point: [f64; 3]) -> Self {
         let [x, y, z] = point;
         Self { along: [z; 2], off: [x.hypot(y); 2], away: [norm(point); 2], about: [y.atan2(x); 2] }
     }
 
-    /// Whether a point may be among them.
+    /// Returns whether a point is in the enclosure.
     pub(super) fn holds(&self, point: [f64; 3]) -> bool {
         let Self { along, off, away, about: [first, last] } = *self;
         let [x, y, z] = point;
@@ -39,7 +41,7 @@ impl Extent {
         if !(inside(z, along) && inside(radius, off) && inside(distance, away)) {
             return false;
         }
-        // By how much the angle is beyond the last one, or before the first one.
+        // Angular distance beyond the last angle or before the first.
         let beside = || {
             let past = (y.atan2(x) - first).rem_euclid(TAU) - (last - first);
             past.min(TAU - (last - first) - past)
@@ -47,7 +49,7 @@ impl Extent {
         any(last - first) || beside() * radius <= SLACK
     }
 
-    /// `u · x`, which is `u_z z + u_ρ ρ cos(φ − φ_u)`, and no more than `|u| r`.
+    /// Encloses `u · x = u_z z + u_ρ ρ cos(φ − φ_u)`, which is at most `|u| r`.
     pub(super) fn along(&self, u: [f64; 3]) -> Interval {
         let across = times(stretched(self.off, self.cosines(u)), u[0].hypot(u[1]));
         let [least, most] = sum(times(self.along, u[2]), across);
@@ -55,25 +57,26 @@ impl Extent {
         [least.max(-most_of_all), most.min(most_of_all)]
     }
 
-    /// Turned about the axis by anything between two limits.
+    /// Encloses the points rotated about the axis by any angle between two limits.
     pub(super) fn turned(&self, limits: Interval) -> Self {
         Self { about: sum(self.about, limits), ..*self }
     }
 
-    /// Moved along the axis by anything between two limits.
+    /// Encloses the points translated along the axis by any distance between two limits.
     pub(super) fn slid(&self, limits: Interval) -> Self {
         let along = sum(self.along, limits);
         let away = [least_size(along).hypot(self.off[0]), largest_size(along).hypot(self.off[1])];
         Self { along, away, ..*self }
     }
 
-    /// As seen from the frame before, `x' = R x + d`.
+    /// Encloses the points in the coordinates of the preceding frame, `x' = R x + d`.
     ///
-    /// Each component of it is `u · x + d_i` with `u` a row of `R`; these are sides of a box.
-    /// With `w = Rᵀ d` it is `r'² = (z + w_z)² + ρ² + w_ρ² + 2 w_ρ ρ cos(φ − φ_w) = r² + d² + 2 w · x`, and
-    /// `|r − |d|| ≤ r' ≤ r + |d|`. What is off the new axis is `ρ' = |(R x)_⊥ + d_⊥|` with `(R x)_⊥² = r² − (u_z · x)²`, and
-    /// `ρ'² = r'² − z'²`. Every one of these encloses what there is, and so do all together.
-    pub(super) fn seen_from(&self, motion: &Pose) -> Self {
+    /// Each component is `u · x + d_i` with `u` a row of `R`; together they form a box. With
+    /// `w = Rᵀ d`, `r'² = (z + w_z)² + ρ² + w_ρ² + 2 w_ρ ρ cos(φ − φ_w) = r² + d² + 2 w · x`, and
+    /// `|r − |d|| ≤ r' ≤ r + |d|`. The distance from the new axis is `ρ' = |(R x)_⊥ + d_⊥|` with
+    /// `(R x)_⊥² = r² − (u_z · x)²`, and `ρ'² = r'² − z'²`. Each of these encloses the points, and
+    /// so does their intersection.
+    pub(super) fn in_preceding_frame(&self, motion: &Pose) -> Self {
         let d = motion.position();
         let w = motion.inverse().turn(d);
         let row = |i: usize| [motion.0[0][i], motion.0[1][i], motion.0[2][i]];
@@ -97,7 +100,7 @@ impl Extent {
         ]);
 
         let offset = d[0].hypot(d[1]);
-        // Parallel axes: what was off one is turned as it is.
+        // Parallel axes: the distance from the axis is preserved by the rotation.
         let parallel = motion.0[2][0] == 0.0 && motion.0[2][1] == 0.0;
         let turned = if parallel { self.off } else { legs(self.away, shares[2]) };
         let off = common([
@@ -109,7 +112,8 @@ impl Extent {
         Self { along, off, away, about: angles(sides[0], sides[1]) }
     }
 
-    /// Of the angles between these points and a direction, as seen along the axis.
+    /// Encloses the cosines of the angles between the points and a direction, projected along the
+    /// axis.
     fn cosines(&self, u: [f64; 3]) -> Interval {
         let from = u[1].atan2(u[0]);
         let [first, last] = self.about.map(|angle| angle - from);
@@ -122,13 +126,14 @@ impl Extent {
     }
 }
 
-/// Whether angles so far apart are all there are.
+/// Returns whether an interval of angles covers the full turn.
 fn any(width: f64) -> bool {
-    // NaN is no width either.
+    // NaN counts as unbounded.
     width.is_nan() || width >= TAU
 }
 
-/// The angles under which a rectangle is seen from the origin: those of its corners, unless the origin is in it.
+/// Encloses the angles of a rectangle as seen from the origin: those of its corners, or any angle
+/// if it contains the origin.
 fn angles(x: Interval, y: Interval) -> Interval {
     let middle = [(x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0];
     let around = least_size(x) == 0.0 && least_size(y) == 0.0;
@@ -144,7 +149,7 @@ fn angles(x: Interval, y: Interval) -> Interval {
     sum([middle[1].atan2(middle[0]); 2], widest)
 }
 
-/// `√(ρ² + w² + 2 w ρ c)`: it grows with c, and with ρ beyond `−w c`.
+/// Encloses `√(ρ² + w² + 2 w ρ c)`, which increases with c, and with ρ beyond `−w c`.
 fn beside(off: Interval, wide: f64, cosines: Interval) -> Interval {
     let at = |radius: f64, cosine: f64| {
         // (ρ + w c)² + w² (1 − c²)
@@ -155,19 +160,19 @@ fn beside(off: Interval, wide: f64, cosines: Interval) -> Interval {
     [at(nearest, least), at(off[0], most).max(at(off[1], most))]
 }
 
-/// `ρ c`.
+/// Encloses `ρ c`.
 fn stretched(off: Interval, cosines: Interval) -> Interval {
     [times(off, cosines[0])[0], times(off, cosines[1])[1]]
 }
 
-/// What is left of hypotenuses beside legs of these sizes.
+/// Encloses the second legs of right triangles with this hypotenuse and leg.
 fn legs(hypotenuse: Interval, leg: Interval) -> Interval {
     let root = |hypotenuse: f64, leg: f64| (hypotenuse * hypotenuse - leg * leg).max(0.0).sqrt();
     let most = if hypotenuse[1].is_finite() { root(hypotenuse[1], least_size(leg)) } else { f64::INFINITY };
     [root(hypotenuse[0], largest_size(leg)), most]
 }
 
-/// What is in all of them.
+/// Returns the intersection.
 fn common<const N: usize>(intervals: [Interval; N]) -> Interval {
     intervals.into_iter().fold(ANY, |a, b| [a[0].max(b[0]), a[1].min(b[1])])
 }
@@ -192,12 +197,12 @@ fn square(value: f64) -> f64 {
     value * value
 }
 
-/// The size of what is nearest to zero.
+/// Returns the smallest absolute value in the interval.
 fn least_size([least, most]: Interval) -> f64 {
     least.max(-most).max(0.0)
 }
 
-/// The size of what is farthest from zero.
+/// Returns the largest absolute value in the interval.
 fn largest_size([least, most]: Interval) -> f64 {
     most.max(-least)
 }

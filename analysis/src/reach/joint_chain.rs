@@ -1,41 +1,45 @@
-//! A chain of lower pairs as numbers: `A_T = D_0 J_1(q_1) D_1 … J_n(q_n) D_n`, where `J_i` turns about, or slides along, z.
+//! A chain of lower pairs in numbers: `A_T = D_0 J_1(q_1) D_1 … J_n(q_n) D_n`, where `J_i` rotates
+//! about, or translates along, z.
 //!
-//! The numbers are read off the manipulator's transforms in three places. That these say everything is what
-//! [`Frame::lower_pair`](abbe_core::Frame) promises. Lengths are in arm lengths.
+//! The numbers follow from the manipulator's transforms at three configurations.
+//! [`Frame::lower_pair`](abbe_core::Frame) promises that these determine the chain. Lengths are in
+//! arm lengths.
 
 use core::f64::consts::TAU;
 
-use super::quest::Problem;
+use super::target_search::Problem;
 use crate::sampling;
 use abbe_core::{Pose, VariableKind};
 
-/// By how much a joint is turned to see its axis: the third places are as far from each other, and none is opposite.
+/// Rotation that reveals the axis of a revolute joint: the three configurations are equidistant,
+/// and none is opposite.
 const TURN: f64 = TAU / 3.0;
-/// How well the third place must agree, in arm lengths and rad.
+/// Tolerance of the third configuration, in arm lengths and rad.
 const AGREEMENT: f64 = 1e-9;
-/// At how many configurations the pose must agree, too.
+/// Number of configurations at which the pose is verified.
 const SAMPLES: usize = 3;
 
-/// A joint and the way to it.
+/// Joint with its constant transform.
 #[derive(Clone, Debug)]
 pub(super) struct Joint {
-    /// From the frame on its axis to that of the joint before, or to `F_0`.
+    /// Transform from the frame on its axis to that of the previous joint, or to `F_0`.
     pub(super) before: Pose,
-    /// Whether it turns or slides.
+    /// Revolute or prismatic.
     pub(super) kind: VariableKind,
 }
 
-/// A chain of which some joints are free, the others where they are held.
+/// Chain with some free joints; the others are fixed.
 #[derive(Clone, Debug)]
 pub(super) struct JointChain {
-    /// The free joints, in the order of their variables.
+    /// Free joints, in the order of their variables.
     pub(super) joints: Vec<Joint>,
-    /// From the tool point's frame to that of the last free joint.
+    /// Transform from the tool point's frame to that of the last free joint.
     pub(super) tool: Pose,
 }
 
 impl JointChain {
-    /// The chain with the free variables of a problem; none if it is not known to be one of lower pairs.
+    /// Extracts the chain with the free variables of a problem. Returns `None` if it is not known
+    /// to consist of lower pairs.
     pub(super) fn new(problem: &Problem<'_>) -> Option<Self> {
         let Problem { manipulator, ref s, ref free, arm, ref starts } = *problem;
         let (description, start) = (manipulator.description(), &starts[0]);
@@ -82,7 +86,7 @@ impl JointChain {
         (agrees && chain.joints.len() == free.len()).then_some(chain)
     }
 
-    /// From the tool to the base: `J(q)⁻¹ = J(−q)`.
+    /// Returns the chain from the tool to the base: `J(q)⁻¹ = J(−q)`.
     pub(super) fn reversed(&self) -> Self {
         let mut behind = self.tool.inverse();
         let joints = self.joints.iter().rev().map(|joint| {
@@ -92,7 +96,8 @@ impl JointChain {
         Self { joints: joints.collect(), tool: behind }
     }
 
-    /// The same with the origin on each axis next to that on the axis after it, from the tool point on.
+    /// Returns the chain with the origin on each axis moved next to that on the following axis,
+    /// from the tool point on.
     pub(super) fn centred(&self) -> Self {
         let Self { mut joints, mut tool } = self.clone();
         let mut after = &mut tool;
@@ -109,7 +114,7 @@ impl JointChain {
         Self { joints, tool }
     }
 
-    /// The pose of the tool point.
+    /// Returns the pose of the tool point.
     pub(super) fn pose(&self, q: &[f64]) -> Pose {
         let joints = self.joints.iter().zip(q);
         let last = joints.fold(Pose::IDENTITY, |pose, (joint, value)| {
@@ -119,19 +124,19 @@ impl JointChain {
     }
 }
 
-/// With its lengths in arm lengths.
+/// Converts the lengths of a pose to arm lengths.
 pub(super) fn scaled(pose: &Pose, arm: f64) -> Pose {
     let [x, y, z, position] = pose.0;
     Pose([x, y, z, position.map(|p| p / arm)])
 }
 
-/// A motion without a turn.
+/// Returns a translation.
 pub(super) fn shift(by: [f64; 3]) -> Pose {
     let Pose([x, y, z, _]) = Pose::IDENTITY;
     Pose([x, y, z, by])
 }
 
-/// By how much a joint is moved to see its axis.
+/// Returns the displacement that reveals the axis of a joint.
 fn size(kind: VariableKind) -> f64 {
     match kind {
         VariableKind::Revolute => TURN,
@@ -139,7 +144,7 @@ fn size(kind: VariableKind) -> f64 {
     }
 }
 
-/// A turn about z, or a slide along it.
+/// Returns a rotation about z, or a translation along it.
 pub(super) fn motion(kind: VariableKind, by: f64) -> Pose {
     let Pose([x, y, z, mut position]) = Pose::IDENTITY;
     match kind {
@@ -154,7 +159,8 @@ pub(super) fn motion(kind: VariableKind, by: f64) -> Pose {
     }
 }
 
-/// A frame whose z is the axis of a joint, as seen from the frame before it: from `A_i` here, and moved forth and back.
+/// Returns a frame with the axis of a joint as z, relative to the previous frame, from `A_i` at the
+/// current value, and displaced forwards and backwards.
 fn axis(kind: VariableKind, here: &Pose, forth: &Pose, back: &Pose) -> Option<Pose> {
     let home = here.inverse();
     let (forth, back) = (forth.then(&home), back.then(&home));
@@ -171,7 +177,7 @@ fn axis(kind: VariableKind, here: &Pose, forth: &Pose, back: &Pose) -> Option<Po
         VariableKind::Prismatic => (t, [0.0; 3]),
     };
     let length = sampling::norm(along);
-    // NaN is no length of 1 either.
+    // NaN fails, too.
     if (length - 1.0).abs().is_nan() || (length - 1.0).abs() > AGREEMENT {
         return None;
     }
@@ -181,7 +187,7 @@ fn axis(kind: VariableKind, here: &Pose, forth: &Pose, back: &Pose) -> Option<Po
     (near(&moved(size(kind)), &forth) && near(&moved(-size(kind)), &back)).then_some(axis)
 }
 
-/// A frame with this z axis and origin.
+/// Returns a frame with this z axis and origin.
 fn frame(z: [f64; 3], at: [f64; 3]) -> Pose {
     let least = (0..3).min_by(|&i, &j| z[i].abs().total_cmp(&z[j].abs())).unwrap_or(0);
     let x: [f64; 3] = core::array::from_fn(|i| f64::from(u8::from(i == least)) - z[i] * z[least]);

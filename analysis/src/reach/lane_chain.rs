@@ -1,37 +1,38 @@
-//! A chain of lower pairs in lanes, with as few numbers as say everything.
+//! A chain of lower pairs in lanes, with the minimal number of constants.
 //!
-//! With z the axis of a joint, `D = R_z(θ) T(a, b, 0) R_x(α) R_z(φ)` is the way to the next one. `R_z(φ)` is passed on: a turn about,
-//! or a slide along, the next axis lets it through. So does the joint before let through what lies along its axis, which
-//! [`JointChain::centred`] has passed on the other way.
+//! With z the axis of a joint, `D = R_z(θ) T(a, b, 0) R_x(α) R_z(φ)` is the transform to the next
+//! one. `R_z(φ)` commutes with the motion of the next joint and merges into its transform. The
+//! translation along the axis commutes with the motion of the previous joint;
+//! [`JointChain::centred`] has moved it the other way.
 
-// Loops, and no closures: those could stay without the instruction set.
+// Loops instead of closures, which could be compiled without the instruction set.
 #![allow(clippy::needless_range_loop)]
 
 use super::joint_chain::{JointChain, motion};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Pose, Scalar, VariableKind};
 
-/// Numbers nearer to 0 or 1 than this are those.
+/// Distance below which numbers are rounded to 0 or 1.
 const ROUNDED: f64 = 1e-15;
 
 pub(super) type Vector<R> = [Lanes<R>; 3];
 
-/// A chain whose numbers are in every lane.
+/// Chain with the same constants in every lane.
 pub(super) struct LaneChain<R: Register> {
-    /// To the first axis.
+    /// Transform to the first axis.
     pub(super) base: [Vector<R>; 4],
     pub(super) joints: Vec<LaneJoint<R>>,
-    /// From the last joint to the tool point.
+    /// Transform from the last joint to the tool point.
     pub(super) tool: [Vector<R>; 4],
 }
 
-/// A joint, and the way to the next one.
+/// Joint with the transform to the next one.
 pub(super) struct LaneJoint<R: Register> {
     pub(super) turns: bool,
-    /// θ, and its sine and cosine.
+    /// θ, followed by its sine and cosine.
     angle: Lanes<R>,
     sine_cosine: [Lanes<R>; 2],
-    /// a and b, if there are any.
+    /// a and b, unless both are zero.
     offset: Option<[Lanes<R>; 2]>,
     tilt: Tilt<R>,
 }
@@ -88,7 +89,7 @@ impl<R: Register> LaneJoint<R> {
         }
     }
 
-    /// From the axis of this joint to that of the next one.
+    /// Transforms a frame on this joint's axis to that of the next joint.
     #[inline(always)]
     pub(super) fn pass(&self, frame: &mut [Vector<R>; 4], q: Lanes<R>) {
         let [sine, cosine] = if self.turns { (q + self.angle).sin_cos().into() } else { self.sine_cosine };
@@ -125,7 +126,7 @@ impl<R: Register> LaneJoint<R> {
     }
 }
 
-/// Extends a frame by a motion.
+/// Multiplies a frame by a motion.
 #[inline(always)]
 pub(super) fn then<R: Register>(frame: &mut [Vector<R>; 4], motion: &[Vector<R>; 4]) {
     let position = apply(frame, &motion[3]);
@@ -139,7 +140,7 @@ pub(super) fn then<R: Register>(frame: &mut [Vector<R>; 4], motion: &[Vector<R>;
     frame[3] = position;
 }
 
-/// A point of a frame.
+/// Returns a point of a frame in the coordinates of its base.
 #[inline(always)]
 pub(super) fn apply<R: Register>([x, y, z, at]: &[Vector<R>; 4], point: &Vector<R>) -> Vector<R> {
     let mut applied = *at;
@@ -153,7 +154,7 @@ fn everywhere<R: Register>(pose: &Pose) -> [Vector<R>; 4] {
     pose.0.map(|column| column.map(Lanes::constant))
 }
 
-/// A turn about x.
+/// Returns a rotation about x.
 fn about_x(angle: f64) -> Pose {
     let (sine, cosine) = angle.sin_cos();
     Pose([[1.0, 0.0, 0.0], [0.0, cosine, sine], [0.0, -sine, cosine], [0.0; 3]])

@@ -9,16 +9,18 @@ mod inverse;
 mod joint_chain;
 mod lane_chain;
 mod obstacle;
-mod quest;
 mod reach_error;
 mod real_tool;
 mod residual;
 mod search;
+mod target;
+mod target_search;
 #[cfg(test)]
 mod tests;
 
 pub use compensate::compensated;
 pub(crate) use inverse::Inverse;
-pub use inverse::{Target, inverse};
+pub use inverse::inverse;
 pub use obstacle::{Missing, Obstacle, mobility, obstacle};
 pub use reach_error::ReachError;
+pub use target::Target;

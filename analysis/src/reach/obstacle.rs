@@ -1,4 +1,4 @@
-//! Why corrected commands do not bring the real tool to where it should be.
+//! Reasons why compensated commands do not bring the real tool to the target.
 
 use nalgebra::{DMatrix, Matrix6xX, SVD, Vector3};
 
@@ -8,43 +8,43 @@ use abbe_core::compensator::{Compensated, norms};
 use abbe_core::twist;
 use abbe_core::{Error, Manipulator, Pose, VariableKind};
 
-/// What is missing.
+/// Remaining error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Missing {
-    /// The tool point is not reached: by how much, in the length unit.
+    /// The tool point is off target: distance, in the length unit.
     Point(f64),
-    /// The tool point is reached; so much of the turn is missing, in rad.
+    /// The tool point is on target, its orientation is not: angle, in rad.
     Turn(f64),
 }
 
-/// What keeps the real tool from where it should be.
+/// Reason for a remaining error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
-    /// What is missing.
+    /// Remaining error.
     pub missing: Missing,
-    /// Along or about which axis in `F_0`: a unit vector.
+    /// Axis of the remaining error in `F_0`: a unit vector, along it or about it.
     pub axis: [f64; 3],
-    /// Variables at a limit, by index: with that limit a little further out, more could be had.
+    /// Indices of the variables at a limit whose extension would reduce the error.
     pub limits: Vec<usize>,
-    /// Whether no variable, limits aside, moves the tool point along the axis there, or turns the tool about it with the tool
-    /// point where it is.
+    /// `true` if no variable, limits aside, moves the tool point along the axis, or rotates the
+    /// tool about it with a fixed tool point.
     pub immobile: bool,
 }
 
-/// How much further out a limit is put to see whether it is the obstacle: in rad and arm lengths.
+/// Extension of a limit in the test for an obstacle, in rad and arm lengths.
 const FURTHER: [f64; 2] = [0.05, 0.02];
-/// What is left must then shrink by this share.
+/// Relative decrease of the error by which an extended limit counts as the obstacle.
 const GAIN: f64 = 1e-3;
-/// A variable whose motion has less than this share along an axis does not move along it; errors turn the real machine's by
-/// less.
+/// Component along an axis below which a variable does not move along it, relative to its motion.
+/// Exceeds the rotations by errors of a real machine.
 const IMMOBILE: f64 = 0.02;
-/// Singular values below this share of the largest are directions that do not move.
+/// Relative singular value below which a direction is immobile.
 const SINGULAR: f64 = 1e-6;
 
-/// What keeps the tool from `target`, where [`compensated`](super::compensated()) has ended with `found`.
+/// Explains the remaining error of `found`, a result of [`compensated`](super::compensated()).
 ///
-/// `command` is what it started from. None if nothing beyond `length` (in the length unit) and `angle` (rad) is missing.
-/// Errors as for [`compensated`](super::compensated()).
+/// `command` is the original command. Returns `None` if the remaining error is at most `length` (in
+/// the length unit) and `angle` (rad). Errors as for [`compensated`](super::compensated()).
 pub fn obstacle(
     manipulator: &dyn Manipulator,
     target: Option<&Pose>,
@@ -73,7 +73,7 @@ pub fn obstacle(
             let further = tool.in_its_unit(j, FURTHER);
             tool.limits[j] = [closed[j][0] - further, closed[j][1] + further];
         }
-        // A machine that cannot be evaluated beyond a limit is not helped by going there.
+        // A limit beyond which the machine cannot be evaluated is no obstacle.
         tool.descend(found.q.clone()).is_ok_and(|(place, _)| tool.left(&place) < before * (1.0 - GAIN))
     };
     let mut limits: Vec<usize> = held.iter().copied().filter(|j| helps(&[*j])).collect();
@@ -84,7 +84,7 @@ pub fn obstacle(
     Ok(Some(Obstacle { missing, axis: axis.into(), limits, immobile }))
 }
 
-/// In how many ways a machine can move its tool at once, out of six: the largest rank of `J_q` over its joint samples.
+/// Returns the mobility of the tool, 0 to 6: the largest rank of `J_q` over ten joint samples.
 pub fn mobility(manipulator: &dyn Manipulator, s: &[f64]) -> Result<usize, Error> {
     let description = manipulator.description();
     let all: Vec<usize> = (0..description.variables.len()).collect();
@@ -93,7 +93,7 @@ pub fn mobility(manipulator: &dyn Manipulator, s: &[f64]) -> Result<usize, Error
     let rank = |index: usize| {
         let q = sampling::joint_sample(description, arm, &all, index);
         let mut columns = twists(manipulator, &q, s)?;
-        // Lengths in arm lengths, of rows and of what slides.
+        // Lengths of rows and of prismatic joints in arm lengths.
         columns.rows_mut(0, 3).scale_mut(1.0 / metres);
         for (mut column, variable) in columns.column_iter_mut().zip(&*description.variables) {
             if variable.kind == VariableKind::Prismatic {
@@ -116,7 +116,7 @@ pub fn mobility(manipulator: &dyn Manipulator, s: &[f64]) -> Result<usize, Error
     failure.filter(|_| most == 0).map_or(Ok(most), Err)
 }
 
-/// `J_q` with the small rotation in `F_0` as rows 4–6, in metres and rad.
+/// Returns `J_q` with the small rotation in `F_0` as rows 4–6, in metres and rad.
 fn twists(manipulator: &dyn Manipulator, q: &[f64], s: &[f64]) -> Result<Matrix6xX<f64>, Error> {
     let description = manipulator.description();
     let metres = description.length.in_metres();
@@ -135,7 +135,7 @@ fn immobile(columns: &Matrix6xX<f64>, missing: Missing, axis: &Vector3<f64>) -> 
         Missing::Point(_) => {
             point.column_iter().all(|column| column.dot(axis).abs() <= IMMOBILE * column.norm().max(1e-12))
         }
-        // Of all motions that leave the tool point where it is.
+        // Consider the motions that keep the tool point fixed.
         Missing::Turn(_) => {
             let point: DMatrix<f64> = point.into_owned();
             let along = turn.transpose() * axis;

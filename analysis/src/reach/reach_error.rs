@@ -1,30 +1,31 @@
-//! Why a target could not be reached.
+//! Errors of inverse kinematics.
 
 use core::fmt;
 
 use abbe_core::Error;
 
-/// Why a target could not be reached. Lengths in the manipulator's unit, angles in rad.
+/// Failure to reach a target. Lengths are in the manipulator's unit, angles in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ReachError {
-    /// No values of the free variables were found that reach it, with limits or without.
+    /// No values of the free variables reach the target, with limits or without.
     OutOfReach {
-        /// The smallest distance of the tool point from the target that was found, limits aside.
+        /// Smallest distance found between tool point and target, without limits.
         residual: f64,
-        /// What remains to be turned there, as the norm of rows 4–6; 0 for a target point.
+        /// Remaining rotation there, the norm of rows 4–6. 0 for a target point.
         turn: f64,
     },
-    /// It is reached, but only outside the limits; this variable is furthest outside of its own.
+    /// The target is reached only outside the limits. The variable is the one furthest outside its
+    /// limits.
     OutsideLimits {
         /// Index of the variable.
         variable: usize,
-        /// The value that it needs, or is held at.
+        /// Value that it needs, or is fixed at.
         value: f64,
-        /// Its limits.
+        /// Limits of the variable.
         limits: [f64; 2],
     },
-    /// The manipulator could not be evaluated, not even where the search begins.
+    /// The manipulator could not be evaluated, not even at the start.
     Evaluation(Error),
 }
 

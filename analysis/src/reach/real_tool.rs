@@ -1,9 +1,10 @@
-//! The real tool and where it is wanted: bounded, damped least squares until nothing is gained.
+//! Compensation of the real tool by bounded, damped least squares until the error stops decreasing.
 //!
-//! With `r = X_real(q) ⊖ X*`, `d` from the commands that were given, lengths in metres, angles in rad:
-//! `min ‖r_position‖² + w² ‖r_turn‖² + λ² ‖d‖²` within the limits, by Levenberg and Marquardt, each step solved with its bounds. The
-//! weights order what is wanted: 1 m of the tool point comes before `1/w` rad of the turn, and that before `w/λ` rad of departure.
-//! Derivatives are central differences of the exact real chain.
+//! With `r = X_real(q) ⊖ X*` and `d` the departure from the original commands, in metres and rad:
+//! minimizes `‖r_position‖² + w² ‖r_turn‖² + λ² ‖d‖²` within the limits by the Levenberg–Marquardt
+//! method, with bounds in every step. The weights set the priorities: 1 m of position equals `1/w`
+//! rad of orientation and `w/λ` times as much departure. Derivatives are central differences of the
+//! exact real chain.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,44 +15,45 @@ use abbe_core::{
     repeatable_magnitudes,
 };
 
-/// `w` in metres: first as the compensator has it, then so little that the tool point pays nothing for the turn.
+/// `w` in metres: first that of the compensator, then so small that the orientation does not affect
+/// the position.
 const TURN: [f64; 2] = [1e-3, 1e-5];
 /// `λ` in metres.
 const DEPARTURE: f64 = 1e-10;
-/// Below this the tool is where it should be: 0.1 nm, and 0.1 µrad.
+/// Error at which the tool has arrived: 0.1 nm and 0.1 µrad.
 const ARRIVED: [f64; 2] = [1e-10, 1e-7];
-/// No variable goes further at once, in rad and arm lengths.
+/// Largest step of a variable, in rad and arm lengths.
 const LONGEST: f64 = 0.2;
-/// A step shorter than this, or a gain below this share, is none.
+/// Smallest significant step and relative decrease.
 const NOTHING: f64 = 1e-12;
 const STEPS: usize = 300;
-/// Of the differences, in rad and metres: an error of 1e-10 either way.
+/// Step of the differences, in rad and metres: truncation and rounding errors are both about 1e-10.
 const DIFFERENCE: f64 = 1e-6;
-/// How many further starts there are.
+/// Number of further starts.
 const STARTS: usize = 4;
-/// How far from the command they are, in rad and arm lengths.
+/// Distance of the further starts from the command, in rad and arm lengths.
 const NEAR: [f64; 2] = [0.3, 0.1];
 
-/// A machine with its errors, and what is wanted of it.
+/// Machine with its errors, target and command.
 pub(super) struct RealTool<'a> {
     manipulator: &'a dyn Manipulator,
     description: &'a Description,
     s: &'a [f64],
     u: &'a [f64],
     target: &'a Pose,
-    /// What was commanded.
+    /// Original command.
     command: &'a [f64],
     magnitudes: Vec<f64>,
-    /// Of the variables.
+    /// Limits of the variables.
     pub(super) limits: Vec<[f64; 2]>,
-    /// A metre, and the arm, in the length unit.
+    /// One metre, and one arm length, in the length unit.
     metre: f64,
     arm: f64,
 }
 
-/// Where a descent stands.
+/// State of a descent.
 #[derive(Clone)]
-pub(super) struct Place {
+pub(super) struct DescentState {
     pub(super) q: Vec<f64>,
     pub(super) after: [f64; 6],
 }
@@ -76,18 +78,19 @@ impl<'a> RealTool<'a> {
         &self.magnitudes
     }
 
-    /// Whether nothing of note is left of a ΔX.
+    /// Returns whether a ΔX is negligible.
     pub(super) fn arrived(&self, after: &[f64; 6]) -> bool {
         let (length, angle) = abbe_core::compensator::norms(after);
         length <= ARRIVED[0] * self.metre && angle <= ARRIVED[1]
     }
 
-    /// The best commands near the given ones, what they leave, and whether the steps came to rest.
+    /// Returns the best commands near the given ones, the remaining error, and whether the steps
+    /// converged.
     pub(super) fn nearest(&self, first: &[f64]) -> Result<(Vec<f64>, [f64; 6], bool), Error> {
         let (mut best, _) = self.steps(self.place(self.within(first.iter().copied()))?, TURN[0])?;
         if !self.arrived(&best.after) && self.may_gain(&best) {
             for start in 0..=STARTS {
-                // A start that cannot be evaluated is none.
+                // A start that cannot be evaluated is skipped.
                 let found = self.place(self.start(start)).and_then(|place| self.steps(place, TURN[0]));
                 if let Ok((found, _)) = found
                     && self.left(&found) < self.left(&best)
@@ -103,15 +106,15 @@ impl<'a> RealTool<'a> {
         Ok((best.q, best.after, rest))
     }
 
-    /// Another start may end elsewhere where the tool point is not reached, where a limit holds a variable, and where six joints
-    /// or more do not make the turn: near a singular pose.
-    fn may_gain(&self, place: &Place) -> bool {
+    /// Returns whether another start may end at a better point: the tool point is off target, a
+    /// limit holds a variable, or six or more joints leave a rotation, as near a singular pose.
+    fn may_gain(&self, place: &DescentState) -> bool {
         let at_limit = self.limits.iter().zip(&place.q).any(|(limits, q)| limits.contains(q));
         let (length, angle) = abbe_core::compensator::norms(&place.after);
         at_limit || length > ARRIVED[0] * self.metre || place.q.len() >= 6 && angle > ARRIVED[1]
     }
 
-    /// The command within its limits, then points about it.
+    /// Returns a start: the command within its limits first, then points around it.
     fn start(&self, start: usize) -> Vec<f64> {
         let moved = self.command.iter().enumerate().map(|(j, command)| {
             let share = if start == 0 { 0.0 } else { 2.0 * sampling::halton(start, j) - 1.0 };
@@ -120,8 +123,9 @@ impl<'a> RealTool<'a> {
         self.within(moved)
     }
 
-    /// Both weights, one after the other: where it ends, and whether the steps came to rest.
-    pub(super) fn descend(&self, q: Vec<f64>) -> Result<(Place, bool), Error> {
+    /// Descends with both weights, one after the other. Returns the end, and whether the steps
+    /// converged.
+    pub(super) fn descend(&self, q: Vec<f64>) -> Result<(DescentState, bool), Error> {
         let mut rest = false;
         let mut place = self.place(self.within(q.into_iter()))?;
         for turn in TURN {
@@ -130,13 +134,13 @@ impl<'a> RealTool<'a> {
         Ok((place, rest))
     }
 
-    fn place(&self, q: Vec<f64>) -> Result<Place, Error> {
+    fn place(&self, q: Vec<f64>) -> Result<DescentState, Error> {
         let after = deviation(Orientation::RotationVector, self.target, &self.real(&q)?);
-        Ok(Place { q, after })
+        Ok(DescentState { q, after })
     }
 
-    /// A step in rad and metres away.
-    fn moved(&self, q: &[f64], step: &DVector<f64>) -> Result<Place, Error> {
+    /// Returns the state after a step in rad and metres.
+    fn moved(&self, q: &[f64], step: &DVector<f64>) -> Result<DescentState, Error> {
         let moved = q.iter().zip(step.iter()).enumerate().map(|(j, (q, step))| q + step * self.unit(j));
         self.place(self.within(moved))
     }
@@ -145,7 +149,7 @@ impl<'a> RealTool<'a> {
         drawn_pose(self.manipulator, q, self.s, self.u, &self.magnitudes)
     }
 
-    /// One metre or one rad in the unit of a variable.
+    /// Returns one metre or one rad in the unit of a variable.
     fn unit(&self, j: usize) -> f64 {
         match self.description.variables[j].kind {
             VariableKind::Revolute => 1.0,
@@ -153,7 +157,7 @@ impl<'a> RealTool<'a> {
         }
     }
 
-    /// So many rad, or so many arm lengths, in the unit of a variable.
+    /// Returns an angle in rad, or a number of arm lengths, in the unit of a variable.
     pub(super) fn in_its_unit(&self, j: usize, [angle, share]: [f64; 2]) -> f64 {
         match self.description.variables[j].kind {
             VariableKind::Revolute => angle,
@@ -161,27 +165,27 @@ impl<'a> RealTool<'a> {
         }
     }
 
-    /// Brought back within the limits.
+    /// Clamps values to the limits.
     fn within(&self, q: impl Iterator<Item = f64>) -> Vec<f64> {
         q.zip(&self.limits).map(|(value, [lower, upper])| value.max(*lower).min(*upper)).collect()
     }
 
-    /// [`left`](Self::left) at these commands.
+    /// Returns [`left`](Self::left) at these commands.
     pub(super) fn left_at(&self, q: &[f64]) -> Result<f64, Error> {
         Ok(self.left(&self.place(q.to_vec())?))
     }
 
-    /// What is left, the tool point first.
-    pub(super) fn left(&self, place: &Place) -> f64 {
+    /// Returns the weighted remaining error, dominated by position.
+    pub(super) fn left(&self, place: &DescentState) -> f64 {
         self.cost(place, TURN[1])
     }
 
-    fn cost(&self, place: &Place, turn: f64) -> f64 {
+    fn cost(&self, place: &DescentState, turn: f64) -> f64 {
         self.residual(place, turn).norm_squared()
     }
 
-    /// Position, turn, departure: all in metres.
-    fn residual(&self, Place { q, after }: &Place, turn: f64) -> DVector<f64> {
+    /// Returns position, orientation and departure, all in metres.
+    fn residual(&self, DescentState { q, after }: &DescentState, turn: f64) -> DVector<f64> {
         let departure = |j: usize| DEPARTURE * (q[j] - self.command[j]) / self.unit(j);
         DVector::from_fn(6 + q.len(), |i, _| match i {
             0..3 => after[i] / self.metre,
@@ -190,7 +194,8 @@ impl<'a> RealTool<'a> {
         })
     }
 
-    /// Its derivatives, by metre and rad: central differences, within the limits.
+    /// Returns the derivatives of the residual by metre and rad: central differences within the
+    /// limits.
     fn derivatives(&self, q: &[f64], turn: f64) -> Result<DMatrix<f64>, Error> {
         let mut derivatives = DMatrix::zeros(6 + q.len(), q.len());
         for j in 0..q.len() {
@@ -213,8 +218,8 @@ impl<'a> RealTool<'a> {
         Ok(derivatives)
     }
 
-    /// Steps until nothing is gained, and whether that was reached.
-    fn steps(&self, mut here: Place, turn: f64) -> Result<(Place, bool), Error> {
+    /// Steps until the cost stops decreasing. Returns the end, and whether the steps converged.
+    fn steps(&self, mut here: DescentState, turn: f64) -> Result<(DescentState, bool), Error> {
         let n = here.q.len();
         let mut damping = 0.0_f64;
         let mut derivatives = self.derivatives(&here.q, turn)?;
@@ -235,7 +240,8 @@ impl<'a> RealTool<'a> {
                 return Ok((here, true));
             }
             let mut there = self.moved(&here.q, &step)?;
-            // The tool point goes straight only to first order: a second step brings it back, and the turn stays.
+            // A step keeps the position only to first order. A second step restores it and leaves
+            // the rotation.
             let mut back = self.residual(&there, turn).resize_vertically(6 + 2 * n, 0.0);
             back.rows_mut(3, 3 + n).fill(0.0);
             let [lower, upper] = [&lower, &upper]
@@ -255,10 +261,10 @@ impl<'a> RealTool<'a> {
                     return Ok((here, true));
                 }
             } else if step.amax() <= 1e-9 || damping > 1e3 {
-                // Rounding is all that is left.
+                // Only rounding errors remain.
                 return Ok((here, true));
             } else {
-                // What is weighed least must still be able to move.
+                // Start with a damping small enough for the smallest weight.
                 damping = f64::max(damping * 10.0, 1e-3 * turn * turn);
             }
         }

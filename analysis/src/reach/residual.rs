@@ -1,26 +1,26 @@
-//! How far the tool of a chain of lower pairs is from its target, how its joints move it, and the step that brings it there:
-//! in lanes.
+//! Residual of a chain of lower pairs, its joint Jacobian, and the damped step: in lanes.
 
-// Loops, and no closures: those could stay without the instruction set.
+// Loops instead of closures, which could be compiled without the instruction set.
 #![allow(clippy::needless_range_loop)]
 
 use super::lane_chain::{LaneChain, Vector, apply, then};
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Mask, Register};
 
-/// What is added to `J Jᵀ`, as a share of its trace: directions that do not move take no part.
+/// Regularization added to `J Jᵀ`, relative to its trace: immobile directions take no part.
 const FLOOR: f64 = 1e-13;
-/// The least cosine of half a turn that is divided by.
+/// Smallest cosine of half the rotation angle used as a divisor.
 const LEAST_COSINE: f64 = 1e-3;
 
-/// Rows 1–3 in arm lengths; rows 4–6, if there are any, the axis of the turn that is left times `2 sin θ/2`.
+/// Rows 1–3 in arm lengths. Rows 4–6, for poses, are the axis of the remaining rotation times
+/// `2 sin θ/2`.
 pub(super) struct Residual<R: Register, const ROWS: usize> {
     pub(super) rows: [Lanes<R>; ROWS],
-    /// The norm of the rows; that of the turn is right beyond a right angle, too.
+    /// Norm of the rows. Its rotation part is exact beyond a right angle, too.
     pub(super) norm: Lanes<R>,
-    /// `J_q`: a column for every joint.
+    /// `J_q`: one column per joint.
     columns: Vec<[Lanes<R>; ROWS]>,
-    /// The axes of the joints, and points on them, in `F_0`.
+    /// Axes of the joints, and points on them, in `F_0`.
     axes: Vec<[Vector<R>; 2]>,
 }
 
@@ -35,7 +35,7 @@ impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
         }
     }
 
-    /// Becomes another one where that is asked for.
+    /// Copies `other` in the lanes set in `there`.
     #[inline(always)]
     pub(super) fn replace(&mut self, other: &Self, there: Mask<R>) {
         for i in 0..ROWS {
@@ -49,7 +49,7 @@ impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
         }
     }
 
-    /// Of a chain at these values of its joints, which is to bring its tool to this target.
+    /// Evaluates the residual of a chain at joint values `q` for a target.
     #[inline(always)]
     pub(super) fn evaluate(&mut self, chain: &LaneChain<R>, q: &[Lanes<R>], target: &[Vector<R>; 4]) {
         let zero = Lanes::constant(0.0);
@@ -88,7 +88,8 @@ impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
         self.norm = squares.sqrt();
     }
 
-    /// Rows 4–6, and their square: from the trace `1 + 2 cos θ` and the skew part, the axis times `sin θ`.
+    /// Computes rows 4–6, and returns their square, from the trace `1 + 2 cos θ` and the skew part,
+    /// the axis times `sin θ`.
     #[inline(always)]
     fn turn(&mut self, frame: &[Vector<R>; 4], target: &[Vector<R>; 4]) -> Lanes<R> {
         let (zero, one, half) = (Lanes::constant(0.0), Lanes::constant(1.0), Lanes::constant(0.5));
@@ -111,7 +112,7 @@ impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
         one.more_than(trace).select(Lanes::constant(3.0) - trace, squares)
     }
 
-    /// `Jᵀ (J Jᵀ + λ)⁻¹ r` with the columns that are active, by `L D Lᵀ`.
+    /// Computes `Jᵀ (J Jᵀ + λ)⁻¹ r` with the active columns, by an `L D Lᵀ` decomposition.
     #[inline(always)]
     pub(super) fn damped_step(&self, damping: Lanes<R>, active: &[Lanes<R>], step: &mut [Lanes<R>]) {
         let zero = Lanes::<R>::constant(0.0);
@@ -132,7 +133,7 @@ impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
         let mut y = self.rows;
         let mut inverse = [zero; ROWS];
         for j in 0..ROWS {
-            // m holds L below its diagonal, and L D in the columns that come.
+            // m holds L below its diagonal, and L D in the remaining columns.
             let pivot = (m[j][j] + damping + floor).max(floor);
             inverse[j] = Lanes::constant(1.0) / pivot;
             for i in j + 1..ROWS {

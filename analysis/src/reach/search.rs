@@ -4,21 +4,23 @@ use core::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector, SVD};
 
-use super::quest::{Descent, Ended, ITERATIONS, Problem, Prospect, Quest, REACHED, ROUNDING, STAGNATION};
+use super::target_search::{
+    Descent, DescentEnd, ITERATIONS, Problem, REACHED, ROUNDING, Reachability, STAGNATION, TargetSearch,
+};
 use super::{ReachError, Target};
 use abbe_core::{Error, Pose, Quantity, VariableKind, deviation};
 
-/// Singular values below this share of the largest are directions that do not move.
+/// Relative singular value below which a direction is immobile.
 const SINGULAR: f64 = 1e-10;
 
-/// One target. Its residuals are its rows, lengths in arm lengths; its steps are in rad and in arm lengths: a metre or a
-/// millimetre must not decide which joint moves.
+/// Search for one target. Residuals are its rows with lengths in arm lengths, and steps are in rad
+/// and arm lengths, so that the choice of joints does not depend on the length unit.
 pub(super) struct Search<'a> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) target: &'a Target,
 }
 
-/// Where a descent stands.
+/// State of a descent.
 struct Point {
     q: Vec<f64>,
     residual: DVector<f64>,
@@ -26,20 +28,20 @@ struct Point {
 }
 
 impl Search<'_> {
-    /// From start to end.
+    /// Runs all descents of the search.
     pub(super) fn solve(&self) -> Result<Vec<f64>, ReachError> {
-        let (mut quest, mut descent) = Quest::new(self.problem, 0);
+        let (mut target_search, mut descent) = TargetSearch::new(self.problem, 0);
         loop {
-            match quest.next(self.problem, self.descend(&descent), || Prospect::Open) {
+            match target_search.next(self.problem, self.descend(&descent), || Reachability::Open) {
                 ControlFlow::Continue(next) => descent = next,
                 ControlFlow::Break(found) => return found,
             }
         }
     }
 
-    /// What is found from the first start alone.
+    /// Returns the result of the first descent, if it reaches the target.
     pub(super) fn nearby(&self) -> Option<Vec<f64>> {
-        let (_, descent) = Quest::new(self.problem, 0);
+        let (_, descent) = TargetSearch::new(self.problem, 0);
         let ended = self.descend(&descent).ok()?;
         (ended.norm <= REACHED).then_some(ended.q)
     }
@@ -64,8 +66,9 @@ impl Search<'_> {
         Ok(Point { q, residual, jacobian })
     }
 
-    /// Levenberg: `Δq = Jᵀ (J Jᵀ + λ)⁻¹ r`, with `λ = 0` (Newton, shortest step) for as long as it helps.
-    fn descend(&self, descent: &Descent) -> Result<Ended, Error> {
+    /// Descends by the Levenberg method, `Δq = Jᵀ (J Jᵀ + λ)⁻¹ r`, with `λ = 0` (Newton, shortest
+    /// step) as long as the residual decreases.
+    fn descend(&self, descent: &Descent) -> Result<DescentEnd, Error> {
         let &Descent { ref q, bounded, patience } = descent;
         let step = DVector::zeros(self.problem.free.len());
         let mut here = self.evaluate(self.moved(q, &step, bounded))?;
@@ -88,7 +91,7 @@ impl Search<'_> {
                     here = there;
                     damping = if damping > norm * norm { damping / 10.0 } else { 0.0 };
                 }
-                // Rounding is all that is left.
+                // Only rounding errors remain.
                 _ if norm <= REACHED * 1e-2 || damping > 1e3 => break,
                 _ => damping = f64::max(damping * 10.0, 0.01 * norm * norm),
             }
@@ -96,10 +99,10 @@ impl Search<'_> {
         let rows = here.residual.as_slice();
         let (position, turn) = rows.split_at(3.min(rows.len()));
         let norm = |rows: &[f64]| rows.iter().fold(0.0, |norm: f64, row| norm.hypot(*row));
-        Ok(Ended { norm: here.residual.norm(), position: norm(position), turn: norm(turn), q: here.q })
+        Ok(DescentEnd { norm: here.residual.norm(), position: norm(position), turn: norm(turn), q: here.q })
     }
 
-    /// The step from a point. Variables at a limit that it would push further out stay where they are.
+    /// Returns the step from a point. Variables at a limit that the step would exceed stay fixed.
     fn step(&self, here: &Point, damping: f64, bounded: bool) -> Option<DVector<f64>> {
         let free = &self.problem.free;
         let mut active = (0..free.len()).collect::<Vec<_>>();
@@ -127,7 +130,7 @@ impl Search<'_> {
         }
     }
 
-    /// No joint turns by more than 1 rad at once: linear models do not reach further.
+    /// Limits rotations to 1 rad per step, the reach of the linear model.
     fn shortened(&self, step: DVector<f64>) -> DVector<f64> {
         let turns = step.iter().enumerate();
         let turns = turns.filter(|(j, _)| self.problem.variable(*j).kind == VariableKind::Revolute);
@@ -135,7 +138,7 @@ impl Search<'_> {
         step / largest
     }
 
-    /// `q` moved by a step, to the limits at most if bounded.
+    /// Returns `q` after a step, clamped to the limits if `bounded`.
     fn moved(&self, q: &[f64], step: &DVector<f64>, bounded: bool) -> Vec<f64> {
         let mut q = q.to_vec();
         for (j, (&i, step)) in self.problem.free.iter().zip(step.iter()).enumerate() {
@@ -149,7 +152,7 @@ impl Search<'_> {
     }
 }
 
-/// `Jᵀ (J Jᵀ + λ)⁻¹ r = Σ σ / (σ² + λ) v (u · r)`, without the directions that do not move.
+/// Returns `Jᵀ (J Jᵀ + λ)⁻¹ r = Σ σ / (σ² + λ) v (u · r)`, without the immobile directions.
 fn damped_step(jacobian: DMatrix<f64>, residual: &DVector<f64>, damping: f64) -> Option<DVector<f64>> {
     let columns = jacobian.ncols();
     let svd = SVD::try_new(jacobian, true, true, f64::EPSILON, 1000)?;

@@ -1,14 +1,15 @@
-//! Lanes and single searches, splits, and what is promised of them.
+//! Tests of the search: lanes against single searches, and independence of batches.
 
-use super::inverse::{Inverse, Target, inverse};
+use super::Target;
+use super::inverse::{Inverse, inverse};
 use super::joint_chain::JointChain;
-use super::quest::Problem;
 use super::search::Search;
+use super::target_search::Problem;
 use crate::by_hand::{Pps, Puma};
 use crate::{Configuration, ReachError, sampling};
 use abbe_core::{Delegate, Description, Frame, List, Manipulator, Pose};
 
-/// A manipulator of which nothing is known but its functions.
+/// Manipulator with an altered promise of lower pairs.
 struct Opaque<'a>(&'a dyn Manipulator, Description);
 
 impl<'a> Opaque<'a> {
@@ -32,7 +33,8 @@ impl<'a> Delegate for Opaque<'a> {
     }
 }
 
-/// Points in, at the edge of and beyond the workspace, some as poses of random configurations, some turned as at home.
+/// Returns points inside, at the edge of and beyond the workspace: some as poses of random
+/// configurations, some with the orientation of home.
 fn targets(manipulator: &dyn Manipulator, count: usize, poses: bool) -> Vec<Target> {
     let description = manipulator.description();
     let Configuration { q: home, s, .. } = Configuration::home(description);
@@ -52,8 +54,8 @@ fn targets(manipulator: &dyn Manipulator, count: usize, poses: bool) -> Vec<Targ
     (0..count).map(target).collect()
 }
 
-/// What lanes find is what single searches find, reached as well and within the limits; what they do not find has the same
-/// reason.
+/// Compares lanes with single searches: they reach the same targets within the limits, and fail for
+/// the same reasons.
 #[test]
 fn lanes_find_what_single_searches_find() {
     let robots: [&dyn Manipulator; 2] = [&Puma, &Pps];
@@ -88,7 +90,7 @@ fn lanes_find_what_single_searches_find() {
                         Err(ReachError::OutOfReach { residual, .. }),
                         Err(ReachError::OutOfReach { residual: single, .. }),
                     ) => {
-                        // Either may end at another place that is nearest to where it began.
+                        // Either may end at another local minimum of the distance.
                         assert!(
                             residual >= 0.0 && residual < 1.5 * single + 0.2 * problem.arm,
                             "{residual} {single}"
@@ -103,7 +105,8 @@ fn lanes_find_what_single_searches_find() {
     }
 }
 
-/// The same bits, alone and among others, in any order: so that threads and blocks do not matter.
+/// Compares the bits of results alone and among others, in any order: threads and blocks do not
+/// matter.
 #[test]
 fn what_is_found_does_not_depend_on_what_else_is_asked() {
     let Configuration { q: home, s, .. } = Configuration::home(Puma.description());
@@ -121,7 +124,8 @@ fn what_is_found_does_not_depend_on_what_else_is_asked() {
     }
 }
 
-/// The chain is the manipulator, whichever variables are free; and it is none where that is not promised, or not true.
+/// Checks that the chain equals the manipulator for any free variables, and that there is none
+/// where lower pairs are not promised or not true.
 #[test]
 fn a_chain_of_lower_pairs_is_read_off() {
     let Configuration { q: home, s, .. } = Configuration::home(Puma.description());
@@ -142,7 +146,7 @@ fn a_chain_of_lower_pairs_is_read_off() {
     assert!(JointChain::new(&Problem::new(&opaque, &s, &home, &[0, 1]).unwrap()).is_none());
 }
 
-/// Far away it is known at once, and still said how near it comes.
+/// Checks that distant targets are rejected by their enclosures, with their distance.
 #[test]
 fn what_is_far_is_out_of_reach() {
     let Configuration { q: home, s, .. } = Configuration::home(Puma.description());

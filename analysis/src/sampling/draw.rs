@@ -1,4 +1,4 @@
-//! Random errors as they are distributed.
+//! Random errors of a given distribution.
 
 use core::f64::consts::TAU;
 
@@ -7,15 +7,15 @@ use rand_distr::StandardNormal;
 
 use abbe_core::Distribution;
 
-/// An error of magnitude 1: within ±1 if it is bounded, with a standard deviation of 1 if it is normal.
+/// Draws an error of magnitude 1: within ±1 if bounded, with a standard deviation of 1 if normal.
 pub fn draw(distribution: Distribution, random: &mut impl Rng) -> f64 {
     let mut share = || random.random::<f64>();
     match distribution {
         Distribution::Uniform => 2.0 * share() - 1.0,
         Distribution::Normal => random.sample(StandardNormal),
-        // The sum of two uniform ones of half the width.
+        // The sum of two uniform errors of half the width.
         Distribution::Triangular => share() + share() - 1.0,
-        // A sine at any phase.
+        // A sine of random phase.
         Distribution::Arcsine => (TAU * share()).sin(),
     }
 }
@@ -25,7 +25,8 @@ mod tests {
     use super::*;
     use crate::sampling::stream;
 
-    /// Variance, and the share of the draws within half the magnitude, against the integrals of the densities.
+    /// Compares the variance, and the share of the draws within half the magnitude, with the
+    /// integrals of the densities.
     #[test]
     fn draws_are_distributed_as_they_say() {
         let count = 1_000_000;

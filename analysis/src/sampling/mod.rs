@@ -1,4 +1,4 @@
-//! Deterministic points to evaluate a manipulator at, and random errors: the same on every run and every machine.
+//! Deterministic sample points and random errors: the same on every run and every machine.
 
 mod draw;
 mod streams;

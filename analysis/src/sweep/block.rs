@@ -8,22 +8,23 @@ use abbe_core::lanes::Sweepable;
 use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register, Tiles};
 use abbe_core::{Class, Error, Function, MINIMUM_MARGIN, Orientation, Pose, Quantity, Scalar, checks};
 
-/// A block of configurations, evaluated again and again for others.
+/// Block of configurations: a buffer that is evaluated repeatedly.
 pub(crate) struct Block<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
-    /// What the results of every source are multiplied with.
+    /// Factors of the displacements of every source.
     bounds: Vec<f64>,
-    /// Index in the workspace of every configuration that is reached.
+    /// Index in the workspace of every reachable configuration.
     pub(crate) indices: Vec<usize>,
     arguments: Tiles,
-    /// ΔX of every source, of a random one its bound: six rows each, and the margin of Euler rows.
+    /// ΔX of every source, the bound for a random one: six rows each, followed by the margin of
+    /// Euler rows.
     pub(crate) displacements: Tiles,
     pub(crate) unreachable: Vec<Unreachable>,
 }
 
 impl<'a> Block<'a> {
-    /// Of a manipulator in a workspace, for as many configurations as are asked for at most.
+    /// Creates a block for at most `size` configurations of a workspace.
     pub(crate) fn new(manipulator: &'a dyn Sweepable, workspace: &'a dyn Workspace, size: usize) -> Self {
         let description = manipulator.description();
         let signature = Function::SourceDisplacements.signature();
@@ -48,7 +49,7 @@ impl<'a> Block<'a> {
         }
     }
 
-    /// Evaluates the configurations of a range of indices, no more than there is room for.
+    /// Evaluates the configurations of a range of indices, at most `size` of them.
     pub(crate) fn evaluate(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
         self.fill(range)?;
         loop {
@@ -65,7 +66,8 @@ impl<'a> Block<'a> {
                 break;
             }
             self.set_aside()?;
-            // What scalar code takes as it is stays, though lanes were nearer to a singularity by a rounding.
+            // Configurations that scalar code accepts stay, although lanes are below the margin by
+            // a rounding error.
             if self.indices.len() == reached {
                 break;
             }
@@ -74,7 +76,7 @@ impl<'a> Block<'a> {
         Ok(())
     }
 
-    /// Writes those configurations of a range that can be reached, one after the other.
+    /// Writes the reachable configurations of a range to the arguments.
     fn fill(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
         self.indices.clear();
         self.arguments.resize(range.len());
@@ -120,7 +122,7 @@ impl<'a> Block<'a> {
         }
     }
 
-    /// Reads a configuration back, as long as those of the workspace.
+    /// Reads a configuration back. `configuration` must have the lengths of those of the workspace.
     pub(crate) fn configuration(&self, place: usize, configuration: &mut Configuration) {
         let Configuration { q, s, u } = configuration;
         let (first_s, first_u) = (q.len(), q.len() + s.len());
@@ -129,8 +131,8 @@ impl<'a> Block<'a> {
         self.arguments.copy_rows(first_u..first_u + u.len(), place, u);
     }
 
-    /// Where Euler rows do not exist there is nothing to sum up: set aside and counted, like a point that cannot be
-    /// reached. What else is not finite is an error.
+    /// Removes configurations whose Euler rows are singular, and counts them as unreachable.
+    /// Returns an error for other values that are not finite.
     fn set_aside(&mut self) -> Result<(), Unevaluated> {
         let description = self.manipulator.description();
         let mut here = self.workspace.home().clone();
@@ -173,7 +175,8 @@ impl<'a> Block<'a> {
         Unevaluated { configuration: self.indices.get(place).copied(), error }
     }
 
-    /// Visits the rows in order. The place holds one configuration at a time, as long as those of the workspace.
+    /// Visits the rows in order. `here` is a buffer with the lengths of the configurations of the
+    /// workspace.
     pub(crate) fn visit(&self, here: &mut Configuration, visit: &mut dyn FnMut(&Row)) {
         let description = self.manipulator.description();
         let signature = Function::Pose.signature();
@@ -203,7 +206,8 @@ impl<'a> Block<'a> {
     }
 }
 
-/// Multiplies the displacements of every source with its bound, and says whether all are sound.
+/// Scales the displacements of every source by its bound. Returns whether all are finite and Euler
+/// margins are large enough.
 struct Scaled<'a> {
     displacements: &'a mut Tiles,
     bounds: &'a [f64],
@@ -216,7 +220,7 @@ impl Kernel for Scaled<'_> {
     #[inline(always)]
     fn run<R: Register>(self) -> bool {
         let zero = Lanes::<R>::constant(0.0);
-        // What is finite times 0 is 0, anything else is not.
+        // A finite number times 0 is 0, all others are NaN.
         let (mut nothing, mut margin) = (zero, Lanes::constant(f64::INFINITY));
         for tile in 0..self.displacements.tiles() {
             let rows = self.displacements.tile_mut::<R>(tile);

@@ -1,4 +1,4 @@
-//! Blocks of work, done in parallel and taken in order.
+//! Blocks of work, computed in parallel and consumed in order.
 
 use core::ops::ControlFlow;
 #[cfg(feature = "parallel")]
@@ -13,18 +13,18 @@ use std::sync::mpsc;
 #[cfg(feature = "parallel")]
 use rayon::Yield;
 
-/// How long a thread without work waits for a block before it looks for work again.
+/// Time for which an idle thread waits for a block before it looks for work again.
 #[cfg(feature = "parallel")]
 const IDLE: Duration = Duration::from_micros(100);
-/// How many blocks every thread works ahead of those that are taken.
+/// Number of blocks per thread that are computed ahead of those consumed.
 #[cfg(feature = "parallel")]
 const AHEAD: usize = 8;
 
-/// Makes blocks 0 to `count` − 1, the first first, and takes them in order, each as soon as it and all before it are made; ends with the first
-/// that fails.
+/// Computes blocks 0 to `count` − 1 and passes them to `take` in order, each as soon as it and its
+/// predecessors are done. Stops at the first error.
 ///
-/// What is taken is the same for any number of threads; only so many blocks are held. With the feature `parallel` the
-/// threads are those of the rayon pool that it is called in.
+/// The result does not depend on the number of threads, and the number of blocks in memory is
+/// bounded. With the feature `parallel` the threads are those of the current rayon pool.
 pub fn in_order<T: Send, E: Send>(
     count: usize,
     make: impl Fn(usize) -> Result<T, E> + Sync,
@@ -36,9 +36,10 @@ pub fn in_order<T: Send, E: Send>(
     })
 }
 
-/// The same until one that is taken is to be the last: those that are being made then are made, and no others.
+/// Computes blocks as [`in_order`] does until `take` returns `Break`. Blocks in progress are then
+/// completed, and no others are begun.
 ///
-/// Blocks are to be short: whoever wants the work to end waits for as many as there are threads.
+/// Blocks should be short: stopping waits for one block per thread.
 pub fn in_order_until<T: Send, E: Send>(
     count: usize,
     make: impl Fn(usize) -> Result<T, E> + Sync,
@@ -56,7 +57,7 @@ pub fn in_order_until<T: Send, E: Send>(
     Ok(())
 }
 
-/// A block that was made, or nothing if that panicked.
+/// Computed block, or `None` if the computation panicked.
 #[cfg(feature = "parallel")]
 type Made<T, E> = (usize, Option<Result<T, E>>);
 
@@ -71,7 +72,7 @@ fn in_parallel<T: Send, E: Send>(
     let (sender, receiver) = mpsc::channel();
     rayon::in_place_scope_fifo(|scope| {
         let mut begun = 0;
-        // Blocks from the next one to be taken on.
+        // Blocks from the next one to be consumed on.
         let mut ready: VecDeque<Option<Result<T, E>>> = VecDeque::with_capacity(ahead);
         for block in 0..count {
             while begun < count.min(block + ahead) {
@@ -88,7 +89,7 @@ fn in_parallel<T: Send, E: Send>(
             while ready.front().is_some_and(Option::is_none) {
                 match next(&receiver) {
                     Some((number, Some(made))) => ready[number - block] = Some(made),
-                    // It panicked: the scope passes that on.
+                    // The computation panicked: the scope propagates it.
                     Some((_, None)) => {
                         failed.store(true, Ordering::Relaxed);
                         return Ok(());
@@ -113,7 +114,7 @@ fn in_parallel<T: Send, E: Send>(
     })
 }
 
-/// Sends what was made when it goes, whatever makes it go.
+/// Guard that sends a block when dropped, even by a panic.
 #[cfg(feature = "parallel")]
 struct Delivery<T, E> {
     sender: mpsc::Sender<Made<T, E>>,
@@ -123,18 +124,18 @@ struct Delivery<T, E> {
 #[cfg(feature = "parallel")]
 impl<T, E> Drop for Delivery<T, E> {
     fn drop(&mut self) {
-        // Nobody waits for it where another one has failed.
+        // The receiver is gone after a failure.
         let _ = self.sender.send((self.made.0, self.made.1.take()));
     }
 }
 
-/// The next block that was made; none if there is none yet and the thread has done something else instead.
+/// Returns the next computed block, or `None` if the thread has done other work instead.
 #[cfg(feature = "parallel")]
 fn next<T>(receiver: &mpsc::Receiver<T>) -> Option<T> {
     receiver.try_recv().ok().or_else(|| match rayon::yield_now() {
         Some(Yield::Executed) => None,
         Some(Yield::Idle) => receiver.recv_timeout(IDLE).ok(),
-        // Not one of the threads that make blocks.
+        // The thread does not belong to the pool.
         None => receiver.recv().ok(),
     })
 }
@@ -145,7 +146,7 @@ mod tests {
 
     use super::{in_order, in_order_until};
 
-    /// Of a thousand blocks some hundred may be ahead of the one that is the last: not all.
+    /// Checks that only some hundred of a thousand blocks are begun beyond the last one consumed.
     #[test]
     fn no_block_is_begun_behind_the_last() {
         use std::sync::atomic::{AtomicUsize, Ordering};
@@ -181,7 +182,7 @@ mod tests {
         }
     }
 
-    /// Blocks are taken while others are made: not only when all are.
+    /// Checks that blocks are consumed while others are computed.
     #[test]
     fn blocks_are_taken_as_soon_as_they_are_made() {
         use std::sync::atomic::{AtomicUsize, Ordering};
@@ -199,7 +200,7 @@ mod tests {
         })
         .unwrap();
         assert_eq!(ahead.len(), 40);
-        // In waves of 16 the first would be taken when 16 are made, and all others of the wave, too.
+        // In waves of 16, all blocks of a wave would be consumed after all 16 are computed.
         assert!(ahead.iter().filter(|made| **made < 8).count() > 20, "{ahead:?}");
     }
 

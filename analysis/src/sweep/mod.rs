@@ -1,10 +1,13 @@
-//! Evaluates a workspace block by block, in parallel, and shows every configuration in order; nothing is stored.
+//! Sweeps: evaluate a workspace block by block, in parallel, and visit every configuration in
+//! order; nothing is stored.
 
 mod block;
 mod in_order;
+mod row;
 mod rows;
 
 pub(super) use block::Block;
 pub use in_order::{in_order, in_order_until};
+pub use row::{Row, Unevaluated};
 pub(super) use rows::ready;
-pub use rows::{BLOCK, Row, Unevaluated, sweep};
+pub use rows::{BLOCK, sweep};

@@ -1,4 +1,4 @@
-//! What sources do together, against formulas written another way.
+//! Tests of combined errors against independent formulas.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -7,10 +7,10 @@ use abbe_core::{Class, Distribution};
 
 const TOLERANCE: f64 = 0.5;
 
-/// A configuration and the position errors of the sources there.
+/// Configuration with the position errors of its sources.
 type Errors = (Configuration, Vec<Vector3<f64>>);
 
-/// The budget of the paper's sweep, and what it was made of.
+/// Returns the budget of the paper's sweep, and its rows.
 fn papers() -> (Budget, Vec<Errors>) {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
     let mut rows = Vec::new();
@@ -86,7 +86,7 @@ fn sums_spheres_and_root_mean_squares() {
     assert!(combined.worst_case_radius.value > combined.radius.value);
     let both = rows.iter().map(|(_, errors)| radius(errors, &[1.0; 7]).powi(2)).sum::<f64>();
     assert!((combined.rms[2] - (both / 999.0).sqrt()).abs() < 1e-12);
-    // No point is outside the sphere, and it is no larger than the one about zero.
+    // No point is outside the sphere, and the sphere is no larger than the one about zero.
     let sphere = combined.enclosing;
     assert_eq!(sphere.excess, 0.0);
     assert!(sphere.radius < combined.repeatable_radius.value);

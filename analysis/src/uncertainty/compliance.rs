@@ -1,4 +1,4 @@
-//! How likely a tolerance is met.
+//! Probability that a tolerance is met.
 
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
 use crate::Measurand;
@@ -6,33 +6,35 @@ use crate::normal::{NormalVector, PROBABILITY_ERROR};
 use crate::sampling::{norm, stream};
 use crate::sweep::in_order;
 
-/// How many draws are made where there is no other way.
+/// Number of draws for errors that are not normal.
 pub const DRAWS: usize = 200_000;
-/// How many draws come from one stream of random numbers.
+/// Number of draws per stream of random numbers.
 const BLOCK: usize = 8192;
 
-/// The probability that the norm of the error is within a limit at one configuration: the repeatable sources are as they
-/// are, the random ones drawn, to first order.
+/// Probability that the norm of the error is within a limit at one configuration, to first order:
+/// the repeatable sources are fixed, the random ones vary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Compliance {
-    /// The probability.
+    /// Probability.
     pub probability: f64,
-    /// How far it may be off: a bound without draws, their standard error `√(p (1 − p)/N)` with them.
+    /// Error of the probability: a bound for an integral, the standard error `√(p (1 − p)/N)` for
+    /// draws.
     pub error: f64,
-    /// How many draws it rests on; none if it is an integral.
+    /// Number of draws. `None` for an integral.
     pub draws: Option<usize>,
 }
 
-/// How likely `‖Σ r_k + Σ t_k a_k‖ ≤ limit` with the magnitudes a and errors t of the random sources. If these are all
-/// normal with known standard deviations (or there are none) that is the integral of [`NormalVector`]; otherwise [`DRAWS`]
-/// draws, which follow from the seed alone.
+/// Computes the probability that `‖Σ r_k + Σ t_k a_k‖ ≤ limit`, with the magnitudes a and the
+/// errors t of the random sources. If these are all normal with known standard deviations, or there
+/// are none, it is the integral of [`NormalVector`]. Otherwise it is estimated by [`DRAWS`] draws,
+/// which depend on the seed alone.
 pub fn compliance(errors: &ErrorsAt, measurand: Measurand, limit: f64, seed: u64) -> Compliance {
     within(errors.bias(measurand), &errors.random(measurand), limit, seed)
 }
 
-/// The same as if all random sources were normal with these standard uncertainties: right if they are, near it if many are
-/// added, and far quicker.
+/// Computes the probability as if all random sources were normal with the same standard
+/// uncertainties. It is exact if they are, close for a sum of many, and much faster.
 pub fn normal_compliance(errors: &ErrorsAt, measurand: Measurand, limit: f64) -> Compliance {
     integrated(errors.bias(measurand), &errors.random(measurand), limit)
 }

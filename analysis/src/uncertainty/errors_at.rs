@@ -1,4 +1,4 @@
-//! What every source does at one configuration.
+//! Errors of every source at one configuration.
 
 use rand::{Rng, RngExt};
 use rand_distr::StudentT;
@@ -10,14 +10,14 @@ use crate::{Configuration, Measurand, Unevaluated};
 use abbe_core::lanes::Sweepable;
 use abbe_core::{Class, Description, Distribution, Error, Source};
 
-/// What every source does at one configuration, to first order.
+/// Errors of every source at one configuration, to first order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorsAt<'a> {
-    /// Whose sources they are.
+    /// Description of the manipulator.
     pub description: &'a Description,
-    /// ΔX of each source, of a random one the bound, as in [`Row::sources`](crate::Row::sources).
+    /// ΔX of each source; the bound for a random one, as in [`Row::sources`](crate::Row::sources).
     pub sources: Vec<[f64; 6]>,
-    /// The values of the effects, of random ones the magnitudes.
+    /// Values of the effects; magnitudes for random ones.
     pub effects: Vec<f64>,
 }
 
@@ -36,7 +36,7 @@ pub fn errors_at<'a>(
 }
 
 impl ErrorsAt<'_> {
-    /// The sum of the repeatable sources.
+    /// Returns the sum of the repeatable sources.
     pub fn bias(&self, measurand: Measurand) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (source, error) in self.description.sources.iter().zip(&self.sources) {
@@ -48,12 +48,13 @@ impl ErrorsAt<'_> {
         sum
     }
 
-    /// Whether the error is a normal vector: all random sources are normal, with standard deviations that are known.
+    /// Returns whether the error is a normal vector: all random sources are normal, with known
+    /// standard deviations.
     pub fn is_normal(&self, measurand: Measurand) -> bool {
         is_normal(&self.random(measurand))
     }
 
-    /// The random sources that do something.
+    /// Returns the random sources with a nonzero effect.
     pub(super) fn random(&self, measurand: Measurand) -> Vec<RandomError> {
         let sources = self.description.sources.iter().zip(&self.sources).enumerate();
         let random = sources.filter_map(|(source, (Source { class, degrees_of_freedom, .. }, bound))| {
@@ -70,24 +71,25 @@ impl ErrorsAt<'_> {
     }
 }
 
-/// A random source at a configuration.
+/// Random source at a configuration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RandomError {
     pub(super) source: usize,
     pub(super) distribution: Distribution,
-    /// Of its standard deviation, infinite if that is known.
+    /// Degrees of freedom of its standard deviation. Infinite if that is known.
     pub(super) degrees_of_freedom: f64,
-    /// ΔX where its error is its magnitude; the three rows go together.
+    /// ΔX for an error equal to its magnitude. The three rows are fully correlated.
     pub(super) magnitude: [f64; 3],
 }
 
 impl RandomError {
-    /// Whether its standard deviation was estimated from few measurements.
+    /// Returns whether its standard deviation was estimated from few measurements.
     pub(super) fn is_estimated(&self) -> bool {
         self.degrees_of_freedom.is_finite()
     }
 
-    /// Draws its size. An error whose standard deviation was estimated is drawn after Student's t (JCGM 101, 6.4.9).
+    /// Draws its size. An error with an estimated standard deviation has Student's t-distribution
+    /// (JCGM 101, 6.4.9).
     pub(super) fn draw(&self, random: &mut impl Rng) -> f64 {
         match StudentT::new(self.degrees_of_freedom) {
             Ok(student) if self.is_estimated() => random.sample(student),
@@ -95,18 +97,19 @@ impl RandomError {
         }
     }
 
-    /// The standard uncertainties along the rows, with the sign of ΔX.
+    /// Returns the standard uncertainties along the rows, with the sign of ΔX.
     pub(super) fn standard(&self) -> [f64; 3] {
         self.magnitude.map(|a| a / self.distribution.divisor())
     }
 }
 
-/// Whether the sum of such errors is a normal vector: every standard deviation is known.
+/// Returns whether the sum of the errors is a normal vector: all are normal with known standard
+/// deviations.
 pub(super) fn is_normal(random: &[RandomError]) -> bool {
     random.iter().all(|error| error.distribution == Distribution::Normal && !error.is_estimated())
 }
 
-/// `Σ_k u_k u_kᵀ`.
+/// Returns `Σ_k u_k u_kᵀ`.
 pub(super) fn covariance(random: &[RandomError]) -> [[f64; 3]; 3] {
     let mut sum = [[0.0; 3]; 3];
     for u in random.iter().map(RandomError::standard) {

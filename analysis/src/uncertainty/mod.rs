@@ -1,4 +1,5 @@
-//! What a figure covers, at one configuration: how likely a tolerance is met, and the uncertainty as the GUM (JCGM 100) states it.
+//! Coverage at one configuration: the probability that a tolerance is met, and the uncertainty
+//! statement of the GUM (JCGM 100).
 
 mod compliance;
 mod errors_at;

@@ -6,12 +6,12 @@ use crate::Measurand;
 use crate::normal::{Principal, StudentVector};
 use abbe_core::{Component, Distribution};
 
-/// The coverage probability of an expanded uncertainty.
+/// Coverage probability of an expanded uncertainty.
 pub const COVERAGE: f64 = 0.95;
-/// `Φ⁻¹((1 + 0.95)/2)`.
+/// Normal coverage factor `Φ⁻¹((1 + 0.95)/2)`.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// The half-width of 95 % of Student's t.
+/// Returns the half-width of the 95 % interval of Student's t-distribution.
 pub fn student_95(degrees_of_freedom: f64) -> f64 {
     match degrees_of_freedom {
         f64::INFINITY => NORMAL_95,
@@ -19,30 +19,32 @@ pub fn student_95(degrees_of_freedom: f64) -> f64 {
     }
 }
 
-/// Welch (1947) and Satterthwaite (1946): a sum of squares `Σ v_k`, each with ν_k degrees of freedom, varies as one with
-/// `1/ν = Σ (v_k/Σv)²/ν_k` does.
+/// Returns the effective degrees of freedom of a sum of squares `Σ v_k`, each with ν_k degrees of
+/// freedom, by Welch (1947) and Satterthwaite (1946): `1/ν = Σ (v_k/Σv)²/ν_k`.
 fn welch_satterthwaite(squares: &[(f64, f64)]) -> f64 {
     let sum: f64 = squares.iter().map(|(square, _)| square).sum();
     combined(squares.iter().map(|(square, degrees)| ((square / sum).powi(2), *degrees)))
 }
 
-/// The harmonic mean of the degrees of freedom, by shares of the sum: never more than what [`welch_satterthwaite`] gives, and more
-/// cautious where a source with few of them is a large share. Shares are estimated, too: where that source happens to look
-/// small the formula hardly counts its few degrees of freedom.
+/// Returns the harmonic mean of the degrees of freedom, weighted by shares of the sum. It is never
+/// more than [`welch_satterthwaite`] returns, and more cautious where a source with few degrees of
+/// freedom has a large share. Shares are estimates, too: the formula hardly counts the degrees of
+/// freedom of a source whose share is underestimated.
 fn cautious(squares: &[(f64, f64)]) -> f64 {
     let sum: f64 = squares.iter().map(|(square, _)| square).sum();
     combined(squares.iter().map(|(square, degrees)| (square / sum, *degrees)))
 }
 
-/// `1 / Σ w_k/ν_k`.
+/// Returns `1 / Σ w_k/ν_k`.
 fn combined(weights: impl Iterator<Item = (f64, f64)>) -> f64 {
     let inverse: f64 =
         weights.filter(|(_, degrees)| degrees.is_finite()).map(|(weight, degrees)| weight / degrees).sum();
     if inverse > 0.0 { 1.0 / inverse } else { f64::INFINITY }
 }
 
-/// Of the rows, and of the norm. How much U² of the norm changes with a variance λ_i along a principal axis is, to a good
-/// approximation, in proportion to `1 + (1.960² − 1) λ_i/λ_1`: exactly where all λ_i are equal, and where there is one only.
+/// Returns the effective degrees of freedom of the rows and of the norm. The derivative of U² of
+/// the norm by a variance λ_i along a principal axis is approximately proportional to
+/// `1 + (1.960² − 1) λ_i/λ_1`, exactly if all λ_i are equal or only one is nonzero.
 pub(super) fn degrees_of_freedom(random: &[RandomError], covariance: [[f64; 3]; 3]) -> [f64; 4] {
     let principal = Principal::new(covariance);
     let [longest, ..] = principal.deviations;
@@ -62,54 +64,61 @@ pub(super) fn degrees_of_freedom(random: &[RandomError], covariance: [[f64; 3]; 
     [row(0), row(1), row(2), cautious(&norm.collect::<Vec<_>>())]
 }
 
-/// What one random source contributes. Figures are of the three rows and of their norm.
+/// Contribution of one random source. Arrays hold the three rows and their norm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contribution {
     /// Index of the source.
     pub source: usize,
-    /// How its error is distributed; `u = value / divisor`.
+    /// Distribution of its error; `u = value / divisor`.
     pub distribution: Distribution,
-    /// Its value and which error that is, in rad or in the length unit, if one generalized error is all it causes here. What it
-    /// causes otherwise has one magnitude, and its value is 1.
+    /// Component and value, in rad or in the length unit, if the source causes a single generalized
+    /// error here. `None` if it causes several, which share one magnitude; the value in the budget
+    /// is then 1.
     pub value: Option<(Component, f64)>,
-    /// `|∂ΔX / ∂value|`.
+    /// Sensitivity `|∂ΔX / ∂value|`.
     pub sensitivity: [f64; 4],
     /// Standard uncertainties: sensitivity × value / divisor.
     pub standard: [f64; 4],
-    /// Of its standard uncertainty: infinite if that is known.
+    /// Degrees of freedom of its standard uncertainty. Infinite if that is known.
     pub degrees_of_freedom: f64,
-    /// Its share of the variance `u_x² + u_y² + u_z²`.
+    /// Share of the variance `u_x² + u_y² + u_z²`.
     pub share: f64,
 }
 
-/// What is stated of the error of the tool at one configuration: `U = k u` about the bias.
+/// Uncertainty statement for the error of the tool at one configuration: `U = k u` about the bias.
 ///
-/// The budget covers the random sources. The repeatable ones are known: the GUM takes for granted that such errors are
-/// corrected (3.2.4). As long as they are not they are a bias, and `|bias| + U` is stated (6.3.1, note; F.2.4.5).
+/// The budget covers the random sources. The repeatable ones are known: the GUM presumes that such
+/// errors are corrected (3.2.4). Until they are, they form a bias, and `|bias| + U` is stated
+/// (6.3.1, note; F.2.4.5).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// What it is about.
+    /// Position or orientation.
     pub measurand: Measurand,
-    /// The random sources that do something, the largest share first.
+    /// Random sources with a nonzero effect, the largest share first.
     pub contributions: Vec<Contribution>,
-    /// The sum of the repeatable sources: three rows and their norm, with signs.
+    /// Sum of the repeatable sources: three rows with signs, and their norm.
     pub bias: [f64; 4],
-    /// Combined standard uncertainties u: root sums of squares; of the norm `√(u_x² + u_y² + u_z²)`.
+    /// Combined standard uncertainties u: root sums of squares. That of the norm is
+    /// `√(u_x² + u_y² + u_z²)`.
     pub standard: [f64; 4],
-    /// Effective degrees of freedom ν: of the rows by Welch and Satterthwaite (GUM, G.4.1), not rounded; of the norm the
-    /// harmonic mean by shares, a little fewer than that. Infinite if all standard uncertainties are known.
+    /// Effective degrees of freedom ν, not rounded. Those of the rows follow Welch and
+    /// Satterthwaite (GUM, G.4.1); that of the norm is the harmonic mean by shares, which is
+    /// slightly smaller. Infinite if all standard uncertainties are known.
     pub degrees_of_freedom: [f64; 4],
-    /// k of the rows is the 95 % quantile of Student's t with ν degrees of freedom, 1.960 if they are infinite; that of the
-    /// norm is the 95 % quantile of the norm of a [`StudentVector`] with this covariance, over u: with infinite degrees of
-    /// freedom 1.960 on a line, 1.731 of a round plane error, 1.614 of a round one in space.
+    /// Coverage factors k. Those of the rows are the 95 % quantiles of Student's t-distribution
+    /// with ν degrees of freedom, 1.960 if ν is infinite. That of the norm is the 95 % quantile of
+    /// the norm of a [`StudentVector`] with this covariance, divided by u: for infinite ν, 1.960
+    /// for an error along a line, 1.731 for an isotropic error in a plane, 1.614 for an isotropic
+    /// error in space.
     pub coverage_factors: [f64; 4],
-    /// The share of the errors whose norm is within U, about the bias: [`COVERAGE`] if all sources are normal with known
-    /// standard deviations, otherwise drawn as they are distributed (JCGM 101; estimated ones after Student's t, 6.4.9).
+    /// Coverage of U for the norm, about the bias: [`COVERAGE`] if all sources are normal with
+    /// known standard deviations. Otherwise it is estimated by draws from the actual distributions
+    /// (JCGM 101; Student's t-distribution for estimated ones, 6.4.9).
     pub coverage: Compliance,
 }
 
 impl Statement {
-    /// Of the errors at a configuration. What is drawn follows from the seed.
+    /// States the uncertainty of the errors at a configuration. Draws depend on the seed alone.
     pub fn new(errors: &ErrorsAt, measurand: Measurand, seed: u64) -> Self {
         let random = errors.random(measurand);
         let matrix = covariance(&random);
@@ -132,7 +141,7 @@ impl Statement {
         }
     }
 
-    /// `U = k u`.
+    /// Returns the expanded uncertainties `U = k u`.
     pub fn expanded(&self) -> [f64; 4] {
         core::array::from_fn(|i| self.coverage_factors[i] * self.standard[i])
     }

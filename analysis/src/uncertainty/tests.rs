@@ -1,4 +1,4 @@
-//! What is stated, held against draws.
+//! Tests of uncertainty statements against draws.
 
 use rand::RngExt;
 use rand_distr::ChiSquared;
@@ -11,7 +11,7 @@ use crate::thorough::{sample_size, thorough};
 use crate::{Measurand, NormalVector, StudentVector};
 use abbe_core::{Class, Description, Distribution, LengthUnit, List, Orientation, Source, Text};
 
-/// A machine without frames whose sources do this.
+/// Returns a machine without frames that has these sources.
 fn machine(sources: Vec<Source>) -> Description {
     Description {
         name: Text::Constant("budget"),
@@ -31,7 +31,7 @@ fn source(class: Class) -> Source {
     Source::new("source", class, "", "")
 }
 
-/// A budget of these distributions with its errors in so many directions.
+/// Returns errors of the sources in a subspace of dimension `rank`.
 fn errors(description: &Description, rank: usize, seed: u64) -> ErrorsAt<'_> {
     let mut random = stream(seed, 0);
     let mut any = || 2.0 * random.random::<f64>() - 1.0;
@@ -54,7 +54,8 @@ fn errors(description: &Description, rank: usize, seed: u64) -> ErrorsAt<'_> {
     ErrorsAt { description, sources, effects: Vec::new() }
 }
 
-/// The share of draws, from other numbers than those of the library, whose norm is within a radius.
+/// Returns the share of draws whose norm is within a radius, and the largest norm. The random
+/// numbers are not those of the library.
 fn drawn(errors: &ErrorsAt, bias: f64, radius: f64, count: usize, seed: u64) -> (f64, f64) {
     let mut random = stream(!seed, 77);
     let (mut within, mut largest) = (0, 0.0_f64);
@@ -74,8 +75,8 @@ fn drawn(errors: &ErrorsAt, bias: f64, radius: f64, count: usize, seed: u64) -> 
     (within as f64 / count as f64, largest)
 }
 
-/// Twenty budgets of two to nine normal sources, ranks 1, 2 and 3: U holds 95 ± 0.5 % of the draws, about the bias and
-/// along each axis.
+/// Checks twenty budgets of two to nine normal sources of ranks 1, 2 and 3: U covers 95 ± 0.5 % of
+/// the draws, about the bias and along each axis.
 #[test]
 fn the_stated_uncertainty_holds_what_it_says() {
     for seed in 0..20 {
@@ -90,7 +91,7 @@ fn the_stated_uncertainty_holds_what_it_says() {
         assert!(statement.coverage.draws.is_none());
         let shares = statement.contributions.iter().map(|one| one.share).sum::<f64>();
         assert!((shares - 1.0).abs() < 1e-12);
-        // Along an axis: the other rows of the draws are nothing.
+        // Along an axis: the other rows of the draws are zero.
         let mut flat = errors.clone();
         flat.sources.iter_mut().for_each(|row| row[1..3].fill(0.0));
         let (share, _) = drawn(&flat, 0.0, statement.expanded()[0], sample_size(1_000_000), seed);
@@ -98,7 +99,7 @@ fn the_stated_uncertainty_holds_what_it_says() {
     }
 }
 
-/// Of other distributions U covers what it says of itself.
+/// Checks the stated coverage of U for other distributions.
 #[test]
 fn the_coverage_of_other_distributions_is_stated() {
     for seed in 0..12 {
@@ -113,7 +114,7 @@ fn the_coverage_of_other_distributions_is_stated() {
     }
 }
 
-/// The probability of a tolerance, with a bias, by integral and by draws.
+/// Compares the probability of meeting a tolerance, with a bias, with draws.
 #[test]
 fn a_probability_is_that_of_draws() {
     for (seed, kinds) in (0..).zip([
@@ -136,18 +137,18 @@ fn a_probability_is_that_of_draws() {
     }
 }
 
-/// Normal sources, each with its standard deviation along an axis and its degrees of freedom.
+/// Normal sources: axis, standard deviation and degrees of freedom.
 type Estimated = [(usize, f64, f64)];
 
-/// What is to be covered.
+/// Figure whose coverage is tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Figure {
     Norm,
     FirstRow,
 }
 
-/// The share of errors within U of a figure where the standard deviations of the sources were estimated as `scales` of what
-/// they are.
+/// Returns the coverage of U for a figure when the estimated standard deviations of the sources are
+/// `scales` times the true ones.
 fn covered(sources: &Estimated, scales: &[f64], figure: Figure) -> f64 {
     let errors = |scales: &[f64]| {
         let one = |((axis, deviation, degrees_of_freedom), scale): (&(usize, f64, f64), &f64)| {
@@ -173,8 +174,8 @@ fn covered(sources: &Estimated, scales: &[f64], figure: Figure) -> f64 {
     }
 }
 
-/// The same over all that the first two may be estimated as: an integral over `s = √(χ²/ν)` with the density
-/// `s^(ν − 1) exp(−ν s²/2)`.
+/// Returns the mean coverage over the estimates of the first two standard deviations: an integral
+/// over `s = √(χ²/ν)` with the density `s^(ν − 1) exp(−ν s²/2)`.
 fn mean_coverage(sources: &Estimated, figure: Figure) -> f64 {
     let scales = |i: usize| -> Vec<(f64, f64)> {
         let degrees_of_freedom = sources[i].2;
@@ -182,7 +183,7 @@ fn mean_coverage(sources: &Estimated, figure: Figure) -> f64 {
             return vec![(1.0, 1.0)];
         }
         let reach = 1.0 + 4.5 / degrees_of_freedom.sqrt();
-        // Below three degrees of freedom the density is not flat at 0.
+        // Below three degrees of freedom the density is not smooth at 0.
         let count = if degrees_of_freedom < 3.0 { 60 } else { 10 };
         let points = (0..count).map(|k| reach * (f64::from(k) + 0.5) / f64::from(count));
         points
@@ -201,8 +202,8 @@ fn mean_coverage(sources: &Estimated, figure: Figure) -> f64 {
     sum / weights
 }
 
-/// U of the norm, where standard deviations are estimated anew each time: no less than 94.5 % from three degrees of freedom on,
-/// in line, in a plane and in space.
+/// Checks that U of the norm covers at least 94.5 % with estimated standard deviations of three or
+/// more degrees of freedom, in line, in a plane and in space.
 #[test]
 fn estimated_standard_deviations_are_covered() {
     const KNOWN: f64 = f64::INFINITY;
@@ -222,14 +223,15 @@ fn estimated_standard_deviations_are_covered() {
         let coverage = mean_coverage(sources, Figure::Norm);
         assert!((0.945..0.99).contains(&coverage), "{sources:?}: {coverage}");
     }
-    // All three estimated: drawn, with a standard error of 0.25 %.
+    // All three estimated: by draws, with a standard error of 0.25 %.
     let sources = [(0, 1.0, 4.0), (1, 0.8, 6.0), (2, 0.5, 12.0)];
     let mut random = stream(31, 0);
     let mut draw = |degrees: f64| (random.sample(ChiSquared::new(degrees).unwrap()) / degrees).sqrt();
     let mut one = || covered(&sources, &sources.map(|(.., degrees)| draw(degrees)), Figure::Norm);
     let mean = (0..120).map(|_| one()).sum::<f64>() / 120.0;
     assert!((0.945..0.99).contains(&mean), "{mean}");
-    // What the documents say of fewer, and of the formula of the GUM along an axis: each where it is worst.
+    // Documented coverages for fewer degrees of freedom, and for the formula of the GUM along an
+    // axis, each at its worst.
     for (degrees, known, figure, expected) in [
         (2.0, 0.25, Figure::Norm, 0.942),
         (1.0, 0.18, Figure::Norm, 0.908),
@@ -242,7 +244,7 @@ fn estimated_standard_deviations_are_covered() {
     }
 }
 
-/// What is drawn after Student's t is within its quantiles as often as it should be.
+/// Checks the coverage of draws from Student's t-distribution by its quantiles.
 #[test]
 fn an_estimated_error_is_drawn_after_student() {
     let one = Source { degrees_of_freedom: 5.0, ..source(Class::Random(Distribution::Normal)) };
@@ -256,7 +258,8 @@ fn an_estimated_error_is_drawn_after_student() {
     assert!((probability - COVERAGE).abs() < 4.0 * error, "{probability}");
 }
 
-/// Equal shares of bounded sources: neither millions of draws nor any signs of the bounds exceed the tolerance.
+/// Checks equal shares of bounded sources: neither millions of draws nor any signs of the bounds
+/// exceed the tolerance.
 #[test]
 fn certain_is_never_exceeded() {
     let kinds =
@@ -265,7 +268,7 @@ fn certain_is_never_exceeded() {
     let description = machine(sources.chain([source(Class::Repeatable)]).collect());
     let mut errors = errors(&description, 1, 5);
     let tolerance = 0.5;
-    // Each at its share T/n, all in line: nothing is left over.
+    // Each source at its share T/n, all in line: the tolerance is fully used.
     for row in &mut errors.sources {
         let size = norm(Measurand::Position.rows(row));
         row.iter_mut().for_each(|value| *value *= tolerance / 5.0 / size);

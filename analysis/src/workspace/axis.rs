@@ -1,22 +1,23 @@
-//! Values that variables, parameters and inputs go through, and their combinations.
+//! Axes of a grid: values of variables, parameters or inputs, and their combinations.
 
 use abbe_core::{Error, Quantity};
 
-/// The values that one variable, parameter or input goes through.
+/// Values of one variable, parameter or input along an axis of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Which of them, from 0.
+    /// Index of the variable, parameter or input, from 0.
     pub index: usize,
-    /// The values: the length unit, rad, or coherent units.
+    /// Values in the length unit, rad, or coherent units.
     pub values: Vec<f64>,
 }
 
-/// How many combinations the values of some axes have.
+/// Returns the number of combinations of the values of some axes.
 pub(super) fn combinations(axes: &[Axis]) -> usize {
     axes.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul)
 }
 
-/// Puts combination `number` of the axes' values in, the last axis fastest. Returns what is left of the number.
+/// Writes combination `number` of the axes' values to `values`, the last axis fastest. Returns the
+/// quotient of the number by the number of combinations.
 pub(super) fn combine(mut number: usize, axes: &[Axis], values: &mut [f64]) -> usize {
     for axis in axes.iter().rev() {
         let count = axis.values.len().max(1);
@@ -28,7 +29,7 @@ pub(super) fn combine(mut number: usize, axes: &[Axis], values: &mut [f64]) -> u
     number
 }
 
-/// [`Error::Count`] if an index is `count` or more.
+/// Returns [`Error::Count`] if an index is `count` or more.
 pub(crate) fn in_range(
     indices: impl Iterator<Item = usize>,
     quantity: Quantity,

@@ -5,40 +5,42 @@ use super::{Axis, Configuration, Workspace};
 use crate::{Inverse, ReachError, Target};
 use abbe_core::{Error, Manipulator, Pose, Quantity};
 
-/// What a tool that reaches a point of a [`BaseBox`] has to point at.
+/// Orientation of the tool at the points of a [`BaseBox`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolOrientation {
-    /// Nothing: only the point counts, and of all solutions the search from home finds one.
+    /// Unconstrained: the result is one of all solutions, found from home.
     Free,
-    /// Where it points at home.
+    /// Orientation at home.
     Home,
 }
 
-/// A grid of points in `F_0` and how they are reached.
+/// Grid of points in `F_0`, with the variables that reach them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BaseBox {
-    /// The coordinates along x, y and z of `F_0`, in the length unit.
+    /// Coordinates along x, y and z of `F_0`, in the length unit.
     pub points: [Vec<f64>; 3],
-    /// How the tool stands there.
+    /// Orientation of the tool at the points.
     pub orientation: ToolOrientation,
-    /// The variables that bring it there. All others stay at home.
+    /// Variables that move the tool there. All others stay at home.
     pub solved: Vec<usize>,
 }
 
-/// A box of points in the base frame; see [`base_box`].
+/// Workspace of a box of points in the base frame; see [`base_box`].
 pub struct ReachedBox<'a> {
     axes: Vec<Axis>,
-    /// The pose at home, whose position is replaced.
+    /// Pose at home, whose position is replaced.
     pose: Pose,
     orientation: ToolOrientation,
-    /// From home; or why nothing is reached at all.
+    /// Search from home, or the error that prevents it.
     inverse: Result<Inverse<'a>, ReachError>,
     home: Configuration,
 }
 
-/// Every point of a grid in the base frame, z fastest, reached from home with nominal parameters.
+/// Creates the workspace of every point of a grid in the base frame, z fastest, reached from home
+/// with nominal parameters.
 ///
-/// [`Error::Count`] if `solved` names a variable that there is not; other errors as for [`Manipulator::pose`].
+/// Returns [`Error::Count`] if `solved` contains an invalid index; other errors as for
+/// [`Manipulator::pose`].
 pub fn base_box<'a>(manipulator: &'a dyn Manipulator, region: &BaseBox) -> Result<ReachedBox<'a>, Error> {
     let description = manipulator.description();
     in_range(region.solved.iter().copied(), Quantity::Variables, description.variables.len())?;

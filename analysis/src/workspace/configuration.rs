@@ -3,20 +3,21 @@
 use crate::sampling;
 use abbe_core::Description;
 
-/// A configuration: joint variables, structural parameters (the tool point is one of those), and inputs.
+/// Configuration: joint variables, structural parameters (which include the tool point), and
+/// inputs.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Configuration {
-    /// The joint variables.
+    /// Joint variables.
     pub q: Vec<f64>,
-    /// The structural parameters.
+    /// Structural parameters.
     pub s: Vec<f64>,
-    /// The inputs.
+    /// Inputs.
     pub u: Vec<f64>,
 }
 
 impl Configuration {
-    /// The home configuration with nominal parameters and inputs.
+    /// Returns the home configuration with nominal parameters and inputs.
     pub fn home(description: &Description) -> Self {
         Self {
             q: sampling::home(description),
@@ -25,7 +26,8 @@ impl Configuration {
         }
     }
 
-    /// `d1 = 1128, q4 = 0.5, x = 250`: its variables, and those parameters and inputs that are not nominal.
+    /// Returns a label such as `d1 = 1128, q4 = 0.5, x = 250`: the variables, and the parameters
+    /// and inputs that are not nominal.
     pub fn label(&self, description: &Description) -> String {
         let variables = description.variables.iter().zip(&self.q);
         let variables = variables.map(|(variable, value)| format!("{} = {value}", variable.name));
@@ -40,7 +42,7 @@ impl Configuration {
         variables.chain(parameters).chain(inputs).collect::<Vec<_>>().join(", ")
     }
 
-    /// Takes over another one of the same manipulator.
+    /// Copies another configuration of the same manipulator.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.q.copy_from_slice(&other.q);
         self.s.copy_from_slice(&other.s);

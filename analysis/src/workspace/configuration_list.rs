@@ -1,10 +1,10 @@
-//! Configurations one after the other.
+//! A list of configurations.
 
 use super::{Configuration, Workspace};
 use crate::ReachError;
 use abbe_core::{Error, Manipulator, Quantity};
 
-/// Configurations one after the other, a path say; see [`listed`].
+/// Workspace of a list of configurations, such as a path; see [`listed`].
 #[derive(Clone, Debug)]
 pub struct Listed {
     home: Configuration,
@@ -12,9 +12,11 @@ pub struct Listed {
     limits: Vec<[f64; 2]>,
 }
 
-/// A list of configurations; those with a variable outside its limits count as unreachable.
+/// Creates the workspace of a list of configurations. Those with a variable outside its limits
+/// count as unreachable.
 ///
-/// [`Error::Count`] if one has not as many variables, parameters or inputs as the manipulator.
+/// Returns [`Error::Count`] if a configuration has a wrong number of variables, parameters or
+/// inputs.
 pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>) -> Result<Listed, Error> {
     let description = manipulator.description();
     let home = Configuration::home(description);

@@ -1,4 +1,4 @@
-//! The configurations over which errors are analyzed: made one by one when they are needed, never stored.
+//! Sets of configurations over which errors are analyzed: generated on demand, never stored.
 
 use core::ops::Range;
 
@@ -6,28 +6,31 @@ use super::Configuration;
 use crate::ReachError;
 use abbe_core::lanes::Tiles;
 
-/// The configurations over which errors are analyzed, by index.
+/// Set of configurations over which errors are analyzed, by index.
 ///
-/// Each follows from its index alone, so that any part of the workspace can be made again, on any thread, and
-/// none need be stored.
+/// Each configuration depends on its index alone, so that any part of the workspace can be
+/// regenerated, on any thread, and none is stored.
 pub trait Workspace: Sync {
-    /// How many configurations are asked for, those that cannot be reached among them.
+    /// Returns the number of configurations, including unreachable ones.
     fn len(&self) -> usize;
 
-    /// Whether none is asked for.
+    /// Returns whether there are no configurations.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The configuration that errors relative to home are relative to; it says how long `q`, `s` and `u` are.
+    /// Returns the home configuration: the reference of errors relative to home. Its `q`, `s` and
+    /// `u` have the lengths of all configurations.
     fn home(&self) -> &Configuration;
 
-    /// Writes configuration `index`, less than [`len`](Self::len), over one that is as long as that of home. If it
-    /// cannot be had, that holds what was asked for.
+    /// Overwrites `configuration`, which must have the lengths of home, with configuration `index`,
+    /// less than [`len`](Self::len). If it is unreachable, `configuration` holds the requested
+    /// values.
     fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError>;
 
-    /// Shows those configurations one after the other, each by its place in the list, as [`fill`](Self::fill) writes it: for
-    /// workspaces that make several sooner than one by one. Whoever is shown one may change it.
+    /// Calls `show` with each of the configurations in turn, by its position in the list, as
+    /// [`fill`](Self::fill) writes it. Overridden by workspaces that generate several faster than
+    /// one by one. `show` may modify the configuration.
     #[allow(clippy::type_complexity)]
     fn fill_each(
         &self,
@@ -41,25 +44,26 @@ pub trait Workspace: Sync {
         }
     }
 
-    /// Writes what differs from home in the configurations of a range into rows q, s, u of `rows`, which hold those of
-    /// home, if all can be had and this is quicker than one by one; says whether it did.
+    /// Writes what differs from home in a range of configurations to the rows q, s, u of `rows`,
+    /// which hold those of home. Returns `false`, without effect, if some are unreachable or one by
+    /// one is as fast.
     fn fill_rows(&self, _range: Range<usize>, _rows: &mut Tiles) -> bool {
         false
     }
 
-    /// The point of `F_0` that the tool is brought to in configuration `index`, if that differs from one to the next.
+    /// Returns the target point in `F_0` of configuration `index`, if targets vary.
     fn point(&self, _index: usize) -> Option<[f64; 3]> {
         None
     }
 
-    /// Configuration `index`, or why it cannot be had.
+    /// Returns configuration `index`, or the reason why it is unreachable.
     fn configuration(&self, index: usize) -> Result<Configuration, ReachError> {
         let mut configuration = self.home().clone();
         self.fill(index, &mut configuration)?;
         Ok(configuration)
     }
 
-    /// All configurations that can be reached, stored: for small workspaces.
+    /// Returns all reachable configurations, for small workspaces.
     fn reached(&self) -> Vec<Configuration> {
         let indices: Vec<usize> = (0..self.len()).collect();
         let mut reached = Vec::new();
@@ -70,7 +74,7 @@ pub trait Workspace: Sync {
     }
 }
 
-/// A workspace of one configuration.
+/// Workspace of a single configuration.
 pub(crate) struct One<'a>(pub(crate) &'a Configuration);
 
 impl Workspace for One<'_> {

@@ -1,20 +1,22 @@
-//! Every combination of the values of some variables.
+//! Grids of joint variables.
 
 use super::axis::{combinations, combine, in_range};
 use super::{Axis, Configuration, Workspace};
 use crate::ReachError;
 use abbe_core::{Error, Manipulator, Quantity};
 
-/// Every combination of the values of some variables; see [`joint_grid`].
+/// Workspace of a grid of joint variables; see [`joint_grid`].
 #[derive(Clone, Debug)]
 pub struct JointGrid {
     home: Configuration,
     axes: Vec<Axis>,
 }
 
-/// Every combination of the values of some variables, the last one fastest; the others stay at home.
+/// Creates the workspace of every combination of the values of some variables, the last one
+/// fastest. The other variables stay at home.
 ///
-/// Parameters and inputs are nominal; [`with_inputs`](super::with_inputs) moves these. [`Error::Count`] if an axis names a variable that there is not.
+/// Parameters and inputs are nominal; [`with_inputs`](super::with_inputs) varies the inputs.
+/// Returns [`Error::Count`] if an axis has an invalid index.
 pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointGrid, Error> {
     let description = manipulator.description();
     let indices = axes.iter().map(|axis| axis.index);

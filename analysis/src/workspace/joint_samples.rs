@@ -1,4 +1,4 @@
-//! Samples of joint variables and inputs, evenly spread or random.
+//! Samples of joint variables and inputs, quasi-random or random.
 
 use core::ops::Range;
 
@@ -11,43 +11,46 @@ use crate::sampling::{self, stream};
 use abbe_core::lanes::Tiles;
 use abbe_core::{Error, Manipulator, Quantity};
 
-/// Where the numbers of samples come from.
+/// Source of the sample values.
 #[derive(Clone, Copy, Debug)]
 enum Spread {
-    /// The Halton sequence.
+    /// Halton sequence.
     Even,
-    /// Random numbers: a stream for everything that moves and [`STREAM`] configurations.
+    /// Random numbers: one stream per sampled quantity and [`STREAM`] configurations.
     Random { seed: u64 },
 }
 
-/// Samples of some variables and inputs; see [`joint_samples`] and [`random_joint_samples`].
+/// Workspace of samples of some variables and inputs; see [`joint_samples`] and
+/// [`random_joint_samples`].
 #[derive(Clone, Debug)]
 pub struct JointSamples {
     home: Configuration,
-    moved: Vec<Moved>,
+    moved: Vec<SampledQuantity>,
     count: usize,
     spread: Spread,
 }
 
-/// What moves.
+/// Sampled quantity.
 #[derive(Clone, Copy, Debug)]
-struct Moved {
-    what: What,
+struct SampledQuantity {
+    coordinate: Coordinate,
     range: [f64; 2],
-    /// Of its radical inverse.
+    /// Base of its radical inverse.
     base: usize,
 }
 
-/// A variable or an input, by its index.
+/// Variable or input, by its index.
 #[derive(Clone, Copy, Debug)]
-enum What {
+enum Coordinate {
     Variable(usize),
     Input(usize),
 }
 
-/// `count` samples of the joints in `moved`, spread evenly within their limits; the others stay at home.
+/// Creates a workspace of `count` samples of the joints in `moved`, spread evenly within their
+/// limits. The other joints stay at home.
 ///
-/// Parameters and inputs are nominal; [`JointSamples::inputs`] moves these. [`Error::Count`] if `moved` names a variable that there is not.
+/// Parameters and inputs are nominal; [`JointSamples::inputs`] varies the inputs. Returns
+/// [`Error::Count`] if `moved` contains an invalid index.
 pub fn joint_samples(
     manipulator: &dyn Manipulator,
     moved: &[usize],
@@ -56,7 +59,8 @@ pub fn joint_samples(
     samples(manipulator, moved, count, Spread::Even)
 }
 
-/// As [`joint_samples`], but random: configuration `i` follows from the seed and `i` alone.
+/// Creates a workspace of random samples, otherwise as [`joint_samples`]. Configuration `i` depends
+/// on the seed and `i` alone.
 pub fn random_joint_samples(
     manipulator: &dyn Manipulator,
     moved: &[usize],
@@ -76,8 +80,8 @@ fn samples(
     in_range(moved.iter().copied(), Quantity::Variables, description.variables.len())?;
     let home = Configuration::home(description);
     let arm = sampling::arm_length(manipulator, &home.s)?;
-    let moved = moved.iter().enumerate().map(|(dimension, &i)| Moved {
-        what: What::Variable(i),
+    let moved = moved.iter().enumerate().map(|(dimension, &i)| SampledQuantity {
+        coordinate: Coordinate::Variable(i),
         range: sampling::joint_range(&description.variables[i], arm),
         base: sampling::prime(dimension),
     });
@@ -98,15 +102,15 @@ impl Workspace for JointSamples {
         configuration.copy_from(&self.home);
         match self.spread {
             Spread::Even => {
-                for &Moved { what, range: [lower, upper], base } in &self.moved {
+                for &SampledQuantity { coordinate, range: [lower, upper], base } in &self.moved {
                     let share = sampling::radical_inverse(index + 1, base);
-                    *what.value(configuration) = lower + (upper - lower) * share;
+                    *coordinate.value(configuration) = lower + (upper - lower) * share;
                 }
             }
             Spread::Random { seed } => {
                 for (random, moved) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved) {
                     (0..index % STREAM).for_each(|_| _ = random.next_u64());
-                    *moved.what.value(configuration) = between(moved.range, random);
+                    *moved.coordinate.value(configuration) = between(moved.range, random);
                 }
             }
         }
@@ -118,7 +122,7 @@ impl Workspace for JointSamples {
         if !range.start.is_multiple_of(STREAM) {
             return false;
         }
-        let moved = self.moved.iter().map(|moved| self.row(moved.what)).collect::<Vec<_>>();
+        let moved = self.moved.iter().map(|moved| self.row(moved.coordinate)).collect::<Vec<_>>();
         for first in range.clone().step_by(STREAM) {
             let mut streams = self.streams(seed, first / STREAM);
             let count = STREAM.min(range.end - first);
@@ -130,8 +134,8 @@ impl Workspace for JointSamples {
     }
 }
 
-impl What {
-    /// Its value in a configuration.
+impl Coordinate {
+    /// Returns its value in a configuration.
     fn value(self, configuration: &mut Configuration) -> &mut f64 {
         match self {
             Self::Variable(i) => &mut configuration.q[i],
@@ -141,9 +145,10 @@ impl What {
 }
 
 impl JointSamples {
-    /// Moves these inputs too, each within its range.
+    /// Samples these inputs too, each within its range.
     ///
-    /// [`Error::Count`] if there is no such input, [`Error::NotFinite`] if its range has no end.
+    /// Returns [`Error::Count`] if there is no such input, [`Error::NotFinite`] if its range is
+    /// unbounded.
     pub fn inputs(mut self, manipulator: &dyn Manipulator, inputs: &[usize]) -> Result<Self, Error> {
         let description = manipulator.description();
         in_range(inputs.iter().copied(), Quantity::Inputs, description.inputs.len())?;
@@ -153,31 +158,31 @@ impl JointSamples {
                 return Err(Error::NotFinite { quantity: Quantity::Inputs, index: i });
             }
             let base = sampling::prime(self.moved.len());
-            self.moved.push(Moved { what: What::Input(i), range, base });
+            self.moved.push(SampledQuantity { coordinate: Coordinate::Input(i), range, base });
         }
         Ok(self)
     }
 
-    /// The row of what moves, among q, s, u.
-    fn row(&self, what: What) -> usize {
-        match what {
-            What::Variable(i) => i,
-            What::Input(i) => self.home.q.len() + self.home.s.len() + i,
+    /// Returns the row of a sampled quantity among q, s, u.
+    fn row(&self, coordinate: Coordinate) -> usize {
+        match coordinate {
+            Coordinate::Variable(i) => i,
+            Coordinate::Input(i) => self.home.q.len() + self.home.s.len() + i,
         }
     }
 
-    /// The streams of everything that is moved, for so many configurations: made side by side they do not wait
-    /// for each other.
+    /// Returns the streams of all sampled quantities for a block. Interleaving them hides the
+    /// latency of the generators.
     fn streams(&self, seed: u64, block: usize) -> Vec<impl Rng> {
         let moved = self.moved.len();
         (0..moved).map(|which| stream(seed, block * moved + which)).collect()
     }
 }
 
-/// How many configurations take the numbers of a variable from one stream, one after the other.
+/// Number of configurations whose values of a variable come from one stream.
 pub(crate) const STREAM: usize = 64;
 
-/// A random number within limits.
+/// Returns a random number within limits.
 #[inline]
 fn between([lower, upper]: [f64; 2], random: &mut impl Rng) -> f64 {
     lower + (upper - lower) * random.random::<f64>()

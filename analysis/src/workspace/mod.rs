@@ -1,7 +1,8 @@
-//! The configurations over which errors are analyzed.
+//! Sets of configurations over which errors are analyzed.
 //!
-//! A [`Workspace`] makes configurations by index: grids and samples of joints, a volume of tool points presented at one
-//! point, a box of points, a list; each of them with inputs that go through values of their own. What could not be reached is counted by reason.
+//! A [`Workspace`] generates configurations by index: grids and samples of joints, a volume of tool
+//! points presented at one point, a box of points, or a list, each with optional values of inputs.
+//! Unreachable configurations are counted by reason.
 
 mod axis;
 mod base_box;

@@ -5,30 +5,32 @@ use super::{Axis, Configuration, Workspace};
 use crate::{ReachError, Target, inverse, sampling};
 use abbe_core::{Error, Manipulator, Quantity};
 
-/// What is presented where, and how.
+/// Tool points, target point and approaches of a presented volume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Presentation {
-    /// Where every tool point is to be brought, in `F_0`: the isocentre.
+    /// Target of every tool point, in `F_0`: the isocenter.
     pub point: [f64; 3],
-    /// The grid of tool points: values of structural parameters.
+    /// Grid of tool points: values of structural parameters.
     pub tool_points: Vec<Axis>,
-    /// The grid of approaches: values of variables that are held, the spin say.
+    /// Grid of approaches: values of fixed variables, such as the spin.
     pub approaches: Vec<Axis>,
-    /// The variables that bring the tool point there. All others stay at home.
+    /// Variables that move the tool point to the target. All others stay at home.
     pub solved: Vec<usize>,
 }
 
-/// Every tool point in every approach, presented at one point of `F_0`; see [`presented_volume`].
+/// Workspace of a presented volume; see [`presented_volume`].
 pub struct PresentedVolume<'a> {
     manipulator: &'a dyn Manipulator,
     presentation: Presentation,
     home: Configuration,
 }
 
-/// Every tool point in every approach, presented at one point of `F_0`; approaches vary fastest.
+/// Creates the workspace of every tool point in every approach, presented at one point of `F_0`.
+/// Approaches vary fastest.
 ///
-/// Each is solved for from home, whatever was solved before. [`Error::Count`] if an index names a variable or a
-/// parameter that there is not; other errors as for [`Manipulator::transforms`].
+/// Each configuration is solved from home, independently of the others. Returns [`Error::Count`] if
+/// an index of a variable or a parameter is invalid; other errors as for
+/// [`Manipulator::transforms`].
 pub fn presented_volume<'a>(
     manipulator: &'a dyn Manipulator,
     presentation: &Presentation,

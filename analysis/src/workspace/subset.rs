@@ -1,16 +1,17 @@
-//! A few configurations from everywhere in a workspace.
+//! Evenly spread subsets of a workspace.
 
 use super::{Configuration, Workspace};
 use crate::ReachError;
 
-/// `1/φ`: its multiples modulo 1 are spread evenly, and fall in step with no grid.
+/// `1/φ`: its multiples modulo 1 are evenly spread, and align with no grid.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// At most `count` configurations of a workspace, spread over its indices; all of a smaller one.
+/// Subset of at most `count` configurations of a workspace, spread over its indices. A smaller
+/// workspace is kept whole.
 pub struct Subset<'a> {
-    /// The workspace.
+    /// Original workspace.
     pub workspace: &'a dyn Workspace,
-    /// How many of its configurations at most.
+    /// Largest number of configurations.
     pub count: usize,
 }
 
@@ -38,7 +39,7 @@ impl Workspace for Subset<'_> {
 }
 
 impl Subset<'_> {
-    /// The index in the workspace itself.
+    /// Returns the index in the original workspace.
     fn place(&self, index: usize) -> usize {
         let all = self.workspace.len();
         match all <= self.count {

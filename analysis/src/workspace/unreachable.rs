@@ -1,37 +1,37 @@
-//! What of a workspace could not be reached: counted by reason, the first of it listed.
+//! Unreachable configurations of a workspace: counted by reason, the first ones listed.
 
 use core::mem::discriminant;
 
 use super::Configuration;
 use crate::ReachError;
 
-/// A configuration that was asked for and could not be had.
+/// Unreachable configuration of a workspace.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unreachable {
-    /// Its index in the workspace.
+    /// Index in the workspace.
     pub index: usize,
-    /// The point of `F_0` that the tool was to be brought to, if that differs from one to the next.
+    /// Target point in `F_0`, if targets vary.
     pub point: Option<[f64; 3]>,
-    /// What was asked for; the variables to be solved for are where the search began.
+    /// Requested configuration. Variables to be solved hold their start values.
     pub asked: Configuration,
-    /// Why it could not be had.
+    /// Reason.
     pub reason: ReachError,
 }
 
-/// How many are listed one by one.
+/// Number of configurations that are listed.
 const LISTED: usize = 1000;
 
-/// What of a workspace could not be reached.
+/// Summary of the unreachable configurations of a workspace.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnreachableSummary {
-    /// How many.
+    /// Number of unreachable configurations.
     pub count: usize,
-    /// The kinds of reasons (out of reach, the variable outside its limits, the kind of error), each with the
-    /// first of its kind and how many there are; the most frequent kind first.
+    /// Kinds of reasons (out of reach, the variable outside its limits, the kind of error), each
+    /// with its first occurrence and its count. The most frequent kind is first.
     pub reasons: Vec<(ReachError, usize)>,
-    /// The first ones, 1000 at most.
+    /// First unreachable configurations, at most 1000.
     pub first: Vec<Unreachable>,
 }
 
@@ -44,7 +44,8 @@ impl UnreachableSummary {
         }
     }
 
-    /// Whether it, which may come from a file, can be of a manipulator with so many variables.
+    /// Returns whether the summary is valid for a manipulator with this number of variables. It may
+    /// come from a file.
     pub(crate) fn is_sound(&self, variables: usize) -> bool {
         let total = self.reasons.iter().try_fold(0, |sum: usize, (_, count)| sum.checked_add(*count));
         let mut reasons =
@@ -57,7 +58,7 @@ impl UnreachableSummary {
             })
     }
 
-    /// Takes in what follows.
+    /// Appends the summary of the following configurations.
     pub(crate) fn append(&mut self, other: Self) {
         self.count += other.count;
         other.reasons.into_iter().for_each(|(reason, count)| self.count_reason(reason, count));
@@ -65,22 +66,22 @@ impl UnreachableSummary {
         self.first.extend(other.first.into_iter().take(room));
     }
 
-    /// The most frequent kind first, of equals the earlier: so far they are in the order in which they came.
+    /// Sorts the reasons by frequency. Equal ones stay in order of occurrence.
     pub(crate) fn finish(mut self) -> Self {
         self.reasons.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
         self
     }
 
     fn count_reason(&mut self, reason: ReachError, more: usize) {
-        match self.reasons.iter_mut().find(|(known, _)| alike(known, &reason)) {
+        match self.reasons.iter_mut().find(|(known, _)| is_same_kind(known, &reason)) {
             Some((_, count)) => *count += more,
             None => self.reasons.push((reason, more)),
         }
     }
 }
 
-/// Whether two reasons are of one kind.
-fn alike(a: &ReachError, b: &ReachError) -> bool {
+/// Returns whether two reasons are of one kind.
+fn is_same_kind(a: &ReachError, b: &ReachError) -> bool {
     match (a, b) {
         (ReachError::OutOfReach { .. }, ReachError::OutOfReach { .. }) => true,
         (ReachError::OutsideLimits { variable: a, .. }, ReachError::OutsideLimits { variable: b, .. }) => {

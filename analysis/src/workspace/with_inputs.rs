@@ -1,4 +1,4 @@
-//! A workspace, again for every combination of the values of some inputs.
+//! A workspace repeated for combinations of input values.
 
 use core::ops::Range;
 
@@ -8,17 +8,17 @@ use crate::ReachError;
 use abbe_core::lanes::Tiles;
 use abbe_core::{Error, Manipulator, Quantity};
 
-/// A workspace with inputs that go through values of their own; see [`with_inputs`].
+/// Workspace repeated for combinations of input values; see [`with_inputs`].
 pub struct WithInputs<'a> {
     workspace: Box<dyn Workspace + 'a>,
     inputs: Vec<Axis>,
 }
 
-/// The whole workspace, again for every combination of the inputs' values: the last input varies faster than those
-/// before it, the configurations faster than all inputs.
+/// Repeats a workspace for every combination of the inputs' values. The last input varies faster
+/// than those before it, the configurations faster than all inputs.
 ///
-/// [`Error::Count`] if an axis names an input that there is not. Values outside an input's range are refused by what
-/// evaluates them.
+/// Returns [`Error::Count`] if an axis has an invalid index. Values outside an input's range are
+/// rejected on evaluation.
 pub fn with_inputs<'a>(
     manipulator: &dyn Manipulator,
     workspace: Box<dyn Workspace + 'a>,
@@ -30,7 +30,7 @@ pub fn with_inputs<'a>(
 }
 
 impl WithInputs<'_> {
-    /// The index in the workspace itself, and the number of the combination of inputs.
+    /// Returns the index in the original workspace, and the number of the combination of inputs.
     fn split(&self, index: usize) -> (usize, usize) {
         let count = self.workspace.len().max(1);
         (index % count, index / count)

@@ -1,10 +1,10 @@
-//! What Rust has to know of the generated code: declarations, modules, and a list of all functions.
+//! Rust bindings of the generated code: declarations, modules, and a list of all functions.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Our functions, as everyone's are called here and as they are.
+/// Names of our functions: the common name of the benchmark, and our own.
 const OURS: [(&str, &str); 4] = [
     ("dense", "error_jacobian"),
     ("distinct", "error_jacobian_distinct"),
@@ -12,8 +12,8 @@ const OURS: [(&str, &str); 4] = [
     ("covariance", "covariance"),
 ];
 
-/// Writes `bindings.rs` for the generated C, C++ and Rust. A file holds the one function that it is named after; one of ours those of
-/// a manipulator.
+/// Writes `bindings.rs` for the generated C, C++ and Rust. A peer's file contains the function that
+/// it is named after; one of ours contains those of a manipulator.
 pub fn write(out: &Path, c: &[PathBuf], cpp: &[PathBuf], rust: &[PathBuf], ours: &[PathBuf]) {
     let name = |path: &PathBuf| path.file_stem().expect("a name").to_string_lossy().into_owned();
     let mut text = String::from("unsafe extern \"C\" {\n");

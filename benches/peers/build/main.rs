@@ -1,4 +1,5 @@
-//! The specs as one table each, the peers' code from these tables, and all of it compiled.
+//! Converts the specs to one table each, generates the peers' code from these tables, and compiles
+//! all of it.
 
 mod bindings;
 mod ours;
@@ -13,7 +14,7 @@ use abbe_spec::Spec;
 use ours::Rounding;
 use serde_json::json;
 
-/// The robots that are compared, in the order in which they are shown.
+/// Robots that are compared, in the order of the report.
 const SPECS: [&str; 4] = [
     "../../manipulators/specs/puma560.toml",
     "specs/puma560_flange.toml",
@@ -64,7 +65,7 @@ fn main() {
     let include = include_folder(&python);
     let mut c = cc::Build::new();
     options(&mut c).files(sources("c")).compile("peers_c");
-    // As our documents ask for: the same bits as the Rust code.
+    // Flags from our documentation: the same bits as the Rust code.
     options(&mut cc::Build::new()).flag("-ffp-contract=off").files(as_written).compile("ours_c");
     options(&mut cc::Build::new()).files(contracted).compile("ours_c_contracted");
     let mut cpp = cc::Build::new();
@@ -76,7 +77,7 @@ fn main() {
         .compile("peers_cpp");
     let mut pinocchio = cc::Build::new();
     options(&mut pinocchio).cpp(true).std("c++17").include(&include).include(include.join("eigen3"));
-    // As Pinocchio's CMake files ask for.
+    // Definitions from Pinocchio's CMake files.
     pinocchio.define("BOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", None).define("BOOST_MPL_LIMIT_LIST_SIZE", "30");
     pinocchio.define("BOOST_MPL_LIMIT_VECTOR_SIZE", "30").define("BOOST_FUSION_INVOKE_MAX_ARITY", "12");
     pinocchio.file("cpp/pinocchio.cpp").compile("peers_pinocchio");
@@ -133,18 +134,18 @@ fn main() {
     );
 }
 
-/// The peers get everything that the compiler has for this machine.
+/// Sets the options of the peers: all optimizations for this machine.
 fn options(build: &mut cc::Build) -> &mut cc::Build {
     build.opt_level(3).flag("-march=native").define("NDEBUG", None).warnings(false).force_frame_pointer(false)
 }
 
-/// Where the wheels put their headers.
+/// Returns the folder of the wheels' headers.
 fn include_folder(python: &str) -> PathBuf {
     let script = "import sysconfig; print(sysconfig.get_path('purelib'))";
     Path::new(&said(Command::new(python).args(["-c", script]))).join("cmeel.prefix/include")
 }
 
-/// What a program prints; if it fails, so does the build.
+/// Returns the output of a program. Panics if it fails.
 fn said(command: &mut Command) -> String {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     let errors = String::from_utf8_lossy(&output.stderr);

@@ -1,4 +1,4 @@
-//! Our own C: what `abbe generate --lang c` writes.
+//! Our own C code, as `abbe generate --lang c` writes it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 use abbe_codegen::print::{Language, Real};
 use abbe_spec::Spec;
 
-/// What the names of the functions end with that a compiler may contract.
+/// Suffix of the functions that a compiler may contract.
 pub const CONTRACTED: &str = "_contracted";
 
-/// Whether `a * b + c` may be rounded once; then the bits are not those of the Rust code.
+/// Rounding of `a * b + c`. Contracted code differs from the Rust code in its bits.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Rounding {
     Contracted,
     AsWritten,
 }
 
-/// Writes header and source of a spec, and says where the source is.
+/// Writes header and source of a spec. Returns the path of the source.
 pub fn write(spec: &Spec, rounding: Rounding, out: &Path) -> PathBuf {
     let mut spec = spec.clone();
     if rounding == Rounding::Contracted {

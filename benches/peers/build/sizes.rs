@@ -1,11 +1,12 @@
-//! How long a function is in memory: its code and constants, with all that it calls but the system's functions.
+//! Memory size of a function: its code and constants, including everything it calls except system
+//! functions.
 
 use std::path::Path;
 use std::process::Command;
 
 use crate::said;
 
-/// Bytes of `.text` and `.rodata` of what is left when the linker keeps nothing but this function and what it needs.
+/// Returns the bytes of `.text` and `.rodata` that the linker keeps for this function.
 pub fn bytes(mut compiler: Command, source: &Path, function: &str, folder: &Path) -> u64 {
     let [whole, kept] = ["whole.o", "kept.o"].map(|name| folder.join(name));
     compiler.args(["-ffunction-sections", "-fdata-sections", "-c"]).arg(source).arg("-o").arg(&whole);

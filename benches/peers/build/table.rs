@@ -1,4 +1,4 @@
-//! The one table from which every generator starts: the entries of `A_1 … A_n` and the tool, from the spec.
+//! The common input of all generators: the entries of `A_1 … A_n` and the tool, from the spec.
 
 use abbe_codegen::chain::Model;
 use abbe_codegen::graph::{Frame, Graph, Node, Op};
@@ -6,7 +6,8 @@ use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Symbol};
 use serde_json::{Value, json};
 
-/// Variables by name, and the upper three rows of every matrix as expressions that Python can read.
+/// Returns the names of the variables, and the upper three rows of every matrix as Python
+/// expressions.
 pub fn table(spec: &Spec) -> Value {
     let model = Model::new(spec);
     let rows = |frame: &Frame| -> Vec<Vec<String>> {
@@ -27,7 +28,7 @@ pub fn table(spec: &Spec) -> Value {
 fn expression(graph: &Graph, spec: &Spec, node: Node) -> String {
     let text = |node| expression(graph, spec, node);
     match graph.op(node) {
-        // Whole numbers stay whole, so that 0 and 1 are recognized everywhere.
+        // Integers are written without a fraction, so that 0 and 1 are recognized everywhere.
         Op::Constant(bits) => format!("{}", f64::from_bits(bits)),
         Op::Symbol(Symbol::Variable(index)) => spec.variables[index].name.clone(),
         Op::Neg(a) => format!("(-{})", text(a)),

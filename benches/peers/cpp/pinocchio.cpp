@@ -1,5 +1,5 @@
-// Pinocchio: forward kinematics of the joints, then block columns frame by frame. Everything is compiled here, for this
-// processor: the wheel's library is for any processor and aligns Eigen's types in another way.
+// Pinocchio: forward kinematics of the joints, then block columns frame by frame. Everything is compiled for this
+// processor: the wheel's library is for any processor and aligns Eigen's types differently.
 
 #include <pinocchio/multibody.hpp>
 #include <pinocchio/algorithm/kinematics.hpp>
@@ -19,7 +19,7 @@ SE3 placement(const double *columns) {
 struct Robot {
   pinocchio::Model model;
   pinocchio::Data data;
-  // The sign of every variable; F_i as seen from its joint, where it is not the joint's own frame.
+  // Sign of every variable; pose of F_i relative to its joint, where it is not the joint's own frame.
   Eigen::VectorXd sign, q;
   std::vector<bool> apart;
   std::vector<SE3, Eigen::aligned_allocator<SE3>> offset, frames;
@@ -49,8 +49,8 @@ void write_pose(const SE3 &tool, double *pose) {
 
 extern "C" {
 
-// For each frame: kind (0, 1, 2 turn about x, y, z of the joint; 3, 4, 5 slide along it), sign of the variable, the joint
-// as seen from F_{i-1} and F_i as seen from the joint, twelve numbers each; and the tool.
+// For each frame: kind (0, 1, 2 rotates about x, y, z of the joint; 3, 4, 5 translates along it), sign of the variable,
+// pose of the joint relative to F_{i-1} and of F_i relative to the joint, twelve numbers each; and the tool.
 void *pinocchio_robot(int n, const int *kinds, const double *signs, const double *joints, const double *offsets,
                       const double *tool) {
   auto *robot = new Robot;
@@ -128,7 +128,7 @@ void pinocchio_covariance(void *handle, const double *q, const double *variances
   result.noalias() = weighted * jacobian.transpose();
 }
 
-// ΔX without J_e: the frames' shares one by one.
+// ΔX without J_e: sum of the contributions of the frames.
 void pinocchio_displacement_by_frames(void *handle, const double *q, const double *e, double *shift) {
   auto &robot = *static_cast<Robot *>(handle);
   const SE3 tool = robot.kinematics(q);

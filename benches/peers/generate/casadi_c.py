@@ -7,7 +7,7 @@ SUFFIX = "c"
 
 
 def function(table, kind, name):
-    """Source of one function behind its C name, and the part of the source to count."""
+    """Returns the source of one function with its C name, and the part of the source to count."""
     q = ca.SX.sym("q", len(table["variables"]))
     chain = Chain(table, ca.vertsplit(q), fractions(table), ca.sin, ca.cos)
     if kind in GIVEN:

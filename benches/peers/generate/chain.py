@@ -15,7 +15,7 @@ FRACTION = re.compile(r"(?<![\w.])\d+\.\d+(?:e-?\d+)?")
 
 
 def fractions(table):
-    """The numbers of a table that are not whole."""
+    """Returns the noninteger numbers of a table."""
     entries = sum((row for rows in table["transforms"] for row in rows), [])
     return sorted({float(number) for entry in entries for number in FRACTION.findall(entry)})
 
@@ -24,7 +24,7 @@ class Chain:
     """A manipulator in the scalars of one library."""
 
     def __init__(self, table, q, constants, sin, cos):
-        """`q` are the variables, `constants` what stands for each of the table's `fractions`."""
+        """`q` are the variables, `constants` the scalars of the table's `fractions`."""
         names = dict(zip(table["variables"], q), sin=sin, cos=cos)
         numbers = dict(zip(fractions(table), constants))
 
@@ -39,7 +39,7 @@ class Chain:
         for rotation in rotations[1:]:
             self.frames.append(product(self.frames[-1], rotation))
         tool = self.frames.pop()
-        # From F_i's origin to that of F_{i+1}, or to the tool point; and their sums.
+        # Vectors from F_i's origin to that of F_{i+1}, or to the tool point; and their sums.
         steps = [turned(frame, offset) for frame, offset in zip(self.frames, offsets[1:])]
         self.levers = [steps[-1]]
         for step in reversed(steps[:-1]):
@@ -48,7 +48,7 @@ class Chain:
         self.pose = sum((axis(tool, j) for j in range(3)), []) + point
 
     def dense(self):
-        """The pose, 12 numbers by columns, and J_e, 36 n numbers by columns."""
+        """Returns the pose, 12 numbers by columns, and J_e, 36 n numbers by columns."""
         columns = []
         for frame, lever in zip(self.frames, self.levers):
             for j in range(3):
@@ -58,7 +58,7 @@ class Chain:
         return self.pose, columns
 
     def distinct(self):
-        """The pose, and for every frame R_i by columns and the moments R_i a × l_i about y, z, x: 18 n numbers."""
+        """Returns the pose, and for every frame R_i by columns and the moments R_i a × l_i about y, z, x: 18 n numbers."""
         numbers = []
         for frame, lever in zip(self.frames, self.levers):
             for j in range(3):
@@ -68,7 +68,7 @@ class Chain:
         return self.pose, numbers
 
     def displacement(self, errors):
-        """ΔX = J_e ε without J_e: Σ (R_i t + R_i θ × l_i; R_i θ)."""
+        """Returns ΔX = J_e ε without J_e: Σ (R_i t + R_i θ × l_i; R_i θ)."""
         shift, turn = [0] * 3, [0] * 3
         for i, (frame, lever) in enumerate(zip(self.frames, self.levers)):
             x, y, z, s, r, p = errors[6 * i : 6 * i + 6]
@@ -78,7 +78,7 @@ class Chain:
         return shift + turn
 
     def covariance(self, variances):
-        """J_e diag(σ²) J_eᵀ, 36 numbers by columns."""
+        """Returns J_e diag(σ²) J_eᵀ, 36 numbers by columns."""
         _, numbers = self.dense()
         columns = [numbers[start : start + 6] for start in range(0, len(numbers), 6)]
         weighted = [[variance * c for c in column] for variance, column in zip(variances, columns)]
@@ -90,7 +90,7 @@ class Chain:
         return [upper[min(i, j), max(i, j)] for j in range(6) for i in range(6)]
 
 
-# How many results a kind has that takes six more numbers per frame: ε or σ².
+# Number of results of the kinds that take six more numbers per frame: ε or σ².
 GIVEN = {"displacement": 6, "covariance": 36}
 
 

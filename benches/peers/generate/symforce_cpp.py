@@ -16,7 +16,7 @@ SUFFIX = "cpp"
 
 
 def function(table, kind, name):
-    """Source of one function behind its C name, and the part of the source to count."""
+    """Returns the source of one function with its C name, and the part of the source to count."""
     q = sf.Matrix(len(table["variables"]), 1, sf.symbols(table["variables"]))
     inputs = Values(q=q)
     chain = Chain(table, list(q), fractions(table), sf.sin, sf.cos)

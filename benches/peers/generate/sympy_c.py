@@ -7,7 +7,7 @@ SUFFIX = "c"
 
 
 def function(table, kind, name):
-    """Source of one function, and the part of the source to count."""
+    """Returns the source of one function, and the part of the source to count."""
     numbers = fractions(table)
     constants = sp.symbols(f"k:{len(numbers)}")
     q = sp.symbols(table["variables"])

@@ -10,7 +10,7 @@ SUFFIX = "rs"
 
 
 def function(table, kind, name):
-    """Source of a module with one function behind its C name, and the part of the source to count."""
+    """Returns the source of a module with one function with its C name, and the part of the source to count."""
     numbers = fractions(table)
     variables, frames = len(table["variables"]), len(table["transforms"]) - 1
     variables_type = Annotated[sym.MatrixExpr, Shape(variables, 1)]

@@ -1,4 +1,4 @@
-//! What is asked, and the right answers.
+//! Inputs of the benchmark, and reference results.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,16 +8,16 @@ use abbe_tests::frame_loop::{self, Frame};
 
 use crate::row::{Inputs, Kind, Output, Row};
 
-/// How many configurations are gone through.
+/// Number of configurations.
 pub const COUNT: usize = 1024;
 
-/// The step of central differences.
+/// Step of central differences.
 const STEP: f64 = 1e-4;
 
-/// Where configurations are taken from.
+/// Range of the configurations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Angles {
-    /// Within ±90°, where the system's sine and cosine, and so the peers, are at their fastest.
+    /// Within ±90°, where the system's sine and cosine, and so the peers, are fastest.
     Quarter,
     /// Within the limits of the variables.
     Limits,
@@ -32,10 +32,11 @@ impl Angles {
     }
 }
 
-/// A robot's configurations, and its poses and error Jacobians there by the loop over frames.
+/// Configurations of a robot, with its poses and error Jacobians from the loop over frames.
 pub struct Answers {
     pub inputs: Inputs,
-    /// How far the loop is from central differences of the exact chain, which have errors of their own: about 1e-8.
+    /// Largest difference of the loop from central differences of the exact chain, whose own error
+    /// is about 1e-8.
     pub differences: f64,
     poses: Vec<[[f64; 3]; 4]>,
     columns: Vec<Vec<[f64; 6]>>,
@@ -75,7 +76,8 @@ impl Answers {
         answers
     }
 
-    /// The largest deviation of a row's results, in m and rad; of a batch also at every place of a lane.
+    /// Returns the largest deviation of a row's results, in m and rad; for a batch also at every
+    /// lane.
     pub fn deviation(&self, row: &mut Row) -> f64 {
         let mut largest = 0.0f64;
         for index in 0..COUNT {
@@ -87,7 +89,7 @@ impl Answers {
             let pose = if row.kind.has_pose() { pose } else { &[] };
             let given = output.pose.iter().take(pose.len()).chain(&output.result);
             for (right, given) in pose.iter().chain(&result).zip(given) {
-                // NaN is what was never written.
+                // NaN marks values that were never written.
                 let off = (right - given).abs();
                 largest = if off.is_nan() { f64::INFINITY } else { largest.max(off) };
             }

@@ -1,4 +1,4 @@
-//! Many configurations at once, in lanes.
+//! Batches of configurations, in lanes.
 
 use std::hint::black_box;
 use std::ops::Range;
@@ -8,13 +8,14 @@ use abbe::lanes::{Batches, InstructionSet, Tiles};
 
 use crate::row::{Inputs, Kind, Output, Row, Run, Side};
 
-/// So few configurations in a call that all they take and give stays in the L1 cache.
+/// Block size with which arguments and results stay in the L1 cache.
 pub const FEW: usize = 16;
 
-/// As many as the interpreter evaluates together at the widest.
+/// Largest number of configurations that the interpreter evaluates together.
 pub const MANY: usize = 64;
 
-/// A row for every kind and every instruction set of this machine, for calls with `block` configurations.
+/// Returns a row for every kind and every instruction set of this machine, for calls with `block`
+/// configurations.
 pub fn rows(name: &str, side: Side, robot: &'static dyn Batches, block: usize, inputs: &Inputs) -> Vec<Row> {
     InstructionSet::all()
         .flat_map(|set| Kind::ALL.map(|kind| (set, kind)))
@@ -28,7 +29,7 @@ pub fn rows(name: &str, side: Side, robot: &'static dyn Batches, block: usize, i
         .collect()
 }
 
-/// The arguments of all blocks, made beforehand, and the results of one.
+/// Arguments of all blocks, prepared in advance, and the results of one block.
 struct Batch {
     robot: &'static dyn Batches,
     function: Function,
@@ -72,7 +73,8 @@ impl Batch {
 }
 
 impl Run for Batch {
-    /// The first block of the range, as often as there are blocks in it: there is nothing to be guessed or learned.
+    /// Evaluates the first block of the range repeatedly, once per block in it. Branch prediction
+    /// and caching cannot distort the time: there are no branches on data.
     fn run(&mut self, _: &Inputs, range: Range<usize>, _: &mut Output) {
         let arguments = &self.blocks[range.start / self.size];
         for _ in 0..range.len().div_ceil(self.size) {

@@ -1,7 +1,7 @@
-//! Our rows, and the loop over frames that they are compared with.
+//! Our rows, and the baseline: the loop over frames.
 
-/// The rows of a generated module, one configuration at a time. A new function's row comes here: `Row::jacobian`, or
-/// `Row::given` if it takes ε or σ².
+/// Returns the rows of a generated module, one configuration at a time. Add the row of a new
+/// function here: `Row::jacobian`, or `Row::given` if it takes ε or σ².
 macro_rules! rows {
     ($module:path) => {{
         use $crate::row::{Kind, Row, Side};
@@ -10,7 +10,7 @@ macro_rules! rows {
         type Pose = [[f64; 3]; 4];
         type Columns = [[f64; 6]; ERRORS];
 
-        // Like the peers' functions, none is merged with the loop that calls it.
+        // Never inlined into the calling loop, like the peers' functions.
         #[inline(never)]
         fn dense(q: &[f64; VARIABLES], pose: &mut Pose, columns: &mut Columns) {
             raw::error_jacobian(q, &[], pose, columns);
@@ -70,7 +70,7 @@ macro_rules! rows {
             }
         }
 
-        // A function of arrays as one of slices: everyone's results are in the same memory.
+        // Adapts a function of arrays to slices: all rows write to the same memory.
         macro_rules! jacobian {
             ($name:expr, $side:expr, $kind:expr, $function:expr, $chunks:ident) => {
                 Row::jacobian($name, $side, $kind, |q, pose, result| {
@@ -103,21 +103,21 @@ macro_rules! rows {
     }};
 }
 
-/// The first numbers of a slice.
+/// Returns the first numbers of a slice as an array.
 macro_rules! numbers {
     ($slice:ident) => {
         $slice.first_chunk_mut().expect("room for all")
     };
 }
 
-/// The first columns in a slice.
+/// Returns the first columns in a slice as an array.
 macro_rules! columns {
     ($slice:ident) => {
         $slice.as_chunks_mut().0.first_chunk_mut().expect("room for all")
     };
 }
 
-/// The first groups of vectors in a slice.
+/// Returns the first groups of vectors in a slice as an array.
 macro_rules! vectors {
     ($slice:ident) => {
         $slice.as_chunks_mut().0.as_chunks_mut().0.first_chunk_mut().expect("room for all")

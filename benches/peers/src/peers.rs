@@ -6,15 +6,17 @@ use std::process::Command;
 
 use crate::row::{Kind, Row, Side};
 
-/// `(q, pose, result)`; or `(q, ε, ΔX)` and `(q, σ², covariance)`, where the second is not written to.
+/// Function `(q, pose, result)`, or `(q, ε, ΔX)` and `(q, σ², covariance)`, which do not write to
+/// the second argument.
 pub type Function = unsafe extern "C" fn(q: *const f64, second: *mut f64, result: *mut f64);
 
-/// The same of ours: with parameters, of which there are none here, and 0 if all results are finite.
+/// Function of our C code: takes parameters, of which there are none here, and returns 0 if all
+/// results are finite.
 pub type Ours = unsafe extern "C" fn(q: *const f64, s: *const f64, second: *mut f64, result: *mut f64) -> i32;
 
 include!(concat!(env!("OUT_DIR"), "/peers/bindings.rs"));
 
-/// Every library by the name of its functions and as it is shown.
+/// Prefix of each library's functions, and its title.
 const LIBRARIES: [(&str, &str); 4] = [
     ("casadi", "CasADi + cse, C"),
     ("symforce", "SymForce, C++"),
@@ -22,7 +24,7 @@ const LIBRARIES: [(&str, &str); 4] = [
     ("wrenfold", "wrenfold, Rust"),
 ];
 
-/// The peers' rows for a robot.
+/// Returns the peers' rows for a robot.
 pub fn rows(robot: &str) -> Vec<Row> {
     let mut rows = Vec::new();
     for (library, shown) in LIBRARIES {
@@ -48,7 +50,8 @@ pub fn rows(robot: &str) -> Vec<Row> {
     rows
 }
 
-/// Our rows in C for a robot: as documented, with the bits of the Rust code, and as a compiler may contract it.
+/// Returns our rows in C for a robot: with the documented flags, which give the bits of the Rust
+/// code, and contracted.
 pub fn ours(robot: &str) -> Vec<Row> {
     let mut rows = Vec::new();
     for (ending, shown) in [("", "abbe, C"), ("_contracted", "abbe, C, contracted")] {
@@ -56,7 +59,8 @@ pub fn ours(robot: &str) -> Vec<Row> {
             let name = format!("{robot}{ending}_{}", kind.name());
             let function = OURS.iter().find(|(listed, _)| **listed == name).expect("it was generated").1;
             let none = std::ptr::null();
-            // Safety: generated for this robot, whose parameters are none; a row has room for all that it reads and writes.
+            // Safety: generated for this robot, which has no parameters; a row has room for all
+            // that it reads and writes.
             rows.push(match kind {
                 Kind::Dense | Kind::Distinct => {
                     Row::jacobian(shown, Side::OurC, kind, move |q, pose, result| unsafe {
@@ -77,7 +81,7 @@ pub fn ours(robot: &str) -> Vec<Row> {
     rows
 }
 
-/// How a library's functions are shown.
+/// Returns the title of a library.
 pub fn shown(library: &str) -> &str {
     match LIBRARIES.iter().find(|(name, _)| *name == library) {
         Some((_, shown)) => shown,
@@ -86,12 +90,13 @@ pub fn shown(library: &str) -> &str {
     }
 }
 
-/// The bytes of everyone's `J_e` dense, of every robot.
+/// Returns the sizes in bytes of the dense `J_e` of every library and robot.
 pub fn sizes() -> Vec<serde_json::Value> {
     serde_json::from_str(include_str!(concat!(env!("OUT_DIR"), "/sizes.json"))).expect("the build script's")
 }
 
-/// Operation counts and seconds of every library and robot: the generators run once more, now that nothing else does.
+/// Returns operation counts and seconds of every library and robot. Runs the generators again,
+/// without other load.
 pub fn generated() -> Vec<serde_json::Value> {
     let out = Path::new(concat!(env!("OUT_DIR"), "/timed"));
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("generate/main.py");

@@ -1,4 +1,5 @@
-//! Pinocchio: every `A_i` as a joint about or along an axis of its own, and where `F_i` is on it.
+//! Pinocchio: every `A_i` as a joint about or along a coordinate axis, with the placement of `F_i`
+//! on it.
 
 use std::ffi::c_void;
 
@@ -22,11 +23,11 @@ unsafe extern "C" {
     fn pinocchio_covariance(robot: *mut c_void, q: *const f64, variances: *const f64, covariance: *mut f64);
 }
 
-/// Pinocchio's rows.
+/// Returns Pinocchio's rows.
 pub fn rows(manipulator: &dyn Manipulator) -> Vec<Row> {
     let robot = robot(manipulator);
     let mut rows = Vec::new();
-    // Safety, here and below: the robot lives as long as the process, and a row has room for all results.
+    // Safety, here and below: the robot has static lifetime, and a row has room for all results.
     type Jacobian = unsafe extern "C" fn(*mut c_void, *const f64, *mut f64, *mut f64);
     let jacobians: [(Kind, Jacobian); 2] =
         [(Kind::Dense, pinocchio_dense), (Kind::Distinct, pinocchio_distinct)];
@@ -78,7 +79,7 @@ fn robot(manipulator: &dyn Manipulator) -> *mut c_void {
     }
 }
 
-/// `A_1 … A_n` and the tool with every variable at `value`.
+/// Returns `A_1 … A_n` and the tool with every variable at `value`.
 fn transforms(manipulator: &dyn Manipulator, value: f64) -> Vec<Pose> {
     let description = manipulator.description();
     assert!(description.frames.len() == description.variables.len(), "every frame has its variable");
@@ -88,24 +89,24 @@ fn transforms(manipulator: &dyn Manipulator, value: f64) -> Vec<Pose> {
     transforms
 }
 
-/// `A = placement · joint(sign · q) · offset`.
+/// Joint: `A = placement · joint(sign · q) · offset`.
 struct Joint {
-    /// 0, 1, 2: a turn about x, y, z; 3, 4, 5: a slide along it.
+    /// Rotation about x, y, z (0, 1, 2), or translation along it (3, 4, 5).
     kind: i32,
     sign: f64,
     placement: Pose,
     offset: Pose,
 }
 
-/// A slide needs no frame of its own if it is along an axis of `F_i`.
+/// Returns the joint of a translation along an axis of `F_i`, which needs no additional frame.
 fn prismatic(home: &Pose, moved: &Pose) -> Joint {
     let along: [f64; 3] = std::array::from_fn(|k| moved.0[3][k] - home.0[3][k]);
     let (axis, sign) = aligned(rotation(&home.inverse()).turn(along)).expect("along an axis of its frame");
     Joint { kind: 3 + axis, sign, placement: *home, offset: Pose::IDENTITY }
 }
 
-/// A turn about an axis of `F_i` through its origin needs no frame of its own either; others turn about their z, as
-/// URDF and Denavit-Hartenberg have it. `moved` is turned by 1 rad.
+/// Returns the joint of a rotation. An axis of `F_i` through its origin needs no additional frame;
+/// other rotations are about z, as in URDF and Denavit–Hartenberg. `moved` is rotated by 1 rad.
 fn revolute(home: &Pose, moved: &Pose) -> Joint {
     let turned = rotation(moved).then(&rotation(&home.inverse()));
     let [x, y, z, _] = turned.0;
@@ -141,7 +142,7 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The coordinate axis that a unit vector is along, and its sign.
+/// Returns the coordinate axis along a unit vector, and its sign.
 fn aligned(v: [f64; 3]) -> Option<(i32, f64)> {
     (0..3).zip(v).find(|(_, component)| component.abs() > 1.0 - 1e-12).map(|(axis, v)| (axis, v.signum()))
 }

@@ -1,16 +1,16 @@
-//! How we stand, in ratios: more than 1 is in our favour.
+//! Speed ratios to the peers: more than 1 is in our favor.
 
 use crate::batch::MANY;
 use crate::measure::Times;
 use crate::row::{Kind, Row, Side};
 
-/// The head of the table.
+/// Returns the head of the table.
 pub fn head() -> String {
     let titles = Kind::ALL.map(Kind::title).join(" | ");
     format!("| robot | | {titles} |\n|---|---|---|---|---|---|")
 }
 
-/// The lines of a robot.
+/// Returns the lines of a robot.
 pub fn lines(robot: &str, rows: &[Row], times: &[Times]) -> Vec<String> {
     let ratios = Ratios { rows, times };
     let line = |title: &str, ratio: &dyn Fn(Kind) -> Option<f64>| {
@@ -42,7 +42,7 @@ struct Ratios<'t> {
 }
 
 impl Ratios<'_> {
-    /// The fastest of some rows over the fastest of others.
+    /// Returns the ratio of the fastest of some rows to the fastest of others.
     fn fastest_over(
         &self,
         kind: Kind,

@@ -1,4 +1,4 @@
-//! The tables, as Markdown.
+//! The report, as tables in Markdown.
 
 use std::fmt;
 use std::time::Instant;
@@ -15,13 +15,13 @@ use crate::peers;
 use crate::ratios;
 use crate::row::{Kind, Row, Side};
 
-/// What rounding may do; anything more is a wrong answer.
+/// Largest deviation by rounding. Larger ones are wrong results.
 const ROUNDING: f64 = 1e-13;
 
-/// What central differences of step 1e-4 may be off.
+/// Largest error of central differences of step 1e-4.
 const DIFFERENCES: f64 = 5e-8;
 
-/// Everything that was measured.
+/// Results of all measurements.
 pub struct Report {
     rounds: usize,
     angles: Angles,
@@ -48,12 +48,12 @@ impl Report {
         }
     }
 
-    /// Whether anybody gave a wrong answer.
+    /// Returns whether a result was wrong.
     pub fn wrong(&self) -> bool {
         self.wrong
     }
 
-    /// One robot.
+    /// Adds the results of one robot.
     pub fn add(
         &mut self,
         robot: &str,
@@ -107,7 +107,8 @@ impl Report {
     }
 }
 
-/// Our counts, and the time from the text of the spec to that of the whole module.
+/// Returns our operation counts, and the time from the text of the spec to that of the whole
+/// module.
 fn ours(robot: &str, spec: &str) -> String {
     let mut seconds: Vec<f64> = (0..21)
         .map(|_| {
@@ -181,7 +182,7 @@ impl fmt::Display for Report {
     }
 }
 
-/// The processor's name, where the system tells.
+/// Returns the name of the processor, if the system reports it.
 fn processor() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let field = |name: &str| {

@@ -1,14 +1,15 @@
-//! One competitor and how it is run.
+//! A competitor and its interface.
 
 use std::hint::black_box;
 use std::ops::Range;
 
-/// What is computed.
+/// Quantity that is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Pose and `J_e`: 12 and 36 n doubles, column-major.
     Dense,
-    /// Pose and the 18 n numbers that are not zero or repeated: of every frame the axes x, y, z and the moments about y, z, x.
+    /// Pose and the 18 distinct numbers of each frame: its axes x, y, z and their moments, in the
+    /// order y, z, x.
     Distinct,
     /// ΔX = `J_e` ε for any ε: 6 doubles.
     Displacement,
@@ -19,36 +20,36 @@ pub enum Kind {
 impl Kind {
     pub const ALL: [Self; 4] = [Self::Dense, Self::Distinct, Self::Displacement, Self::Covariance];
 
-    /// The end of the names of generated functions.
+    /// Returns the suffix of the names of generated functions.
     pub fn name(self) -> &'static str {
         ["dense", "distinct", "displacement", "covariance"][self as usize]
     }
 
-    /// As the tables have it.
+    /// Returns the title in the tables.
     pub fn title(self) -> &'static str {
         ["J_e dense", "J_e distinct", "ΔX = J_e ε", "covariance"][self as usize]
     }
 
-    /// Whether the pose is a result too.
+    /// Returns whether the pose is also a result.
     pub fn has_pose(self) -> bool {
         matches!(self, Self::Dense | Self::Distinct)
     }
 }
 
-/// For whom it runs.
+/// Origin of the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Our generated code.
     Ours,
-    /// The same in C.
+    /// Our generated code in C.
     OurC,
-    /// The same programs without a compiler.
+    /// Our programs, interpreted.
     Interpreter,
     /// Code that a peer generated.
     Generator,
     /// A peer's own code.
     Library,
-    /// What one would write by hand; in no ratio.
+    /// Handwritten code; in no ratio.
     Baseline,
 }
 
@@ -58,7 +59,7 @@ impl Side {
     }
 }
 
-/// Configurations, one after the other, an ε for each and a σ².
+/// Configurations, with an ε and a σ² for each.
 pub struct Inputs {
     pub variables: usize,
     pub frames: usize,
@@ -80,7 +81,7 @@ impl Inputs {
         &self.variances[index * 6 * self.frames..(index + 1) * 6 * self.frames]
     }
 
-    /// What is given besides q.
+    /// Returns the argument besides q.
     pub fn given(&self, kind: Kind, index: usize) -> &[f64] {
         match kind {
             Kind::Dense | Kind::Distinct => &[],
@@ -90,10 +91,10 @@ impl Inputs {
     }
 }
 
-/// How many frames a robot may have.
+/// Largest number of frames of a robot.
 pub const MOST: usize = 8;
 
-/// Where results go: the same memory for everyone, aligned as Eigen likes it.
+/// Memory of the results, the same for all competitors, aligned for Eigen.
 #[repr(C, align(64))]
 pub struct Output {
     pub pose: [f64; 16],
@@ -106,12 +107,14 @@ impl Output {
     }
 }
 
-/// How a competitor is run.
+/// Interface of a competitor.
 pub trait Run {
-    /// Computes the configurations of a range. Who takes them one by one leaves the last one's results in the output.
+    /// Computes the configurations of a range. Competitors without batches leave the results of the
+    /// last configuration in the output.
     fn run(&mut self, inputs: &Inputs, range: Range<usize>, output: &mut Output);
 
-    /// Writes the results of a configuration of the last block to the output, unless they are there.
+    /// Writes the results of a configuration of the last block to the output, unless they are
+    /// there.
     fn show(&self, _index: usize, _output: &mut Output) {}
 }
 
@@ -121,18 +124,18 @@ impl<F: FnMut(&Inputs, Range<usize>, &mut Output)> Run for F {
     }
 }
 
-/// A competitor.
+/// Competitor.
 pub struct Row {
     pub name: String,
     pub side: Side,
     pub kind: Kind,
-    /// How many configurations it takes at once.
+    /// Number of configurations per call.
     pub block: usize,
     pub run: Box<dyn Run>,
 }
 
 impl Row {
-    /// One that takes the configurations one by one: `(q, pose, result)`.
+    /// Creates a competitor without batches: `(q, pose, result)`.
     pub fn jacobian(
         name: &str,
         side: Side,
@@ -148,7 +151,8 @@ impl Row {
         Self { name: name.to_owned(), side, kind, block: 1, run: Box::new(run) }
     }
 
-    /// One that takes them one by one, and ε or σ² with them: `(q, ε, ΔX)`, `(q, σ², covariance)`.
+    /// Creates a competitor without batches that takes ε or σ²: `(q, ε, ΔX)`,
+    /// `(q, σ², covariance)`.
     pub fn given(
         name: &str,
         side: Side,

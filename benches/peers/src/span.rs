@@ -1,12 +1,12 @@
-//! What wrenfold's Rust asks of its arguments, for plain arrays, column-major.
+//! The traits of wrenfold's Rust code, implemented for plain column-major arrays.
 
-/// A matrix to read.
+/// Readable matrix.
 pub trait Span2D<const ROWS: usize, const COLUMNS: usize> {
     type ValueType;
     fn get(&self, row: usize, column: usize) -> Self::ValueType;
 }
 
-/// A matrix to write.
+/// Writable matrix.
 pub trait OutputSpan2D<const ROWS: usize, const COLUMNS: usize> {
     type ValueType;
     fn set(&mut self, row: usize, column: usize, value: Self::ValueType);

@@ -32,7 +32,7 @@ def joint_jacobian(q):
     return np.array([joint_jacobian_of_one(each) for each in q]) if q.ndim > 1 else joint_jacobian_of_one(q)
 
 
-# Behind every frame a joint with six freedoms, which stays where it is: its columns are the errors of the frame.
+# After every frame a fixed joint with six degrees of freedom: its columns are the errors of the frame.
 loose, parent, before = pin.Model(), 0, pin.SE3.Identity()
 for i, row in enumerate(DH):
     parent = loose.addJoint(parent, pin.JointModelRZ(), before, f"q{i + 1}")

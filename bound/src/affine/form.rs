@@ -1,27 +1,30 @@
-//! Affine forms: what a number can be while names move within their ranges (Comba and Stolfi, *Affine arithmetic and its
-//! applications to computer graphics*, 1993; Messine, *Extensions of affine arithmetic*, 2002).
+//! Affine forms: enclosures of a number while names move within their ranges (Comba and Stolfi,
+//! *Affine arithmetic and its applications to computer graphics*, 1993; Messine, *Extensions of
+//! affine arithmetic*, 2002).
 //!
 //! # Rounding
 //!
-//! A rounded result x differs from the exact one by at most `UNIT |x|`, or by less than the smallest number where it
-//! underflows. What all roundings of an operation can do is added to `rest`. `rest` and `spread` themselves are sums of products
-//! that are not negative, with fewer than 64 roundings each: [`above`] makes them no less than the exact ones.
+//! A rounded result x differs from the exact one by at most `UNIT |x|`, or by less than the
+//! smallest number if it underflows. The effect of all roundings of an operation is added to
+//! `rest`. `rest` and `spread` themselves are sums of nonnegative products with fewer than 64
+//! roundings each; [`above`] makes them no less than the exact values.
 
-/// By which share of itself a result may be rounded.
+/// Unit of roundoff: maximum relative error of one rounding.
 pub(crate) const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// No less than a sum of products that are not negative is before its roundings, of which there are fewer than 64.
+/// Returns an upper bound of a sum of nonnegative products that was computed with fewer than 64
+/// roundings.
 #[inline(always)]
 pub(crate) fn above(sum: f64) -> f64 {
     sum * (1.0 + 128.0 * UNIT) + f64::MIN_POSITIVE
 }
 
-/// `centre + Σ slopes_i t_i ± rest`, each `t_i` anything from −1 to 1.
+/// `centre + Σ slopes_i t_i ± rest`, where each `t_i` lies in [−1, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Affine<const N: usize> {
     pub(crate) centre: f64,
     pub(crate) slopes: [f64; N],
-    /// No less than `Σ |slopes_i|`.
+    /// Upper bound of `Σ |slopes_i|`.
     pub(crate) spread: f64,
     pub(crate) rest: f64,
 }
@@ -32,28 +35,28 @@ impl<const N: usize> Affine<N> {
         Self { centre, slopes, spread, rest }
     }
 
-    /// A number that is known to `rest`.
+    /// Creates a number with a known error.
     pub(crate) fn known(centre: f64, rest: f64) -> Self {
         Self { centre, slopes: [0.0; N], spread: 0.0, rest }
     }
 
-    /// Anything between two numbers.
+    /// Creates an enclosure of an interval.
     pub(crate) fn between(low: f64, high: f64) -> Self {
         let centre = 0.5 * low + 0.5 * high;
         Self::known(centre, above((high - centre).abs().max((centre - low).abs()) + UNIT * centre.abs()))
     }
 
-    /// Of which nothing is known.
+    /// Creates an unbounded enclosure.
     pub(crate) fn anything() -> Self {
         Self::known(0.0, f64::INFINITY)
     }
 
-    /// How far from the centre it can be.
+    /// Returns the maximum distance from the centre.
     pub(crate) fn radius(&self) -> f64 {
         above(self.spread + self.rest)
     }
 
-    /// No more, and no less, than it can be; without end where nothing is known.
+    /// Returns the enclosing interval; infinite if the form is unbounded or NaN.
     pub(crate) fn range(&self) -> [f64; 2] {
         let radius = self.radius();
         let [low, high] = [(self.centre - radius).next_down(), (self.centre + radius).next_up()];
@@ -76,13 +79,13 @@ impl<const N: usize> Affine<N> {
         self.add(&other.neg())
     }
 
-    /// More by a number.
+    /// Adds a number.
     pub(crate) fn shifted(&self, by: &Affine<0>) -> Self {
         let centre = self.centre + by.centre;
         Self { centre, rest: above(self.rest + by.rest + UNIT * centre.abs()), ..*self }
     }
 
-    /// Times a number.
+    /// Multiplies by a number.
     pub(crate) fn scaled(&self, by: &Affine<0>) -> Self {
         let factor = by.centre;
         let scaled = Self::new(factor * self.centre, self.slopes.map(|slope| factor * slope), 0.0);
@@ -91,13 +94,14 @@ impl<const N: usize> Affine<N> {
         Self { rest: above(rest), ..scaled }
     }
 
-    /// `slope (self − centre) + value ± rest`.
+    /// Returns `slope (self − centre) + value ± rest`.
     pub(crate) fn linear(&self, slope: f64, value: f64, rest: f64) -> Self {
         let scaled = Self::new(value, self.slopes.map(|own| slope * own), 0.0);
         Self { rest: above(slope.abs() * self.rest + rest + UNIT * scaled.spread), ..scaled }
     }
 
-    /// The product. Of `Σ a_i t_i · Σ b_j t_j` the squares `t_i²` lie between 0 and 1, which leaves
+    /// Returns the product. In `Σ a_i t_i · Σ b_j t_j` the squares `t_i²` lie between 0 and 1,
+    /// which leaves
     ///
     /// ```text
     /// ½ Σ a_i b_i  ±  (Σ |a_i| Σ |b_j| − ½ Σ |a_i b_i|)

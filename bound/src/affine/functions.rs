@@ -1,4 +1,5 @@
-//! Functions of affine forms: `f(x) = f(c) + α (x − c) ± rest`, with α and the rest from the range of the derivative.
+//! Functions of affine forms: `f(x) = f(c) + α (x − c) ± rest`, with α and the rest from the range
+//! of the derivative.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,16 +8,16 @@ use abbe_spec::expr::Function;
 
 use super::form::{Affine, UNIT, above};
 
-/// By how much our own sine and cosine may be off: 1.7 units in the last place of a number below 1, and no more than 4 units of
-/// roundoff beyond their reach.
+/// Maximum error of our own sine and cosine: 1.7 units in the last place of a number below 1, and 4
+/// units of roundoff outside their accurate range.
 const SINE: f64 = 4.0 * UNIT;
-/// By which share functions of a library may be off, as in the error analysis of generated code.
+/// Maximum relative error of library functions, as in the rounding analysis of generated code.
 const LIBRARY: f64 = 8.0 * UNIT;
-/// Up to here series stand for sine and cosine.
+/// Radius up to which sine and cosine are enclosed by series.
 const SMALL: f64 = 0.25;
 
 impl<const N: usize> Affine<N> {
-    /// Sine and cosine. With `x = m + δ` and `|δ| ≤ w`
+    /// Returns sine and cosine. With `x = m + δ` and `|δ| ≤ w`:
     ///
     /// ```text
     /// sin x = sin m cos δ + cos m sin δ        cos δ between cos w and 1        sin δ = α δ ± e
@@ -35,7 +36,7 @@ impl<const N: usize> Affine<N> {
         [turned(sine, cosine), turned(cosine, -sine)]
     }
 
-    /// Any function of one argument; and whether it jumps within the range.
+    /// Returns any function of one argument, and whether it may jump within the range.
     pub(crate) fn call(&self, function: Function) -> (Self, bool) {
         let [low, high] = self.range();
         if !(low.is_finite() && high.is_finite()) {
@@ -56,7 +57,7 @@ impl<const N: usize> Affine<N> {
                 if low < -1.0 || high > 1.0 {
                     return (Self::anything(), true);
                 }
-                // 1 − x² would lose its digits near 1.
+                // 1 − x² would cancel near x = 1.
                 let [near, far] = sizes(low, high).map(|size| 1.0 / ((1.0 - size) * (1.0 + size)).sqrt());
                 let arc = match far.is_finite() {
                     true => monotone(f64::asin, [near, far]),
@@ -76,7 +77,8 @@ impl<const N: usize> Affine<N> {
             Function::Log => Self::anything(),
             Function::Abs if low >= 0.0 => *self,
             Function::Abs if high <= 0.0 => self.neg(),
-            // The chord above, and 0 below: |x| − α x lies between 0 and 2 β.
+            // Bounded by the chord from above and by 0 from below: |x| − α x lies between 0 and 2
+            // β.
             Function::Abs => {
                 let (slope, half) = ((high + low) / (high - low), -low * (high / (high - low)));
                 let value = slope * self.centre + half;
@@ -92,7 +94,7 @@ impl<const N: usize> Affine<N> {
         (form, false)
     }
 
-    /// `1 / self`.
+    /// Returns `1 / self`; unbounded if the range contains 0.
     pub(crate) fn reciprocal(&self) -> Self {
         let [low, high] = self.range();
         if !(low > 0.0 || high < 0.0) {
@@ -102,7 +104,7 @@ impl<const N: usize> Affine<N> {
         self.by_slopes(1.0 / self.centre, slopes)
     }
 
-    /// A power of what is more than 0.
+    /// Returns a power of a positive number; unbounded for any other.
     pub(crate) fn power(&self, exponent: f64) -> Self {
         let [low, high] = self.range();
         if !(low > 0.0 && high.is_finite()) {
@@ -112,7 +114,7 @@ impl<const N: usize> Affine<N> {
         self.by_slopes(self.centre.powf(exponent), [slope(low), slope(high)])
     }
 
-    /// The angle of the point (x, self); and whether it may jump.
+    /// Returns the angle of the point (x, self), and whether it may jump.
     pub(crate) fn angle(&self, x: &Self) -> (Self, bool) {
         let ([x_low, _], [low, high]) = (x.range(), self.range());
         let quotient = |a: &Self, b: &Self| a.mul(&b.reciprocal()).call(Function::Atan).0;
@@ -127,7 +129,7 @@ impl<const N: usize> Affine<N> {
         }
     }
 
-    /// The larger of two.
+    /// Returns the larger of two numbers.
     pub(crate) fn larger(&self, other: &Self) -> Self {
         let ([low, high], [other_low, other_high]) = (self.range(), other.range());
         if low >= other_high {
@@ -141,12 +143,13 @@ impl<const N: usize> Affine<N> {
         sum.add(&distance).scaled(&half)
     }
 
-    /// The smaller of two.
+    /// Returns the smaller of two numbers.
     pub(crate) fn smaller(&self, other: &Self) -> Self {
         self.neg().larger(&other.neg()).neg()
     }
 
-    /// A function that has this value at the centre, and slopes between two numbers everywhere.
+    /// Returns a function with the given value at the centre, and with slopes between the two given
+    /// ones everywhere.
     pub(crate) fn by_slopes(&self, value: f64, slopes: [f64; 2]) -> Self {
         let [first, second] = slopes;
         let (slope, margin) = (0.5 * first + 0.5 * second, 2.0 * LIBRARY * (first.abs() + second.abs()));
@@ -157,19 +160,20 @@ impl<const N: usize> Affine<N> {
     }
 }
 
-/// π/2.
+/// Returns π/2.
 fn quarter_turn() -> Affine<0> {
     Affine::known(FRAC_PI_2, UNIT)
 }
 
-/// The least and the largest size of the numbers between two.
+/// Returns the least and the largest absolute value of the numbers between two.
 fn sizes(low: f64, high: f64) -> [f64; 2] {
     let (a, b) = (low.abs(), high.abs());
     let least = if low <= 0.0 && high >= 0.0 { 0.0 } else { a.min(b) };
     [least, a.max(b)]
 }
 
-/// `cos δ = middle ± half` for `|δ| ≤ w ≤ π`: between `1 − w²/2` or `cos w`, and 1.
+/// Returns `[middle, half]` with `cos δ = middle ± half` for `|δ| ≤ w ≤ π`: between `1 − w²/2` or
+/// `cos w`, and 1.
 fn cosine_within(w: f64) -> [f64; 2] {
     if w <= SMALL {
         let quarter = 0.25 * w * w;
@@ -179,9 +183,10 @@ fn cosine_within(w: f64) -> [f64; 2] {
     [0.5 + 0.5 * least, 0.5 - 0.5 * least + 2.0 * UNIT]
 }
 
-/// `sin δ = α δ ± e` for `|δ| ≤ w ≤ π`. `δ³ = ¾ w² δ ± w³/4` (Chebyshev) and `sin δ = δ − δ³/6 ± |δ|⁵/120` make
-/// `α = 1 − w²/8`, `e = w³/24 + w⁵/120`. Where w is not small α is the coefficient of the Chebyshev series of the sine,
-/// `2 J₁(w)/w`, and `sin δ − α δ` is largest at `cos δ = α` or at an end.
+/// Returns `[α, e]` with `sin δ = α δ ± e` for `|δ| ≤ w ≤ π`. For small w, `δ³ = ¾ w² δ ± w³/4`
+/// (Chebyshev) and `sin δ = δ − δ³/6 ± |δ|⁵/120` give `α = 1 − w²/8`, `e = w³/24 + w⁵/120`. For
+/// larger w, α is the coefficient of the Chebyshev series of the sine, `2 J₁(w)/w`, and `sin δ − α
+/// δ` is largest at `cos δ = α` or at an end.
 fn sine_within(w: f64) -> [f64; 2] {
     let square = w * w;
     if w <= SMALL {
@@ -191,7 +196,7 @@ fn sine_within(w: f64) -> [f64; 2] {
     let slope = 1.0 - square / 8.0 * (1.0 - square / 24.0 * (1.0 - square / 48.0));
     let inner = slope.acos();
     let error = (w.sin() - slope * w).abs().max((inner.sin() - slope * inner).abs());
-    // δ with cos δ = α lies beyond w only if nothing within is larger than at the end.
+    // The δ with cos δ = α exceeds w only if the difference is largest at the end.
     [slope, above(error + 8.0 * LIBRARY * (1.0 + w))]
 }
 
@@ -199,7 +204,7 @@ fn sine_within(w: f64) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// Every value of a function on a range lies where the form has it, t by t.
+    /// Checks at sample points that a function lies within the form, for each t.
     fn encloses(low: f64, high: f64, f: impl Fn(f64) -> f64, form: impl Fn(&Affine<1>) -> Affine<1>) {
         let centre = 0.5 * low + 0.5 * high;
         let half = (high - centre).max(centre - low).next_up();
@@ -208,7 +213,7 @@ mod tests {
             let t = f64::from(k) / 100.0 - 1.0;
             let x = (centre + t * half).clamp(low, high);
             let (value, there) = (f(x), result.centre + result.slopes[0] * (x - centre) / half);
-            // What the test itself rounds.
+            // Rounding errors of the test itself.
             let slack = 4.0 * UNIT * (value.abs() + result.centre.abs() + result.slopes[0].abs());
             assert!(
                 (value - there).abs() <= result.rest + slack,
@@ -240,7 +245,7 @@ mod tests {
                     _ => true,
                 };
                 if is_defined {
-                    encloses(low, high, |x| function.of(x), |form| form.call(function).0);
+                    encloses(low, high, |x| function.evaluate(x), |form| form.call(function).0);
                 }
             }
             if low > 0.0 || high < 0.0 {
@@ -265,7 +270,7 @@ mod tests {
         }
     }
 
-    /// What is not known, and what has no end, is never taken for something.
+    /// Unbounded forms stay unbounded under further operations.
     #[test]
     fn what_is_not_known_stays_so() {
         let all = Affine::<1>::new(0.0, [2.0], 0.0);

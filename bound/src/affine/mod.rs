@@ -1,6 +1,7 @@
-//! Affine forms: what a number can be while names move within their ranges, with all roundings covered.
+//! Affine forms: enclosures of a number while names move within their ranges, including all
+//! rounding errors.
 //!
-//! `form` has the form itself, with sums and products; `functions` and `tables` what is done to it.
+//! `form` has the form with sums and products; `functions` and `tables` have other operations.
 
 mod form;
 mod functions;

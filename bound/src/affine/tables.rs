@@ -1,4 +1,4 @@
-//! Tables of affine forms: polynomials between points, each over the part of it that is reached.
+//! Table lookups of affine forms: piecewise polynomials, each over the part of it that is reached.
 
 use abbe_core::LookupTable;
 use abbe_spec::expr::{Interpolation, Outside, Table};
@@ -6,7 +6,7 @@ use abbe_spec::expr::{Interpolation, Outside, Table};
 use super::form::{Affine, UNIT, above};
 
 impl<const N: usize> Affine<N> {
-    /// A derivative of a table, the function itself if of order 0.
+    /// Returns a derivative of a table; order 0 is the table itself.
     pub(crate) fn look_up(&self, table: &Table, order: u32) -> Self {
         let range = self.range();
         let [first, last] = table.ends();
@@ -15,7 +15,7 @@ impl<const N: usize> Affine<N> {
         if !(range[0].is_finite() && range[1].is_finite() && is_known) {
             return Self::anything();
         }
-        // Where a table ends that is held, its slope jumps.
+        // The slope jumps at the end of a table that holds its value.
         let is_continuous =
             order == 0 || (order == 1 && table.interpolation == Interpolation::Cubic && is_inside);
         if !is_continuous {
@@ -30,12 +30,12 @@ impl<const N: usize> Affine<N> {
     }
 }
 
-/// No more, and no less, than a derivative is over a range: the hull of what each piece is over its part of it.
+/// Returns an enclosure of a derivative over an interval: the hull over all pieces that it meets.
 fn extent(table: &Table, order: u32, [low, high]: [f64; 2]) -> [f64; 2] {
     let lookup = table.lookup();
     let (first, last) = (piece_of(&lookup, low), piece_of(&lookup, high));
     let ends = lookup.pieces.len() - 1;
-    // A point is found in the piece beside it where its place is rounded: one more on both sides.
+    // Rounding may select the neighbouring piece, so one more piece is included on each side.
     let from = if low < table.ends()[0] { 0 } else { first.saturating_sub(1).max(1) };
     let to = if high > table.ends()[1] { ends } else { (last + 1).min(ends - 1) };
     let mut hull = [f64::INFINITY, f64::NEG_INFINITY];
@@ -65,7 +65,7 @@ fn piece_of(lookup: &LookupTable<'_>, x: f64) -> usize {
     }
 }
 
-/// Where a piece begins, and its length in units of t.
+/// Returns the start of a piece, and its length in units of t.
 fn place(lookup: &LookupTable<'_>, table: &Table, piece: usize) -> [f64; 2] {
     if lookup.starts.is_empty() {
         return [lookup.first + (piece - 1) as f64 / lookup.scale, 1.0];
@@ -74,7 +74,8 @@ fn place(lookup: &LookupTable<'_>, table: &Table, piece: usize) -> [f64; 2] {
     [points[piece - 1][0], points[piece][0] - points[piece - 1][0]]
 }
 
-/// What a derivative of a cubic is between two t, by its Taylor series about their middle.
+/// Returns an enclosure of a derivative of a cubic between two t, by its Taylor expansion about
+/// their midpoint.
 fn polynomial(coefficients: &[f64; 4], order: u32, [from, to]: [f64; 2], unit: f64) -> [f64; 2] {
     let [a, b, c, d] = *coefficients;
     let [p, q, r, s] = match order {

@@ -1,42 +1,43 @@
-//! Since when a series is no longer what it was, and how fast it moves.
+//! Change-point estimation: time, kind and size of a change in a series.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::distributions::student_quantile;
 
-/// How a series left its level.
+/// Kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It moves at a constant speed.
+    /// Linear drift.
     Drift,
-    /// It is at another level all at once.
+    /// Step to another level.
     Jump,
 }
 
-/// A level, and how it was left: `x = level + speed · max(0, t − since)`, or `x = level + jump` from then on.
+/// Change of a level: `x = level + speed · max(0, t − since)`, or `x = level + jump` from `since`
+/// on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
-    /// How it was left.
+    /// Kind of change.
     pub kind: Kind,
-    /// Since when; of a jump the first number after it.
+    /// Start of a drift; first number after a jump.
     pub since: f64,
-    /// When it was with 95 % probability; nothing before the series if it may have been before that.
+    /// 95 % confidence interval of the time; an open lower end precedes the series.
     pub between: [Option<f64>; 2],
-    /// The level before.
+    /// Level before the change.
     pub level: f64,
-    /// Speed, or jump.
+    /// Speed of a drift, or size of a jump.
     pub size: f64,
-    /// One standard deviation of the size; that of the time is in it.
+    /// Standard deviation of the size, including the uncertainty of the time.
     pub standard_deviation: f64,
-    /// How numbers scatter about this: one standard deviation.
+    /// Standard deviation of the numbers about the fit.
     pub scatter: f64,
-    /// By how much the sum of squares about it is smaller than about one level.
+    /// Decrease of the sum of squares relative to a constant level.
     pub explained: f64,
-    /// Covariance of the time and the speed of a drift.
+    /// Covariance of time and speed of a drift.
     covariance: [[f64; 2]; 2],
 }
 
-/// One time at which it may have begun: its sum of squares and what goes with it.
+/// Candidate change point and its sum of squares.
 #[derive(Clone, Copy)]
 struct Fitted {
     at: f64,
@@ -45,14 +46,15 @@ struct Fitted {
     squares: f64,
 }
 
-/// Times of a drift that are tried between two numbers.
+/// Candidate times of a drift between consecutive numbers.
 const BETWEEN: usize = 4;
 
 impl Change {
-    /// The likelier of a drift and a jump of the numbers `x` at ascending times `t`; none for fewer than six, or if all are the same.
+    /// Fits a drift and a jump to the numbers `x` at ascending times `t`, and returns the more
+    /// likely one; none for fewer than six numbers, or if all are equal.
     ///
-    /// By least squares over all times at which it may have begun. The times between which it was are those whose sum of squares
-    /// is not beyond the least one by more than `F_{1,n−3}` (95 %) of the scatter.
+    /// Least squares over all candidate times. The confidence interval has the times whose sum of
+    /// squares exceeds the minimum by no more than `F_{1,n−3}` (95 %) times the variance.
     pub fn fit(t: &[f64], x: &[f64]) -> Option<Self> {
         let n = t.len().min(x.len());
         if n < 6 {
@@ -78,7 +80,7 @@ impl Change {
         let first = all.iter().find(within).map_or(best.at, |fitted| fitted.at);
         let last = all.iter().rev().find(within).map_or(best.at, |fitted| fitted.at);
         let earliest = all.first().is_none_or(|fitted| first > fitted.at);
-        // A jump was after the number before it.
+        // A jump occurs after the preceding number.
         let first = match kind {
             Kind::Drift => first,
             Kind::Jump => t.iter().copied().rev().find(|t| *t < first).unwrap_or(first),
@@ -97,7 +99,8 @@ impl Change {
         })
     }
 
-    /// When a drift is so far from the level, and one standard deviation of that time; none of a jump.
+    /// Returns the time at which a drift reaches a distance from the level, and its standard
+    /// deviation; none for a jump.
     pub fn reaches(&self, distance: f64) -> Option<(f64, f64)> {
         let speed = self.size.abs();
         if self.kind == Kind::Jump || speed <= 0.0 {
@@ -110,7 +113,7 @@ impl Change {
         Some((self.since + distance / speed, variance.max(0.0).sqrt()))
     }
 
-    /// The number that the change predicts at a time, less the level before.
+    /// Returns the predicted change at a time, relative to the level before.
     pub fn moved(&self, at: f64) -> f64 {
         match self.kind {
             Kind::Drift => self.size * (at - self.since).max(0.0),
@@ -120,7 +123,7 @@ impl Change {
     }
 }
 
-/// `x ≈ level + size · g`: two sums each.
+/// Fits `x ≈ level + size · g`.
 fn fitted(at: f64, x: &[f64], g: impl Fn(usize) -> f64) -> Fitted {
     let n = x.len() as f64;
     let (mut sum_g, mut sum_x) = (0.0, 0.0);
@@ -139,19 +142,20 @@ fn fitted(at: f64, x: &[f64], g: impl Fn(usize) -> f64) -> Fitted {
     Fitted { at, level, size, squares }
 }
 
-/// From the first number on, to where three are left.
+/// Fits drifts that begin at the first number or later, with at least three numbers left.
 fn drifts(t: &[f64], x: &[f64]) -> Vec<Fitted> {
     let steps = (0..t.len() - 3).flat_map(|i| (0..BETWEEN).map(move |part| (i, part)));
     let times = steps.map(|(i, part)| t[i] + (t[i + 1] - t[i]) * part as f64 / BETWEEN as f64);
     times.map(|at| fitted(at, x, |i| (t[i] - at).max(0.0))).collect()
 }
 
-/// Between any two numbers, one being left on either side.
+/// Fits jumps between consecutive numbers, with at least one number on either side.
 fn jumps(t: &[f64], x: &[f64]) -> Vec<Fitted> {
     (1..t.len()).map(|first| fitted(t[first], x, |i| f64::from(u8::from(i >= first)))).collect()
 }
 
-/// Of time and size, from the derivatives of `level + size · g` by all three.
+/// Returns the covariance of time and size, from the derivatives of `level + size · g` with respect
+/// to all three.
 fn covariance(kind: Kind, best: &Fitted, t: &[f64], variance: f64) -> [[f64; 2]; 2] {
     let mut normal = Matrix3::<f64>::zeros();
     for t in t {
@@ -162,7 +166,8 @@ fn covariance(kind: Kind, best: &Fitted, t: &[f64], variance: f64) -> [[f64; 2];
         };
         normal += row * row.transpose();
     }
-    // A jump has no derivative by its time; nor can a drift that was there from the first number on tell its level.
+    // A jump has no derivative by its time, and a drift from the first number on does not determine
+    // its level.
     let from_the_first = t.iter().filter(|t| **t <= best.at).count() < 2;
     if kind == Kind::Jump || from_the_first {
         normal[(1, 1)] = 1e300;
@@ -203,7 +208,7 @@ mod tests {
         assert!(Change::fit(&t, &[1.0; 30]).is_none());
     }
 
-    /// Coverage of the times and of the speed, over 500 machines that drift since a time that is not one of the numbers.
+    /// Coverage of times and speeds, over 500 machines that drift from times between numbers.
     #[test]
     fn uncertainties_are_what_they_say() {
         let t: Vec<f64> = (0..60).map(f64::from).collect();

@@ -1,14 +1,15 @@
-//! The normal distribution and Student's.
+//! Normal and Student's t distributions.
 
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 
-/// What a standard normal number does not exceed with this probability; ±8.2 beyond what a double can tell.
+/// Returns the quantile of the standard normal distribution; limited to ±8.2 by double precision.
 pub fn normal_quantile(probability: f64) -> f64 {
     if probability > 0.5 {
         return -normal_quantile(1.0 - probability);
     }
     let p = probability.max(1e-16);
-    // Abramowitz and Stegun 26.2.23, good to 4.5e-4; then Halley's steps on Φ(x) = erfc(−x/√2)/2.
+    // Abramowitz and Stegun 26.2.23, accurate to 4.5e-4; then Halley's iterations on Φ(x) =
+    // erfc(−x/√2)/2.
     let t = (-2.0 * p.ln()).sqrt();
     let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
     let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
@@ -21,10 +22,11 @@ pub fn normal_quantile(probability: f64) -> f64 {
     x
 }
 
-/// How likely Student's t with so many degrees of freedom is farther from zero than `t`, either sign.
+/// Returns the two-sided tail probability of Student's t.
 ///
-/// Abramowitz and Stegun 26.7.3 and 26.7.4, with θ = atan(t/√ν): `1 − 2/π (θ + sin θ (cos θ + 2/3 cos³ θ + …))` for odd ν,
-/// `1 − sin θ (1 + 1/2 cos² θ + 1·3/(2·4) cos⁴ θ + …)` for even.
+/// Abramowitz and Stegun 26.7.3 and 26.7.4, with θ = atan(t/√ν):
+/// `1 − 2/π (θ + sin θ (cos θ + 2/3 cos³ θ + …))` for odd ν,
+/// `1 − sin θ (1 + 1/2 cos² θ + 1·3/(2·4) cos⁴ θ + …)` for even ν.
 pub fn student_tails(t: f64, freedom: usize) -> f64 {
     let angle = (t.abs() / (freedom.max(1) as f64).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();
@@ -40,7 +42,7 @@ pub fn student_tails(t: f64, freedom: usize) -> f64 {
     (1.0 - within).clamp(0.0, 1.0)
 }
 
-/// What Student's t with so many degrees of freedom does not exceed with a probability above one half.
+/// Returns the quantile of Student's t for a probability above one half.
 pub fn student_quantile(probability: f64, freedom: usize) -> f64 {
     let (mut low, mut high) = (0.0, 1e6);
     for _ in 0..100 {

@@ -1,17 +1,18 @@
-//! How long an exponentially weighted moving average stays within its limits.
+//! Average run length of exponentially weighted moving average charts.
 
 use core::f64::consts::{PI, TAU};
 
 use nalgebra::{DMatrix, DVector};
 
-/// Nodes of the quadrature: run lengths to 1e6 are good to 1e-6 of themselves for λ from 0.05 on.
+/// Quadrature nodes: run lengths up to 1e6 have a relative error of 1e-6 for λ ≥ 0.05.
 const NODES: usize = 80;
 
-/// How many standard normal numbers `x_k` it takes on average until `z_k = (1 − λ) z_{k−1} + λ x_k`, from `z_0 = 0` on, is
-/// beyond ±`limit`, in standard deviations `√(λ/(2 − λ))` of `z`.
+/// Returns the average run length of `z_k = (1 − λ) z_{k−1} + λ x_k` with standard normal `x_k`,
+/// from `z_0 = 0` until it exceeds ±`limit`, in standard deviations `√(λ/(2 − λ))` of `z`.
 ///
-/// Crowder, *A simple method for studying run-length distributions of exponentially weighted moving average charts*, 1987:
-/// `L(u) = 1 + 1/λ ∫ L(y) φ((y − (1 − λ) u)/λ) dy` from −h to h, at the nodes of Gauss and Legendre.
+/// Crowder, *A simple method for studying run-length distributions of exponentially weighted moving
+/// average charts*, 1987: `L(u) = 1 + 1/λ ∫ L(y) φ((y − (1 − λ) u)/λ) dy` from −h to h, by
+/// Gauss-Legendre quadrature.
 pub fn ewma_run_length(lambda: f64, limit: f64) -> f64 {
     run_length(lambda, limit, NODES)
 }
@@ -31,7 +32,7 @@ fn run_length(lambda: f64, limit: f64, count: usize) -> f64 {
     })
 }
 
-/// The limit, in standard deviations of the average, at which the [run length](ewma_run_length) is this.
+/// Returns the limit, in standard deviations of the average, for a [run length](ewma_run_length).
 pub fn ewma_limit(lambda: f64, run_length: f64) -> f64 {
     let (mut low, mut high) = (0.1, 8.0);
     for _ in 0..50 {
@@ -41,7 +42,7 @@ pub fn ewma_limit(lambda: f64, run_length: f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Nodes and weights on −1 … 1: Newton's steps to the zeros of the Legendre polynomial.
+/// Returns Gauss-Legendre nodes and weights on −1 … 1, by Newton's iterations.
 fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     let node = |i: usize| {
@@ -69,14 +70,15 @@ mod tests {
     use super::{NODES, ewma_limit, ewma_run_length, run_length};
     use abbe_analysis::sampling::stream;
 
-    /// Lucas and Saccucci, *Exponentially weighted moving average control schemes*, 1990: run length 500.
+    /// Lucas and Saccucci, *Exponentially weighted moving average control schemes*, 1990: run
+    /// length 500.
     #[test]
     fn limits_are_the_published_ones() {
         for (lambda, limit) in [(0.05, 2.615), (0.10, 2.814), (0.25, 2.998), (0.50, 3.071), (0.75, 3.087)] {
             let found = ewma_limit(lambda, 500.0);
             assert!((found - limit).abs() < 2e-3, "{lambda}: {found}");
         }
-        // Shewhart's chart: 1/(2 Φ(−3)).
+        // Shewhart chart: 1/(2 Φ(−3)).
         assert!((ewma_run_length(1.0, 3.0) - 370.398).abs() < 1e-2);
     }
 
@@ -95,11 +97,11 @@ mod tests {
             f64::from(steps)
         });
         let mean = lengths.sum::<f64>() / runs as f64;
-        // Run lengths are about exponential: the standard error of the mean is 2000/√600 = 82.
+        // Run lengths are nearly exponential: the standard error of the mean is 2000/√600 = 82.
         assert!((mean - 2000.0).abs() < 4.0 * 82.0, "{mean}");
     }
 
-    /// The error that the quadrature states.
+    /// Checks the stated error of the quadrature.
     #[test]
     fn more_nodes_change_nothing() {
         for (lambda, limit) in [(0.05, 4.4), (0.1, 4.5), (0.3, 4.6)] {

@@ -1,8 +1,9 @@
-//! Control charts: whether a machine that is checked again and again is still what it was, and since when not.
+//! Control charts for a machine that is checked repeatedly.
 //!
-//! [`SelfStarting`] makes numbers of a series standard normal that have an unknown mean and standard deviation, without a
-//! reference period; [`ewma_limit`] is where an exponentially weighted moving average of such numbers alarms, from the run
-//! length that is wanted; [`Change::fit`] says since when a series drifts or whether it jumped, and how fast, each with its uncertainty.
+//! [`SelfStarting`] transforms the numbers of a series with unknown mean and standard deviation to
+//! standard normal numbers without a reference period. [`ewma_limit`] returns the alarm limit of
+//! their exponentially weighted moving average for a given run length. [`Change::fit`] estimates
+//! the time, kind and size of a drift or jump, each with its uncertainty.
 
 mod change;
 mod distributions;

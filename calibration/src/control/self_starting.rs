@@ -1,12 +1,13 @@
-//! Numbers of a series against those before them, as standard normal numbers.
+//! Self-starting charts: standard normal scores of a series relative to its earlier numbers.
 
 use super::distributions::{normal_quantile, student_tails};
 
-/// What is known of a series so far.
+/// Running mean and variance of a series.
 ///
-/// `Q_k = Φ⁻¹(T_{k−2}(√((k−1)/k) (x_k − x̄_{k−1}) / s_{k−1}))`: for normal numbers of any mean and standard deviation these are
-/// independent and standard normal, from the third on. Quesenberry, *SPC Q charts for start-up processes*, 1991. So a chart needs
-/// no reference period, and its false alarms are as stated from the first day.
+/// `Q_k = Φ⁻¹(T_{k−2}(√((k−1)/k) (x_k − x̄_{k−1}) / s_{k−1}))`: for normal numbers of any mean and
+/// standard deviation, these are independent and standard normal from the third on. Quesenberry,
+/// *SPC Q charts for start-up processes*, 1991. A chart thus needs no reference period, and has its
+/// stated false-alarm rate from the first day.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SelfStarting {
     count: usize,
@@ -15,7 +16,7 @@ pub struct SelfStarting {
 }
 
 impl SelfStarting {
-    /// The next number of the series as a standard normal one; 0 for the first two, which have nothing to be held against.
+    /// Returns the standard normal score of the next number; 0 for the first two.
     pub fn next(&mut self, x: f64) -> f64 {
         let Self { count, mean, squares } = *self;
         let n = count as f64;
@@ -23,7 +24,7 @@ impl SelfStarting {
         let scatter = (squares / (n - 1.0) * (1.0 + 1.0 / n)).sqrt();
         let standard = match (count, away) {
             (0 | 1, _) | (_, 0.0) => 0.0,
-            // Half of the probability is beyond on that side.
+            // Half of the two-sided probability.
             _ => -normal_quantile(0.5 * student_tails(away / scatter.max(1e-300), count - 1)).copysign(-away),
         };
         let moved = mean + away / (n + 1.0);
@@ -40,7 +41,8 @@ mod tests {
     use super::SelfStarting;
     use abbe_analysis::sampling::stream;
 
-    /// Mean 0, variance 1, no correlation with the one before, tails of a normal number; whatever mean and scale the series has.
+    /// Scores have mean 0, variance 1, no autocorrelation and normal tails, for any mean and scale
+    /// of the series.
     #[test]
     fn they_are_independent_standard_normal_numbers() {
         let (mut sum, mut squares, mut lagged, mut beyond, mut count) = (0.0, 0.0, 0.0, 0, 0.0);

@@ -1,4 +1,4 @@
-//! The rate of false alarms that is promised for all charts together, over many machine-years.
+//! False-alarm rate of all charts together, over many machine-years.
 
 use rand::RngExt;
 use rand_distr::StandardNormal;
@@ -10,8 +10,8 @@ const LAMBDA: f64 = 0.2;
 const CHARTS: usize = 20;
 const YEAR: usize = 365;
 
-/// The share of machine-years without an alarm of any chart, each chart with `CHARTS` times the run length of a year. The part of
-/// the variance that all charts have in common is `common`.
+/// Returns the share of machine-years without an alarm of any chart, each chart with `CHARTS` times
+/// the run length of a year; the charts have the share `common` of their variance in common.
 fn quiet(years: usize, common: f64) -> f64 {
     let limit = ewma_limit(LAMBDA, (YEAR * CHARTS) as f64) * f64::sqrt(LAMBDA / (2.0 - LAMBDA));
     let is_quiet = |year: usize| {
@@ -32,14 +32,15 @@ fn quiet(years: usize, common: f64) -> f64 {
     (0..years).filter(|year| is_quiet(*year)).count() as f64 / years as f64
 }
 
-/// Alarms of a rate of one a year leave 1/e of the years without any. Of 500 years the share is good to 0.022.
+/// A rate of one alarm a year leaves 1/e of the years without any; over 500 years, the standard
+/// error is 0.022.
 #[test]
 fn independent_charts_raise_one_false_alarm_a_year() {
     let quiet = quiet(500, 0.0);
     assert!((quiet - (-1.0_f64).exp()).abs() < 4.0 * 0.022, "{quiet}");
 }
 
-/// The promise is for any correlation: then there are fewer.
+/// The promised rate is an upper bound for correlated charts.
 #[test]
 fn correlated_charts_raise_fewer() {
     let quiet = quiet(300, 0.8);

@@ -1,8 +1,9 @@
-//! Steps that follow a bent valley: geodesic acceleration.
+//! Geodesic acceleration of Levenberg-Marquardt steps.
 //!
-//! What data hardly tell is a long valley of the cost; where it bends, a step along its tangent climbs its side, and damping
-//! makes steps short. Transtrum and Sethna, *Improvements to the Levenberg-Marquardt algorithm for nonlinear least-squares
-//! minimization*, 2012: with the second derivative of the residuals along the step δ,
+//! Weakly determined unknowns make a long, curved valley of the cost, in which a step along the
+//! tangent climbs the side, so that damping shortens the steps. Transtrum and Sethna, *Improvements
+//! to the Levenberg-Marquardt algorithm for nonlinear least-squares minimization*, 2012, add the
+//! second derivative of the residuals along the step δ:
 //!
 //! ```text
 //! r″ = 2 ((r(x + hδ) − r(x))/h − J δ)/h,      (JᵀJ + λ D²) a = −Jᵀ r″,      x + δ + ½ a
@@ -10,28 +11,28 @@
 
 use nalgebra::DVector;
 
-use super::linearize::by_blocks;
+use super::blocks::by_blocks;
 use super::solver::Solver;
 use super::{Failure, Observation};
 
-/// `h`.
+/// Relative length `h` of the difference step.
 const AHEAD: f64 = 0.1;
 
-/// How long `a` may be, as a share of the step.
+/// Largest length of `a` relative to the step.
 const BEND: f64 = 0.75;
 
 impl Solver<'_> {
-    /// `δ + ½ a`; δ alone if `a` is too long to be trusted.
+    /// Returns `δ + ½ a`, or δ if `a` is too long.
     pub(super) fn accelerated(&self, step: DVector<f64>, damping: f64) -> Result<DVector<f64>, Failure> {
         let there = &self.x + &step * AHEAD;
         let block = |first: usize, rows: &[Observation]| {
-            let mut room = self.model.room();
+            let mut scratch = self.model.scratch();
             let (mut sum, mut ahead) = (DVector::zeros(step.len()), Vec::new());
             for i in (first..first + rows.len()).filter(|i| self.weights[*i] > 0.0) {
                 ahead.clear();
-                self.model.residuals(&mut room, &self.data[i], there.as_slice(), |r| ahead.push(r))?;
+                self.model.residuals(&mut scratch, &self.data[i], there.as_slice(), |r| ahead.push(r))?;
                 let mut ahead = ahead.iter();
-                self.linear(&mut room, i, |residual, row| {
+                self.linear(&mut scratch, i, |residual, row| {
                     let along: f64 = row.iter().zip(step.iter()).map(|(a, b)| a * b).sum();
                     let moved = ahead.next().map_or(along, |ahead| (ahead - residual) / AHEAD);
                     let bend = self.weights[i] * 2.0 * (moved - along) / AHEAD;

@@ -1,56 +1,59 @@
-//! How well the unknowns are known: what one configuration tells is not told anew by the next visit or the next target.
+//! Covariance of the unknowns from clustered measurements: repeated visits and several targets of a
+//! configuration are not independent.
 //!
 //! With `J` and `r` in units of the uncertainty, `N = JᵀJ`, and priors of information `P`:
 //!
-//! - One point a configuration, never visited again: all numbers are independent, `σ² = rᵀr/(n − p)`, and
-//!   `C = (N/σ² + P)⁻¹`.
-//! - Points visited again: visits share what the model does not say of the configuration, `V_c = τ² 1 1ᵀ + σ_w² I` along
-//!   each axis. With `S_c` the sum of the rows of `J` of a configuration, and means `r̄_c`:
-//!   `σ_w² = Σ (r − r̄_c)²/(n − m)` of `m` means; `τ² = (Σ n_c r̄_c² − σ_w² (m − p))/(n − tr(N⁻¹ Σ S_cᵀ S_c))`, the
-//!   expected value of that sum. `M = τ² Σ S_cᵀ S_c + σ_w² N`, and `C = (N M⁻¹ N + P)⁻¹`.
-//! - Several targets, or poses: the sandwich `C = B (Σ g_c g_cᵀ + P) B`, `B = (N + P)⁻¹`, with
-//!   `g_c = J_cᵀ (I − H_c)^(−1/2) r_c`, `H_c = J_c B J_cᵀ`: Bell and McCaffrey, *Bias reduction in standard errors for
-//!   linear regression with multi-stage samples*, 2002 (CR2). CR1 is too small where few configurations stand behind
-//!   many unknowns, CR3 too large.
+//! - One point per configuration, without repeated visits: all numbers are independent,
+//!   `σ² = rᵀr/(n − p)`, and `C = (N/σ² + P)⁻¹`.
+//! - Points visited repeatedly: visits share the error of the model at the configuration,
+//!   `V_c = τ² 1 1ᵀ + σ_w² I` along each axis. With `S_c` the sum of the rows of `J` of a
+//!   configuration, and means `r̄_c`: `σ_w² = Σ (r − r̄_c)²/(n − m)` for `m` means;
+//!   `τ² = (Σ n_c r̄_c² − σ_w² (m − p))/(n − tr(N⁻¹ Σ S_cᵀ S_c))`, from the expected value of that
+//!   sum. `M = τ² Σ S_cᵀ S_c + σ_w² N`, and `C = (N M⁻¹ N + P)⁻¹`.
+//! - Several targets, or poses: the sandwich estimator `C = B (Σ g_c g_cᵀ + P) B`, `B = (N + P)⁻¹`,
+//!   with `g_c = J_cᵀ (I − H_c)^(−1/2) r_c`, `H_c = J_c B J_cᵀ`: Bell and McCaffrey, *Bias
+//!   reduction in standard errors for linear regression with multi-stage samples*, 2002 (CR2). With
+//!   few configurations per unknown, CR1 is too small and CR3 too large.
 
 use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DMatrixView, DVector, DVectorView};
 
-use super::linearize::{by_blocks, with_priors};
+use super::blocks::by_blocks;
+use super::linearize::with_priors;
 use super::solver::Solver;
 use super::triangle::Triangle;
 use super::{Configurations, Failure};
 use abbe_analysis::decompose::symmetric_eigen;
 
-/// What is counted as independent.
+/// Independence assumption of a covariance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Independent {
-    /// Every number: one point at every configuration.
+    /// Independent numbers: one point at each configuration.
     Numbers,
-    /// Every point of a configuration; visits of it share its errors.
+    /// Independent points of a configuration; repeated visits share its errors.
     Points,
-    /// Every configuration; all numbers of it share its errors.
+    /// Independent configurations; all numbers of a configuration share its errors.
     Configurations,
 }
 
-/// How well the unknowns are known.
+/// Covariance of the unknowns.
 pub(super) struct Known {
     pub(super) covariance: DMatrix<f64>,
     /// Standard deviation of a number, in units of the uncertainty.
     pub(super) sigma: f64,
-    /// Degrees of freedom of all this.
+    /// Degrees of freedom.
     pub(super) freedom: f64,
     pub(super) independent: Independent,
-    /// How many configurations stand behind it.
+    /// Number of configurations.
     pub(super) configurations: usize,
 }
 
-/// The numbers that a rigid body's place has: no configuration tells more of it than these.
+/// Degrees of freedom of a rigid body: the largest number of independent numbers per configuration.
 pub(super) const POSE: usize = 6;
 
 impl Solver<'_> {
-    /// At the solution; rows without weight do not count.
+    /// Computes the covariance at the solution, without rows of weight zero.
     pub(super) fn known(&self) -> Result<Known, Failure> {
         let used = || (0..self.data.len()).filter(|i| self.weights[*i] > 0.0);
         let data = || used().map(|i| &self.data[i]);
@@ -74,7 +77,7 @@ impl Solver<'_> {
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
             return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
         }
-        let groups = configurations.rows().of(&used().collect::<Vec<_>>());
+        let groups = configurations.rows().with_indices(&used().collect::<Vec<_>>());
         let groups = groups.slices();
         if several {
             let (covariance, sigma) = self.sandwich(&groups, n)?;
@@ -85,7 +88,7 @@ impl Solver<'_> {
         Ok(known(covariance, sigma, freedom, Independent::Points))
     }
 
-    /// Points visited again: covariance, σ and degrees of freedom.
+    /// Computes covariance, σ and degrees of freedom for points visited repeatedly.
     fn visits(
         &self,
         groups: &[&[usize]],
@@ -93,16 +96,17 @@ impl Solver<'_> {
     ) -> Result<(DMatrix<f64>, f64, f64), Failure> {
         let p = self.x.len();
         let block = |_: usize, groups: &[&[usize]]| {
-            let mut room = self.model.room();
+            let mut scratch = self.model.scratch();
             let mut sums = Triangle::new(p);
             let (mut between, mut within) = (0.0, 0.0);
             for rows in groups {
-                // By number of the configuration: the sum of its rows of J, that of its residuals, and how many there are.
+                // For each measured number of a configuration: the sum of its rows of J, the sum of
+                // its residuals, and their count.
                 let mut numbers: BTreeMap<usize, (DVector<f64>, f64, f64)> = BTreeMap::new();
                 for i in rows.iter().copied() {
                     let mut places = self.data[i].places().into_iter();
                     let weight = self.weights[i].sqrt();
-                    self.linear(&mut room, i, |residual, row| {
+                    self.linear(&mut scratch, i, |residual, row| {
                         let place = places.next().unwrap_or_default();
                         let (s, sum, count) =
                             numbers.entry(place).or_insert_with(|| (DVector::zeros(p), 0.0, 0.0));
@@ -144,7 +148,7 @@ impl Solver<'_> {
         if shared <= 0.0 {
             return plain();
         }
-        // M = Rᵀ K R with K = τ² Wᵀ W + σ_w² I, so that N M⁻¹ N = Rᵀ K⁻¹ R.
+        // M = Rᵀ K R with K = τ² Wᵀ W + σ_w² I, so N M⁻¹ N = Rᵀ K⁻¹ R.
         let mut k = w.tr_mul(&w) * shared;
         let tiny = 1e-12 * k.amax();
         (0..k.nrows()).for_each(|i| k[(i, i)] += alone.max(tiny));
@@ -154,7 +158,8 @@ impl Solver<'_> {
         Ok((self.inverse(&rows), (shared + alone).sqrt(), m - p))
     }
 
-    /// Several numbers of a configuration that may share errors of any kind: covariance and σ.
+    /// Computes covariance and σ where the numbers of a configuration have errors of any
+    /// correlation.
     fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
         let p = self.x.len();
         let bread = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
@@ -162,19 +167,19 @@ impl Solver<'_> {
             return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
         };
         let block = |_: usize, groups: &[&[usize]]| {
-            let mut room = self.model.room();
+            let mut scratch = self.model.scratch();
             let (mut rows, mut residuals, mut ends) = (Vec::new(), Vec::new(), Vec::new());
             for group in groups {
                 for i in group.iter().copied() {
                     let weight = self.weights[i].sqrt();
-                    self.linear(&mut room, i, |residual, row| {
+                    self.linear(&mut scratch, i, |residual, row| {
                         rows.extend(row.iter().map(|value| weight * value));
                         residuals.push(weight * residual);
                     })?;
                 }
                 ends.push(residuals.len());
             }
-            // In coordinates of B^(1/2), a column for every number: J̃ᵀ = Lᵀ Jᵀ.
+            // In coordinates of B^(1/2), one column for each number: J̃ᵀ = Lᵀ Jᵀ.
             let all = l.tr_mul(&DMatrix::from_vec(p, residuals.len(), rows));
             let residuals = DVector::from_vec(residuals);
             let mut parts = DMatrix::zeros(p, groups.len());
@@ -202,7 +207,7 @@ impl Solver<'_> {
         Ok((&l * meat * l.transpose(), (squares / n.max(1.0)).sqrt()))
     }
 
-    /// `(AᵀA + P)⁻¹` with the information `P` of the priors.
+    /// Returns `(AᵀA + P)⁻¹` with the information `P` of the priors.
     fn inverse(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
         let p = self.x.len();
         let mut triangle = Triangle::new(p);
@@ -215,16 +220,17 @@ impl Solver<'_> {
         )
     }
 
-    /// `(JᵀJ/σ² + P)⁻¹` with the information `P` of the priors.
+    /// Returns `(JᵀJ/σ² + P)⁻¹` with the information `P` of the priors.
     pub(super) fn covariance(&self, sigma: f64) -> DMatrix<f64> {
         self.inverse(&(self.data_alone.columns(0, self.x.len()) / sigma.max(1e-300)))
     }
 }
 
-/// `J̃ᵀ (I − H)^(−1/2) r` and `rᵀ (I − H)⁻¹ r` with `H = J̃ J̃ᵀ`, and how many directions the configuration alone determines:
-/// nothing is left of the residuals along those.
+/// Returns `J̃ᵀ (I − H)^(−1/2) r` and `rᵀ (I − H)⁻¹ r` for `H = J̃ J̃ᵀ`, and the number of
+/// directions that the configuration alone determines, along which the residuals vanish.
 ///
-/// With `G = J̃ᵀ J̃`, smaller where there are many numbers, `J̃ᵀ (I − H)^(−1/2) r = (I − G)^(−1/2) J̃ᵀ r` and
+/// With `G = J̃ᵀ J̃`, which is smaller for many numbers,
+/// `J̃ᵀ (I − H)^(−1/2) r = (I − G)^(−1/2) J̃ᵀ r` and
 /// `rᵀ (I − H)⁻¹ r = rᵀr + (J̃ᵀ r)ᵀ (I − G)⁻¹ (J̃ᵀ r)`.
 fn raised(j: &DMatrixView<'_, f64>, r: &DVectorView<'_, f64>) -> (DVector<f64>, f64, f64) {
     if j.ncols() <= j.nrows() {
@@ -235,10 +241,10 @@ fn raised(j: &DMatrixView<'_, f64>, r: &DVectorView<'_, f64>) -> (DVector<f64>, 
     (root, r.norm_squared() + squares, spent)
 }
 
-/// `(I − G)^(−1/2) v`, `vᵀ (I − G)⁻¹ v`, and how many eigenvalues of G are 1.
+/// Returns `(I − G)^(−1/2) v`, `vᵀ (I − G)⁻¹ v`, and the number of eigenvalues of G that are 1.
 fn root(g: DMatrix<f64>, v: &DVector<f64>) -> (DVector<f64>, f64, f64) {
     if g.trace() < 0.05 {
-        // The series: what is left out is below 3e-5 of it.
+        // Power series; the truncation error is below 3e-5.
         let once = &g * v;
         let twice = &g * &once;
         let squares = v.norm_squared() + v.dot(&once) + once.norm_squared();
@@ -260,7 +266,7 @@ mod tests {
 
     use super::{raised, root};
 
-    /// Few numbers of many unknowns, and many of few.
+    /// The two formulas agree, for few numbers of many unknowns and for many of few.
     #[test]
     fn numbers_and_unknowns_say_the_same() {
         for (p, m, size) in [(3, 5, 0.05), (3, 5, 0.3), (5, 3, 0.05), (5, 3, 0.3)] {

@@ -1,4 +1,4 @@
-//! Rows by the configuration that they are visits of: what is independent of each other.
+//! Grouping of rows by independent configuration; rows of one configuration are repeated visits.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -7,36 +7,36 @@ use rand::RngExt;
 use super::Observation;
 use abbe_analysis::sampling::stream;
 
-/// Rows, those of one configuration after those of the other.
+/// Rows grouped by configuration.
 pub(super) struct Groups {
     order: Vec<usize>,
     ends: Vec<usize>,
 }
 
 impl Groups {
-    /// The same, of rows that are `used`, given by their place among these.
-    pub(super) fn of(mut self, used: &[usize]) -> Self {
-        self.order.iter_mut().for_each(|row| *row = used[*row]);
+    /// Replaces each row index by `rows[index]`.
+    pub(super) fn with_indices(mut self, rows: &[usize]) -> Self {
+        self.order.iter_mut().for_each(|row| *row = rows[*row]);
         self
     }
 
-    /// The rows of every configuration.
+    /// Returns the rows of each configuration.
     pub(super) fn slices(&self) -> Vec<&[usize]> {
         let starts = std::iter::once(&0).chain(&self.ends);
         starts.zip(&self.ends).map(|(start, end)| &self.order[*start..*end]).collect()
     }
 }
 
-/// Which rows belong together.
+/// Assignment of rows to independent configurations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Configurations {
-    /// How many there are.
+    /// Number of configurations.
     pub count: usize,
-    /// By row: its configuration, from 0 in the order in which they come first.
+    /// Configuration of each row, numbered from 0 in order of first occurrence.
     pub number: Vec<u32>,
 }
 
-/// Numbers what comes again, from 0 in the order in which it comes first: what may be a million takes four bytes each.
+/// Numbers distinct keys from 0 in order of first occurrence, in four bytes per key.
 pub(super) struct Numbering {
     dense: Vec<u32>,
     sparse: HashMap<u32, u32>,
@@ -44,11 +44,11 @@ pub(super) struct Numbering {
 }
 
 impl Numbering {
-    /// No number given yet.
+    /// Marks a key without a number.
     const NONE: u32 = u32::MAX;
 
-    /// Of these keys, and no others.
-    pub(super) fn of(keys: impl Iterator<Item = u32>) -> Self {
+    /// Creates a numbering whose storage suits these keys.
+    pub(super) fn for_keys(keys: impl Iterator<Item = u32>) -> Self {
         let (count, largest) = keys.fold((0, 0), |(count, largest), key| (count + 1, key.max(largest)));
         let dense = if largest as usize > 1024 + 4 * count { 0 } else { largest as usize + 1 };
         Self { dense: vec![Self::NONE; dense], sparse: HashMap::new(), count: 0 }
@@ -65,21 +65,23 @@ impl Numbering {
         *known
     }
 
-    /// How many are different.
+    /// Returns the number of distinct keys.
     pub(super) fn count(&self) -> usize {
         self.count as usize
     }
 }
 
 impl Configurations {
-    /// Those of these rows.
+    /// Groups rows by [`Observation::configuration`].
     pub fn new<'o>(rows: impl IntoIterator<Item = &'o Observation>) -> Self {
         Self::from_numbers(rows.into_iter().map(|row| row.configuration).collect())
     }
 
-    /// The rows of as many configurations, drawn with replacement: one repetition of the bootstrap where rows depend on each other
-    /// (Davison and Hinkley, 1997, section 3.8). All rows of a configuration come as often as it is drawn, in their order.
-    /// Repetition `number` follows from the seed and its number alone.
+    /// Draws as many configurations as there are, with replacement, and returns their rows.
+    ///
+    /// This is one repetition of the bootstrap for dependent rows (Davison and Hinkley, 1997,
+    /// section 3.8). All rows of a configuration occur together, in order, as often as it is drawn.
+    /// The result depends on the seed and `number` alone.
     pub fn resampled(&self, seed: u64, number: usize) -> Vec<usize> {
         let (mut random, mut times) = (stream(seed, number), vec![0; self.count]);
         for _ in 0..self.count {
@@ -90,8 +92,8 @@ impl Configurations {
             .collect()
     }
 
-    /// By configuration, how many numbers were measured of it: every one once at every station, however often it was visited.
-    /// `rows` are those that they were made of.
+    /// Returns the number of distinct measured numbers of each configuration: each one counts once
+    /// per station, however often it was repeated. `rows` are the rows of this assignment.
     pub(super) fn numbers<'o>(&self, rows: impl Iterator<Item = &'o Observation>) -> Vec<u32> {
         let visits = self.visits();
         let (mut numbers, mut again) = (vec![0; self.count], BTreeMap::new());
@@ -108,21 +110,22 @@ impl Configurations {
         numbers
     }
 
-    /// How many numbers of rows are independent of each other, and at how many configurations.
+    /// Returns the number of independent numbers in the rows, and the number of their
+    /// configurations.
     pub(super) fn independent(rows: &[Observation]) -> (usize, usize) {
         let configurations = Self::new(rows);
         let numbers = configurations.numbers(rows.iter());
         (numbers.iter().map(|count| *count as usize).sum(), configurations.count)
     }
 
-    /// By configuration, how many rows there are of it.
+    /// Returns the number of rows of each configuration.
     pub(super) fn visits(&self) -> Vec<u32> {
         let mut visits = vec![0; self.count];
         self.number.iter().for_each(|number| visits[*number as usize] += 1);
         visits
     }
 
-    /// Rows by their configuration.
+    /// Groups the row indices by configuration.
     pub(super) fn rows(&self) -> Groups {
         let mut order: Vec<usize> = (0..self.number.len()).collect();
         order.sort_by_key(|row| self.number[*row]);
@@ -131,14 +134,14 @@ impl Configurations {
         Groups { order, ends }
     }
 
-    /// Rows with the same number belong together.
+    /// Groups rows with equal numbers.
     fn from_numbers(mut number: Vec<u32>) -> Self {
-        let mut numbering = Numbering::of(number.iter().copied());
+        let mut numbering = Numbering::for_keys(number.iter().copied());
         number.iter_mut().for_each(|number| *number = numbering.number(*number));
         Self { count: numbering.count(), number }
     }
 
-    /// Rows with the same key belong together.
+    /// Groups rows with equal keys.
     pub fn from_keys<K: std::hash::Hash + Eq>(keys: impl IntoIterator<Item = K>) -> Self {
         let mut numbers = HashMap::new();
         let number = keys
@@ -156,7 +159,7 @@ impl Configurations {
 mod tests {
     use super::Configurations;
 
-    /// Of n configurations each is drawn once on average, and with a variance of 1 − 1/n: binomially.
+    /// Each of n configurations is drawn once on average, with a binomial variance of 1 − 1/n.
     #[test]
     fn configurations_are_drawn_whole() {
         let count = 50;

@@ -1,4 +1,5 @@
-//! Stated deviations against many machines: with visits, with several targets, with few rows and robust losses.
+//! Coverage of stated standard deviations over many machines: repeated visits, several targets, few
+//! rows, robust losses.
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -7,13 +8,13 @@ use super::*;
 use crate::by_hand::Pps;
 use abbe_analysis::{Workspace, joint_samples};
 
-/// As `identify` does: errors are expected to be no more than a hundredth of the arm.
+/// Returns the options of `identify`: errors are expected to be below a hundredth of the arm.
 fn options(model: &Model, loss: Loss) -> Options {
     let priors = model.priors(0.01).unwrap();
     Options { loss, expected: model.expected(&priors).unwrap(), priors, ..Options::default() }
 }
 
-/// Errors of the frames of a machine that is seen at one target or three.
+/// Returns a machine with errors of all frames, seen at one target or three.
 fn machine(targets: usize) -> Model<'static> {
     let places = [[-200.0, 10.0, 150.0], [250.0, 0.0, -100.0], [30.0, 40.0, 300.0]];
     let places = if targets == 1 { vec![[0.0; 3]] } else { places[..targets].to_vec() };
@@ -22,7 +23,7 @@ fn machine(targets: usize) -> Model<'static> {
     model.with(errors.collect())
 }
 
-/// So many configurations, each visited so often, one round after the other.
+/// Returns configurations, each visited repeatedly, one round after the other.
 fn planned(model: &Model, configurations: usize, visits: usize) -> Vec<Observation> {
     let samples = joint_samples(&Pps, &[0, 1, 2, 3, 4, 5], configurations).unwrap().reached();
     let rounds = (0..visits).flat_map(|_| samples.iter().enumerate());
@@ -34,7 +35,7 @@ fn planned(model: &Model, configurations: usize, visits: usize) -> Vec<Observati
     (2..).zip(rounds).map(row).collect()
 }
 
-/// The machine drawn: unknowns, errors of `own` mm that every configuration has to itself, noise of `noise` mm.
+/// Draws a machine: unknowns, errors of `own` mm for each configuration, noise of `noise` mm.
 fn drawn(
     model: &Model,
     list: &[Observation],
@@ -49,9 +50,9 @@ fn drawn(
     let mut normal = |sigma: f64| random.sample(rand_distr::Normal::new(0.0, sigma).unwrap());
     let count = Configurations::new(list).count;
     let shared: Vec<[f64; 3]> = (0..count).map(|_| [0; 3].map(|_| normal(own))).collect();
-    let mut room = model.room();
+    let mut scratch = model.scratch();
     let measured = list.iter().map(|row| {
-        let pose = model.pose(&mut room, row, &truth).unwrap();
+        let pose = model.pose(&mut scratch, row, &truth).unwrap();
         let shift = shared[row.configuration as usize];
         let points = model.targets.iter().map(|target| {
             let at = pose.apply(*target);
@@ -63,8 +64,8 @@ fn drawn(
     (truth, measured)
 }
 
-/// Root mean square of error / standard deviation, the shares within what Student's t says holds 68 and 95 %, and the share of
-/// fits that leave any row out.
+/// Returns the root mean square of error / standard deviation, the coverage of the 68 and 95 %
+/// intervals of Student's t, and the share of fits that reject any row.
 fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, machines: u64) -> [f64; 4] {
     let (mut squares, mut within, mut all, mut wronged) = (0.0, [0.0; 2], 0.0, 0.0);
     for seed in 0..machines {
@@ -99,7 +100,7 @@ fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, ma
     result
 }
 
-/// 80 machines of 19 unknowns: the margin of 68 % is about 2 %, that of 95 % 1 %.
+/// 80 machines of 19 unknowns: the standard error of 68 % is about 2 %, that of 95 % 1 %.
 #[test]
 fn robust_fits_of_few_rows_say_how_sure_they_are() {
     let model = machine(1);
@@ -132,7 +133,7 @@ fn visits_of_a_configuration_count_once() {
     }
 }
 
-/// The same rows ten times over are no more than once.
+/// Ten copies of the same rows carry no more information than one.
 #[test]
 fn copies_of_rows_say_nothing_new() {
     for (targets, visits) in [(1, 1), (1, 3), (3, 1)] {
@@ -141,7 +142,8 @@ fn copies_of_rows_say_nothing_new() {
         let (_, once) = drawn(&model, &planned(&model, 30, visits), [0.1, 0.02], &mut random);
         let ten_times: Vec<Observation> = (0..10).flat_map(|_| once.clone()).collect();
         let deviations = |data: &[Observation]| {
-            // Nothing is held that is hardly told: along bent valleys that took 140 to 310 steps without a bend.
+            // No unknown is fixed, so valleys are curved: without acceleration, this took 140 to
+            // 310 steps.
             let found = fit(&model, data, &Options::default()).unwrap();
             assert_eq!(found.configurations, 30);
             assert!(found.steps <= 30, "{targets} {visits}: {} steps", found.steps);
@@ -154,9 +156,9 @@ fn copies_of_rows_say_nothing_new() {
     }
 }
 
-/// One gross error among few rows is found, and no good row with it.
+/// One outlier among few rows is found, and no good row is rejected.
 #[test]
-fn a_gross_error_among_few_rows_is_named() {
+fn an_outlier_among_few_rows_is_found() {
     let model = machine(1);
     for (rows, visits) in [(25, 1), (40, 1), (12, 10)] {
         let list = planned(&model, rows, visits);

@@ -1,12 +1,16 @@
-//! Where to measure: the configurations of a list that tell most.
+//! Optimal designs: the most informative configurations of a list.
 //!
-//! With `J_i` the derivatives of what is seen at configuration i, in units of its uncertainty, a choice has the information
-//! `M = Σ J_iᵀJ_i` and leaves the covariance `C = M⁻¹`. D-optimal is the largest `det M`; V-optimal the smallest mean variance
-//! of the tool point where the machine is used, `tr(C B)` with `B` the mean of `TᵀT` over the tool points' derivatives `T`.
+//! With `J_i` the derivatives of the measurement at configuration i, in units of its uncertainty, a
+//! design has the information matrix `M = Σ J_iᵀJ_i` and the covariance `C = M⁻¹`. A D-optimal
+//! design maximizes `det M`. A V-optimal design minimizes the mean variance of the tool point over
+//! the configurations of use, `tr(C B)`, with `B` the mean of `TᵀT` over the derivatives `T` of the
+//! tool point.
 //!
-//! Mitchell, *An algorithm for the construction of D-optimal experimental designs*, 1974: a configuration is added where it gains
-//! most, the one that is missed least is taken away, as long as that gains. Of long lists many are exchanged at once to begin
-//! with (Fedorov's exchange for a bounded density), as every look at the list costs the same.
+//! The search is that of Mitchell, *An algorithm for the construction of D-optimal experimental
+//! designs*, 1974: it adds the configuration with the largest gain and removes the one with the
+//! smallest loss, as long as the objective improves. For long lists, it first exchanges many at
+//! once (Fedorov's exchange for a bounded density), because each pass over the list has the same
+//! cost.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,50 +18,52 @@ use super::information::{Candidates, Criterion, Information};
 use super::{Failure, Identifiable, Model, Observation, ToolPoints};
 use abbe_analysis::sampling;
 
-/// What a choice is judged by.
+/// Objective of a design.
 #[derive(Clone, Copy, Debug)]
 pub struct Objective<'a> {
     /// The criterion.
     pub criterion: Criterion,
-    /// How the tool point moves where the machine is used.
+    /// Derivatives of the tool point at the configurations of use.
     pub used: &'a ToolPoints,
-    /// One standard deviation of what the model itself leaves of a coordinate, beside the instrument's noise, in the length
-    /// unit: the same for all targets of a configuration, and independent from one configuration to the next. Of an angle it
-    /// is as much as that is over the length of the arm.
+    /// Standard deviation of the residual error of the model, per coordinate, in the length unit.
+    ///
+    /// It adds to the noise of the instrument, is common to all targets of a configuration, and is
+    /// independent between configurations. For an angle, it is divided by the length of the arm.
     pub model_error: f64,
 }
 
 /// Configurations chosen from a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// By index in the list, ascending, each at most once.
+    /// Indices in the list, ascending and distinct.
     pub chosen: Vec<usize>,
-    /// `ln det(JᵀJ)` of columns that over the whole list have unit length.
+    /// `ln det(JᵀJ)`, with columns of unit length over the whole list.
     pub log_det: f64,
-    /// The mean variance of the tool point where the machine is used: `tr(C B)`, the length unit squared. The model's own error
-    /// comes on top.
+    /// Mean variance of the tool point over the configurations of use, `tr(C B)`, in the length
+    /// unit squared, without the residual error of the model.
     pub variance: f64,
     /// Covariance of the kept unknowns.
     pub covariance: DMatrix<f64>,
-    /// How many exchanges were made.
+    /// Number of exchanges.
     pub exchanges: usize,
 }
 
-/// So many looks at a candidate there are at most; a fraction of a microsecond each.
+/// Largest number of evaluations of a candidate, each a fraction of a microsecond.
 const LOOKS: usize = 3_000_000;
-/// Lists with fewer pairs than this are searched from several starts.
+/// Largest number of pairs for a search from several starts.
 const SHORT: usize = 2_000;
 const STARTS: usize = 6;
-/// An exchange that gains less than this share gains nothing.
+/// Smallest relative gain of an exchange.
 const GAIN: f64 = 1e-9;
-/// Holds up what a choice does not determine, as a share of what the whole list tells.
+/// Regularization of an undetermined design, as a share of the information of the whole list.
 const RIDGE: f64 = 1e-9;
 
-/// `count` of the `candidates` that are best by the objective; each is chosen once at most.
+/// Chooses `count` of the `candidates` that are best by the objective, without repetition.
 ///
-/// The unknowns of `model` are those that can be known; what was seen at the candidates does not matter, only which
-/// targets or poses would be. `progress` hears how much of the search is done, of how much at most. None if `count`
-/// configurations cannot determine them, or if there are fewer candidates.
+/// The unknowns of `model` must be identifiable. Only the kind of measurement at a candidate
+/// counts, not its values. `progress` receives the completed and the largest possible number of
+/// evaluations. Returns none if `count` configurations cannot determine the unknowns, or if there
+/// are fewer candidates.
 pub fn optimal(
     model: &Model,
     candidates: &[Observation],
@@ -85,7 +91,8 @@ pub fn optimal(
     Ok(best.and_then(|(_, chosen, exchanges)| search.design(chosen, exchanges)))
 }
 
-/// A list as it is: every configuration once; `progress` is told how many are evaluated, of how many.
+/// Evaluates a list as a design that has each configuration once; `progress` receives the number of
+/// evaluated configurations and their total.
 pub fn whole(
     model: &Model,
     list: &[Observation],
@@ -97,7 +104,7 @@ pub fn whole(
     Ok(search.design((0..list.len()).collect(), 0))
 }
 
-/// Spread over the list; every start differently.
+/// Returns a spread-out initial design; each `start` gives a different one.
 fn spread(n: usize, count: usize, start: usize) -> Vec<usize> {
     let mut chosen: Vec<usize> = match start {
         0 => (0..count).map(|i| i * n / count).collect(),
@@ -106,7 +113,7 @@ fn spread(n: usize, count: usize, start: usize) -> Vec<usize> {
     let mut index = 1;
     while chosen.len() < count {
         let next = (sampling::halton(index, start) * n as f64) as usize;
-        // Small lists: what the sequence does not meet is taken in order.
+        // In small lists, fills up in order with the candidates that the sequence misses.
         let next = if index <= 8 * n { next.min(n - 1) } else { index % n };
         if !chosen.contains(&next) {
             chosen.push(next);
@@ -119,7 +126,7 @@ fn spread(n: usize, count: usize, start: usize) -> Vec<usize> {
 struct Search {
     candidates: Candidates,
     criterion: Criterion,
-    /// The lengths that the columns had, in the unknowns' units.
+    /// Original lengths of the columns, in the units of the unknowns.
     lengths: DVector<f64>,
 }
 
@@ -134,17 +141,17 @@ impl Search {
         let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
         let mut all = Candidates::new(&kept, candidates, objective.model_error, progress)?;
         let lengths = all.normalize();
-        let used = objective.used.of(&identifiable.kept);
-        all.aim(&DMatrix::from_fn(lengths.len(), lengths.len(), |i, j| {
+        let used = objective.used.mean_square(&identifiable.kept);
+        all.set_objective(&DMatrix::from_fn(lengths.len(), lengths.len(), |i, j| {
             used[(i, j)] / (lengths[i] * lengths[j])
         }));
         Ok(Self { candidates: all, criterion: objective.criterion, lengths })
     }
 
-    /// What is to be small: `−ln det M`, or `tr(C B)`; infinite where there is no covariance.
+    /// Returns the minimized objective, `−ln det M` or `tr(C B)`; infinite if `M` is singular.
     fn value(&self, information: &DMatrix<f64>) -> (f64, Option<Information>) {
         let held = information + DMatrix::identity(self.lengths.len(), self.lengths.len()) * RIDGE;
-        let Some(found) = Information::new(held, self.candidates.aim_root()) else {
+        let Some(found) = Information::new(held, self.candidates.objective_root()) else {
             return (f64::INFINITY, None);
         };
         let value = match self.criterion {
@@ -154,7 +161,7 @@ impl Search {
         (value, Some(found))
     }
 
-    /// The exchanges from a start: what they reach, with what, in how many.
+    /// Searches from a start: returns the value, the design and the number of exchanges.
     fn exchanged(
         &self,
         mut chosen: Vec<usize>,
@@ -195,7 +202,7 @@ impl Search {
                 }
                 continue;
             }
-            // One for one: the best is added, then the one that is missed least is taken away.
+            // Single exchanges: add the best candidate, then remove the one with the smallest loss.
             let gains = self.candidates.gains(information, self.criterion, |_| false);
             let best = |a: &usize, b: &usize| gains[*a].total_cmp(&gains[*b]);
             let Some(add) = (0..n).filter(|i| !inside[*i]).max_by(best) else { break };
@@ -220,7 +227,7 @@ impl Search {
         (value, chosen, exchanges)
     }
 
-    /// Short lists: every pair is tried until none gains.
+    /// Tries all pairs until no exchange improves a short list.
     fn pairs(&self, chosen: &mut [usize], value: &mut f64) -> usize {
         let mut exchanges = 0;
         loop {
@@ -231,7 +238,7 @@ impl Search {
                 let (_, Some(information)) = self.value(&without) else { continue };
                 let gains = self.candidates.gains(&information, self.criterion, |_| false);
                 for i in (0..self.candidates.len()).filter(|i| !chosen.contains(i)) {
-                    // What is gained when i comes back instead, exactly.
+                    // Exact value of the exchange.
                     let reached = match self.criterion {
                         Criterion::Determinant => -information.log_det - gains[i],
                         Criterion::Variance => information.variance - gains[i],
@@ -246,7 +253,7 @@ impl Search {
             chosen[place] = i;
             let (reached, _) = self.value(&self.candidates.sum(chosen));
             if reached >= *value - GAIN * value.abs() {
-                // Rounding.
+                // The gain was rounding error.
                 chosen[place] = before;
                 return exchanges;
             }
@@ -255,13 +262,14 @@ impl Search {
         }
     }
 
-    /// The choice, without what held it up; none if it determines too little.
+    /// Returns the design without regularization; none if it does not determine the unknowns.
     fn design(&self, mut chosen: Vec<usize>, exchanges: usize) -> Option<Design> {
         chosen.sort_unstable();
-        let found = Information::new(self.candidates.sum(&chosen), self.candidates.aim_root())?;
+        let found = Information::new(self.candidates.sum(&chosen), self.candidates.objective_root())?;
         let p = self.lengths.len();
         let covariance = found.covariance();
-        // Less than this is rounding of the sum: a direction that the choice does not tell.
+        // Smaller information is rounding error of the sum: the design does not determine that
+        // direction.
         let largest = self.candidates.sum(&chosen).diagonal().max();
         if (0..p).any(|i| covariance[(i, i)] * largest > 1e14) {
             return None;

@@ -1,64 +1,66 @@
-//! What is left of a fit against the order in which it was measured: does the machine warm up or drift?
+//! Drift test: correlation of the residuals of a fit with time.
 //!
-//! A row's error is the mean over its targets. Where configurations were visited again, errors are taken about the mean of
-//! their configuration, which takes all errors of the model away; elsewhere what grows with a joint or its square is taken
-//! away first, so that a way through the workspace is not taken for time. Whether the rest follows time is told by a
-//! permutation test (Freedman and Lane, 1983): the largest squared correlation of x, y, z and the distance with `t` and
-//! with `exp(−t/T)`, `T` of 3, 10 and 30 % of the time, against that of the same rows in random orders. So its rate of
-//! false alarms is the level at which p is held, whatever the errors look like.
+//! The error of a row is the mean over its targets. If configurations are visited repeatedly,
+//! errors are taken about the mean of their configuration, which removes all errors of the model;
+//! otherwise, regressions on each joint and its square are removed, so that a systematic path
+//! through the workspace is not taken for drift. A permutation test (Freedman and Lane, 1983)
+//! compares the largest squared correlation of x, y, z and the distance with `t` and `exp(−t/T)`,
+//! for `T` of 3, 10 and 30 % of the duration, with those of random orders of the same rows. Its
+//! false-alarm rate is the significance level, for any distribution of the errors.
 
 use core::borrow::Borrow;
 
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
-use super::linearize::by_blocks;
+use super::blocks::by_blocks;
 use super::{Configurations, Failure, Model, Observation};
 use abbe_analysis::sampling::{norm, stream};
 
-/// How what is left follows the order of rows.
+/// Correlation of residuals with time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
-    /// The correlation of what is left with what is left of the next row.
+    /// Autocorrelation of the residuals of consecutive rows.
     pub lag_1: f64,
-    /// How likely so large a correlation is, either sign, in a random order.
+    /// Two-sided p-value of the autocorrelation, from random orders.
     pub p_of_lag_1: f64,
-    /// What follows time best.
+    /// Component that correlates most with time.
     pub follows: Follows,
-    /// The time constant as a share of the time that was taken; none for a straight line.
+    /// Time constant of the best exponential, as a share of the duration; none for a straight line.
     pub settling: Option<f64>,
-    /// By how much it changes from the first row to the last: the length unit.
+    /// Fitted change from the first row to the last, in the length unit.
     pub change: f64,
-    /// How likely it follows time as well in a random order.
+    /// p-value of the correlation, from random orders.
     pub p: f64,
-    /// The mean distance of the first tenth of the rows, and of the last.
+    /// Mean distances of the first and of the last tenth of the rows.
     pub ends: [f64; 2],
 }
 
-/// What follows time.
+/// Component of the residuals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Follows {
-    /// The error along x, y or z: 0, 1, 2.
+    /// The error along axis 0, 1 or 2: x, y or z.
     Axis(usize),
     /// The distance between model and measurement.
     Distance,
 }
 
-/// The most pieces of time that are told apart: rows of a piece are averaged.
+/// Largest number of time intervals; rows within an interval are averaged.
 const PIECES: usize = 400;
 
-/// Random orders.
+/// Number of random orders.
 const ORDERS: usize = 999;
 
-/// Fewer rows tell nothing of time.
+/// Smallest number of rows for a test.
 const FEWEST: usize = 20;
 
-/// Time constants, as shares of the time that was taken.
+/// Time constants, as shares of the duration.
 const SETTLING: [f64; 3] = [0.03, 0.1, 0.3];
 
-/// Judges rows at `x`; none if there are too few to tell.
+/// Tests the residuals of rows at `x` for drift; returns none for fewer than 20 rows.
 ///
-/// Of a million rows no error is kept: it is worked out each time that it is asked for, and added to that of its piece.
+/// Errors are recomputed when needed instead of stored, so that memory does not grow with the
+/// number of rows.
 pub fn drift<R: Borrow<Observation> + Sync>(
     model: &Model,
     rows: &[R],
@@ -66,17 +68,17 @@ pub fn drift<R: Borrow<Observation> + Sync>(
 ) -> Result<Option<Drift>, Failure> {
     let row = |i: u32| rows[i as usize].borrow();
     let time = |i: u32| row(i).time().unwrap_or(f64::from(i));
-    let mut order: Vec<u32> = (0..rows.len() as u32).filter(|i| model.tells_place(row(*i))).collect();
-    // A stable sort takes room for half of them, and they are in order most of the time.
+    let mut order: Vec<u32> = (0..rows.len() as u32).filter(|i| model.has_deviations(row(*i))).collect();
+    // A stable sort allocates half of the list, which usually is sorted already.
     if !order.is_sorted_by(|a, b| time(*a).total_cmp(&time(*b)).is_le()) {
         order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
     }
     let errors = |take: &mut dyn FnMut([f64; 3])| {
         let block = |_: usize, order: &[u32]| {
-            let mut room = model.room();
+            let mut scratch = model.scratch();
             let mean = |i: &u32| {
                 let (mut sum, mut count) = ([0.0; 3], 0.0);
-                model.each_deviation(&mut room, row(*i), x, |error| {
+                model.each_deviation(&mut scratch, row(*i), x, |error| {
                     sum = core::array::from_fn(|axis| sum[axis] + error[axis]);
                     count += 1.0;
                 })?;
@@ -87,28 +89,28 @@ pub fn drift<R: Borrow<Observation> + Sync>(
         by_blocks(&order, block, |means| means.into_iter().for_each(&mut *take))
     };
     let (row, time) = (|place: usize| row(order[place]), |place: usize| time(order[place]));
-    judged(&Timed { count: order.len(), row: &row, time: &time, errors: &errors })
+    test_drift(&Timed { count: order.len(), row: &row, time: &time, errors: &errors })
 }
 
-/// Rows in the order of time.
+/// Rows in order of time.
 struct Timed<'o> {
     count: usize,
     row: &'o dyn Fn(usize) -> &'o Observation,
     time: &'o dyn Fn(usize) -> f64,
-    /// Gives the errors of all away, one after the other.
+    /// Passes the error of each row to a function, in order.
     errors: &'o Errors<'o>,
 }
 
 type Errors<'o> = dyn Fn(&mut dyn FnMut([f64; 3])) -> Result<(), Failure> + 'o;
 
-fn judged(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, Failure> {
+fn test_drift(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, Failure> {
     let configurations = Configurations::new((0..count).map(row));
     let visits = configurations.visits();
     let at = |i: usize| configurations.number[i] as usize;
     let again: u32 = visits.iter().filter(|visits| **visits > 1).sum();
     let visited_again = 2 * again as usize > count;
     let with_norm = |[x, y, z]: [f64; 3]| [x, y, z, norm([x, y, z])];
-    // By configuration the mean of its visits, where they are taken off.
+    // Mean error of each configuration, if these are subtracted.
     let mut means = vec![[-0.0; 4]; if visited_again { configurations.count } else { 0 }];
     if visited_again {
         let mut rows = 0..count;
@@ -133,7 +135,7 @@ fn judged(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, 
     let since = |i: usize| if last > first { (time(i) - first) / (last - first) } else { 0.0 };
     let joints = row(0).q.len();
     let joints = if !visited_again && n > 6 * joints { joints } else { 0 };
-    // Piece by piece: the error and its norm, the time, every joint and its square.
+    // Averages in each interval: error, norm, time, each joint and its square.
     let mut pieces = DMatrix::repeat(n, 5 + 2 * joints, -0.0);
     let (mut ends, tenth) = ([-0.0; 2], count / 10);
     let (mut i, mut place) = (0, 0);
@@ -170,7 +172,7 @@ fn judged(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, 
         shapes.map(|settling| (settling, cleaned(column(4).map(|t| shape(settling, t))))).collect();
     let table = DMatrix::from_columns(&values);
     let squares: Vec<f64> = values.iter().map(DVector::norm_squared).collect();
-    // The best of all, and its place.
+    // Largest squared correlation, and its position.
     let best = |order: &[usize]| {
         let mut best = (0.0, 0, 0);
         for (j, (_, basis)) in bases.iter().enumerate() {
@@ -212,12 +214,12 @@ fn judged(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, 
     }))
 }
 
-/// Gram and Schmidt; columns that say nothing new are left out.
+/// Orthonormalizes columns by Gram-Schmidt; omits dependent ones.
 fn orthonormal(columns: &[DVector<f64>]) -> Vec<DVector<f64>> {
     let mut all: Vec<DVector<f64>> = Vec::new();
     for column in columns {
         let length = column.norm();
-        // Twice is enough.
+        // Two passes suffice for orthogonality.
         let rest =
             [(); 2].iter().fold(column.clone(), |rest, ()| all.iter().fold(rest, |c, z| &c - z * z.dot(&c)));
         if rest.norm() > 1e-8 * length {
@@ -232,10 +234,11 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    use super::{Drift, Follows, Timed, judged};
+    use super::{Drift, Follows, Timed, test_drift};
     use crate::identify::{Measurement, Observation};
 
-    /// Rows of a machine of two joints, with an error that the function says of time (0 to 1) and joints.
+    /// Returns rows of a machine with two joints, with the error as a function of time (0 to 1) and
+    /// joints.
     fn rows(
         seed: u64,
         count: usize,
@@ -266,10 +269,10 @@ mod tests {
             errors.iter().for_each(|error| take(*error));
             Ok(())
         };
-        judged(&Timed { count, row: &|i| &rows[i], time: &|i| i as f64, errors: &errors }).unwrap()
+        test_drift(&Timed { count, row: &|i| &rows[i], time: &|i| i as f64, errors: &errors }).unwrap()
     }
 
-    /// 1 % of orders without drift are called one: of 300, 3 ± 1.7.
+    /// 1 % of orders without drift raise an alarm: 3 ± 1.7 of 300.
     #[test]
     fn false_alarms_are_as_rare_as_stated() {
         for visits in [1, 5] {
@@ -291,7 +294,8 @@ mod tests {
         assert!(rows(3, 15, 1, |_, _| [0.0; 3]).is_none());
     }
 
-    /// A swing of variance 4.5 in noise of variance 1: neighbours correlate by about 0.8, less what the joints explain of it.
+    /// A swing of variance 4.5 in noise of variance 1: neighbours correlate by about 0.8, reduced
+    /// by the regression on joints.
     #[test]
     fn neighbours_tell_what_no_line_and_no_settling_does() {
         let swinging = rows(4, 300, 1, |t, _| [3.0 * (6.0 * t).sin(); 3]).unwrap();

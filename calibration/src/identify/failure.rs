@@ -1,38 +1,38 @@
-//! Why there is no result.
+//! Errors of identification.
 
 use core::fmt;
 
-use abbe_core::Error;
+use abbe_core::{Error, Remedy};
 
-/// Why measurements gave no result.
+/// Reason why identification has no result.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// An observation cannot be evaluated.
+    /// The model cannot be evaluated at an observation.
     Observation {
-        /// The line of the observation.
+        /// Line of the observation.
         line: u64,
-        /// Why not.
+        /// Error of the evaluation.
         error: Error,
     },
-    /// The machine cannot be evaluated at its home configuration.
+    /// The model cannot be evaluated at its home configuration.
     Machine(Error),
-    /// There are not more numbers than combinations to be known: nothing would be left to judge the result by.
+    /// There are no more numbers than identifiable combinations: no redundancy is left.
     TooFew {
-        /// Numbers measured, those of a configuration that was visited again counted once.
+        /// Number of measured numbers, without repeated visits.
         numbers: usize,
-        /// At how many configurations.
+        /// Number of configurations.
         configurations: usize,
-        /// Combinations of unknowns that they determine.
+        /// Number of identifiable combinations of unknowns.
         rank: usize,
     },
-    /// The machine touches nothing near a configuration.
+    /// No configuration near an observation touches.
     Untouched {
-        /// The line of the observation.
+        /// Line of the observation.
         line: u64,
     },
-    /// The steps do not come to an end: the model is far from what was measured.
+    /// The iterations do not converge: the model is far from the measurements.
     NotConverged {
-        /// How many were made.
+        /// Number of iterations.
         steps: usize,
     },
 }
@@ -58,3 +58,23 @@ impl fmt::Display for Failure {
 }
 
 impl core::error::Error for Failure {}
+
+impl Remedy for Failure {
+    fn remedy(&self) -> &'static str {
+        match self {
+            Self::Observation { error, .. } => match error {
+                Error::NotFinite { .. } => {
+                    "check the cells of the row and the units of the map, or leave the row out"
+                }
+                error => error.remedy(),
+            },
+            Self::Machine(error) => error.remedy(),
+            Self::TooFew { .. } => "measure at more configurations, or set `base = \"known\"` in the map",
+            Self::Untouched { .. } => "leave the row out, or widen the limits of the joints",
+            Self::NotConverged { .. } => {
+                "check for outliers, wrong units and reversed joints in the map (`abbe doctor`); \
+                 or try `--robust tukey`"
+            }
+        }
+    }
+}

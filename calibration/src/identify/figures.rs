@@ -1,35 +1,35 @@
-//! Figures of many errors, and whether one model is better than another.
+//! Summary statistics of errors, and comparison of two models.
 
 use super::configurations::Numbering;
 use super::statistics::student_beyond;
 
-/// Mean, root mean square, largest, and the value that 95 % do not exceed.
+/// Mean, root mean square, maximum and 95th percentile of errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// How many there are.
+    /// Number of errors.
     pub count: usize,
-    /// At how many independent configurations.
+    /// Number of independent configurations.
     pub configurations: usize,
     /// The mean.
     pub mean: f64,
-    /// The standard error of the mean: errors of one configuration count together. Infinite where there is only one.
+    /// Cluster-robust standard error of the mean; infinite for a single configuration.
     pub standard_error: f64,
     /// The root mean square.
     pub rms: f64,
-    /// The largest.
+    /// The maximum.
     pub max: f64,
-    /// The smallest that at least 95 % do not exceed.
+    /// 95th percentile: the smallest value that at least 95 % do not exceed.
     pub p95: f64,
 }
 
 impl Figures {
-    /// Those of norms, each at a configuration of its own; all 0 if there are none.
+    /// Computes the figures of norms at distinct configurations; all are 0 without norms.
     pub fn from_norms(values: Vec<f64>) -> Self {
-        let mean = Mean::of(values.iter().copied(), &[]);
-        Self::of(values, mean)
+        let mean = Mean::clustered(values.iter().copied(), &[]);
+        Self::from_mean(values, mean)
     }
 
-    fn of(mut values: Vec<f64>, Mean { mean, standard_error, configurations }: Mean) -> Self {
+    fn from_mean(mut values: Vec<f64>, Mean { mean, standard_error, configurations }: Mean) -> Self {
         let count = values.len();
         if count == 0 {
             return Self::default();
@@ -43,62 +43,64 @@ impl Figures {
     }
 }
 
-/// Distances between model and measurement, each with its configuration: twelve bytes, for there may be millions.
+/// Distances between model and measurement with their configurations, in twelve bytes each because
+/// there can be millions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Distances {
     values: Vec<f64>,
     configurations: Vec<u32>,
 }
 
-/// How much smaller the distances of one model are than those of another, at the same points.
+/// Paired comparison of the distances of two models at the same points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// The mean of the differences: above 0 if the other's are larger.
+    /// Mean difference; positive if the other model's distances are larger.
     pub gain: f64,
-    /// Its standard error, configurations counted.
+    /// Cluster-robust standard error of the mean difference.
     pub standard_error: f64,
-    /// At how many independent configurations.
+    /// Number of independent configurations.
     pub configurations: usize,
-    /// How likely a mean so far from 0, either way, is if both are as good: Student's t.
+    /// Two-sided p-value of the mean difference, by Student's t.
     pub p: f64,
 }
 
 impl Distances {
-    /// One more.
+    /// Appends a distance.
     pub fn push(&mut self, configuration: u32, value: f64) {
         self.values.push(value);
         self.configurations.push(configuration);
     }
 
-    /// All of them, in order.
+    /// Returns all distances in order.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The same without their configurations.
+    /// Returns all distances without their configurations.
     pub fn into_values(self) -> Vec<f64> {
         self.values
     }
 
-    /// Figures of them; all 0 if there are none.
+    /// Computes the figures; all are 0 without distances.
     pub fn figures(&self) -> Figures {
-        Figures::of(self.values.clone(), self.mean())
+        Figures::from_mean(self.values.clone(), self.mean())
     }
 
-    /// The same, where nobody needs them any more.
+    /// Computes the figures in place.
     pub fn into_figures(self) -> Figures {
         let mean = self.mean();
-        Figures::of(self.values, mean)
+        Figures::from_mean(self.values, mean)
     }
 
     fn mean(&self) -> Mean {
-        Mean::of(self.values.iter().copied(), &self.configurations)
+        Mean::clustered(self.values.iter().copied(), &self.configurations)
     }
 
-    /// How much smaller these are than others of the same points, pair by pair.
+    /// Compares these distances with others at the same points, pair by pair.
     pub fn compared_with(&self, others: &Self) -> Comparison {
         let differences = self.values.iter().zip(&others.values).map(|(own, other)| other - own);
-        let Mean { mean: gain, standard_error, configurations } = Mean::of(differences, &self.configurations);
+        let Mean { mean: gain, standard_error, configurations } =
+            Mean::clustered(differences, &self.configurations);
         let t = if gain == 0.0 { 0.0 } else { gain.abs() / standard_error };
         let p = match configurations {
             0 | 1 => 1.0,
@@ -121,7 +123,7 @@ impl Extend<(u32, f64)> for Distances {
     }
 }
 
-/// A mean, its standard error, and how many configurations stand behind it.
+/// A mean, its standard error, and its number of configurations.
 struct Mean {
     mean: f64,
     standard_error: f64,
@@ -129,10 +131,12 @@ struct Mean {
 }
 
 impl Mean {
+    /// Computes a mean with a cluster-robust standard error.
+    ///
     /// With the sums `d_c = Σ_i (v_ci − v̄)` over the values of each of `C` configurations:
-    /// `s² = C/(C − 1) · Σ d_c² / n²`, which for one value each is that of a mean. Where no configurations are given, each value
-    /// has its own.
-    fn of(values: impl Iterator<Item = f64> + Clone, configurations: &[u32]) -> Self {
+    /// `s² = C/(C − 1) · Σ d_c² / n²`, which for one value each is the usual one. Without
+    /// configurations, each value is a configuration of its own.
+    fn clustered(values: impl Iterator<Item = f64> + Clone, configurations: &[u32]) -> Self {
         let count = values.clone().count();
         let n = count.max(1) as f64;
         let mean = values.clone().sum::<f64>() / n;
@@ -140,7 +144,7 @@ impl Mean {
         let squares = match configurations {
             [] => values.map(|value| (value - mean).powi(2)).sum::<f64>(),
             _ => {
-                let mut numbering = Numbering::of(configurations.iter().copied());
+                let mut numbering = Numbering::for_keys(configurations.iter().copied());
                 for (value, configuration) in values.zip(configurations) {
                     let at = numbering.number(*configuration) as usize;
                     sums.resize(sums.len().max(at + 1), 0.0);

@@ -1,4 +1,4 @@
-//! Least squares on the exact model: what is asked for, and what comes out.
+//! Nonlinear least squares on the exact model.
 
 use nalgebra::DMatrix;
 
@@ -8,40 +8,41 @@ use super::{
     Configurations, Failure, Identifiable, Loss, Model, Observation, Options, identifiable, knowable,
 };
 
-/// An observation with less weight than this counts as left out.
+/// Observations with a smaller weight count as rejected.
 pub(super) const REJECTED: f64 = 0.05;
 
-/// The result of a fit.
+/// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// What the data determine.
+    /// Identifiable unknowns.
     pub identifiable: Identifiable,
-    /// The unknowns, zero where they are held.
+    /// Values of all unknowns; zero where they are fixed.
     pub x: Vec<f64>,
-    /// Covariance of the kept ones, in the order of `identifiable.kept`.
+    /// Covariance of the kept unknowns, in the order of `identifiable.kept`.
     pub covariance: DMatrix<f64>,
-    /// The priors that it was found with.
+    /// Priors of the fit.
     pub priors: Vec<Option<f64>>,
-    /// What the uncertainty of the instrument must be multiplied with to explain the residuals.
+    /// Ratio of the residuals to the stated uncertainty of the instrument.
     pub sigma: f64,
-    /// Degrees of freedom of that, and of the covariance: Student's t says what standard deviations hold.
+    /// Degrees of freedom of `sigma` and of the covariance, for coverage factors of Student's t.
     pub freedom: f64,
-    /// What was counted as independent.
+    /// Independence assumed for the covariance.
     pub independent: Independent,
-    /// How many configurations stand behind it; those of gross errors do not.
+    /// Number of configurations, without rejected ones.
     pub configurations: usize,
     /// Weighted sum of squared residuals, in units of the uncertainty.
     pub cost: f64,
-    /// Numbers measured.
+    /// Number of measured numbers.
     pub numbers: usize,
-    /// 0 for every observation that a robust loss left out, 1 for all others; their own weights come on top.
+    /// Weight of each observation: 0 if the robust loss rejected it, 1 otherwise; multiplies its
+    /// own weight.
     pub weights: Vec<f64>,
-    /// How many steps were made.
+    /// Number of iterations.
     pub steps: usize,
 }
 
 impl Fit {
-    /// The standard deviation of every unknown; none where it is held at zero.
+    /// Returns the standard deviation of each unknown; none where it is fixed at zero.
     pub fn standard_deviations(&self) -> Vec<Option<f64>> {
         let mut all = vec![None; self.x.len()];
         for (i, k) in self.identifiable.kept.iter().enumerate() {
@@ -50,8 +51,8 @@ impl Fit {
         all
     }
 
-    /// Kept unknowns of which the data say less than was known before, by their priors.
-    pub fn hardly_known(&self) -> Vec<usize> {
+    /// Returns the indices of kept unknowns whose priors carry more information than the data.
+    pub fn weakly_determined(&self) -> Vec<usize> {
         let deviations = self.standard_deviations();
         let hardly = |k: &usize| match (deviations[*k], self.priors.get(*k).copied().flatten()) {
             (Some(found), Some(prior)) => found > 0.5 * prior,
@@ -60,7 +61,8 @@ impl Fit {
         self.identifiable.kept.iter().copied().filter(hardly).collect()
     }
 
-    /// Pairs of kept unknowns whose correlation is beyond `least`, either sign, strongest first.
+    /// Returns the pairs of kept unknowns with an absolute correlation above `least`, strongest
+    /// first.
     pub fn correlations(&self, least: f64) -> Vec<(usize, usize, f64)> {
         let mut pairs = Vec::new();
         for i in 0..self.identifiable.kept.len() {
@@ -75,22 +77,22 @@ impl Fit {
         pairs
     }
 
-    /// The observations that a robust loss left out; `data` are those of the fit.
+    /// Returns the observations that the robust loss rejected; `data` are those of the fit.
     pub fn rejected<'o>(&self, data: &'o [Observation]) -> impl Iterator<Item = &'o Observation> {
         self.weighed(data).filter(|(weight, _)| *weight < REJECTED).map(|(_, observation)| observation)
     }
 
-    /// All others.
+    /// Returns the observations that were not rejected.
     pub fn kept<'o>(&self, data: &'o [Observation]) -> impl Iterator<Item = &'o Observation> {
         self.weighed(data).filter(|(weight, _)| *weight >= REJECTED).map(|(_, observation)| observation)
     }
 
-    /// Whether the observation of that number is one of these.
+    /// Returns whether the observation with index `i` was not rejected.
     pub fn is_kept(&self, i: usize) -> bool {
         self.weights[i] >= REJECTED
     }
 
-    /// Every observation with the weight that the loss gave it.
+    /// Returns each observation with its weight from the robust loss.
     pub(super) fn weighed<'o>(
         &self,
         data: &'o [Observation],
@@ -99,10 +101,11 @@ impl Fit {
     }
 }
 
-/// The unknowns that explain the measurements best.
+/// Fits the unknowns of a model to measurements.
 ///
-/// What cannot be known is held at zero; see [`identifiable()`]. Known sources do not count there: an error that
-/// changes from place to place makes groups differ by a little of a little, which no data of a real machine tell.
+/// Unknowns that are not identifiable are fixed at zero; see [`identifiable()`]. Known sources do
+/// not take part in that decision: an error that varies over the workspace makes equivalent
+/// unknowns differ by a second-order amount that real data do not resolve.
 pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit, Failure> {
     let mut at = options.at.clone();
     at.resize(model.unknowns.len(), 0.0);
@@ -112,15 +115,15 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
         false => knowable(&plain, data, &at, &options.expected, options.noise)?,
     };
     let numbers = data.iter().map(Observation::count).sum();
-    // A configuration that is visited again tells no more of the machine. What is told badly counts, too: as many numbers
-    // are explained by anything.
+    // Repeated visits add no information about the machine; weakly determined unknowns count as
+    // fitted parameters.
     let (independent, configurations) = Configurations::independent(data);
     let rank = identifiable.rank + identifiable.weak.len();
     if independent <= rank {
         return Err(Failure::TooFew { numbers: independent, configurations, rank });
     }
     let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
-    // The same place with what is held at zero: to first order, which is near enough to start from.
+    // To first order, the same start with the unidentifiable unknowns at zero.
     let mut start = at.clone();
     for (k, act_as) in &identifiable.held {
         act_as.iter().for_each(|(j, factor)| start[*j] += factor * at[*k]);
@@ -129,7 +132,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let mut solver = Solver::new(&kept, data, options, &identifiable.kept, start);
     let known = match options.loss {
         Loss::Squares => None,
-        loss => solver.leave_out_gross_errors(loss, options.steps)?,
+        loss => solver.reject_outliers(loss, options.steps)?,
     };
     if !solver.steps_at_most(options.steps)? {
         return Err(Failure::NotConverged { steps: solver.steps });

@@ -1,4 +1,4 @@
-//! Data left out in turn: how good the model is on what it has not seen.
+//! K-fold cross-validation: position errors of data that were not used in the fit.
 
 use nalgebra::DVector;
 
@@ -9,18 +9,20 @@ use super::{Configurations, Distances, Failure, Fit, Model, Observation};
 use abbe_analysis::in_order;
 use abbe_analysis::sampling::halton;
 
-/// The part that each observation is left out with.
+/// Assignment of observations to folds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Folds {
-    /// How many there are.
+    /// Number of folds.
     pub count: usize,
-    /// By observation.
+    /// Fold of each observation.
     pub fold: Vec<u32>,
 }
 
 impl Folds {
-    /// Configurations dealt to `count` folds of the same number, in an order without rhyme: neighbours do not stay
-    /// together, visits of one configuration do, and the same every time.
+    /// Distributes configurations evenly over `count` folds, in a fixed pseudorandom order.
+    ///
+    /// Neighbouring configurations are separated; all visits of a configuration share a fold. The
+    /// result is reproducible.
     pub fn new(data: &[Observation], count: usize) -> Self {
         let Configurations { count: configurations, number } = Configurations::new(data);
         let count = count.clamp(2, configurations.max(2));
@@ -35,7 +37,7 @@ impl Folds {
     }
 }
 
-/// The triangle of each fold, at `x`.
+/// Computes the triangle of each fold at `x`.
 fn triangles(
     model: &Model,
     data: &[Observation],
@@ -45,11 +47,11 @@ fn triangles(
 ) -> Result<Vec<Triangle>, Failure> {
     let one = |fold: usize| {
         let mut triangle = Triangle::new(model.unknowns.len());
-        let mut room = model.room();
+        let mut scratch = model.scratch();
         for (i, observation) in
             data.iter().enumerate().filter(|(i, _)| folds.fold[*i] as usize == fold && weights[*i] > 0.0)
         {
-            push(model, &mut room, observation, x, weights[i], &mut triangle)?;
+            push(model, &mut scratch, observation, x, weights[i], &mut triangle)?;
         }
         Ok(triangle)
     };
@@ -58,10 +60,11 @@ fn triangles(
     Ok(triangles)
 }
 
-/// Position errors of every fold under the fit of all others, with the exact model; rejected rows do not count.
+/// Returns the position errors of each fold under the fit of all others, on the exact model,
+/// without rejected rows.
 ///
-/// The other folds' fit is one step from the fit of all data, which has converged: what that leaves is of second
-/// order in a difference that is small already.
+/// Each fit is one Gauss-Newton step from the converged fit of all data; its error is of second
+/// order in a small difference.
 pub fn cross_validate(
     model: &Model,
     data: &[Observation],
@@ -80,10 +83,12 @@ pub fn cross_validate(
         x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()
     };
     let solutions: Vec<Vec<f64>> = (0..folds.count).map(solve).collect();
-    kept.distances_of(data, |i| (fit.weights[i] >= REJECTED).then(|| &solutions[folds.fold[i] as usize][..]))
+    kept.distances_where(data, |i| {
+        (fit.weights[i] >= REJECTED).then(|| &solutions[folds.fold[i] as usize][..])
+    })
 }
 
-/// All folds but one.
+/// Returns the triangle of all folds but one.
 fn others(parts: &[Triangle], left_out: usize, priors: &[Option<f64>], x: &[f64]) -> Problem {
     let rest = parts.iter().enumerate().filter(|(fold, _)| *fold != left_out);
     let mut all = Triangle::new(x.len());

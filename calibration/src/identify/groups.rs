@@ -1,48 +1,49 @@
-//! What acts alike and cannot be told apart, from the joint twists alone, before anything is measured.
+//! Indistinguishable errors, derived from the joint twists before any measurement.
 //!
-//! `E_{i-1} A_i(q) = A_i(q) E'` with a constant `E'` if the twist ξ of `E_{i-1}` commutes with that of joint i: if it
-//! is in the kernel of ad(S_i), `S_i = vee((dA_i/dq_i) A_i⁻¹)`. These are the turn about and the shift along the axis
-//! of a revolute joint, all shifts and the turn about the direction of a prismatic one; all six where the joint stays
-//! as it is. Then `E' = Ad(A_i⁻¹) ξ` is an error of frame i, and that one stands for both.
+//! `E_{i-1} A_i(q) = A_i(q) E'` with a constant `E'` if the twist ξ of `E_{i-1}` commutes with the
+//! twist of joint i, that is, lies in the kernel of ad(S_i), `S_i = vee((dA_i/dq_i) A_i⁻¹)`. The
+//! kernel has the rotation about and the translation along the axis of a revolute joint; all
+//! translations and the rotation about the direction of a prismatic joint; all six components for a
+//! joint at rest. Then `E' = Ad(A_i⁻¹) ξ` is an equivalent error of frame i.
 
-use super::columns::cross;
+use super::vectors::cross;
 use super::{Model, Unknown};
 use abbe_core::rotation_vector;
 use abbe_core::{Component, Error, Pose, VariableKind};
 
-/// Errors that act as others do.
+/// A combination of errors and its equivalent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// A combination of unknowns …
+    /// Combination of unknowns.
     pub these: Vec<(Unknown, f64)>,
-    /// … and that which acts the same; nothing if it cannot be seen at all.
+    /// Equivalent combination; empty if the measurements cannot see it at all.
     pub act_as: Vec<(Unknown, f64)>,
-    /// Why.
+    /// Cause of the equivalence.
     pub reason: Reason,
 }
 
-/// Why errors act alike.
+/// Cause of an equivalence of errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// They commute with the motion of this variable.
+    /// The errors commute with the motion of this variable.
     Commutes(usize),
-    /// This variable stays as it is.
+    /// This variable does not move.
     Still(usize),
-    /// Nothing moves between this frame and the one before it.
+    /// No variable acts between this frame and the previous one.
     Fixed(usize),
-    /// The tool, or the targets on it, are unknown themselves.
+    /// The mounting on the tool is unknown.
     Tool,
-    /// Turns about a single target do not move it.
+    /// Rotations about a single target do not move it.
     Unseen,
 }
 
-/// A twist `(v, ω)`: shift and turn, in the axes of a frame.
+/// A twist `(v, ω)`: translation and rotation, in the axes of a frame.
 type Twist = ([f64; 3], [f64; 3]);
 
-/// The groups of a model whose variables in `moved` are moved, all others staying at `q`.
+/// Finds the groups of a model whose variables in `moved` vary and whose others stay at `q`.
 ///
-/// Of each model unknowns of all six errors of two neighbours are needed; of others nothing is said. `pose`: whole
-/// poses are measured.
+/// Each group needs all six errors of two neighbouring frames among the unknowns; other groups are
+/// omitted. `pose`: whole poses are measured.
 pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<Vec<Group>, Error> {
     let description = model.manipulator.description();
     let mut groups = Vec::new();
@@ -71,7 +72,7 @@ pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<V
             }
         };
         for twist in kernel {
-            // What turns or shifts before the first joint does so at every station.
+            // An error before the first joint is an error of the base at each station.
             let these = match i.checked_sub(1) {
                 Some(before) => named(&twist, errors_of(before)),
                 None => stations.clone().flat_map(|station| named(&twist, base(station))).collect(),
@@ -84,7 +85,7 @@ pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<V
     let Some(last) = description.frames.len().checked_sub(1) else { return Ok(groups) };
     if pose && six(&Unknown::Tool) && six(&errors_of(last)) {
         for twist in every() {
-            // E_n T = T E_T: an error of the tool, as the last frame has it.
+            // E_n T = T E_T: an error of the last frame as an error of the tool.
             let act_as = named(&seen_from(&tool.inverse(), &twist), errors_of(last));
             groups.push(Group { these: named(&twist, Unknown::Tool), act_as, reason: Reason::Tool });
         }
@@ -95,7 +96,7 @@ pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<V
     Ok(groups)
 }
 
-/// What the errors of the last frame do to the targets.
+/// Returns the displacements of the targets by errors of the last frame.
 fn at_targets(model: &Model, tool: &Pose, last: &dyn Fn(Component) -> Unknown) -> Vec<Group> {
     let targets = 0..model.targets.len();
     let unknown = |j: usize| (0..3).all(|axis| model.unknowns.contains(&Unknown::Target(j, axis)));
@@ -116,7 +117,7 @@ fn at_targets(model: &Model, tool: &Pose, last: &dyn Fn(Component) -> Unknown) -
     if let [target] = model.targets[..] {
         let at = tool.apply(target);
         let turns = every().into_iter().skip(3).map(|(_, turn)| {
-            // A turn about the target: its shift at the origin of the frame is −ω × d.
+            // A rotation about the target translates the origin of the frame by −ω × d.
             let shift = cross(turn, at);
             Group {
                 these: named(&([0.0; 3], turn), last),
@@ -129,13 +130,13 @@ fn at_targets(model: &Model, tool: &Pose, last: &dyn Fn(Component) -> Unknown) -
     Vec::new()
 }
 
-/// Three shifts and three turns.
+/// Returns three unit translations and three unit rotations.
 fn every() -> Vec<Twist> {
     let unit = |i: usize| core::array::from_fn(|j| f64::from(u8::from(i == j)));
     (0..3).map(|i| (unit(i), [0.0; 3])).chain((0..3).map(|i| ([0.0; 3], unit(i)))).collect()
 }
 
-/// A basis of the kernel of ad(S).
+/// Returns a basis of the kernel of ad(S).
 fn commuting((shift, turn): Twist, kind: VariableKind) -> Vec<Twist> {
     match kind {
         VariableKind::Revolute => vec![(turn, [0.0; 3]), (shift, turn)],
@@ -148,7 +149,7 @@ fn commuting((shift, turn): Twist, kind: VariableKind) -> Vec<Twist> {
     }
 }
 
-/// `Ad(A⁻¹) ξ`: `ω' = Rᵀ ω`, `v' = Rᵀ (v + ω × p)`.
+/// Returns `Ad(A⁻¹) ξ`: `ω' = Rᵀ ω`, `v' = Rᵀ (v + ω × p)`.
 fn seen_from(a: &Pose, (shift, turn): &Twist) -> Twist {
     let moved = cross(*turn, a.position());
     let shift = core::array::from_fn(|i| shift[i] + moved[i]);
@@ -157,7 +158,7 @@ fn seen_from(a: &Pose, (shift, turn): &Twist) -> Twist {
     (back.turn(shift), back.turn(*turn))
 }
 
-/// The six errors that a small twist is, without those that are rounding.
+/// Returns the nonzero components of a small twist.
 fn named((shift, turn): &Twist, of: impl Fn(Component) -> Unknown) -> Vec<(Unknown, f64)> {
     let largest = |v: &[f64; 3]| v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let all = Component::ALL.into_iter().map(|component| {
@@ -168,7 +169,7 @@ fn named((shift, turn): &Twist, of: impl Fn(Component) -> Unknown) -> Vec<(Unkno
     all.filter(|(_, factor)| *factor != 0.0).collect()
 }
 
-/// `S`, of length 1, if it is the same wherever the joint stands.
+/// Returns `S` of unit length; none if it depends on the joint's position.
 fn joint_twist(
     model: &Model,
     q: &[f64],

@@ -1,8 +1,10 @@
-//! Which unknowns the data determine, and what the others are grouped with.
+//! Identifiability: unknowns that the data determine, and those that act as combinations of them.
 //!
-//! Two rules. What data of a kind determine at all is a matter of rank. What these data tell is held against what was known
-//! before: with columns `J_k σ_k / σ` (σ_k expected of unknown k, σ of the instrument) a column whose part beyond all others
-//! is shorter than 2 is told no better than to half of what was known.
+//! Two criteria apply. The rank decides which combinations this kind of data can determine at all.
+//! The prior decides which of them are worth fitting: with columns `J_k σ_k / σ`, where σ_k is the
+//! expected size of unknown k and σ the uncertainty of the instrument, a column whose component
+//! orthogonal to all others is shorter than 2 reduces the uncertainty of its unknown to no better
+//! than half of its expected size.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,62 +13,73 @@ use super::{Failure, Model, Observability, Observation, Unknown};
 use abbe_analysis::decompose::singular_values;
 use abbe_core::{Error, Quantity};
 
-/// Singular values of the matrix with columns of unit length at or below this share of the largest count as zero.
+/// Relative threshold of the singular values of the matrix with columns of unit length; smaller
+/// ones count as zero.
 pub const THRESHOLD: f64 = 1e-8;
 
-/// The part of a column beyond others, as a share of its length, below which it acts as they do.
-const ALIKE: f64 = 1e-6;
+/// Relative threshold of the residual of a column; a column with a smaller one is a combination of
+/// the others.
+const INDISTINGUISHABLE: f64 = 1e-6;
 
-/// The share of what is expected of it to which an unknown must be told to be worth fitting: at this, the data say three times
-/// as much of it as was known.
-const TOLD: f64 = 0.5;
+/// Largest standard deviation of a fitted unknown, as a share of its expected size.
+///
+/// At this limit, the data carry three times the information of the prior.
+const WEAK: f64 = 0.5;
 
-/// What data of this kind determine.
+/// Identifiable combinations of unknowns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiable {
-    /// How many combinations of the unknowns are determined.
+    /// Number of identifiable combinations of the unknowns.
     pub rank: usize,
-    /// How many combinations of the errors of base and frames are determined, whatever is unknown of the tool.
+    /// Number of identifiable combinations of the errors of base and frames, if nothing of the tool
+    /// is unknown.
     pub errors: usize,
-    /// The unknowns that stand for them, by index, in ascending order: the others can be held at zero.
+    /// Indices of the unknowns that represent these combinations, ascending. All others are fixed
+    /// at zero.
     pub kept: Vec<usize>,
-    /// Those held at zero, each with what it acts as: `column = Σ factor × column of a kept one`.
+    /// Unknowns fixed at zero, each with its equivalent:
+    /// `column = Σ factor × column of a kept unknown`.
     pub held: Vec<(usize, Vec<(usize, f64)>)>,
-    /// Those of them that act as nothing else, but of which these data tell too little beside what is known before; one for
-    /// every combination.
+    /// Unknowns fixed at zero that have no equivalent but are weakly determined by these data, one
+    /// for each combination.
     pub weak: Vec<Weak>,
-    /// Those held at zero that act only about as the combination that stands with them.
+    /// Unknowns fixed at zero whose equivalent is approximate.
     pub inexact: Vec<usize>,
-    /// All singular values of the matrix with columns of unit length, largest first.
+    /// Singular values of the matrix with columns of unit length, largest first.
     pub singular_values: Vec<f64>,
-    /// Condition number and observability of the kept columns, each of unit length.
+    /// Condition number and observability indices of the kept columns, each of unit length.
     pub observability: Observability,
-    /// The smallest singular value that counts over the largest that does not; infinite if all count.
+    /// Ratio of the smallest nonzero singular value to the largest one that counts as zero;
+    /// infinite if none does.
     pub gap: f64,
 }
 
-/// An unknown of which data tell too little beside what is known before: no better than to half of it.
+/// An unknown that the data determine no better than to half of its expected size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weak {
-    /// Which, by index.
+    /// Index of the unknown.
     pub unknown: usize,
-    /// The standard deviation that the data alone would give it beside all that is kept.
-    pub told: f64,
-    /// What is expected before.
+    /// Standard deviation from the data alone, with all kept unknowns free.
+    pub deviation: f64,
+    /// Expected size, as a standard deviation.
     pub expected: f64,
 }
 
-/// Finds what data of this kind determine at `x`; see [`Options::at`](super::Options::at).
+/// Finds the unknowns that this kind of data determines, linearized at `x`; see
+/// [`Options::at`](super::Options::at).
 ///
-/// Of unknowns that act alike, those of base, fixtures and tool are kept, then magnitudes that stand before errors of frames, then
-/// these, those nearest to the tool first, then other magnitudes: an error of the machine is only what cannot be where it stands or
-/// what is mounted on it.
+/// Among indistinguishable unknowns, the preference is: base, fixtures and tool; magnitudes that
+/// precede the errors of frames in [`Model::unknowns`]; errors of frames, from the tool towards the
+/// base; other magnitudes. An error is attributed to the machine only if neither the placement of
+/// the machine nor the mounting on its tool explains it.
 pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable, Failure> {
-    judged(model, data, x, &[], 1.0)
+    determined(model, data, x, &[], 1.0)
 }
 
-/// The same, judged by what was known before: `expected` by unknown as [`Model::expected`] says, `noise` times the stated
-/// uncertainty being what the data are worth. Plans and fits ask this one.
+/// Finds the unknowns that these data determine better than their expected sizes.
+///
+/// `expected` has the size of each unknown, as from [`Model::expected`]; `noise` multiplies the
+/// stated uncertainty. Plans and fits use this criterion.
 pub fn knowable(
     model: &Model,
     data: &[Observation],
@@ -74,10 +87,10 @@ pub fn knowable(
     expected: &[Option<f64>],
     noise: f64,
 ) -> Result<Identifiable, Failure> {
-    judged(model, data, x, expected, noise)
+    determined(model, data, x, expected, noise)
 }
 
-fn judged(
+fn determined(
     model: &Model,
     data: &[Observation],
     x: &[f64],
@@ -92,7 +105,7 @@ fn judged(
         error: Error::NotFinite { quantity: Quantity::Jacobian, index: 0 },
     })?;
     let rows = data.iter().map(Observation::count).sum();
-    let all = order(model);
+    let all = by_preference(model);
     let is_placement = |k: &usize| model.unknowns[*k].is_placement();
     let (first, then): (Vec<usize>, Vec<usize>) = all.iter().copied().partition(is_placement);
     let is_error = |k: &usize| matches!(model.unknowns[*k], Unknown::Base(..) | Unknown::Error(..));
@@ -102,8 +115,8 @@ fn judged(
     Ok(columns.identifiable(kept, errors, rows))
 }
 
-/// The order in which unknowns are kept.
-fn order(model: &Model) -> Vec<usize> {
+/// Returns the unknowns in order of preference.
+fn by_preference(model: &Model) -> Vec<usize> {
     use super::Unknown::{Base, Error, Fixture, Magnitude, Target, Tool, Zero};
     let frames = model.manipulator.description().frames.len();
     let mut order: Vec<usize> = (0..model.unknowns.len()).collect();
@@ -122,26 +135,27 @@ fn order(model: &Model) -> Vec<usize> {
     order
 }
 
-/// The derivatives, in columns of unit length.
+/// Derivatives, as columns of unit length.
 struct Columns {
     unit: DMatrix<f64>,
     lengths: Vec<f64>,
-    /// By column: its length times what is expected of it, over the noise; infinite where nothing is.
+    /// Length of each column times the expected size of its unknown, divided by the noise; infinite
+    /// without an expectation.
     worth: Vec<f64>,
     expected: Vec<Option<f64>>,
     singular_values: Vec<f64>,
-    /// How many singular values count.
+    /// Number of singular values above the threshold.
     exact: usize,
 }
 
 impl Columns {
-    /// None if a derivative is not finite beside the noise.
+    /// Returns none if a derivative is not finite in units of the noise.
     fn new(triangle: &DMatrix<f64>, expected: &[Option<f64>], noise: f64) -> Option<Self> {
         let p = triangle.ncols();
         let mut unit = triangle.clone();
         let lengths: Vec<f64> = unit.column_iter().map(|column| column.norm()).collect();
         let largest = lengths.iter().copied().fold(0.0, f64::max);
-        // A column of rounding errors is none.
+        // Columns of rounding errors count as zero.
         for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
             column.scale_mut(if *length > largest * 1e-14 { 1.0 / length } else { 0.0 });
         }
@@ -155,10 +169,12 @@ impl Columns {
         Some(Self { unit, lengths, worth, expected, singular_values, exact })
     }
 
-    /// The columns that stand for all, in groups of falling preference, sorted.
+    /// Returns the sorted columns that represent all others, from groups in order of falling
+    /// preference.
     ///
-    /// Gram and Schmidt in the order of preference; what adds little new waits for a later pass. Then what is told worse than
-    /// it was known goes, the worst first, as long as there is any: of several nearly alike, each may have looked new.
+    /// Gram-Schmidt orthogonalization runs in order of preference and postpones columns with a
+    /// small residual to a later pass. Then weakly determined columns are removed, the weakest
+    /// first, because several nearly parallel columns can each have passed.
     fn kept(&self, groups: &[&[usize]]) -> Vec<usize> {
         let mut rest = self.unit.clone();
         let mut kept: Vec<usize> = Vec::new();
@@ -167,8 +183,8 @@ impl Columns {
             while kept.len() < self.exact && pass > 1e-9 {
                 for &k in *group {
                     let new = rest.column(k).norm();
-                    let told = new * self.worth[k] * TOLD > 1.0;
-                    if kept.len() < self.exact && !kept.contains(&k) && new > pass && told {
+                    let is_determined = new * self.worth[k] * WEAK > 1.0;
+                    if kept.len() < self.exact && !kept.contains(&k) && new > pass && is_determined {
                         take_out(&mut rest, k);
                         kept.push(k);
                     }
@@ -184,18 +200,18 @@ impl Columns {
         kept
     }
 
-    /// The place of the kept column that is told worst, if worse than it was known; those of the first group only if there is
-    /// no other.
+    /// Returns the position of the most weakly determined kept column, if it is below the limit;
+    /// columns of the first group only if no other is.
     fn worst(&self, kept: &[usize], first: &[usize]) -> Option<usize> {
         if kept.iter().all(|k| self.worth[*k].is_infinite()) {
             return None;
         }
         let r = self.unit.select_columns(kept).qr().unpack_r();
         let inverse = r.solve_upper_triangular(&DMatrix::identity(kept.len(), kept.len()))?;
-        let told = |i: usize| inverse.row(i).norm() / self.worth[kept[i]];
-        let bad = (0..kept.len()).filter(|i| told(*i) > TOLD);
+        let share = |i: usize| inverse.row(i).norm() / self.worth[kept[i]];
+        let bad = (0..kept.len()).filter(|i| share(*i) > WEAK);
         bad.max_by(|a, b| {
-            let key = |i: usize| (!first.contains(&kept[i]), told(i));
+            let key = |i: usize| (!first.contains(&kept[i]), share(i));
             let ((other_a, told_a), (other_b, told_b)) = (key(*a), key(*b));
             other_a.cmp(&other_b).then(told_a.total_cmp(&told_b))
         })
@@ -227,30 +243,32 @@ impl Columns {
         }
     }
 
-    /// The columns that are no combination of those kept.
+    /// Returns the columns that are not exact combinations of the kept ones.
     fn inexact(&self, kept: &[usize]) -> Vec<usize> {
         let mut rest = self.unit.clone();
         kept.iter().for_each(|k| take_out(&mut rest, *k));
-        (0..rest.ncols()).filter(|k| rest.column(*k).norm() > ALIKE).collect()
+        (0..rest.ncols()).filter(|k| rest.column(*k).norm() > INDISTINGUISHABLE).collect()
     }
 
-    /// What acts as nothing that is kept, one for every combination: the best told first.
+    /// Returns the columns independent of the kept ones, one for each combination, the best
+    /// determined first.
     fn weak(&self, kept: &[usize]) -> Vec<Weak> {
         let mut rest = self.unit.clone();
         kept.iter().for_each(|k| take_out(&mut rest, *k));
         let mut weak = Vec::new();
         while kept.len() + weak.len() < self.exact {
             let strength = |k: &usize| rest.column(*k).norm() * self.worth[*k];
-            let free = (0..rest.ncols()).filter(|k| rest.column(*k).norm() > ALIKE);
+            let free = (0..rest.ncols()).filter(|k| rest.column(*k).norm() > INDISTINGUISHABLE);
             let Some(k) = free.max_by(|a, b| strength(a).total_cmp(&strength(b))) else { break };
-            let told = self.expected[k].unwrap_or(f64::INFINITY) / strength(&k).max(f64::MIN_POSITIVE);
-            weak.push(Weak { unknown: k, told, expected: self.expected[k].unwrap_or(f64::INFINITY) });
+            let deviation = self.expected[k].unwrap_or(f64::INFINITY) / strength(&k).max(f64::MIN_POSITIVE);
+            weak.push(Weak { unknown: k, deviation, expected: self.expected[k].unwrap_or(f64::INFINITY) });
             take_out(&mut rest, k);
         }
         weak
     }
 
-    /// `column k = Σ factor × kept column`, in the units of the unknowns; what is nothing beside the rest is left out.
+    /// Returns the factors of `column k = Σ factor × kept column`, in the units of the unknowns,
+    /// without negligible ones.
     fn combination(&self, basis: &DMatrix<f64>, k: usize, kept: &[usize]) -> Vec<(usize, f64)> {
         if kept.is_empty() {
             return Vec::new();
@@ -261,12 +279,12 @@ impl Columns {
         let count = kept.len();
         let solution = qr.r().solve_upper_triangular(&right.rows(0, count));
         let solution = solution.unwrap_or_else(|| DVector::zeros(count));
-        let shares = kept.iter().zip(solution.iter()).filter(|(_, share)| share.abs() > ALIKE);
+        let shares = kept.iter().zip(solution.iter()).filter(|(_, share)| share.abs() > INDISTINGUISHABLE);
         shares.map(|(j, share)| (*j, share * self.lengths[k] / self.lengths[*j])).collect()
     }
 }
 
-/// Takes the direction of a column out of all.
+/// Projects all columns onto the complement of column `k`.
 fn take_out(columns: &mut DMatrix<f64>, k: usize) {
     let new = columns.column(k).norm();
     if new <= 0.0 {

@@ -1,45 +1,45 @@
-//! What the configurations of a list tell, and what a sum of them leaves unknown.
+//! Information matrices of candidate configurations and of their sums.
 
 use core::convert::Infallible;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SMatrix};
 
-use super::linearize::by_blocks;
+use super::blocks::by_blocks;
 use super::{Failure, Measurement, Model, Observation};
 use abbe_analysis::decompose::symmetric_eigen;
 use abbe_analysis::{in_order, sampling};
 
-/// What a choice of configurations is to make small or large.
+/// Criterion of an optimal design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criterion {
-    /// The mean variance of the tool point where the machine is used: V-optimal.
+    /// V-optimal: mean variance of the tool point over the configurations of use.
     Variance,
-    /// The determinant of the information: D-optimal.
+    /// D-optimal: determinant of the information matrix.
     Determinant,
 }
 
-/// The derivatives of all candidates, one below the other, each with as many rows.
+/// Stacked derivatives of all candidates, with the same number of rows each.
 pub(super) struct Candidates {
     stack: DMatrix<f64>,
     /// Rows of a candidate.
     rows: usize,
     count: usize,
-    /// `B^½` of what is aimed at: `B = root · rootᵀ`.
+    /// `B^½` of the objective: `B = root · rootᵀ`.
     root: DMatrix<f64>,
 }
 
-/// A sum of information, and what it leaves.
+/// A sum of information matrices, and its covariance.
 pub(super) struct Information {
     cholesky: Cholesky<f64, Dyn>,
     /// `C^½` and `C B^½`.
     half: DMatrix<f64>,
-    aimed: DMatrix<f64>,
+    weighted: DMatrix<f64>,
     pub(super) log_det: f64,
-    /// `tr(C B)`.
+    /// Objective `tr(C B)`.
     pub(super) variance: f64,
 }
 
-/// Candidates that are looked at together.
+/// Candidates evaluated together.
 const BLOCK: usize = 512;
 
 impl Candidates {
@@ -55,16 +55,16 @@ impl Candidates {
         let x = vec![0.0; p];
         let block = |first: usize, part: &[Observation]| {
             let mut stack = DMatrix::zeros(rows * part.len(), p);
-            let mut room = model.room();
+            let mut scratch = model.scratch();
             for (i, observation) in part.iter().enumerate() {
-                let observation = model.nominally_seen(&mut room, observation)?;
+                let observation = model.nominally_seen(&mut scratch, observation)?;
                 let mut at = rows * i;
-                model.linear(&mut room, &observation, &x, |_, row| {
+                model.linear(&mut scratch, &observation, &x, |_, row| {
                     row.iter().enumerate().for_each(|(k, value)| stack[(at, k)] = *value);
                     at += 1;
                 })?;
-                let mut seen = stack.rows_mut(rows * i, at - rows * i);
-                whiten(model, &observation, model_error, arm, &mut seen);
+                let mut scaled = stack.rows_mut(rows * i, at - rows * i);
+                whiten(model, &observation, model_error, arm, &mut scaled);
             }
             Ok((first, stack))
         };
@@ -80,7 +80,7 @@ impl Candidates {
         self.count
     }
 
-    /// Scales the columns, so that they have a mean square of 1 per candidate; the lengths that they had.
+    /// Scales the columns to a mean square of 1 per candidate; returns their original lengths.
     pub(super) fn normalize(&mut self) -> DVector<f64> {
         let count = self.count.max(1) as f64;
         let lengths =
@@ -92,8 +92,8 @@ impl Candidates {
         lengths
     }
 
-    /// What is aimed at: `B`, of the scaled unknowns.
-    pub(super) fn aim(&mut self, b: &DMatrix<f64>) {
+    /// Sets `B` of the objective, for the scaled unknowns.
+    pub(super) fn set_objective(&mut self, b: &DMatrix<f64>) {
         let Some(eigen) = symmetric_eigen(b.clone()) else {
             self.root = DMatrix::from_element(b.nrows(), 1, f64::NAN);
             return;
@@ -106,17 +106,17 @@ impl Candidates {
         });
     }
 
-    pub(super) fn aim_root(&self) -> &DMatrix<f64> {
+    pub(super) fn objective_root(&self) -> &DMatrix<f64> {
         &self.root
     }
 
-    /// `JᵀJ` of a candidate.
+    /// Returns `JᵀJ` of a candidate.
     pub(super) fn information(&self, i: usize) -> DMatrix<f64> {
         let block = self.stack.rows(self.rows * i, self.rows);
         block.tr_mul(&block)
     }
 
-    /// The sum of these.
+    /// Returns the sum of the information of the chosen candidates.
     pub(super) fn sum(&self, chosen: &[usize]) -> DMatrix<f64> {
         let p = self.stack.ncols();
         let mut sum = DMatrix::zeros(p, p);
@@ -131,7 +131,8 @@ impl Candidates {
         sum
     }
 
-    /// What each gains when it is added, or loses when it is taken away, where `inside` says that it is in the sum: positive numbers.
+    /// Returns the gain of adding each candidate, or the loss of removing it if `inside`; positive
+    /// numbers.
     pub(super) fn gains(
         &self,
         information: &Information,
@@ -142,16 +143,16 @@ impl Candidates {
             let at = BLOCK * block;
             let together = BLOCK.min(self.count - at);
             let rows = self.stack.rows(self.rows * at, self.rows * together).into_owned();
-            let (seen, aimed) = information.of(&rows, criterion);
+            let (scaled, weighted) = information.products(&rows, criterion);
             let sign = |i: usize| if inside(at + i) { -1.0 } else { 1.0 };
-            Ok((0..together).map(|i| gain(&seen, &aimed, self.rows, i, sign(i))).collect::<Vec<f64>>())
+            Ok((0..together).map(|i| gain(&scaled, &weighted, self.rows, i, sign(i))).collect::<Vec<f64>>())
         };
         let mut gains = Vec::with_capacity(self.count);
         let Ok(()) = in_order::<_, Infallible>(self.count.div_ceil(BLOCK), block, |part| gains.extend(part));
         gains
     }
 
-    /// What these lose when one of them is taken away.
+    /// Returns the loss of removing each of the chosen candidates.
     pub(super) fn losses(
         &self,
         information: &Information,
@@ -161,38 +162,41 @@ impl Candidates {
         let mut losses = Vec::with_capacity(chosen.len());
         for i in chosen {
             let block = self.stack.rows(self.rows * i, self.rows).into_owned();
-            let (seen, aimed) = information.of(&block, criterion);
-            losses.push(gain(&seen, &aimed, self.rows, 0, -1.0));
+            let (scaled, weighted) = information.products(&block, criterion);
+            losses.push(gain(&scaled, &weighted, self.rows, 0, -1.0));
         }
         losses
     }
 }
 
-/// By how much `ln det M` changes, `det(M ± JᵀJ) = det M det(1 ± J M⁻¹ Jᵀ)`; or, where something is aimed at, `tr(C B)`:
-/// `(M ± JᵀJ)⁻¹ = C ∓ C Jᵀ (1 ± J C Jᵀ)⁻¹ J C`. Of candidate `i` in a block, with `J C^½` and `J C B^½`.
-fn gain(seen: &DMatrix<f64>, aimed: &DMatrix<f64>, rows: usize, i: usize, sign: f64) -> f64 {
+/// Computes the change of the objective by candidate `i` of a block.
+///
+/// For `ln det M`: `det(M ± JᵀJ) = det M det(1 ± J M⁻¹ Jᵀ)`. For `tr(C B)`:
+/// `(M ± JᵀJ)⁻¹ = C ∓ C Jᵀ (1 ± J C Jᵀ)⁻¹ J C`. The arguments are `J C^½` and `J C B^½` of the
+/// block.
+fn gain(scaled: &DMatrix<f64>, weighted: &DMatrix<f64>, rows: usize, i: usize, sign: f64) -> f64 {
     match rows {
-        3 => gain_of::<3>(seen, aimed, i, sign),
-        6 => gain_of::<6>(seen, aimed, i, sign),
-        9 => gain_of::<9>(seen, aimed, i, sign),
+        3 => gain_in_place::<3>(scaled, weighted, i, sign),
+        6 => gain_in_place::<6>(scaled, weighted, i, sign),
+        9 => gain_in_place::<9>(scaled, weighted, i, sign),
         _ => {
             let square = |matrix: &DMatrix<f64>| {
                 let rows = matrix.rows(rows * i, rows);
                 rows * rows.transpose()
             };
-            let Some(cholesky) = (DMatrix::identity(rows, rows) + square(seen) * sign).cholesky() else {
+            let Some(cholesky) = (DMatrix::identity(rows, rows) + square(scaled) * sign).cholesky() else {
                 return f64::INFINITY;
             };
-            match aimed.ncols() {
+            match weighted.ncols() {
                 0 => 2.0 * sign * cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>(),
-                _ => cholesky.solve(&square(aimed)).trace(),
+                _ => cholesky.solve(&square(weighted)).trace(),
             }
         }
     }
 }
 
-/// The same without a heap, for points, poses and three targets.
-fn gain_of<const N: usize>(seen: &DMatrix<f64>, aimed: &DMatrix<f64>, i: usize, sign: f64) -> f64 {
+/// Computes the change with stack arrays, for points, poses and three targets.
+fn gain_in_place<const N: usize>(scaled: &DMatrix<f64>, weighted: &DMatrix<f64>, i: usize, sign: f64) -> f64 {
     let square = |matrix: &DMatrix<f64>| {
         let mut square = SMatrix::<f64, N, N>::zeros();
         for column in matrix.column_iter() {
@@ -201,35 +205,35 @@ fn gain_of<const N: usize>(seen: &DMatrix<f64>, aimed: &DMatrix<f64>, i: usize, 
         }
         square
     };
-    let Some(cholesky) = (SMatrix::<f64, N, N>::identity() + square(seen) * sign).cholesky() else {
+    let Some(cholesky) = (SMatrix::<f64, N, N>::identity() + square(scaled) * sign).cholesky() else {
         return f64::INFINITY;
     };
-    match aimed.ncols() {
+    match weighted.ncols() {
         0 => 2.0 * sign * cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>(),
-        _ => cholesky.solve(&square(aimed)).trace(),
+        _ => cholesky.solve(&square(weighted)).trace(),
     }
 }
 
 impl Information {
-    /// None if the sum is not positive definite.
+    /// Inverts a sum; none if it is not positive definite.
     pub(super) fn new(sum: DMatrix<f64>, root: &DMatrix<f64>) -> Option<Self> {
         let p = sum.nrows();
         let cholesky = sum.cholesky()?;
         let log_det = 2.0 * cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>();
         // M = L Lᵀ, C = L⁻ᵀ L⁻¹.
         let half = cholesky.l().tr_solve_lower_triangular(&DMatrix::identity(p, p))?;
-        let aimed = cholesky.solve(root);
-        let variance = root.iter().zip(aimed.iter()).map(|(a, b)| a * b).sum();
-        Some(Self { cholesky, half, aimed, log_det, variance })
+        let weighted = cholesky.solve(root);
+        let variance = root.iter().zip(weighted.iter()).map(|(a, b)| a * b).sum();
+        Some(Self { cholesky, half, weighted, log_det, variance })
     }
 
-    /// `J C^½`, and `J C B^½` if that is asked for, of many at once.
-    fn of(&self, block: &DMatrix<f64>, criterion: Criterion) -> (DMatrix<f64>, DMatrix<f64>) {
-        let aimed = match criterion {
-            Criterion::Variance => block * &self.aimed,
+    /// Returns `J C^½`, and `J C B^½` for the variance criterion, of a block of candidates.
+    fn products(&self, block: &DMatrix<f64>, criterion: Criterion) -> (DMatrix<f64>, DMatrix<f64>) {
+        let weighted = match criterion {
+            Criterion::Variance => block * &self.weighted,
             Criterion::Determinant => DMatrix::zeros(block.nrows(), 0),
         };
-        (block * &self.half, aimed)
+        (block * &self.half, weighted)
     }
 
     pub(super) fn covariance(&self) -> DMatrix<f64> {
@@ -238,29 +242,31 @@ impl Information {
 }
 
 impl Model<'_> {
-    /// The observation as the nominal machine would give it, where that matters: the derivative of a turn depends on how far it is
-    /// from what was measured.
+    /// Replaces the measurement by that of the nominal machine, where derivatives depend on it: the
+    /// derivative of a rotation vector depends on the residual.
     pub fn nominally_seen(
         &self,
-        room: &mut super::Room,
+        scratch: &mut super::Scratch,
         observation: &Observation,
     ) -> Result<Observation, Failure> {
         let mut expected = observation.clone();
         if let Measurement::Pose(pose) = &mut expected.measured {
-            **pose = self.pose(room, observation, &vec![0.0; self.unknowns.len()])?;
+            **pose = self.pose(scratch, observation, &vec![0.0; self.unknowns.len()])?;
         }
         Ok(expected)
     }
 }
 
-/// Rows in units of the instrument's noise become such of noise and model error: `W J` with `WᵀW = (1 + b 1 1ᵀ)⁻¹` for the same
-/// coordinate of all targets, `b = (σ_m/σ)²`: `W = 1 − (1 − 1/√(1 + k b)) 1 1ᵀ/k`.
+/// Whitens rows for noise and model error: `W J` with `WᵀW = (1 + b 1 1ᵀ)⁻¹` for one coordinate of
+/// all targets.
+///
+/// `b = (σ_m/σ)²`, and `W = 1 − (1 − 1/√(1 + k b)) 1 1ᵀ/k` for `k` targets.
 fn whiten(
     model: &Model,
     observation: &Observation,
     model_error: f64,
     arm: f64,
-    seen: &mut nalgebra::DMatrixViewMut<'_, f64>,
+    scaled: &mut nalgebra::DMatrixViewMut<'_, f64>,
 ) {
     let weight = observation.weight;
     let share = |of: f64| weight * (model_error / of).powi(2);
@@ -268,20 +274,20 @@ fn whiten(
         return;
     }
     let b = share(model.uncertainty.length);
-    let rows = seen.nrows();
+    let rows = scaled.nrows();
     match &observation.measured {
-        // Of an angle as much as the length is over the arm.
+        // For an angle, the length divided by the arm.
         Measurement::Readings(values) => {
-            let shown = model.readings.iter().zip(values).filter(|(_, value)| value.is_some());
+            let shown = model.observables.iter().zip(values).filter(|(_, value)| value.is_some());
             for (i, (reading, _)) in shown.enumerate() {
-                let sigma = reading.uncertainty * if reading.gauge.is_angle() { arm } else { 1.0 };
-                seen.row_mut(i).scale_mut(1.0 / (1.0 + share(sigma)).sqrt());
+                let sigma = reading.uncertainty * if reading.kind.is_angle { arm } else { 1.0 };
+                scaled.row_mut(i).scale_mut(1.0 / (1.0 + share(sigma)).sqrt());
             }
         }
         Measurement::Points(_) => {
             let k = rows / 3;
             let factor = 1.0 - 1.0 / (1.0 + k as f64 * b).sqrt();
-            for mut column in seen.column_iter_mut() {
+            for mut column in scaled.column_iter_mut() {
                 for axis in 0..3 {
                     let mean = (0..k).map(|j| column[3 * j + axis]).sum::<f64>() / k as f64;
                     (0..k).for_each(|j| column[3 * j + axis] -= factor * mean);
@@ -292,7 +298,7 @@ fn whiten(
             let turn = share(arm * model.uncertainty.angle);
             for i in 0..rows {
                 let b = if i < 3 { b } else { turn };
-                seen.row_mut(i).scale_mut(1.0 / (1.0 + b).sqrt());
+                scaled.row_mut(i).scale_mut(1.0 / (1.0 + b).sqrt());
             }
         }
     }

@@ -1,14 +1,16 @@
-//! The columns of a linear model, fitted to all folds but one, and what that leaves on the fold that is left out.
+//! Cross-validation of a linear model, column by column: the residuals of each fold under the fit
+//! of all others.
 //!
-//! Gram and Schmidt, once for every fold: with the inner products `⟨·,·⟩` of the rows that are not in the fold, a column k
-//! that is taken in changes every other column j by
+//! Gram-Schmidt orthogonalization runs once for each fold. With the inner products `⟨·,·⟩` over the
+//! rows outside the fold, adding column k changes every other column j by
 //!
 //! ```text
 //! z_j = (⟨k, j⟩ − Σ_i z_ik z_ij) / d,   d² = ⟨k, k⟩ − Σ_i z_ik²,      j ← j − k z_j/d   on the rows of the fold
 //! ```
 //!
-//! so that on the fold the right side becomes what the fit of the others leaves there. For a group g that is not yet in, the
-//! same products give `N = ⟨g, g⟩` and `b = ⟨g, r⟩` less what is explained, and `r − g N⁻¹ b` is what it would leave.
+//! so that, on the fold, the right side becomes the residual under the fit of the others. For a
+//! group g that is not yet included, the same products give `N = ⟨g, g⟩` and `b = ⟨g, r⟩`, both
+//! reduced by the included columns, and its residual is `r − g N⁻¹ b`.
 
 use std::ops::Range;
 
@@ -17,35 +19,36 @@ use nalgebra::{DMatrix, DVector};
 use super::fit::REJECTED;
 use super::{Factored, Failure, Fit, Folds, Model, Observation, Offer};
 
-/// The most numbers that are held: 48 MB.
+/// Largest number of stored values: 48 MB.
 const NUMBERS: usize = 6_000_000;
 
-/// A column of unit length of which less than this is new, squared, counts as one of those before it.
+/// Smallest squared residual of a column of unit length that is independent of the included
+/// columns.
 const NEW: f64 = 1e-9;
 
-/// Columns, fold by fold.
+/// Columns and their residuals, fold by fold.
 pub(super) struct LeftOut {
-    /// Columns of unit length, the right side last; rows in the order of the folds.
+    /// Columns of unit length, the right side last; rows are sorted by fold.
     columns: DMatrix<f64>,
-    /// The same, on every fold less what the fit of the others explains.
+    /// Columns reduced, on each fold, by the fit of the other folds.
     rest: DMatrix<f64>,
     folds: Vec<Fold>,
-    /// An orthonormal basis of the columns that are in, over all rows.
+    /// Orthonormal basis of the included columns, over all rows.
     basis: Vec<DVector<f64>>,
     groups: Vec<Range<usize>>,
     free: Vec<bool>,
-    /// The configuration of every row of the columns, from 0 without gaps.
+    /// Configuration of each row of the columns, numbered from 0 without gaps.
     configuration: Vec<usize>,
     configurations: usize,
-    /// What a unit of the right side is.
+    /// Norm of the right side, by which it was divided.
     size: f64,
 }
 
 struct Fold {
     rows: Range<usize>,
-    /// `z` of every column that is in.
+    /// `z` of each included column.
     z: Vec<DVector<f64>>,
-    /// `N` and `b` of every group.
+    /// `N` and `b` of each group.
     normal: Vec<(DMatrix<f64>, DVector<f64>)>,
 }
 
@@ -72,13 +75,13 @@ impl LeftOut {
         let (mut at, mut ranges, mut configuration) = (0, Vec::new(), Vec::new());
         let mut x = fit.x.clone();
         x.resize(model.unknowns.len(), 0.0);
-        let mut room = model.room();
+        let mut scratch = model.scratch();
         for fold in &rows {
             let first = at;
             for &i in fold {
                 let weight = fit.weights[i].sqrt();
                 let factors = (offer.factors)(&data[i]);
-                model.linear(&mut room, &data[i], &x, |residual, derivatives| {
+                model.linear(&mut scratch, &data[i], &x, |residual, derivatives| {
                     for (j, term) in terms.iter().enumerate() {
                         let factor = term.factor.map_or(weight, |factor| weight * factors[factor]);
                         columns[(at, j)] = derivatives[term.unknown] * factor;
@@ -131,7 +134,7 @@ impl LeftOut {
         Self { columns, rest, folds, basis: Vec::new(), groups, free, configuration, configurations, size }
     }
 
-    /// Takes a group in.
+    /// Includes the columns of a group.
     pub(super) fn take(&mut self, group: usize) {
         self.free[group] = false;
         self.groups[group].clone().for_each(|column| self.take_column(column));
@@ -164,7 +167,7 @@ impl LeftOut {
             fold.z.push(z);
         }
         let mut new = self.columns.column(k).into_owned();
-        // Twice is enough.
+        // Two passes suffice for orthogonality.
         for _ in 0..2 {
             self.basis.iter().for_each(|one| new.axpy(-one.dot(&new), one, 1.0));
         }
@@ -174,26 +177,27 @@ impl LeftOut {
         }
     }
 
-    /// Of column k with every column, on some rows.
+    /// Returns the inner products of column k with all columns, over a range of rows.
     fn products(&self, rows: &Range<usize>, k: usize) -> DVector<f64> {
         let of_k = self.columns.view((rows.start, k), (rows.len(), 1));
         let with = |j: usize| self.columns.view((rows.start, j), (rows.len(), 1)).dot(&of_k);
         DVector::from_fn(self.columns.ncols(), |j, _| with(j))
     }
 
-    /// The squares that are left on every fold under the fit of the others, added up.
+    /// Returns the sum of squared residuals of all folds under the fits of the others.
     pub(super) fn squares(&self) -> f64 {
         self.rest.column(self.rest.ncols() - 1).norm_squared() * self.size * self.size
     }
 
-    /// The group that would leave least, and how much.
+    /// Returns the group with the smallest sum of squares if it is included, and that sum.
     pub(super) fn best(&self) -> Option<(usize, f64)> {
         let free = (0..self.groups.len()).filter(|group| self.free[*group]);
         let left = free.filter_map(|group| Some((group, self.squares_with(group)? * self.size * self.size)));
         left.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// None if the group says nothing new of some fold.
+    /// Returns the sum of squares with a group included; none if the group depends on the included
+    /// columns in some fold.
     fn squares_with(&self, group: usize) -> Option<f64> {
         let columns = &self.groups[group];
         let last = self.rest.ncols() - 1;
@@ -212,8 +216,8 @@ impl LeftOut {
         squares.sum()
     }
 
-    /// What every configuration says for the magnitudes of a group, a row each: `Σ g r` over its rows, of columns and right
-    /// side less what the columns that are in explain of all data.
+    /// Returns the scores `Σ g r` of the magnitudes of a group, one row for each configuration;
+    /// columns and right side are projected onto the complement of the included columns.
     pub(super) fn scores(&self, group: usize) -> DMatrix<f64> {
         let free_of = |k: usize| {
             let mut column = self.columns.column(k).into_owned();
@@ -233,20 +237,21 @@ impl LeftOut {
         scores
     }
 
-    /// How many configurations are left when the columns that are in have used theirs.
+    /// Returns the number of configurations less the degrees of freedom used by the included
+    /// columns.
     pub(super) fn freedom(&self) -> f64 {
         let each = self.columns.nrows() as f64 / self.configurations.max(1) as f64;
         self.configurations as f64 - self.basis.len() as f64 / each.max(1.0)
     }
 
-    /// How many numbers were measured.
+    /// Returns the number of measured numbers.
     pub(super) fn numbers(&self) -> usize {
         self.columns.nrows()
     }
 }
 
-/// The observations of every fold, rejected ones left out; of many an even share of the configurations, so that there are
-/// about `most` numbers.
+/// Returns the observations of each fold without rejected ones; if there are too many, a regular
+/// subset of the configurations with about `most` numbers.
 fn chosen_rows(data: &[Observation], fit: &Fit, folds: &Folds, most: usize) -> Vec<Vec<usize>> {
     let numbers: usize = data.iter().map(Observation::count).sum();
     let step = numbers.div_ceil(most.max(1)).max(1);

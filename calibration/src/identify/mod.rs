@@ -1,10 +1,13 @@
-//! Generalized errors from measurements: section 6 of the paper, and the algorithm that it leaves out.
+//! Identification of generalized errors from measurements: section 6 of the paper, with the
+//! algorithm that it omits.
 //!
-//! An [`Observation`] is what an instrument measured at one configuration. A [`Model`] says which numbers are unknown and
-//! gives residuals and their exact derivatives on the real chain, equation (6). [`identifiable()`] finds which of
-//! them the data determine and what the others are grouped with, [`groups()`] the same from the joint twists alone;
-//! [`fit()`] solves, [`cross_validate`] tests on data left out, [`select()`] adds richer terms that earn their place.
-//! [`optimal`] chooses where to measure, [`simulate()`] measures a machine whose errors are known.
+//! An [`Observation`] is a measurement at one configuration. A [`Model`] has the unknowns, the
+//! residuals and their exact derivatives on the real chain, equation (6). [`identifiable()`] finds
+//! the unknowns that the data determine and the equivalents of the others; [`groups()`] finds these
+//! from the joint twists alone. [`fit()`] solves for the unknowns, [`cross_validate`] estimates the
+//! error on unseen data, and [`select()`] adds terms that reduce it. [`optimal`] chooses
+//! configurations to measure, and [`simulate()`] measures a machine with known errors.
+//! [`INSTRUMENTS`] lists the instruments that are read one number at a time.
 //!
 //! ```
 //! # use abbe::*;
@@ -42,16 +45,16 @@
 //! #     fn generalized_errors(&self, _: &[f64], _: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<(), Error> { Ok(()) }
 //! # }
 //! # fn main() -> Result<(), Failure> {
-//! // A planar arm of 450 and 400 mm, whose tool point an instrument of 0.01 mm sees.
+//! // A planar arm of 450 and 400 mm, and an instrument with 0.01 mm that measures its tool point.
 //! let arm = Model::ideal(&Arm, vec![[0.0; 3]], Uncertainty { length: 0.01, angle: 1.0 });
 //! let arm = arm.with(vec![Unknown::Error(0, Component::X), Unknown::Error(0, Component::Roll)]);
-//! // In truth its upper arm is 0.3 mm too long, and the zero of its elbow is 1 mrad off.
+//! // The real upper arm is 0.3 mm too long, and the zero of the elbow is 1 mrad off.
 //! let truth = [0.3, 1e-3];
 //! let measure = |line: u64| {
 //!     let q = vec![0.1 * line as f64, 1.5 - 0.15 * line as f64];
 //!     let nothing = Measurement::Points(vec![None].into());
 //!     let planned = Observation::new(line, q, Vec::new(), nothing);
-//!     let point = arm.pose(&mut arm.room(), &planned, &truth)?.position();
+//!     let point = arm.pose(&mut arm.scratch(), &planned, &truth)?.position();
 //!     Ok(Observation { measured: Measurement::Points(vec![Some(point)].into()), ..planned })
 //! };
 //! let data = (1..=20).map(measure).collect::<Result<Vec<_>, Failure>>()?;
@@ -64,41 +67,46 @@
 //! ```
 
 mod acceleration;
+mod blocks;
 mod clustered;
 mod columns;
 mod configurations;
+mod derivatives;
 mod design;
+mod deviations;
 mod drift;
 mod failure;
 mod figures;
 mod fit;
 mod folds;
-mod gradient;
 mod groups;
 mod identifiable;
 mod information;
+mod instrument;
+mod joints_at_values;
 mod left_out;
 mod linearize;
 mod model;
 mod observation;
+mod offer;
 mod options;
 mod outliers;
-mod reading;
 mod reflections;
 mod registration;
 mod residuals;
 mod robust;
+mod scratch;
 mod select;
 mod simulate;
 mod solver;
 mod station;
 mod statistics;
 mod tool_points;
-mod touch;
 mod triangle;
 mod unknown;
 mod values;
 mod variance;
+mod vectors;
 
 #[cfg(test)]
 mod coverage;
@@ -116,19 +124,23 @@ pub use folds::{Folds, cross_validate};
 pub use groups::{Group, Reason, groups};
 pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
 pub use information::Criterion;
+pub use instrument::{
+    CONTACT, Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable, Reference, SizeInformation,
+    tangents,
+};
+pub use joints_at_values::joints_at_values;
 pub use model::Model;
 pub use observation::{Approach, Measurement, Observation, Uncertainty};
+pub use offer::{Factored, Offer};
 pub use options::Options;
-pub use reading::{Fixture, Gauge, Place, Reading, tangents};
 pub use registration::{Registration, register, register_pairs};
-pub use residuals::Room;
 pub use robust::{Loss, robust_scale};
-pub use select::{Factored, Offer, Selection, select};
+pub use scratch::Scratch;
+pub use select::{Selection, select};
 pub use simulate::{Chance, Simulated, simulate};
 pub use station::Station;
 pub use statistics::{FTest, Observability, deviation_beyond, f_test, student_beyond, student_factor};
 pub use tool_points::ToolPoints;
-pub use touch::touched;
 pub use unknown::{Role, Unknown};
 pub use values::{Inputs, Points, Values};
 pub use variance::{VarianceComponent, variance_components};

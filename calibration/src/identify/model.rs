@@ -1,44 +1,46 @@
-//! The real machine with unknown errors: residuals of measurements, and their exact derivatives.
+//! Model of the real machine with unknown errors.
 //!
-//! `B E_0 · A_1 E_1 … A_n E_n · T M E_T`: `B` is where `F_0` stands as the instrument sees it from a station, `E_0` what is unknown of
-//! that, `E_T` what is unknown of the tool where whole poses are measured; where points are, a target is at `d_j` in
-//! the frame of the tool. [Fixtures](Fixture) stand in `F_0`, before `B E_0`. ε is the sum of the sources that are known, of the unknown constants, and of the sources
-//! whose magnitude is unknown.
+//! The chain is `B E_0 · A_1 E_1 … A_n E_n · T M E_T`. `B` is the nominal pose of `F_0` in the
+//! frame of the instrument at a station, and `E_0` its unknown error. `E_T` is the unknown error of
+//! the tool where whole poses are measured; where points are measured, target j is at `d_j` in the
+//! frame of the tool. [Fixtures](Fixture) stand in `F_0`, before `B E_0`. ε is the sum of known
+//! sources, unknown constants, and sources of unknown magnitude.
 
-use super::{Failure, Fixture, Place, Reading, Role, Station, Uncertainty, Unknown};
+use super::{Failure, Fixture, FixtureGeometry, Observable, Role, Station, Uncertainty, Unknown};
 use abbe_analysis::sampling;
 use abbe_core::{Class, Component, Manipulator, Pose};
 
-/// How well the direction of a fixture is known before, one standard deviation of a tilt: rad.
+/// Prior standard deviation of the tilts of a direction, in rad.
 const DIRECTION: f64 = 0.02;
 
-/// A manipulator with unknown errors, seen by an instrument.
+/// A manipulator with unknown errors, as seen by an instrument.
 #[derive(Clone)]
 pub struct Model<'a> {
-    /// The nominal manipulator, with all its sources.
+    /// Nominal manipulator with all its sources.
     pub manipulator: &'a dyn Manipulator,
-    /// Where the machine stands: one station for each that observations name.
+    /// Stations of the machine, indexed by [`Observation::station`](super::Observation::station).
     pub stations: Vec<Station>,
-    /// The targets in the frame of the tool; a single one at zero is the tool point itself.
+    /// Positions of the targets in the frame of the tool; a single one at zero is the tool point.
     pub targets: Vec<[f64; 3]>,
-    /// What stands still, seen in `F_0`.
+    /// Fixtures, in the axes of `F_0`.
     pub fixtures: Vec<Fixture>,
-    /// What the numbers of an observation are that has [readings](super::Measurement::Readings).
-    pub readings: Vec<Reading>,
-    /// `M`: where whole poses are measured, from the frame that is seen to that of the tool, before any unknown.
+    /// Observables of the [readings](super::Measurement::Readings) of an observation.
+    pub observables: Vec<Observable>,
+    /// `M`: transform from the measured frame to the frame of the tool where whole poses are
+    /// measured, before any unknown.
     pub mounting: Pose,
-    /// What the instrument's numbers are worth; readings have their own.
+    /// Uncertainty of points and poses; observables have their own.
     pub uncertainty: Uncertainty,
-    /// The unknowns, in order.
+    /// Unknowns, in order.
     pub unknowns: Vec<Unknown>,
-    /// The part of every source of the description; random ones have none.
+    /// Role of each source of the description; random sources have none.
     pub roles: Vec<Role>,
-    /// The structural parameters.
+    /// Structural parameters.
     pub s: Vec<f64>,
 }
 
 impl<'a> Model<'a> {
-    /// Nothing unknown: the ideal chain, equation (2), without any source.
+    /// Creates the ideal chain, equation (2): without sources and unknowns.
     pub fn ideal(manipulator: &'a dyn Manipulator, targets: Vec<[f64; 3]>, uncertainty: Uncertainty) -> Self {
         let description = manipulator.description();
         Self {
@@ -46,7 +48,7 @@ impl<'a> Model<'a> {
             stations: vec![Station::at(Pose::IDENTITY)],
             targets,
             fixtures: Vec::new(),
-            readings: Vec::new(),
+            observables: Vec::new(),
             mounting: Pose::IDENTITY,
             uncertainty,
             unknowns: Vec::new(),
@@ -55,7 +57,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The same with these unknowns.
+    /// Returns a copy with these unknowns.
     pub fn with(&self, unknowns: Vec<Unknown>) -> Self {
         let mut roles = self.roles.clone();
         roles.iter_mut().filter(|role| **role == Role::Unknown).for_each(|role| *role = Role::Off);
@@ -67,18 +69,20 @@ impl<'a> Model<'a> {
         Self { unknowns, roles, ..self.clone() }
     }
 
-    /// The same without those sources that are there as the spec has them.
+    /// Returns a copy without the sources of known magnitude.
     pub(super) fn without_known_sources(&self) -> Self {
         let off = |role: &Role| if *role == Role::Known { Role::Off } else { *role };
         Self { roles: self.roles.iter().map(off).collect(), ..self.clone() }
     }
 
-    /// The unknowns of stations, fixtures, zeros and tool alone; `pose` where whole poses are measured.
+    /// Returns the unknowns of stations, fixtures, zeros and tool; `pose` where whole poses are
+    /// measured.
     pub fn base_and_tool(&self, pose: bool) -> Vec<Unknown> {
         self.base_unknowns().chain(self.fixture_unknowns()).chain(self.tool_unknowns(pose)).collect()
     }
 
-    /// The stations, all six errors of every frame, fixtures and zeros, and the tool, in this order.
+    /// Returns the unknowns of stations, all six errors of each frame, fixtures, zeros and tool, in
+    /// this order.
     pub fn constants(&self, pose: bool) -> Vec<Unknown> {
         let frames = 0..self.manipulator.description().frames.len();
         let errors =
@@ -90,7 +94,7 @@ impl<'a> Model<'a> {
             .collect()
     }
 
-    /// All six of every station that is not exact.
+    /// Returns all six errors of each station that is not exact.
     fn base_unknowns(&self) -> impl Iterator<Item = Unknown> {
         let unknown = self.stations.iter().enumerate().filter(|(_, station)| !station.exact);
         unknown.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component)))
@@ -99,9 +103,9 @@ impl<'a> Model<'a> {
     fn fixture_unknowns(&self) -> impl Iterator<Item = Unknown> {
         let places = self.fixtures.iter().enumerate();
         let places = places.flat_map(|(i, fixture)| {
-            (0..fixture.place.unknowns()).map(move |coordinate| Unknown::Fixture(i, coordinate))
+            (0..fixture.geometry.unknowns()).map(move |coordinate| Unknown::Fixture(i, coordinate))
         });
-        let zeros = self.readings.iter().enumerate().filter(|(_, reading)| !reading.zero_known);
+        let zeros = self.observables.iter().enumerate().filter(|(_, reading)| !reading.zero_known);
         places.chain(zeros.map(|(i, _)| Unknown::Zero(i)))
     }
 
@@ -112,11 +116,12 @@ impl<'a> Model<'a> {
         (0..self.targets.len()).flat_map(|j| [0, 1, 2].map(|axis| Unknown::Target(j, axis))).collect()
     }
 
-    /// What is known of any machine: its errors are some `share` of its size, turns some `share` of a radian.
+    /// Returns weak priors: errors of frames are some `share` of the length of the arm, rotations
+    /// some `share` of a radian.
     ///
-    /// As standard deviations about zero for [`Options::priors`](super::Options::priors); none for base, tool and
-    /// magnitudes, which may be anything. Directions of fixtures are about where they are stated, to one degree. What data
-    /// tell weighs far more; this holds what they hardly tell.
+    /// They are standard deviations about zero for [`Options::priors`](super::Options::priors).
+    /// Directions of fixtures have about one degree; base, tool and magnitudes have none. They
+    /// regularize weakly determined unknowns; other unknowns hardly depend on them.
     pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>, Failure> {
         let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
         let prior = |unknown: &Unknown| match unknown {
@@ -128,10 +133,12 @@ impl<'a> Model<'a> {
         Ok(self.unknowns.iter().map(prior).collect())
     }
 
-    /// What is expected of the unknowns before anything is measured, by index: against this it is held what data tell.
+    /// Returns the expected size of each unknown, against which [`knowable`](super::knowable())
+    /// compares the data.
     ///
-    /// A prior where there is one. Where there is none, an error of the machine may be as large as the machine, and what is
-    /// told of base and tool to no better than a hundredth of it is not worth having. Magnitudes may be anything.
+    /// It is the prior where there is one. Without a prior, an error of a frame can be as large as
+    /// the machine, and errors of base and tool a hundredth of that. Magnitudes and zeros have no
+    /// expectation.
     pub fn expected(&self, priors: &[Option<f64>]) -> Result<Vec<Option<f64>>, Failure> {
         let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
         let expected = |(k, unknown): (usize, &Unknown)| {
@@ -147,19 +154,20 @@ impl<'a> Model<'a> {
         Ok(self.unknowns.iter().enumerate().map(expected).collect())
     }
 
-    /// What is expected of the tilts of a fixture that is a direction.
+    /// Returns the prior of the tilts of a fixture that is a direction.
     fn direction_uncertainty(&self, fixture: usize) -> Option<f64> {
-        matches!(self.fixtures[fixture].place, Place::Direction(_)).then_some(DIRECTION)
+        matches!(self.fixtures[fixture].geometry, FixtureGeometry::Direction(_)).then_some(DIRECTION)
     }
 
-    /// Repeatable sources of the manipulator.
+    /// Returns the indices of the repeatable sources.
     pub fn repeatable(&self) -> Vec<usize> {
         let description = self.manipulator.description();
         let all = description.sources.iter().enumerate();
         all.filter(|(_, source)| source.class == Class::Repeatable).map(|(i, _)| i).collect()
     }
 
-    /// What an unknown is called: `e_x1`, of the base `e_x0`, of a named station `e_x0 NAME`, a source by its name.
+    /// Returns the name of an unknown: `e_x1`; `e_x0` for the base, `e_x0 NAME` at a named station;
+    /// a source by its name.
     pub fn name(&self, unknown: Unknown) -> String {
         match unknown {
             Unknown::Base(station, component) => match &self.stations[station].name[..] {
@@ -178,14 +186,14 @@ impl<'a> Model<'a> {
             }
             Unknown::Tool(component) => format!("tool_{}", component.name()),
             Unknown::Fixture(fixture, coordinate) => {
-                let Fixture { name, place } = &self.fixtures[fixture];
-                let coordinates = match place {
-                    Place::Point(_) => ["x", "y", "z"],
-                    Place::Direction(_) => ["tilt1", "tilt2", ""],
+                let Fixture { name, geometry } = &self.fixtures[fixture];
+                let coordinates = match geometry {
+                    FixtureGeometry::Point(_) => ["x", "y", "z"],
+                    FixtureGeometry::Direction(_) => ["tilt1", "tilt2", ""],
                 };
                 format!("{name}_{}", coordinates[coordinate])
             }
-            Unknown::Zero(reading) => format!("{}_zero", self.readings[reading].name),
+            Unknown::Zero(reading) => format!("{}_zero", self.observables[reading].name),
         }
     }
 }

@@ -1,58 +1,59 @@
-//! What an instrument tells.
+//! Observations: commanded configurations and their measurements.
 
 use super::values::{Inputs, Points, Values};
 use abbe_core::Pose;
 
-/// What was measured at one configuration, in the frame of the instrument.
+/// Measurement at one configuration, in the frame of the instrument.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measurement {
-    /// One point for each target on the end effector, none where it was hidden. The length unit.
+    /// One point for each target on the end effector, none where it was hidden; the length unit.
     Points(Points),
-    /// The whole pose of the tool.
+    /// Pose of the tool.
     Pose(Box<Pose>),
-    /// One number for each of the model's [readings](super::Model::readings), none where there was none.
+    /// One number for each of the model's [observables](super::Model::observables), none where it
+    /// was not read.
     Readings(Vec<Option<f64>>),
 }
 
-/// One row of measurements: where it stands, what was commanded, what was measured, what it weighs.
+/// One row of measurements: station, commands, measurement and weight.
 ///
-/// Of a point that was measured of an arm with up to seven joints it is 136 bytes, and nothing elsewhere: there may be a
-/// million of them.
+/// A row with one point and up to seven joints takes 136 bytes without an allocation, because there
+/// can be a million of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
-    /// Its line in the file, from 1: what messages call it by.
+    /// Line in the file, from 1.
     pub line: u64,
-    /// The station where it was measured, from 0.
+    /// Index of the station.
     pub station: u32,
-    /// Which independent configuration it belongs to: rows with the same number are visits of one, and share the errors
-    /// that the machine has there.
+    /// Number of the independent configuration: rows with the same number are repeated visits and
+    /// share the errors that the machine has there.
     pub configuration: u32,
-    /// The joint variables as commanded: length unit, rad.
+    /// Commanded joint variables; the length unit or rad.
     pub q: Values,
-    /// The inputs: load, temperature.
+    /// Inputs, such as load and temperature.
     pub u: Inputs,
-    /// How the machine came there; none where nobody says.
+    /// Approach to the configuration, if known.
     pub approach: Option<Box<Approach>>,
-    /// What was measured.
+    /// The measurement.
     pub measured: Measurement,
-    /// Its weight in sums of squares: 1 where the instrument is as good as stated, ¼ where its standard deviation is twice
-    /// that.
+    /// Weight in sums of squares: 1 at the stated uncertainty, ¼ at twice that standard deviation.
     pub weight: f64,
 }
 
-/// How the machine came to a configuration.
+/// Approach to a configuration.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Approach {
-    /// From which direction or along which path, as a number; 0 where nobody says.
+    /// Number of the direction or path of approach; 0 if unknown.
     pub direction: u32,
-    /// When, if that is known; rows are in the order of time otherwise.
+    /// Time, if known; otherwise the rows are in order of time.
     pub time: Option<f64>,
-    /// Where the machine was before, for readings of how far it moved since: what was measured there does not matter.
+    /// Previous configuration, for readings relative to the previous row; its measurement is
+    /// ignored.
     pub from: Option<Box<Observation>>,
 }
 
 impl Observation {
-    /// A row at the first station, as good as the instrument is stated to be, and a configuration of its own: numbered as
+    /// Creates a row at the first station with weight 1, as a configuration of its own numbered as
     /// its line.
     pub fn new(line: u64, q: impl Into<Values>, u: impl Into<Inputs>, measured: Measurement) -> Self {
         Self {
@@ -67,33 +68,33 @@ impl Observation {
         }
     }
 
-    /// From which direction it was approached, as a number; 0 where nobody says.
+    /// Returns the number of the direction of approach; 0 if unknown.
     pub fn direction(&self) -> u32 {
         self.approach.as_ref().map_or(0, |approach| approach.direction)
     }
 
-    /// When it was measured, if that is known.
+    /// Returns the time of the measurement, if known.
     pub fn time(&self) -> Option<f64> {
         self.approach.as_ref().and_then(|approach| approach.time)
     }
 
-    /// Where the machine was before, if that matters.
+    /// Returns the previous configuration, if readings depend on it.
     pub fn from(&self) -> Option<&Self> {
         self.approach.as_ref().and_then(|approach| approach.from.as_deref())
     }
 
-    /// The same with another way there.
+    /// Replaces the approach.
     pub fn approached(mut self, approach: Approach) -> Self {
         self.approach = (approach != Approach::default()).then(|| Box::new(approach));
         self
     }
 
-    /// How it was approached, to be changed.
+    /// Returns the approach for modification.
     pub fn approach_mut(&mut self) -> &mut Approach {
         self.approach.get_or_insert_default()
     }
 
-    /// Which numbers were measured, among all that such a row can have.
+    /// Returns the indices of the measured numbers among all that the row can have.
     pub(super) fn places(&self) -> Vec<usize> {
         let measured = |(place, number): (usize, &Option<f64>)| number.map(|_| place);
         match &self.measured {
@@ -106,7 +107,8 @@ impl Observation {
         }
     }
 
-    /// How many numbers were measured: three for every target that was not hidden, six for a pose, one for a reading.
+    /// Returns the number of measured numbers: three for each visible target, six for a pose, one
+    /// for each reading.
     pub fn count(&self) -> usize {
         match &self.measured {
             Measurement::Points(points) => 3 * points.iter().flatten().count(),
@@ -116,12 +118,12 @@ impl Observation {
     }
 }
 
-/// One standard deviation of the instrument.
+/// Standard deviations of the instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertainty {
-    /// Of a coordinate, in the length unit.
+    /// Standard deviation of a coordinate, in the length unit.
     pub length: f64,
-    /// Of an angle, rad; only poses have those.
+    /// Standard deviation of an angle of a pose, in rad.
     pub angle: f64,
 }
 
@@ -129,7 +131,7 @@ pub struct Uncertainty {
 mod tests {
     use super::{Approach, Measurement, Observation};
 
-    /// What a million rows take is this million times.
+    /// The memory of a million rows is a million times this.
     #[test]
     fn a_row_is_small() {
         assert_eq!(size_of::<Measurement>(), 32);

@@ -1,27 +1,29 @@
-//! How a fit is done.
+//! Options of a fit.
 
 use super::Loss;
 
-/// How a fit is done.
+/// Options of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Where it is judged what can be known; at zero, the nominal machine, if empty.
+    /// Point at which the information matrix is evaluated; the nominal machine, zero, if empty.
     ///
-    /// A target exactly on the last axis hides more than one that is off it by as little as a real one is: the
-    /// solution for base and tool alone is a good place.
+    /// A target exactly on the last axis hides more unknowns than a real one beside it, so the
+    /// solution for base and tool alone is a good choice.
     pub at: Vec<f64>,
-    /// What a residual costs.
+    /// Loss function of the residuals.
     pub loss: Loss,
-    /// A standard deviation about zero for some unknowns, by index; none where nothing is known before.
+    /// Prior standard deviations about zero, by index of the unknown; none without a prior.
     pub priors: Vec<Option<f64>>,
-    /// What is expected of the unknowns, see [`Model::expected`](super::Model::expected): what the data tell worse than that
-    /// is held at zero. If empty, everything is fitted that the data tell at all.
+    /// Expected sizes of the unknowns, see [`Model::expected`](super::Model::expected).
+    ///
+    /// Unknowns that the data determine worse than that are fixed at zero. If empty, the fit
+    /// includes every direction with nonzero information.
     pub expected: Vec<Option<f64>>,
-    /// How many times the stated uncertainty the data are worth, when it is judged what they tell: 1 if they are as good.
+    /// Factor of the stated uncertainty in decisions on identifiability.
     pub noise: f64,
-    /// The bounds of some unknowns, by index.
+    /// Bounds, by index of the unknown.
     pub bounds: Vec<Option<[f64; 2]>>,
-    /// The most steps.
+    /// Largest number of iterations.
     pub steps: usize,
 }
 

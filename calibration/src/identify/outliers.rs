@@ -1,45 +1,43 @@
-//! Which rows are gross errors: a robust loss suspects, a test of least squares decides.
+//! Detection of outliers: a robust loss proposes, an F-test of the least-squares fit decides.
 //!
-//! What is not gross is fitted by plain least squares, so that degrees of freedom and covariances are those of least
-//! squares, with few rows as with many. A row that was left out comes back if its distance from the fit of the others could
-//! be chance: `T² = rᵀ (I + J B Jᵀ)⁻¹ r / (d σ²)` is an F of `d` and the degrees of freedom of σ.
+//! The remaining rows are fitted by plain least squares, so degrees of freedom and covariances are
+//! those of least squares. A rejected row returns if its distance from the fit of the others is not
+//! significant: `T² = rᵀ (I + J B Jᵀ)⁻¹ r / (d σ²)` is F distributed with `d` and the degrees of
+//! freedom of σ.
 
 use nalgebra::{DMatrix, DVector};
 
+use super::blocks::by_blocks;
 use super::clustered::Known;
 use super::fit::REJECTED;
-use super::linearize::by_blocks;
 use super::robust::robust_scale_after;
 use super::solver::{Residuals, Solver};
 use super::statistics::f_beyond;
 use super::{Configurations, Failure, Folds, Loss, Observation};
 
-/// How likely it may be that any good row is left out by chance.
+/// Probability that any good row is rejected.
 const CHANCE: f64 = 0.01;
 
-/// Of more rows than twice these, so many come near first.
+/// Size of the subset that provides the start, with more than twice as many rows.
 const PART: usize = 4000;
 
-/// Rounds of Huber's weights, then of those that were asked for.
+/// Iterations with Huber's weights, then with the requested ones.
 const ROUNDS: [usize; 2] = [20, 40];
 
-/// How often a step is damped further in a round.
+/// Largest number of times that the damping increases in an iteration.
 const TRIES: usize = 8;
 
 impl Solver<'_> {
-    /// Sets the weights: 0 for gross errors, 1 for all others. `steps` are the most of each fit. How well the unknowns are
-    /// known, if that came out on the way.
-    pub(super) fn leave_out_gross_errors(
-        &mut self,
-        loss: Loss,
-        steps: usize,
-    ) -> Result<Option<Known>, Failure> {
+    /// Sets the weights to 0 for outliers and 1 for all others.
+    ///
+    /// `steps` limits each fit. Returns the covariance if it was computed on the way.
+    pub(super) fn reject_outliers(&mut self, loss: Loss, steps: usize) -> Result<Option<Known>, Failure> {
         let places = self.places_by_number();
         if self.data.len() > 2 * PART {
             let folds = Folds::new(self.data, self.data.len() / PART);
             let part = self.data.iter().zip(&folds.fold).filter(|(_, fold)| **fold == 0);
             let part: Vec<Observation> = part.map(|(row, _)| row.clone()).collect();
-            let mut few = self.of(&part);
+            let mut few = self.with_data(&part);
             few.rounds(loss, places)?;
             self.x = few.x;
         }
@@ -68,18 +66,20 @@ impl Solver<'_> {
         Ok(None)
     }
 
-    /// How many numbers stand behind each that is independent: visits of a configuration count once.
+    /// Returns the number of measured numbers per independent one: visits of a configuration count
+    /// once.
     fn places_by_number(&self) -> f64 {
         let numbers: usize = self.data.iter().map(Observation::count).sum();
         let (independent, _) = Configurations::independent(self.data);
         numbers as f64 / independent.max(1) as f64
     }
 
-    /// Iteratively reweighted least squares: the scale of what is left, and the norms of the residuals of all rows.
+    /// Runs iteratively reweighted least squares; returns the robust scale and the residual norms
+    /// of all rows.
     ///
-    /// Huber first: it comes near from anywhere, and finds the scale; then the loss that was asked for, with that scale.
-    /// Gross errors never have their say. A round is one step, for which the residuals at its end alone are worked out:
-    /// `Σ ρ` must fall.
+    /// Huber's loss converges from any start and determines the scale; the requested loss then uses
+    /// that scale. An iteration is one step and evaluates only the residuals at its end; `Σ ρ` must
+    /// decrease.
     fn rounds(&mut self, loss: Loss, visits: f64) -> Result<(f64, Vec<f64>), Failure> {
         let spent = (self.x.len() as f64 * visits) as usize;
         let scale_of = |mut all: Vec<f64>| robust_scale_after(&mut all, spent).max(1e-300);
@@ -117,14 +117,14 @@ impl Solver<'_> {
         Ok((scale, norms))
     }
 
-    /// `s² Σ ρ(|r|/s)`, and what priors cost.
+    /// Computes `s² Σ ρ(|r|/s)` plus the cost of the priors.
     fn robust_cost(&self, loss: Loss, norms: &[f64], scale: f64, x: &DVector<f64>) -> f64 {
         let rows = norms.iter().zip(self.data);
         let costs = rows.map(|(norm, row)| loss.cost(norm / scale, row.count()));
         scale * scale * costs.sum::<f64>() + self.cost_of_priors(x)
     }
 
-    /// Rows that were left out, and whose distance could be chance.
+    /// Returns the rejected rows whose distance is not significant.
     fn could_be_chance(&self, known: &Known) -> Result<Vec<usize>, Failure> {
         let p = self.x.len();
         let bread = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
@@ -133,11 +133,11 @@ impl Solver<'_> {
         };
         let left_out: Vec<usize> = (0..self.data.len()).filter(|i| self.weights[*i] == 0.0).collect();
         let block = |_: usize, rows: &[usize]| {
-            let mut room = self.model.room();
+            let mut scratch = self.model.scratch();
             let mut back = Vec::new();
             for i in rows.iter().copied() {
                 let (mut r, mut u) = (Vec::new(), Vec::new());
-                self.linear(&mut room, i, |residual, row| {
+                self.linear(&mut scratch, i, |residual, row| {
                     r.push(residual);
                     u.push(l.tr_mul(&DVector::from_column_slice(row)));
                 })?;

@@ -1,18 +1,19 @@
-//! Householder's reflections of a block of rows onto the triangle above it.
+//! Householder reflections that fold a block of rows into a triangle.
 //!
-//! For every column j there is an `H = I − β v vᵀ` with `v = (r_jj − ρ, w_j)` that takes `(r_jj, w_j)` to `(ρ, 0)`, where `w_j`
-//! is the column of the block and `ρ = −sign(r_jj) ‖(r_jj, w_j)‖`. Of the triangle it changes row j alone.
+//! For each column j, `H = I − β v vᵀ` with `v = (r_jj − ρ, w_j)` maps `(r_jj, w_j)` to `(ρ, 0)`,
+//! where `w_j` is the column of the block and `ρ = −sign(r_jj) ‖(r_jj, w_j)‖`. It changes only row
+//! j of the triangle.
 
 use abbe_core::lanes::{Kernel, Register};
 
-/// Rows that are folded in together: a block of as many columns as models have stays in the nearest cache.
+/// Rows per block: a block with the columns of a usual model fits in the first-level cache.
 pub(super) const BLOCK: usize = 64;
 
-/// Numbers that are added side by side: as many on every machine, and no product is fused with a sum, so that the result
-/// is the same to the last bit whatever registers the machine has.
+/// Number of parallel partial sums. It is fixed, and products are not fused with sums, so results
+/// are identical to the last bit on all machines.
 const SIDE_BY_SIDE: usize = 8;
 
-/// A triangle, row by row, and a block below it, column by column; the block is spent.
+/// A triangle in row-major order and a block in column-major order; the block is overwritten.
 pub(super) struct Fold<'a> {
     pub(super) triangle: &'a mut [f64],
     pub(super) block: &'a mut [[f64; BLOCK]],

@@ -1,30 +1,33 @@
-//! The rigid motion that brings points onto others best: three targets make a frame, and more than three do too.
+//! Registration: the rigid motion that maps one set of points onto another best.
 
 use nalgebra::{Matrix3, Vector3};
 
 use abbe_analysis::decompose::{svd3, symmetric_eigen};
 use abbe_core::Pose;
 
-/// A motion and how well it fits.
+/// A rigid motion and the quality of its fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Registration {
-    /// `to ≈ pose · from`.
+    /// The motion: `to ≈ pose · from`.
     pub pose: Pose,
-    /// Root mean square distance that remains, per point.
+    /// Root mean square of the remaining distances, per point.
     pub rms: f64,
-    /// How far the points are from a line, as a share of how far they are spread: 0 if they are in line.
+    /// Extent of the points perpendicular to their principal line, as a share of their total
+    /// extent; 0 for collinear points.
     pub breadth: f64,
 }
 
-/// Least squares over all rotations: with `H = Σ (from − mean)(to − mean)ᵀ = U Σ Vᵀ`, `R = V diag(1, 1, det) Uᵀ`.
+/// Fits a rigid motion to pairs of points by least squares.
 ///
-/// None for fewer than three pairs, and for places too far away to be squared. Where the points are in line ([`Registration::breadth`] 0) the turn about that
-/// line is arbitrary.
+/// With `H = Σ (from − mean)(to − mean)ᵀ = U Σ Vᵀ`, the rotation is `R = V diag(1, 1, det) Uᵀ`.
+///
+/// Returns none for fewer than three pairs, and for coordinates whose squares overflow. For
+/// collinear points ([`Registration::breadth`] 0), the rotation about their line is arbitrary.
 pub fn register(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Registration> {
     register_pairs(from.iter().copied().zip(to.iter().copied()))
 }
 
-/// The same of pairs of points, which are gone through three times.
+/// Fits a rigid motion to an iterator of pairs `(from, to)`, which is traversed three times.
 pub fn register_pairs(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])> + Clone) -> Option<Registration> {
     let (mut n, mut a, mut b) = (0, Vector3::zeros(), Vector3::zeros());
     for (p, q) in pairs.clone() {
@@ -46,7 +49,7 @@ pub fn register_pairs(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])> + Clone)
     let breadth = if sizes[0] > 0.0 { sizes[1] / sizes[0] } else { 0.0 };
     let svd = svd3(h)?;
     let (u, v) = (svd.u?, svd.v_t?.transpose());
-    // The last singular value is the smallest only if they are sorted: nalgebra sorts those of `svd`.
+    // nalgebra's `svd` sorts the singular values, so the last one is the smallest.
     let sign = (v * u.transpose()).determinant().signum();
     let r = v * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * u.transpose();
     let t = b - r * a;

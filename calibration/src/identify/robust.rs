@@ -1,21 +1,22 @@
-//! Losses that gross errors cannot pull at: weights for iteratively reweighted least squares.
+//! Robust losses: weights of iteratively reweighted least squares.
 
-/// What a residual costs.
+/// Loss function of a residual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Loss {
-    /// Its square.
+    /// Squared residual.
     #[default]
     Squares,
-    /// Its square up to 1.345 scales, linear beyond: Huber.
+    /// Huber: squared up to 1.345 scales, linear beyond.
     Huber,
-    /// Nothing more beyond 4.685 scales: Tukey's biweight.
+    /// Tukey's biweight: constant beyond 4.685 scales.
     Tukey,
 }
 
 impl Loss {
-    /// The weight of a residual, in scales; 0 if it is rejected.
+    /// Returns the weight of a residual of a given norm, in scales; 0 if it is rejected.
     ///
-    /// For a vector of `d` residuals the bounds grow with `√d`, so that as many good rows keep their weight.
+    /// For a vector of `d` residuals the thresholds grow with `√d`, which keeps the share of good
+    /// rows with full weight.
     pub fn weight(self, norm: f64, d: usize) -> f64 {
         let stretch = (d.max(1) as f64).sqrt();
         match self {
@@ -30,7 +31,8 @@ impl Loss {
 }
 
 impl Loss {
-    /// What a residual costs, in scales: its square where it keeps its weight. Of `n = |r|` and `w` its derivative is `2 n w`.
+    /// Returns the cost of a residual, in scales: its square at full weight. With `n = |r|` and the
+    /// weight `w`, its derivative is `2 n w`.
     pub(super) fn cost(self, norm: f64, d: usize) -> f64 {
         let stretch = (d.max(1) as f64).sqrt();
         match self {
@@ -48,15 +50,18 @@ impl Loss {
     }
 }
 
-/// A standard deviation that half of the values cannot spoil: the median of the absolute values / 0.6745.
+/// Returns the median absolute deviation from zero divided by 0.6745, an estimate of the standard
+/// deviation that up to half of the values do not affect.
 pub fn robust_scale(residuals: &mut [f64]) -> f64 {
     robust_scale_after(residuals, 0)
 }
 
-/// The same of what is left by a fit of `spent` unknowns: the median of all but the `spent` smallest.
+/// Returns the robust scale after a fit of `spent` unknowns: the median of all but the `spent`
+/// smallest residuals.
 ///
-/// A fit brings as many residuals to nothing as it has unknowns: with few rows the median of all would be far too small
-/// (DuMouchel and O'Brien, *Integrating a robust option into a multiple regression computing environment*, 1989).
+/// A fit makes as many residuals vanish as it has unknowns, so the median of all is too small for
+/// few rows (DuMouchel and O'Brien, *Integrating a robust option into a multiple regression
+/// computing environment*, 1989).
 pub(super) fn robust_scale_after(residuals: &mut [f64], spent: usize) -> f64 {
     if residuals.is_empty() {
         return 0.0;

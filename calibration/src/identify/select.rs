@@ -1,52 +1,33 @@
-//! Richer terms, one group after the other, as long as they help on data that is left out.
+//! Forward selection of terms by cross-validation.
 
 use super::left_out::LeftOut;
 use super::statistics::score_test;
-use super::{FTest, Failure, Fit, Folds, Model, Observation};
+use super::{FTest, Failure, Fit, Folds, Model, Observation, Offer};
 
-/// A term: an unknown of the model times a factor that changes from row to row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Factored {
-    /// The unknown, by index.
-    pub unknown: usize,
-    /// The factor, by index; none where it is 1.
-    pub factor: Option<usize>,
-}
-
-/// Terms that may be taken in.
-pub struct Offer<'a> {
-    /// Terms that are in already, beside what the fit has kept.
-    pub taken: &'a [Factored],
-    /// Groups of terms that come together: sine and cosine of a joint, say.
-    pub groups: &'a [Vec<Factored>],
-    /// The factors of an observation, in order.
-    pub factors: &'a dyn Fn(&Observation) -> Vec<f64>,
-    /// How likely it may be that the best of all groups is taken in by chance.
-    pub chance: f64,
-}
-
-/// A group that earned its place.
+/// A selected group of terms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
-    /// Which group, by index.
+    /// Index of the group.
     pub group: usize,
-    /// Root mean square of what is left on left-out data, in units of the uncertainty, before it.
+    /// Root mean square of the cross-validation residuals before its selection, in units of the
+    /// uncertainty.
     pub before: f64,
-    /// … and with it.
+    /// Root mean square of the cross-validation residuals with it.
     pub after: f64,
-    /// Whether what it explains could be chance.
+    /// Significance test of the group.
     pub test: FTest,
 }
 
-/// By how much, as a share, the squared error on left-out data must fall for a group to be taken in.
+/// Smallest relative decrease of the squared cross-validation error for a selection.
 const GAIN: f64 = 0.005;
 
-/// Chooses forward: always the group that helps most on left-out data, until none helps by half a percent, or what it
-/// explains could be chance.
+/// Selects groups of terms forward: in each round the group with the smallest cross-validation
+/// error, until none reduces it by half a percent, or the group is not significant.
 ///
-/// The best of many looks good by chance: p is held against `chance` divided by the number of groups (Bonferroni), with
-/// configurations, not rows, as what is independent. `model` has the unknowns of the fit first, then those of terms.
-/// Everything is linear about the fit. `proceed` is asked before each round whether there is time.
+/// The significance level is `chance` divided by the number of groups (Bonferroni), with
+/// configurations instead of rows as independent units. `model` has the unknowns of the fit first,
+/// then those of the terms. Everything is linearized about the fit. Each round calls `proceed`,
+/// which returns false to stop.
 pub fn select(
     model: &Model,
     data: &[Observation],

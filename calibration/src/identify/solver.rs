@@ -1,13 +1,14 @@
-//! Levenberg and Marquardt, on a triangle instead of a tall matrix.
+//! Levenberg-Marquardt iterations on a triangular factor instead of the tall Jacobian.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::{by_blocks, linearize, with_priors};
-use super::residuals::Room;
+use super::blocks::by_blocks;
+use super::linearize::{linearize, with_priors};
+use super::scratch::Scratch;
 use super::triangle::Problem;
 use super::{Failure, Loss, Model, Observation, Options};
 
-/// A fit under way.
+/// State of a fit.
 pub(super) struct Solver<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) data: &'a [Observation],
@@ -15,11 +16,11 @@ pub(super) struct Solver<'a> {
     bounds: Vec<Option<[f64; 2]>>,
     pub(super) x: DVector<f64>,
     pub(super) weights: Vec<f64>,
-    /// The triangle of the data alone.
+    /// Triangle of the data without priors.
     pub(super) data_alone: DMatrix<f64>,
     pub(super) problem: Problem,
     pub(super) cost: f64,
-    /// Whether all this is at `x`, with the weights as they are.
+    /// The linearization belongs to `x` and the weights.
     pub(super) linearized: bool,
     pub(super) steps: usize,
 }
@@ -48,8 +49,8 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// The same fit of other data, from where it is.
-    pub(super) fn of<'b>(&self, data: &'b [Observation]) -> Solver<'b>
+    /// Starts a fit of other data at the current `x`.
+    pub(super) fn with_data<'b>(&self, data: &'b [Observation]) -> Solver<'b>
     where
         'a: 'b,
     {
@@ -68,7 +69,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// The triangle of the data alone, then the whole problem and its cost.
+    /// Returns the triangle of the data, the problem with priors, and its cost.
     fn linearize(&self, x: &DVector<f64>) -> Result<(DMatrix<f64>, Problem, f64), Failure> {
         let triangle = linearize(self.model, self.data, x.as_slice(), Some(&self.weights))?;
         let data_alone = triangle.clone().finish();
@@ -86,22 +87,23 @@ impl<'a> Solver<'a> {
         priors.filter_map(|(prior, x)| Some((x / (*prior)?).powi(2))).sum()
     }
 
-    /// Residuals and derivatives at `x`, with the weights as they are.
+    /// Linearizes at `x` with the current weights.
     pub(super) fn linearize_here(&mut self) -> Result<(), Failure> {
         (self.data_alone, self.problem, self.cost) = self.linearize(&self.x)?;
         self.linearized = true;
         Ok(())
     }
 
-    /// Steps until they are nothing beside what the data can tell; whether that was reached.
+    /// Iterates until steps are negligible against the uncertainty, at most `most` times; returns
+    /// whether it converged.
     pub(super) fn steps_at_most(&mut self, most: usize) -> Result<bool, Failure> {
         if !self.linearized {
             self.linearize_here()?;
         }
-        // Derivatives alone lead astray from the first step on that fails.
+        // After a failed step, derivatives alone no longer predict the cost.
         let (mut damping, mut curved, mut still) = (1e-9, false, 0);
         for _ in 0..most {
-            // A millionth of what a single number of the data explains by chance.
+            // A millionth of the expected contribution of a single number to the cost.
             let nothing = 1e-6 * self.cost / self.data.len().max(1) as f64;
             if self.problem.promise() <= nothing {
                 return Ok(true);
@@ -112,7 +114,7 @@ impl<'a> Solver<'a> {
             };
             let trial = self.within(&self.x + if curved { self.accelerated(step, damping)? } else { step });
             let share = (&trial - &self.x).component_mul(&self.scale()).norm();
-            // Far below what a single measurement changes.
+            // Far below the effect of a single measurement.
             let small = share < 1e-7 * (1.0 + self.cost.sqrt());
             let (data_alone, problem, cost) = self.linearize(&trial)?;
             self.steps += 1;
@@ -120,7 +122,7 @@ impl<'a> Solver<'a> {
                 let gained = self.cost - cost;
                 (self.x, self.data_alone, self.problem, self.cost) = (trial, data_alone, problem, cost);
                 damping = f64::max(damping * 0.1, 1e-15);
-                // In a valley a single step may gain nothing by chance.
+                // In a curved valley, a single step can fail to gain by chance.
                 still = if small || gained <= nothing { still + 1 } else { 0 };
                 if still > usize::from(curved) {
                     return Ok(true);
@@ -135,7 +137,7 @@ impl<'a> Solver<'a> {
         Ok(false)
     }
 
-    /// Where a damped step leads, within the bounds; none if the problem is singular.
+    /// Returns the end of a damped step within the bounds; none if the problem is singular.
     pub(super) fn trial(&self, damping: f64) -> Option<DVector<f64>> {
         Some(self.within(&self.x + self.problem.solve(damping)?))
     }
@@ -153,24 +155,24 @@ impl<'a> Solver<'a> {
         DVector::from_vec(self.problem.lengths())
     }
 
-    /// Residuals and derivatives of row `i` of the data.
+    /// Evaluates residuals and derivatives of row `i`.
     pub(super) fn linear(
         &self,
-        room: &mut Room,
+        scratch: &mut Scratch,
         i: usize,
         row: impl FnMut(f64, &[f64]),
     ) -> Result<(), Failure> {
-        self.model.linear(room, &self.data[i], self.x.as_slice(), row)
+        self.model.linear(scratch, &self.data[i], self.x.as_slice(), row)
     }
 
-    /// All residuals at `x`, and the norm of those of each observation.
+    /// Computes all residuals at `x`, and their norm for each observation.
     pub(super) fn residuals(&self, x: &DVector<f64>) -> Result<Residuals, Failure> {
         let block = |_: usize, rows: &[Observation]| {
-            let mut room = self.model.room();
+            let mut scratch = self.model.scratch();
             let (mut all, mut norms) = (Vec::new(), Vec::with_capacity(rows.len()));
             for observation in rows {
                 let mut square = 0.0;
-                self.model.residuals(&mut room, observation, x.as_slice(), |residual| {
+                self.model.residuals(&mut scratch, observation, x.as_slice(), |residual| {
                     all.push(residual);
                     square += residual * residual;
                 })?;
@@ -186,7 +188,7 @@ impl<'a> Solver<'a> {
         Ok(residuals)
     }
 
-    /// Gives every row the weight that a loss has for its residual.
+    /// Sets the weight of each row by a loss.
     pub(super) fn reweight(&mut self, loss: Loss, norms: &[f64], scale: f64) {
         for ((weight, norm), observation) in self.weights.iter_mut().zip(norms).zip(self.data) {
             *weight = loss.weight(norm / scale, observation.count());
@@ -195,11 +197,11 @@ impl<'a> Solver<'a> {
     }
 }
 
-/// What is left of the data.
+/// Residuals of the data.
 #[derive(Default)]
 pub(super) struct Residuals {
-    /// Of every number.
+    /// Residual of each number.
     pub(super) all: Vec<f64>,
-    /// Of every observation.
+    /// Norm of the residuals of each observation.
     pub(super) norms: Vec<f64>,
 }

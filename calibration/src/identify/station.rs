@@ -1,20 +1,20 @@
-//! Where a machine stands before an instrument.
+//! Stations: poses of the machine in the frame of the instrument.
 
 use abbe_core::Pose;
 
-/// Where `F_0` is as an instrument sees it. It is no error of the machine.
+/// Pose of `F_0` in the frame of the instrument. It is not an error of the machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Station {
-    /// What it is called; empty if it is the only one.
+    /// Name; empty for a single station.
     pub name: String,
-    /// `B`: from `F_0` to the frame of the instrument, before any unknown.
+    /// `B`: transform from `F_0` to the frame of the instrument, before any unknown.
     pub pose: Pose,
-    /// Whether nothing of it is unknown.
+    /// The pose is exact: it has no unknowns.
     pub exact: bool,
 }
 
 impl Station {
-    /// A single station, of which something is unknown.
+    /// Creates a nameless station with unknown errors.
     pub fn at(pose: Pose) -> Self {
         Self { name: String::new(), pose, exact: false }
     }

@@ -1,13 +1,14 @@
-//! How well data determine what they determine, and whether more terms are worth their number.
+//! Observability indices, tests of nested models, and tail probabilities.
 
 use nalgebra::DMatrix;
 
-/// Indices of observability of singular values `σ_1 ≥ … ≥ σ_r` of columns of unit length, and `m` rows.
+/// Observability indices of singular values `σ_1 ≥ … ≥ σ_r` of columns of unit length, and `m`
+/// rows.
 ///
 /// Sun and Hollerbach, *Observability index selection for robot calibration*, 2008.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Observability {
-    /// `σ_1 / σ_r`.
+    /// Condition number `σ_1 / σ_r`.
     pub condition: f64,
     /// `O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`.
     pub o1: f64,
@@ -22,7 +23,7 @@ pub struct Observability {
 }
 
 impl Observability {
-    /// All 0 if there is nothing.
+    /// Computes the indices; all are 0 without singular values.
     pub(super) fn from_singular_values(values: &[f64], rows: usize) -> Self {
         let (Some(first), Some(last)) = (values.first(), values.last()) else { return Self::default() };
         let r = values.len() as f64;
@@ -37,20 +38,21 @@ impl Observability {
     }
 }
 
-/// The F-test of a richer model against one that it contains.
+/// F-test of a model against one nested in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FTest {
-    /// `F = ((c_0 − c_1)/k) / (c_1/f)`.
+    /// Statistic `F = ((c_0 − c_1)/k) / (c_1/f)`.
     pub f: f64,
-    /// How many terms are new: `k`.
+    /// Number of added terms `k`.
     pub terms: usize,
-    /// Degrees of freedom that are left: `f`.
+    /// Residual degrees of freedom `f`.
     pub freedom: usize,
-    /// How likely so large an `F` is if the new terms mean nothing.
+    /// p-value: probability of a larger `F` if the added terms are zero.
     pub p: f64,
 }
 
-/// From the sums of squared residuals before and after `terms` more, `freedom` numbers being left over after.
+/// Computes the F-test from the sums of squared residuals before and after adding `terms`, with
+/// `freedom` residual degrees of freedom after.
 pub fn f_test(before: f64, after: f64, terms: usize, freedom: usize) -> FTest {
     let (k, n) = (terms.max(1) as f64, freedom.max(1) as f64);
     let f = ((before - after).max(0.0) / k) / (after / n).max(1e-300);
@@ -58,12 +60,13 @@ pub fn f_test(before: f64, after: f64, terms: usize, freedom: usize) -> FTest {
     FTest { f, terms, freedom, p: f_beyond(f, k, n) }
 }
 
-/// How likely a Student's t of `freedom` degrees is beyond `t`, either side: `I_{n/(n + t²)}(n/2, 1/2)`.
+/// Returns the two-sided tail probability of Student's t: `I_{n/(n + t²)}(n/2, 1/2)`.
 pub fn student_beyond(t: f64, freedom: f64) -> f64 {
     incomplete_beta(freedom / 2.0, 0.5, freedom / (freedom + t * t))
 }
 
-/// The factor of standard deviations that holds with this probability: of Student's t with `freedom` degrees.
+/// Returns the coverage factor of Student's t with `freedom` degrees of freedom for a two-sided
+/// probability.
 pub fn student_factor(probability: f64, freedom: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1e6);
     for _ in 0..200 {
@@ -73,24 +76,27 @@ pub fn student_factor(probability: f64, freedom: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// How likely a standard deviation, of `freedom` degrees, is as far from 1 as this one, either way, if it is 1 in truth.
+/// Returns the two-sided p-value of a sample standard deviation with `freedom` degrees of freedom,
+/// if the true one is 1.
 ///
-/// Wilson and Hilferty, 1931: `(χ²/n)^(1/3)` is nearly normal, of mean `1 − 2/(9n)` and variance `2/(9n)`.
+/// Wilson and Hilferty, 1931: `(χ²/n)^(1/3)` is nearly normal with mean `1 − 2/(9n)` and variance
+/// `2/(9n)`.
 pub fn deviation_beyond(sigma: f64, freedom: f64) -> f64 {
     let spread = 2.0 / (9.0 * freedom.max(1.0));
     let z = (sigma.powf(2.0 / 3.0) - (1.0 - spread)) / spread.sqrt();
     libm::erfc(z.abs() / core::f64::consts::SQRT_2)
 }
 
-/// How likely an F of `k` and `n` degrees is beyond `f`.
+/// Returns the upper tail probability of F with `k` and `n` degrees of freedom.
 pub(super) fn f_beyond(f: f64, k: f64, n: f64) -> f64 {
     incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f.max(0.0)))
 }
 
-/// Whether scores of independent configurations, a row each, have a mean: Hotelling's T², with as many configurations as are
-/// `left` when other terms have used theirs.
+/// Tests whether the scores of independent configurations, one row each, have a nonzero mean:
+/// Hotelling's T².
 ///
-/// With `t = sᵀ(UᵀU)⁻¹s` of the scores U and their sum s, `F = (f/k) t/(C − t)`, `f = left − k`.
+/// `left` is the number of configurations less the degrees of freedom used by other terms. With
+/// `t = sᵀ(UᵀU)⁻¹s` for the scores U and their sum s, `F = (f/k) t/(C − t)` with `f = left − k`.
 pub(super) fn score_test(scores: &DMatrix<f64>, left: f64) -> FTest {
     let (configurations, terms) = (scores.nrows() as f64, scores.ncols());
     let sum = scores.row_sum_tr();
@@ -101,7 +107,8 @@ pub(super) fn score_test(scores: &DMatrix<f64>, left: f64) -> FTest {
     FTest { f, terms, freedom: freedom as usize, p: incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f)) }
 }
 
-/// The regularized incomplete beta function `I_x(a, b)`, by its continued fraction (Abramowitz and Stegun 26.5.8).
+/// Computes the regularized incomplete beta function `I_x(a, b)` by its continued fraction
+/// (Abramowitz and Stegun 26.5.8).
 fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
         return x.clamp(0.0, 1.0);
@@ -111,7 +118,7 @@ fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
     }
     let front =
         (libm::lgamma(a + b) - libm::lgamma(a) - libm::lgamma(b) + a * x.ln() + b * (1.0 - x).ln()).exp() / a;
-    // Lentz's way.
+    // Lentz's algorithm.
     let (mut c, mut d) = (1.0, 1.0 / (1.0 - (a + b) * x / (a + 1.0)));
     let mut fraction = d;
     for i in 1..300 {

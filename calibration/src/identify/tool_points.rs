@@ -1,20 +1,21 @@
-//! The tool point where the machine is used: how it moves with what is unknown, and how well it will be known.
+//! Sensitivity and predicted uncertainty of the tool point at the configurations of use.
 
 use nalgebra::{DMatrix, Matrix3xX};
 
 use super::{Failure, Identifiable, Measurement, Model, Observation, Unknown};
 
-/// How the tool point moves with every unknown, at the configurations of a list. The length unit, per unit of the unknown.
+/// Derivatives of the tool point with respect to each unknown, at each configuration of a list;
+/// length unit per unit of the unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolPoints {
     moves: Vec<Matrix3xX<f64>>,
 }
 
 impl Model<'_> {
-    /// How the tool point moves with every unknown where the machine is used; nothing is measured there.
+    /// Computes the derivatives of the tool point at the configurations of use.
     ///
-    /// A single target at zero is the tool point: where it is on the tool is among what was measured. Any other tool point is a
-    /// target of its own, which nothing is unknown of.
+    /// A single target at zero is the tool point, so its position is among the unknowns. With other
+    /// targets, the tool point is a point of its own without unknowns.
     pub fn tool_points(&self, used: &[Observation]) -> Result<ToolPoints, Failure> {
         let mut model = self.clone();
         let single = self.targets.len() == 1
@@ -26,17 +27,17 @@ impl Model<'_> {
         let mut points = vec![None; model.targets.len()];
         points[place] = Some([0.0; 3]);
         let p = self.unknowns.len();
-        let (mut room, x) = (model.room(), vec![0.0; p]);
+        let (mut scratch, x) = (model.scratch(), vec![0.0; p]);
         let length = self.uncertainty.length;
         let one = |row: &Observation| {
-            let seen = Observation {
+            let observation = Observation {
                 measured: Measurement::Points(points.clone().into()),
                 weight: 1.0,
                 ..row.clone()
             };
             let mut moves = Matrix3xX::zeros(p);
             let mut axis = 0;
-            model.linear(&mut room, &seen, &x, |_, row| {
+            model.linear(&mut scratch, &observation, &x, |_, row| {
                 (0..p).for_each(|k| moves[(axis, k)] = row[k] * length);
                 axis += 1;
             })?;
@@ -47,8 +48,8 @@ impl Model<'_> {
 }
 
 impl ToolPoints {
-    /// `B`, the mean of `TᵀT`, of these unknowns.
-    pub(super) fn of(&self, kept: &[usize]) -> DMatrix<f64> {
+    /// Returns `B`, the mean of `TᵀT`, for the kept unknowns.
+    pub(super) fn mean_square(&self, kept: &[usize]) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(kept.len(), kept.len());
         for moves in &self.moves {
             let moves = moves.select_columns(kept);
@@ -57,8 +58,8 @@ impl ToolPoints {
         sum / self.moves.len().max(1) as f64
     }
 
-    /// The standard deviation of the tool point at every configuration, from the covariance of the kept unknowns:
-    /// `√tr(T C Tᵀ)`. The length unit.
+    /// Returns the standard deviation `√tr(T C Tᵀ)` of the tool point at each configuration, from
+    /// the covariance of the kept unknowns; the length unit.
     pub fn deviations(&self, identifiable: &Identifiable, covariance: &DMatrix<f64>) -> Vec<f64> {
         let deviation = |moves: &Matrix3xX<f64>| {
             let moves = moves.select_columns(&identifiable.kept);
@@ -67,8 +68,11 @@ impl ToolPoints {
         self.moves.iter().map(deviation).collect()
     }
 
-    /// What is held at zero, as it cannot be told from what is kept, and yet moves the tool point here: each with the root mean
-    /// square of what it moves beside what stands for it, per unit. The largest first, by what `size` counts as one unit.
+    /// Returns the unknowns fixed at zero that move the tool point here although the data cannot
+    /// distinguish them from their equivalents.
+    ///
+    /// Each has the root mean square of the difference, per unit of the unknown. The order is by
+    /// falling effect of `size`.
     pub fn unseen(&self, identifiable: &Identifiable, size: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
         let n = self.moves.len().max(1) as f64;
         let beside = |(k, act_as): &(usize, Vec<(usize, f64)>)| {

@@ -1,31 +1,31 @@
-//! A tall least-squares problem, taken in row by row and kept as a triangle.
+//! Tall least-squares problems, accumulated row by row as a triangle.
 //!
-//! Of the stack `[J | r]` only the factor `R` of its QR decomposition is kept: `‖J x − r‖` follows from it for every
-//! `x`, and memory does not grow with the number of rows.
+//! Only the factor `R` of the QR decomposition of the stack `[J | r]` is stored: it determines
+//! `‖J x − r‖` for every `x`, and memory does not grow with the number of rows.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::reflections::{BLOCK, Fold};
 use abbe_core::lanes::InstructionSet;
 
-/// The triangle of a stack of rows.
+/// Triangular factor of a stack of rows.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
-    /// `R`, row by row.
+    /// `R`, in row-major order.
     r: Vec<f64>,
-    /// The rows that wait, column by column.
+    /// Rows not yet folded in, in column-major order.
     waiting: Vec<[f64; BLOCK]>,
     filled: usize,
 }
 
 impl Triangle {
-    /// Of no rows; `unknowns` columns and one for the right side.
+    /// Creates an empty triangle with `unknowns` columns and one for the right side.
     pub(super) fn new(unknowns: usize) -> Self {
         let width = unknowns + 1;
         Self { r: vec![0.0; width * width], waiting: vec![[0.0; BLOCK]; width], filled: 0 }
     }
 
-    /// Takes in a row: the derivatives and the right side, all times `weight`.
+    /// Appends a row of derivatives and its right side, both multiplied by `weight`.
     pub(super) fn push(&mut self, row: &[f64], right: f64, weight: f64) {
         let (place, last) = (self.filled, self.waiting.len() - 1);
         for (column, value) in self.waiting[..last].iter_mut().zip(row) {
@@ -38,7 +38,7 @@ impl Triangle {
         }
     }
 
-    /// Takes in the rows of another one of the same width.
+    /// Appends the rows of another triangle of the same width.
     pub(super) fn merge(&mut self, mut other: Self) {
         other.fold();
         for row in other.r.chunks_exact(self.waiting.len()) {
@@ -54,7 +54,7 @@ impl Triangle {
         }
     }
 
-    /// `R` of the unknowns and of the right side: `width` columns, as many rows.
+    /// Returns `R`, including the right side: a square matrix of `unknowns + 1` columns.
     pub(super) fn finish(mut self) -> DMatrix<f64> {
         self.fold();
         let width = self.waiting.len();
@@ -62,7 +62,7 @@ impl Triangle {
     }
 }
 
-/// A linear least-squares problem `min ‖A x − b‖`, small.
+/// A small linear least-squares problem `min ‖A x − b‖`.
 #[derive(Clone, Debug)]
 pub(super) struct Problem {
     pub(super) a: DMatrix<f64>,
@@ -70,7 +70,7 @@ pub(super) struct Problem {
 }
 
 impl Problem {
-    /// Some columns of a finished triangle, as often as they are named.
+    /// Selects columns of a finished triangle; a column may occur repeatedly.
     pub(super) fn from_triangle(triangle: &DMatrix<f64>, columns: &[usize]) -> Self {
         let last = triangle.ncols() - 1;
         let columns_and_right: Vec<usize> = columns.iter().copied().chain([last]).collect();
@@ -80,12 +80,12 @@ impl Problem {
         Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
     }
 
-    /// By how much `‖b‖²` falls at the least: `‖Qᵀb‖²`, `A` being its own `R`.
+    /// Returns the decrease of `‖b‖²` at the minimum: `‖Qᵀb‖²`, with `A` its own `R`.
     pub(super) fn promise(&self) -> f64 {
         self.b.rows(0, self.a.ncols().min(self.b.len())).norm_squared()
     }
 
-    /// `min ‖A x − b‖² + λ ‖D x‖²` with `D` the lengths of the columns; none if it is singular.
+    /// Solves `min ‖A x − b‖² + λ ‖D x‖²`, with `D` the lengths of the columns; none if singular.
     pub(super) fn solve(&self, damping: f64) -> Option<DVector<f64>> {
         let (p, rows) = (self.a.ncols(), self.a.nrows());
         let mut right = DVector::zeros(rows + p);
@@ -97,7 +97,7 @@ impl Problem {
         unscaled(&solution, &scale)
     }
 
-    /// `(AᵀA + λ D²) x = g`; none if it is singular.
+    /// Solves `(AᵀA + λ D²) x = g`; none if singular.
     pub(super) fn solve_normal(&self, g: &DVector<f64>, damping: f64) -> Option<DVector<f64>> {
         let scale = self.lengths();
         let r = self.damped(&scale, damping).qr().unpack_r();
@@ -106,7 +106,7 @@ impl Problem {
         unscaled(&solution, &scale)
     }
 
-    /// `A D⁻¹` above `√λ`.
+    /// Stacks `A D⁻¹` on `√λ I`.
     fn damped(&self, scale: &[f64], damping: f64) -> DMatrix<f64> {
         let (p, rows) = (self.a.ncols(), self.a.nrows());
         let mut stack = DMatrix::zeros(rows + p, p);
@@ -119,14 +119,14 @@ impl Problem {
         stack
     }
 
-    /// The lengths of the columns; 1 where there is nothing.
+    /// Returns the lengths of the columns; 1 for zero columns.
     pub(super) fn lengths(&self) -> Vec<f64> {
         let length = |column: nalgebra::DVectorView<'_, f64>| column.norm();
         self.a.column_iter().map(|c| Some(length(c)).filter(|l| *l > 0.0).unwrap_or(1.0)).collect()
     }
 }
 
-/// `D⁻¹ x`, if it is finite.
+/// Returns `D⁻¹ x`; none if it is not finite.
 fn unscaled(solution: &DVector<f64>, scale: &[f64]) -> Option<DVector<f64>> {
     let x = DVector::from_fn(solution.len(), |j, _| solution[j] / scale[j]);
     x.iter().all(|value| value.is_finite()).then_some(x)
@@ -157,7 +157,7 @@ mod tests {
         let expected = (a.transpose() * &a).cholesky().unwrap().solve(&(a.transpose() * &b));
         assert!((&x - expected).norm() < 1e-12);
         let problem = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]);
-        // The same of the normal equations, damped.
+        // The damped normal equations have the same solution.
         let g = problem.a.tr_mul(&problem.b);
         assert!((problem.solve_normal(&g, 0.1).unwrap() - problem.solve(0.1).unwrap()).norm() < 1e-12);
         assert!(((&problem.a * &x - &problem.b).norm_squared() - (a * x - b).norm_squared()).abs() < 1e-9);

@@ -1,45 +1,48 @@
-//! What is unknown of a machine, and what part its sources have.
+//! Unknowns of a model, and the roles of its sources.
 
 use abbe_core::Component;
 
-/// A number that measurements are to tell.
+/// A number to be identified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unknown {
-    /// An error of where a machine stands: of a frame `E_0` at `F_0`, at this station.
+    /// An error of `E_0` at a station, in `F_0`: placement of the machine.
     Base(usize, Component),
-    /// A constant generalized error of a frame, from 0.
+    /// A constant generalized error of a frame, numbered from 0.
     Error(usize, Component),
-    /// How large a repeatable source is, 1 = as the spec has it.
+    /// Magnitude of a repeatable source; 1 is its size in the spec.
     Magnitude(usize),
-    /// A coordinate (0, 1, 2) of a target in the frame of the tool, less what the model says.
+    /// Deviation of coordinate 0, 1 or 2 of a target from its nominal position, in the frame of the
+    /// tool.
     Target(usize, usize),
-    /// An error of the tool: where whole poses are measured.
+    /// An error of the tool where whole poses are measured.
     Tool(Component),
-    /// Where a fixture stands: a coordinate (0, 1, 2) of a point, a tilt (0, 1) of a direction, less what the model says.
+    /// Deviation of a fixture from its nominal geometry: coordinate 0, 1 or 2 of a point, tilt 0 or
+    /// 1 of a direction.
     Fixture(usize, usize),
-    /// The zero of a reading, less what the model says.
+    /// Deviation of the zero of an observable from its nominal value.
     Zero(usize),
 }
 
 impl Unknown {
-    /// Whether it is where the machine or a fixture stands, or what is mounted on its tool: no error of the machine.
+    /// Returns whether it describes the placement of machine, fixtures or targets instead of an
+    /// error of the machine.
     pub fn is_placement(self) -> bool {
         matches!(self, Self::Base(..) | Self::Fixture(..) | Self::Zero(_)) || self.is_tool()
     }
 
-    /// Whether it is what is mounted on the tool.
+    /// Returns whether it describes the mounting on the tool.
     pub fn is_tool(self) -> bool {
         matches!(self, Self::Target(..) | Self::Tool(_))
     }
 }
 
-/// What part a source has in a model.
+/// Role of a source in a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// It is there as the spec has it.
+    /// The source is present as in the spec.
     Known,
-    /// Its magnitude is among the unknowns.
+    /// The magnitude of the source is an unknown.
     Unknown,
-    /// It is left out.
+    /// The source is omitted.
     Off,
 }

@@ -1,11 +1,11 @@
-//! The few numbers of a row, without an allocation for each.
+//! Short vectors of a row, stored without an allocation.
 
 use std::ops::{Deref, DerefMut};
 
-/// How many numbers are kept in place.
+/// Capacity of the inline storage.
 const FEW: usize = 7;
 
-/// The values of the joints: a slice of numbers, up to seven of them in place.
+/// Values of the joints: a slice of numbers, stored inline up to seven.
 #[derive(Clone, Debug)]
 pub struct Values(Kept);
 
@@ -58,7 +58,7 @@ impl From<Vec<f64>> for Values {
     }
 }
 
-/// The values of the inputs: a slice of numbers. Most machines have none.
+/// Values of the inputs: a slice of numbers. Most machines have none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inputs(Option<Box<Box<[f64]>>>);
 
@@ -82,7 +82,8 @@ impl From<Vec<f64>> for Inputs {
     }
 }
 
-/// The points of the targets, none where one was hidden: a slice of them, a single one in place.
+/// Positions of the targets, none where one was hidden: a slice of points, a single one stored
+/// inline.
 #[derive(Clone, Debug)]
 pub struct Points(Seen);
 

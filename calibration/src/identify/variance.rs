@@ -1,23 +1,25 @@
-//! How good every instrument of a fit is, from what is left of its own numbers: variance components.
+//! Variance components: the actual uncertainty of each instrument, from its residuals in a fit.
 
 use super::linearize::{linearize, with_priors};
 use super::{Failure, Fit, Measurement, Model, Observation};
 
-/// What is left of the numbers of one instrument.
+/// Variance component of one instrument.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VarianceComponent {
-    /// How many numbers it told.
+    /// Number of its readings.
     pub numbers: usize,
-    /// How many of them are left over: `Σ (1 − h_i)`, `h_i` the leverage of number i.
+    /// Redundancy of its readings: `Σ (1 − h_i)`, with `h_i` the leverage of reading i.
     pub freedom: f64,
-    /// What its uncertainty must be multiplied with to explain what is left: `√(Σ r_i² / freedom)`; 0 without numbers.
+    /// Factor of its uncertainty that explains its residuals: `√(Σ r_i² / freedom)`; 0 without
+    /// readings.
     pub factor: f64,
 }
 
-/// By [instrument](super::Reading::instrument), at the fit. All other measurements count as instrument 0.
+/// Estimates the variance component of each [instrument](super::Observable::instrument) at a fit.
+/// Points and poses count as instrument 0.
 ///
-/// Förstner, *Ein Verfahren zur Schätzung von Varianz- und Kovarianzkomponenten*, 1979: repeated with the new uncertainties
-/// until the factors are 1, it leads to the estimates of Helmert.
+/// Förstner, *Ein Verfahren zur Schätzung von Varianz- und Kovarianzkomponenten*, 1979: repetition
+/// with the new uncertainties until the factors are 1 converges to Helmert's estimates.
 pub fn variance_components(
     model: &Model,
     data: &[Observation],
@@ -29,20 +31,20 @@ pub fn variance_components(
     let p = x.len();
     let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &priors, &x);
     let root = problem.a.rows(0, p.min(problem.a.nrows())).transpose();
-    let count = model.readings.iter().map(|reading| reading.instrument + 1).max().unwrap_or(1);
+    let count = model.observables.iter().map(|reading| reading.instrument + 1).max().unwrap_or(1);
     let mut components = vec![VarianceComponent::default(); count];
     let mut squares = vec![0.0; count];
-    let mut room = kept.room();
+    let mut scratch = kept.scratch();
     for (observation, weight) in data.iter().zip(&fit.weights).filter(|(_, weight)| **weight > 0.0) {
         let instruments: Vec<usize> = match &observation.measured {
             Measurement::Readings(values) => {
-                let told = values.iter().zip(&model.readings).filter(|(value, _)| value.is_some());
-                told.map(|(_, reading)| reading.instrument).collect()
+                let read = values.iter().zip(&model.observables).filter(|(value, _)| value.is_some());
+                read.map(|(_, observable)| observable.instrument).collect()
             }
             _ => vec![0; observation.count()],
         };
         let mut instruments = instruments.into_iter();
-        kept.linear(&mut room, observation, &x, |residual, row| {
+        kept.linear(&mut scratch, observation, &x, |residual, row| {
             let instrument = instruments.next().unwrap_or(0);
             let row = nalgebra::DVector::from_column_slice(row) * weight.sqrt();
             // j (RᵀR)⁻¹ jᵀ = |R⁻ᵀ j|².

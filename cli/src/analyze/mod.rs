@@ -1,7 +1,8 @@
-//! `abbe analyze`: section 5 of the paper. What every source does over a workspace, alone and together.
+//! `abbe analyze`: the errors of every source over a workspace, alone and together (section 5 of
+//! the paper).
 //!
-//! The job is asked and its report shown; `files` writes every configuration on the way, and the pictures in the end. With
-//! `--shard` one part of the job is done, for `merge`.
+//! `files` writes each configuration during the sweep, and the figures at its end. With `--shard`,
+//! the command computes one part of the analysis for `abbe merge`.
 
 mod files;
 
@@ -10,15 +11,15 @@ use std::path::Path;
 
 use abbe::analysis::Row;
 use abbe_study::Reads;
-use abbe_study::analyze::parts::{Part, Question, Shard};
+use abbe_study::analyze::parts::{AnalysisRequest, Part, Shard};
 use abbe_study::analyze::{Analyze, Report, Verdict};
 
-use crate::arguments;
+use crate::arguments::{self, Showing};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{self, Outcome, Outputs, cannot_write, note};
 
-pub(crate) use files::{Files, Moved};
+pub(crate) use files::{Files, VaryingColumns};
 
 pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -33,17 +34,21 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
             let mut outputs = Outputs::new(&job, arguments.writing.force);
             let drawn = job.monte_carlo.is_some();
             let mut files =
-                Files::create(folder, &mut outputs, &job.machine().spec, Moved::new(&job), drawn)?;
+                Files::create(folder, &mut outputs, &job.machine().spec, VaryingColumns::new(&job), drawn)?;
             let mut show = |row: &Row| files.configuration(row);
-            let report = job.run_showing(Some(&mut show), &mut console)?;
+            let report = job.run_with_rows(Some(&mut show), &mut console)?;
             write(folder, files, outputs, &report)?;
             report
         }
     };
-    shown(&report, arguments.running.json, arguments.check)
+    let next = match &arguments.out {
+        None => "--full for every table, --out DIR for a page with figures",
+        Some(_) => "--full for every table",
+    };
+    outcome(&report, arguments.running.json, arguments.check, &arguments.showing, next)
 }
 
-/// Writes what belongs to a report into its folder.
+/// Writes the files of a report into its folder.
 pub(crate) fn write(
     folder: &Path,
     files: Files,
@@ -64,31 +69,45 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// The report as text or JSON, and whether tolerances are met, if that is asked.
-pub(crate) fn shown(report: &Report, json: bool, check: bool) -> Result<Outcome, Failure> {
-    let text = if json { output::json(report)? } else { abbe_report::text::analysis(report) };
+/// Returns the report as text or JSON. With `check`, the outcome fails if a tolerance is not met.
+///
+/// # Errors
+///
+/// `check` needs a study with a tolerance.
+pub(crate) fn outcome(
+    report: &Report,
+    json: bool,
+    check: bool,
+    showing: &Showing,
+    next: &str,
+) -> Result<Outcome, Failure> {
+    let text = if json {
+        output::json(report)?
+    } else {
+        abbe_report::text::analysis(report, showing.detail()) + &showing.next(next)
+    };
     match (check, report.verdict()) {
-        (true, None) => Err(Failure::of("--check", "the study has no tolerance")
+        (true, None) => Err(Failure::new("--check", "the study has no tolerance")
             .help("give one: tolerance = \"0.5 mm\" in its [study]")),
         (true, Some(Verdict::NotMet)) => Ok(Outcome::checked(text, false)),
         _ => Ok(Outcome::passed(text)),
     }
 }
 
-/// Sweeps one share of the workspace, and writes what was gathered.
+/// Sweeps one part of the workspace and writes its part file.
 fn part(
     arguments: &arguments::Analyze,
     (shard, file): (Shard, &Path),
     console: &mut Console,
 ) -> Result<Outcome, Failure> {
     let machine = arguments.subject.as_written()?;
-    let question = Question {
+    let question = AnalysisRequest {
         changes: arguments.subject.each_change(),
         monte_carlo: arguments.monte_carlo,
         seed: arguments.seed,
         interpret: arguments.interpret,
         figures: !arguments.no_figures,
-        ..Question::new(&machine, arguments.study.as_deref())?
+        ..AnalysisRequest::new(&machine, arguments.study.as_deref())?
     };
     let job = question.job(&mut ())?;
     let study = arguments.study.iter().cloned();
@@ -99,7 +118,7 @@ fn part(
     pending.write_all(&part.to_bytes()).map_err(|error| cannot_write(file, &error))?;
     let printed = outputs.finish([pending])?;
     let [reached, not] = part.configurations();
-    let name = &part.question().spec;
+    let name = &part.request().spec;
     let text =
         format!("part {shard} of {name}: {reached} configurations, and {not} that cannot be reached\n");
     Ok(Outcome::passed(text).beside(printed))

@@ -4,7 +4,7 @@ use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::Shard;
 use clap::Args;
 
-use super::shared::{Running, Subject, Writing};
+use super::shared::{Running, Showing, Subject, Writing};
 use super::values::whole;
 
 #[derive(Args, Debug)]
@@ -12,41 +12,48 @@ use super::values::whole;
     "  abbe analyze pps
   abbe analyze arm.toml --set payload=2kg --monte-carlo 10000
   abbe analyze arm.toml --study cell.toml --check
-  abbe analyze arm.toml --out arm       pictures, too: arm/report.html opens offline
+  abbe analyze arm.toml --out arm       with figures: arm/report.html needs no network
   abbe analyze arm.toml --shard 1/2 --out 1.part
   abbe analyze arm.toml --shard 2/2 --out 2.part    on another machine: see `abbe merge`
 ", "with --check: a tolerance of the study is not met"))]
 pub(crate) struct Analyze {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// Study file: workspace, tolerance, published figures. If not given: beside arm.toml the study arm.study.toml, or the one
-    /// shipped with the manipulator, or else 1000 joint samples
+    /// Study file (TOML): workspace, tolerance, published figures. [default: arm.study.toml beside
+    /// arm.toml, or the study shipped with the manipulator, or 1000 joint samples]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
-    /// Draw all errors this often at the worst configuration and at home, on the exact chain with true rotations
+    /// Number of Monte Carlo draws of all error sources, at the worst configuration and at home,
+    /// through the exact chain with finite rotations. [default: no draws]
     #[arg(long, value_name = "N", value_parser = whole(DRAWS))]
     pub(crate) monte_carlo: Option<usize>,
-    /// Seed of everything random: the draws, and a study's random samples
+    /// Seed of the Monte Carlo draws and of the study's random samples. [default: 0 for the draws,
+    /// the study's seed for its samples]
     #[arg(long, value_name = "S")]
     pub(crate) seed: Option<u64>,
-    /// Run the spec of a shipped manipulator, not its generated code: the same, slower
+    /// Interpret the spec of a shipped manipulator instead of running its generated code: the same
+    /// results, slower
     #[arg(long)]
     pub(crate) interpret: bool,
-    /// End with status 1 if a tolerance of the study is not met
+    /// Exit with status 1 if a tolerance of the study is not met
     #[arg(long)]
     pub(crate) check: bool,
-    /// Write into this folder: report.html, its figures as SVG, and configurations.csv, sources.csv,
-    /// unreachable.csv, with draws monte_carlo.csv. With --shard: into this file
+    /// Write report.html, its figures as SVG, configurations.csv, sources.csv, unreachable.csv and,
+    /// with --monte-carlo, monte_carlo.csv into this folder. With --shard: write the part to this
+    /// file
     #[arg(long, value_name = "PATH")]
     pub(crate) out: Option<PathBuf>,
-    /// Sweep one of N shares of the workspace, I from 1 to N, and write what `abbe merge` needs of it
+    /// Sweep part I of N of the workspace (I from 1 to N) and write a part file for `abbe merge`
     #[arg(long, value_name = "I/N", requires = "out", conflicts_with_all = ["json", "check"])]
     pub(crate) shard: Option<Shard>,
-    /// With --shard: gather nothing for pictures, which is sooner; merged are the text and --json
+    /// Do not collect data for figures in this part, which is faster; the merged text and --json
+    /// stay complete
     #[arg(long, requires = "shard")]
     pub(crate) no_figures: bool,
     #[command(flatten)]
     pub(crate) writing: Writing,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

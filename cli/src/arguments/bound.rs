@@ -4,7 +4,7 @@ use std::time::Duration;
 use abbe_study::bound::options::{BOXES, Gap};
 use clap::Args;
 
-use super::shared::{Running, Subject};
+use super::shared::{Running, Showing, Subject};
 use super::values::{duration, whole};
 
 #[derive(Args, Debug)]
@@ -16,23 +16,27 @@ use super::values::{duration, whole};
 pub(crate) struct Bound {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// Study file: its workspace is the box. If not given as for `abbe analyze`; without any, the limits of the joints and the
-    /// ranges of the inputs
+    /// Study file (TOML) whose workspace is the search box. [default: the study that `abbe analyze`
+    /// uses; without one, the joint limits and the ranges of the inputs]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
-    /// How much more than the largest error that was found the certified one may be, in percent or as a share
+    /// Relative gap at which to stop: by how much the certified bound may exceed the largest error
+    /// found, in percent or as a fraction
     #[arg(long, value_name = "GAP", default_value_t)]
     pub(crate) gap: Gap,
-    /// Also say how far the joints move the tool at least (the dexterity, 0 in a singular place) and, where beams or compliances give way, how stiff the
-    /// tool point is at least
+    /// Also certify lower bounds: the dexterity (smallest joint-to-tool motion, 0 at a singular
+    /// pose) and, if the spec has beams or compliances, the stiffness at the tool point
     #[arg(long)]
     pub(crate) least: bool,
-    /// The most boxes that are looked at for each error
+    /// Maximum number of boxes to examine for each error
     #[arg(long, value_name = "N", default_value_t = BOXES.default, value_parser = whole(BOXES.range))]
     pub(crate) boxes: usize,
-    /// End after this time, with what is proved until then: `60s`, `5min`
+    /// Time limit (`60s`, `5min`, `1h`), after which the bounds proved so far are reported.
+    /// [default: none]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

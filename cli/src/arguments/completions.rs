@@ -7,7 +7,7 @@ use clap_complete::Shell;
   abbe completions zsh
 "))]
 pub(crate) struct Completions {
-    /// For this shell
+    /// Shell to generate completions for
     #[arg(value_enum)]
     pub(crate) shell: Shell,
 }

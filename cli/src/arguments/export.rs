@@ -4,7 +4,7 @@ use abbe_study::export::{Format, SAMPLES, SAMPLES_RANGE};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
 
-use super::shared::{Subject, Writing};
+use super::shared::{Showing, Subject, Writing};
 use super::values::whole;
 use crate::failure::Failure;
 
@@ -20,45 +20,50 @@ use crate::failure::Failure;
 pub(crate) struct Export {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// What is to be written
+    /// File format to write
     #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(Format::NAMES))]
     to: String,
-    /// The URDF file of the nominal robot, for `--to urdf`: a copy is written in which the origins of joints are changed
+    /// URDF file of the nominal robot, for `--to urdf`: the output is a copy of it with corrected
+    /// joint origins
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     from: Option<PathBuf>,
-    /// The link of that file whose frame is F_0. The root if not given
+    /// Link of the URDF file whose frame is F_0. [default: the root link]
     #[arg(long, value_name = "LINK", requires = "from")]
     base: Option<String>,
-    /// The link of that file whose frame is the tool point. The last link, if there is only one
+    /// Link of the URDF file whose frame is the tool point. [default: the last link, if there is
+    /// only one]
     #[arg(long, value_name = "LINK", requires = "from")]
     tip: Option<String>,
-    /// How many values of each axis or joint a table has. If not given, 101 of an axis, and about 10,000 of all joints together
+    /// Number of table nodes per axis or joint. [default: 101 per axis; about 10,000 nodes in all
+    /// for `--to table`]
     #[arg(long, value_name = "N", value_parser = whole(Format::NODES_RANGE))]
     nodes: Option<usize>,
-    /// Write to this file instead of stdout; several files, to this folder
+    /// Write to this file instead of stdout; formats of several files write into this folder
     #[arg(long, short, value_name = "PATH", value_hint = ValueHint::AnyPath)]
     pub(crate) out: Option<PathBuf>,
-    /// Over how many random configurations the differences are taken
+    /// Number of random configurations at which the remaining errors are evaluated
     #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = whole(SAMPLES_RANGE))]
     pub(crate) samples: usize,
-    /// Of these configurations
+    /// Seed of the random configurations
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
     #[command(flatten)]
     pub(crate) writing: Writing,
-    /// Print JSON
+    #[command(flatten)]
+    pub(crate) showing: Showing,
+    /// Print the report as JSON
     #[arg(long, display_order = 111)]
     pub(crate) json: bool,
 }
 
 impl Export {
-    /// What is to be written, and from what.
+    /// Returns the output format with its options.
     pub(crate) fn format(&self) -> Result<Format, Failure> {
         let Self { to, from, base, tip, nodes, .. } = self;
         let of_axis = nodes.unwrap_or(Format::NODES);
         let has_nodes = Format::WITH_NODES.contains(&to.as_str());
         if nodes.is_some() && !has_nodes {
-            let failure = Failure::of("--nodes", format!("`--to {to}` has no nodes"));
+            let failure = Failure::new("--nodes", format!("`--to {to}` has no nodes"));
             return Err(failure.help("leave `--nodes` out"));
         }
         match (to.as_str(), from) {
@@ -66,18 +71,19 @@ impl Export {
                 Ok(Format::Urdf { file: file.clone(), base: base.clone(), tip: tip.clone() })
             }
             ("urdf", None) => {
-                let failure = Failure::of("--to urdf", "the URDF file of the nominal robot is not given");
+                let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is not given");
                 Err(failure.help("name it: `--from robot.urdf`"))
             }
             (_, Some(_)) => {
-                let failure = Failure::of("--from", format!("`--to {to}` is made of the spec alone"));
+                let failure = Failure::new("--from", format!("`--to {to}` is made of the spec alone"));
                 Err(failure.help("leave `--from` out"))
             }
             ("ur-calibration", None) => Ok(Format::UrCalibration),
             ("isg-csv", None) => Ok(Format::IsgCsv { nodes: of_axis }),
             ("linuxcnc", None) => Ok(Format::LinuxCnc { nodes: of_axis }),
             ("table", None) => Ok(Format::Table { nodes: *nodes }),
-            _ => Ok(Format::Dh),
+            ("dh", None) => Ok(Format::Dh),
+            (to, None) => Err(Failure::new("--to", format!("`{to}` has no arm here")).help("report this")),
         }
     }
 }

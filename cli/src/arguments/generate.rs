@@ -18,19 +18,21 @@ use super::values::named;
   abbe generate arm.toml --lang fmu --out arm.fmu       for simulators
 "))]
 pub(crate) struct Generate {
-    /// Spec file, or shipped name
+    /// Path of a spec file (TOML), or name of a shipped manipulator
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) spec: OsString,
-    /// Language of the code
+    /// Language of the generated code
     #[arg(long, value_parser = named(generate::Generate::LANGUAGES), default_value = Language::Rust.name())]
     pub(crate) lang: Language,
-    /// Numbers that C computes in: `float` is for units of single precision [default: double]
+    /// Floating-point type of the generated C: `float` for processors with single precision only.
+    /// [default: double]
     #[arg(long, value_parser = named(generate::Generate::REALS))]
     pub(crate) real: Option<Real>,
-    /// Version of FMI that --lang fmu follows. 3 if not given
+    /// FMI version of the unit that --lang fmu writes. [default: 3]
     #[arg(long, value_name = "VERSION", value_parser = named(generate::Generate::VERSIONS))]
     pub(crate) fmi: Option<Fmi>,
-    /// Write to this file instead of stdout; C, which is two files, to this folder
+    /// Write to this file instead of stdout; C, which has a header and a source, writes into this
+    /// folder
     #[arg(long, value_name = "PATH")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]

@@ -1,6 +1,7 @@
-//! What stands below the options: examples, which tests run in the order of the commands, and the exit status.
+//! Text below the options of each help: examples, which a test runs in the order of the commands,
+//! and the exit status.
 
-/// The examples of a command, and when its exit status is 1.
+/// Formats the examples of a command and, optionally, the meaning of exit status 1.
 macro_rules! after_help {
     ($examples:literal) => {
         concat!(

@@ -6,7 +6,7 @@ use abbe_study::identify::options::{FOLDS, LOSSES, TERMS};
 use abbe_study::identify::{Family, Prior};
 use clap::Args;
 
-use super::shared::{Measured, Page, Running, Subject, Writing};
+use super::shared::{Measured, Page, Running, Showing, Subject, Writing};
 use super::values::{duration, named, whole};
 
 #[derive(Args, Debug)]
@@ -20,40 +20,43 @@ pub(crate) struct Identify {
     pub(crate) subject: Subject,
     #[command(flatten)]
     pub(crate) measured: Measured,
-    /// Measurements to judge by; nothing is chosen after them
+    /// Test data: a CSV file of measurements that is used for validation only, never for fitting or
+    /// model selection
     #[arg(long, value_name = "FILE")]
     pub(crate) test: Option<PathBuf>,
-    /// Richer terms to try beside constant errors; those stay that help on rows left out in turn
+    /// Families of additional error terms to try besides constant errors; a term is kept if it
+    /// lowers the cross-validation error
     #[arg(long, value_parser = named(TERMS), value_delimiter = ',', value_name = "FAMILY,…")]
     pub(crate) terms: Vec<&'static [Family]>,
-    /// Gear ratios: errors of a joint so many times per turn of it are tried as well: `--harmonics q2=1,2,101`
+    /// Cycles per turn of a revolute joint at which to try periodic errors, such as gear ratios:
+    /// `--harmonics q2=1,2,101`
     #[arg(long, value_name = "JOINT=N,…")]
     pub(crate) harmonics: Vec<String>,
-    /// How long richer terms are tried: `60s`, `5min`; then what comes out depends on the computer. As long as it takes if not
-    /// given
+    /// Time limit for the search for additional terms (`60s`, `5min`, `1h`); the result then
+    /// depends on the speed of the computer. [default: none]
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
-    /// A loss that gross errors cannot pull at
+    /// Robust loss, which down-weights outliers
     #[arg(long, value_parser = named(LOSSES), default_value = LOSSES.name(Loss::default()))]
     pub(crate) robust: Loss,
-    /// How large errors are expected to be, as a share of the arm's length and in rad, 0 for no expectation; `spec`: as its
-    /// random sources have them; `auto`: as rows left out in turn fit best
+    /// Prior standard deviation of the errors, relative to the length of the arm for offsets and in
+    /// rad for angles: a number (0 for no prior), `spec` for the spec's random sources, or `auto`
+    /// for the value chosen by cross-validation
     #[arg(long, value_name = "SHARE", default_value_t)]
     pub(crate) prior: Prior,
-    /// Limits for rows that nothing is fitted to, `mean 0.15 mm, max 0.3 mm`: of mean, rms, p95 and max. End with status 1 if
-    /// they are not met
+    /// Acceptance limits on mean, rms, p95 and max of the position error on data that nothing was
+    /// fitted to: `mean 0.15 mm, max 0.3 mm`. Exit with status 1 if they are not met
     #[arg(long, value_name = "LIMITS")]
     pub(crate) accept: Option<String>,
-    /// Into how many parts the rows are dealt, each left out in turn
+    /// Number of folds of the cross-validation
     #[arg(long, value_name = "N", default_value_t = FOLDS.default, value_parser = whole(FOLDS.range))]
     pub(crate) folds: usize,
-    /// Write the spec with the errors found, as repeatable sources; beside it, as FILE.map.toml, the map with where the
-    /// machine stands and what is mounted on its tool
+    /// Write the spec with the identified errors as repeatable sources to this file, and beside it,
+    /// as FILE.map.toml, the map with the identified station and targets
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Print all that came out: every error, what acts alike, what is correlated, every line that is written
-    #[arg(long, conflicts_with = "json")]
-    pub(crate) full: bool,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
     #[command(flatten)]
     pub(crate) page: Page,
     #[command(flatten)]

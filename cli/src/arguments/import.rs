@@ -15,28 +15,28 @@ use super::values::named;
   abbe import dh.csv --dh standard --units mm,deg -o dh.toml
 "))]
 pub(crate) struct Import {
-    /// URDF file (a xacro is expanded first: `xacro robot.urdf.xacro > robot.urdf`); with `--dh` a table of Denavit-Hartenberg
-    /// numbers, as CSV or as the Robotics Toolbox prints it
+    /// URDF file (expand xacro files first: `xacro robot.urdf.xacro > robot.urdf`). With --dh: a
+    /// table of Denavit-Hartenberg parameters, as CSV or as the Robotics Toolbox prints it
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
-    /// The link whose frame is F_0. The root if not given
+    /// Link whose frame is F_0. [default: the root link]
     #[arg(long, value_name = "LINK", conflicts_with = "dh")]
     pub(crate) base: Option<String>,
-    /// The link whose frame is the tool point. The last link, if there is only one
+    /// Link whose frame is the tool point. [default: the last link, if there is only one]
     #[arg(long, value_name = "LINK", conflicts_with = "dh")]
     pub(crate) tip: Option<String>,
-    /// Put fixed joints into the frames that follow them, and the last ones into the tool; without, each is a frame of its own
-    /// that has errors of its own
+    /// Merge fixed joints into the frames that follow them, and trailing ones into the tool; by
+    /// default each fixed joint is a frame with errors of its own
     #[arg(long, conflicts_with = "dh")]
     pub(crate) fold: bool,
-    /// The file is a table with the columns theta, d, a and alpha, of this convention: standard is Rz(theta) Tz(d) Tx(a) Rx(alpha),
-    /// modified (Craig) Rx(alpha) Tx(a) Rz(theta) Tz(d)
+    /// Read a table with the columns theta, d, a and alpha of this convention: standard is
+    /// Rz(theta) Tz(d) Tx(a) Rx(alpha), modified (Craig) is Rx(alpha) Tx(a) Rz(theta) Tz(d)
     #[arg(long, value_name = "CONVENTION", value_parser = named(CONVENTIONS))]
     pub(crate) dh: Option<DhConvention>,
-    /// The units of the table where its heading does not say them, as `mm,deg` or `m,rad`
+    /// Units of the table if its header names none: `mm,deg` or `m,rad`, for example
     #[arg(long, value_name = "UNITS", requires = "dh")]
     pub(crate) units: Option<Units>,
-    /// Write angles that are multiples of 45° but for rounding in the file (up to 1e-5 rad) as such
+    /// Round angles within 1e-5 rad of a multiple of 45° to that multiple
     #[arg(long)]
     pub(crate) round_angles: bool,
     /// Write the spec to this file instead of stdout
@@ -44,7 +44,7 @@ pub(crate) struct Import {
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) writing: Writing,
-    /// Print JSON
+    /// Print the report as JSON
     #[arg(long, display_order = 111)]
     pub(crate) json: bool,
 }

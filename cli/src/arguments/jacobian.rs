@@ -10,12 +10,13 @@ use super::shared::Subject;
 pub(crate) struct Jacobian {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// Joint variables, in order: `--q 500,0.2m,0,-90deg,pi/180,0`; home if not given
+    /// Joint variables in the order of the spec: `--q 500,0.2m,0,-90deg,pi/180,0`. [default: home]
     ///
-    /// A number without a unit is in the spec's length unit, or in rad.
+    /// A number without a unit is in the spec's length unit for a prismatic joint and in rad for a
+    /// revolute joint.
     #[arg(long, value_name = "V,V,…", allow_hyphen_values = true)]
     pub(crate) q: Option<String>,
-    /// Print JSON
+    /// Print the report as JSON
     #[arg(long, display_order = 111)]
     pub(crate) json: bool,
 }

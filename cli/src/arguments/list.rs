@@ -4,7 +4,7 @@ use clap::Args;
 #[command(after_help = after_help!("  abbe list
 "))]
 pub(crate) struct List {
-    /// Print JSON
+    /// Print the list as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }

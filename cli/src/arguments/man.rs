@@ -9,7 +9,7 @@ use super::shared::Writing;
     "  abbe man --out man1
 "))]
 pub(crate) struct Man {
-    /// Write into this folder: abbe.1, and a page for each command
+    /// Write the manual pages into this folder: abbe.1 and one page per command
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     #[command(flatten)]

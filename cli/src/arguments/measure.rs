@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::shared::{Measured, Running, Subject, Writing};
+use super::shared::{Measured, Running, Showing, Subject, Writing};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -14,27 +14,30 @@ pub(crate) struct Measure {
     pub(crate) subject: Subject,
     #[command(flatten)]
     pub(crate) measured: Measured,
-    /// The instrument stands elsewhere than the map says: its station is found from the data, for the machine as it is
+    /// Estimate the station of the instrument from the data instead of taking it from the map:
+    /// `new` if the instrument was moved
     #[arg(long, value_enum, value_name = "WHICH")]
     pub(crate) station: Option<Station>,
-    /// Limits for what the sources of the spec leave, `mean 0.15 mm, max 0.3 mm`: of mean, rms, p95 and max. End with status
-    /// 1 if they are not met
+    /// Acceptance limits on mean, rms, p95 and max of the position error that remains after the
+    /// sources of the spec: `mean 0.15 mm, max 0.3 mm`. Exit with status 1 if they are not met
     #[arg(long, value_name = "LIMITS")]
     pub(crate) accept: Option<String>,
-    /// Write into this folder: report.html, and errors.csv with ΔX of every row
+    /// Write report.html, and errors.csv with ΔX of every row, into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// The date that the page shows; it knows no clock
+    /// Date to print on the page. [default: none]
     #[arg(long, value_name = "DATE", requires = "out")]
     pub(crate) date: Option<String>,
     #[command(flatten)]
     pub(crate) writing: Writing,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
     #[command(flatten)]
     pub(crate) running: Running,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Station {
-    /// One that no map knows
+    /// The instrument stands at a station that the map does not describe
     New,
 }

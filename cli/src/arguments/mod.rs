@@ -1,4 +1,5 @@
-//! What the command is told: one file per command, and in `shared` what several are told.
+//! Arguments of the command: one file per command, and in `shared` the arguments that several
+//! commands have.
 
 #[macro_use]
 mod help;
@@ -40,22 +41,23 @@ pub(crate) use measure::Measure;
 pub(crate) use merge::Merge;
 pub(crate) use monitor::Monitor;
 pub(crate) use plan::Plan;
-pub(crate) use shared::study;
+pub(crate) use shared::{Showing, study};
 pub(crate) use simulate::Simulate;
 
 use clap::{Parser, Subcommand};
 
 /// Predict, rank and check the position errors of a manipulator from its spec
 ///
-/// A SPEC is the path of a spec file (TOML), or the name of a shipped manipulator: `abbe list`. Data are the argument
-/// after it. `abbe COMMAND --help` has examples of every command.
+/// A SPEC is the path of a spec file (TOML) or the name of a shipped manipulator (`abbe list`).
+/// Data files follow it. `abbe COMMAND --help` shows examples of each command.
 ///
-/// Files are written whole or not at all, and never over one that is read. What abbe wrote, and nobody has changed since, it
-/// replaces; other files only with `--force`. `-` is stdout.
+/// Output files are written completely or not at all, and never replace an input of the same run.
+/// Files that abbe wrote, and that have not been changed since, are replaced; other files only with
+/// `--force`. `-` is stdout.
 #[derive(Debug, Parser)]
 #[command(name = "abbe", version, after_help = after_help!(
-    "  abbe analyze pps                which error matters, and how much
-  abbe check arm.toml             is the spec right, and what follows from it
+    "  abbe analyze pps                rank the error sources
+  abbe check arm.toml             check the spec, show the model
   abbe jacobian puma560 --q 0,-45deg,0,0,30deg,0
   abbe generate arm.toml --out arm.rs
 ",
@@ -66,47 +68,50 @@ pub(crate) struct Arguments {
     pub(crate) command: Option<Command>,
 }
 
-// In the order in which they are used: a spec, what follows from it, measurements.
+// Sorted by use: first the spec, then its analysis, then measurements.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// List the shipped manipulators
     List(List),
-    /// Write the spec of a robot that is described in URDF
+    /// Convert a URDF robot or a table of Denavit-Hartenberg parameters to a spec
     Import(Import),
-    /// Check a spec; show its frames, variables, sources, operation counts and what can be identified
+    /// Check a spec; show its frames, variables, sources, operation counts and identifiable errors
     Check(Check),
-    /// Pose, error Jacobian and generalized errors at one configuration
+    /// Print pose, error Jacobian and generalized errors at one configuration
     Jacobian(Jacobian),
-    /// What every error source does over a workspace, alone and together
+    /// Compute the errors of every source, and of all sources together, over a workspace
     Analyze(Analyze),
-    /// How large the errors are at most: a largest error that was found, and one that nothing exceeds, with a proof
+    /// Certify upper bounds of the errors, beside the largest errors found
     Bound(Bound),
-    /// The report of an analysis that was made in parts, on one machine or on many
+    /// Merge the parts of an analysis that was computed in several runs
     Merge(Merge),
-    /// Generate code: pose, error Jacobian and sources in closed form
+    /// Generate code for the pose, the error Jacobian and the error sources in closed form
     Generate(Generate),
-    /// Which convention is it? Units, signs, order, zeros, Euler angles and more of some rows of joints and poses
+    /// Find the conventions of measured data: units, signs, order, zeros, Euler angles and more,
+    /// from a few rows of joints and poses
     Doctor(Doctor),
-    /// Where to measure: sets of configurations, or the best of many
+    /// Plan measurements: evaluate sets of configurations, or choose optimal ones
     Plan(Plan),
-    /// Measurements of a machine whose errors are known: the repeatable sources of its spec
+    /// Simulate measurements of a machine with the repeatable sources of its spec
     Simulate(Simulate),
-    /// How good a machine is, from measurements: accuracy, repeatability, and what its sources explain
+    /// Evaluate measurements of a machine: accuracy, repeatability, and the part that its sources
+    /// explain
     Measure(Measure),
-    /// The errors of the real machine, from measurements
+    /// Identify the errors of a real machine from measurements
     Identify(Identify),
-    /// Joint commands that put the real tool where the ideal one should be
+    /// Compute joint commands that compensate the errors of the machine
     ///
     /// The repeatable sources of the spec are the errors of the machine.
     Compensate(Compensate),
-    /// What was found of a machine, in the files that controllers and other programs load
+    /// Export the errors of a machine to files that controllers and other programs load
     ///
-    /// Exported are the repeatable sources of the spec. What remains of the errors when the file is used is computed and printed.
+    /// The repeatable sources of the spec are exported. The errors that remain when the file is
+    /// used are computed and printed.
     Export(Export),
-    /// Whether a machine that is checked again and again is still what it was
+    /// Monitor a machine by repeated checks: detect drift and jumps with control charts
     Monitor(Monitor),
-    /// What a shell needs to complete commands and options
+    /// Print the completion script of a shell
     Completions(Completions),
-    /// Write the manual pages: for packages
+    /// Write the manual pages, for packagers
     Man(Man),
 }

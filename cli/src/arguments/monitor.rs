@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use abbe_study::monitor::options::FALSE_ALARM;
 use clap::{Args, ValueHint};
 
-use super::shared::{Page, Running, Subject, Writing};
+use super::shared::{Page, Running, Showing, Subject, Writing};
 use super::values::whole;
 
 #[derive(Args, Debug)]
@@ -14,28 +14,33 @@ use super::values::whole;
 pub(crate) struct Monitor {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// Checks in the order of their dates: CSV files with the same few configurations each, or one with a column of dates
+    /// Checks in chronological order: CSV files with the same few configurations each, or one file
+    /// with a date column
     #[arg(required = true, value_hint = ValueHint::FilePath)]
     pub(crate) data: Vec<PathBuf>,
-    /// What the columns are: a map (TOML), or the name of a shipped one
+    /// Map (TOML) that describes the columns, or name of a shipped map
     #[arg(long, value_name = "FILE")]
     pub(crate) map: PathBuf,
-    /// How far the tool point may move from where it was at the first check: when that is used up
+    /// Allowed displacement of the tool point since the first check, as a length; the report
+    /// predicts the date on which it is reached
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub(crate) tolerance: Option<String>,
-    /// Begin with the check of this date: after the machine was serviced or zeroed
+    /// First check to use, by its date: ignore the checks before the machine was serviced or zeroed
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     pub(crate) since: Option<String>,
-    /// On average no more than one false alarm in so many checks, over all charts together
+    /// False-alarm rate: at most one false alarm in this number of checks on average, over all
+    /// charts together
     #[arg(long, value_name = "CHECKS", default_value_t = FALSE_ALARM.default, value_parser = whole(FALSE_ALARM.range))]
     pub(crate) false_alarm: usize,
-    /// End with status 1 if there is an alarm
+    /// Exit with status 1 if there is an alarm
     #[arg(long)]
     pub(crate) check: bool,
     #[command(flatten)]
     pub(crate) page: Page,
     #[command(flatten)]
     pub(crate) writing: Writing,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

@@ -4,7 +4,7 @@ use abbe::identify::Criterion;
 use abbe_study::plan::options::{CANDIDATES, COUNT, CRITERIA, CRITERION};
 use clap::Args;
 
-use super::shared::{Running, Subject, Writing};
+use super::shared::{Running, Showing, Subject, Writing};
 use super::values::{named, whole};
 
 #[derive(Args, Debug)]
@@ -15,38 +15,41 @@ use super::values::{named, whole};
 pub(crate) struct Plan {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// What the columns will be: a map (TOML), or the name of a shipped one
+    /// Map (TOML) that describes the columns of the measurements, or name of a shipped map
     #[arg(long, value_name = "FILE")]
     pub(crate) map: PathBuf,
-    /// Sets of configurations: a plan file (TOML), or the name of a shipped one
+    /// Plan file (TOML) with sets of configurations to evaluate, or name of a shipped plan
     #[arg(long, value_name = "FILE", conflicts_with = "optimal")]
     pub(crate) sets: Option<PathBuf>,
-    /// The N configurations that tell most
+    /// Number of configurations to choose
     #[arg(long, value_name = "N", value_parser = whole(COUNT.range))]
     pub(crate) optimal: Option<usize>,
-    /// What is best: the smallest mean variance of the tool point where the machine is used, or the largest determinant of
-    /// the information
+    /// Optimality criterion: the smallest mean variance of the tool point over the workspace, or
+    /// the largest determinant of the information matrix
     #[arg(long, value_parser = named(CRITERIA), default_value = CRITERIA.name(CRITERION))]
     pub(crate) criterion: Criterion,
-    /// From how many samples within the limits these are chosen
+    /// Number of candidate configurations, sampled within the limits
     #[arg(long, value_name = "N", default_value_t = CANDIDATES.default, value_parser = whole(CANDIDATES.range))]
     pub(crate) candidates: usize,
-    /// Seed of the samples: random ones. If not given they are spread evenly
+    /// Seed of random candidates. [default: evenly distributed candidates]
     #[arg(long, value_name = "S", conflicts_with = "sets")]
     pub(crate) seed: Option<u64>,
-    /// What the identified model leaves of the tool point by itself, beside the instrument's noise: the root mean square of its
-    /// distance in an earlier fit
+    /// Model error at the tool point, in addition to the noise of the instrument: the root mean
+    /// square of the distances that an earlier fit left
     #[arg(long, value_name = "LENGTH", default_value = "0mm", allow_hyphen_values = true)]
     pub(crate) model_error: String,
-    /// Where the machine is to be used: the workspace of this study. If not given: that of the study beside the spec
-    /// (arm.study.toml), or of the one shipped with the manipulator, or else joint samples
+    /// Study file (TOML) whose workspace is where the machine will be used. [default:
+    /// arm.study.toml beside the spec arm.toml, or the study shipped with the manipulator, or joint
+    /// samples]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
-    /// Write the configurations: a CSV file to be completed by measuring
+    /// Write the chosen configurations to this CSV file, with empty columns for the measurements
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) writing: Writing,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

@@ -1,10 +1,11 @@
-//! What several commands are told.
+//! Arguments that several commands have.
 
-// No documentation comments on what is flattened: they would stand in place of the command's own.
+// Flattened structs have no doc comments: clap would show them in place of the command's own.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use abbe_report::text::{Detail, next};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::parts::Change;
@@ -16,32 +17,32 @@ use super::values::whole;
 use crate::failure::Failure;
 use crate::output::note;
 
-// The machine that a command is about.
+// Machine to work on.
 #[derive(Args, Debug)]
 pub(crate) struct Subject {
-    /// Spec file, or shipped name
+    /// Path of a spec file (TOML), or name of a shipped manipulator
     #[arg(value_hint = ValueHint::FilePath)]
     spec: OsString,
     #[command(flatten)]
     changes: Changes,
 }
 
-// At the end of the options.
+// Listed after the other options.
 #[derive(Args, Debug)]
 struct Changes {
     /// Set a parameter or an input: `--set x=250mm`
     #[arg(long, value_name = "NAME=VALUE", display_order = 100)]
     set: Vec<String>,
-    /// Switch an error source on
+    /// Enable an error source
     #[arg(long, value_name = "SOURCE", display_order = 101)]
     enable: Vec<String>,
-    /// Switch an error source off
+    /// Disable an error source
     #[arg(long, value_name = "SOURCE", display_order = 102)]
     disable: Vec<String>,
 }
 
 impl Subject {
-    /// The changes, one by one.
+    /// Returns the changes, one per option: first `--set`, then `--enable` and `--disable`.
     pub(crate) fn each_change(&self) -> Vec<Change> {
         let Changes { set, enable, disable } = &self.changes;
         let set = set.iter().cloned().map(Change::Set);
@@ -49,18 +50,18 @@ impl Subject {
         set.chain(enable).chain(disable.iter().cloned().map(Change::Disable)).collect()
     }
 
-    /// The machine as its spec has it.
+    /// Reads the machine without the changes.
     pub(crate) fn as_written(&self) -> Result<Machine, Diagnostics> {
         Machine::find(&self.spec)
     }
 
-    /// What is changed; the options are where mistakes are shown.
+    /// Reads the changes. Diagnostics point into the options.
     pub(crate) fn changes(&self, spec: &Spec) -> Result<abbe_study::Changes, Diagnostics> {
         let Changes { set, enable, disable } = &self.changes;
         abbe_study::Changes::read(set, enable, disable, spec)
     }
 
-    /// The machine with the changes.
+    /// Reads the machine and applies the changes.
     pub(crate) fn machine(&self) -> Result<Machine, Diagnostics> {
         let mut machine = self.as_written()?;
         machine.change(&self.changes(&machine.spec)?);
@@ -68,57 +69,81 @@ impl Subject {
     }
 }
 
-// What was measured.
+// Measurements and their map.
 #[derive(Args, Debug)]
 pub(crate) struct Measured {
     /// Measurements: a CSV file
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) data: PathBuf,
-    /// What the columns are: a map (TOML), or the name of a shipped one
+    /// Map (TOML) that describes the columns, or name of a shipped map
     #[arg(long, value_name = "FILE")]
     pub(crate) map: PathBuf,
 }
 
-// A page for people.
+// HTML page of a report.
 #[derive(Args, Debug)]
 pub(crate) struct Page {
-    /// Write a page with pictures: an HTML file that needs no network
+    /// Write an HTML page with figures to this file; it needs no network
     #[arg(long, value_name = "FILE", display_order = 90)]
     pub(crate) report: Option<PathBuf>,
-    /// The date that the page shows; it knows no clock
+    /// Date to print on the page. [default: none]
     #[arg(long, value_name = "DATE", requires = "report", display_order = 91)]
     pub(crate) date: Option<String>,
 }
 
-// How files are written.
+// Overwriting of files.
 #[derive(Args, Debug)]
 pub(crate) struct Writing {
-    /// Replace files that abbe did not write, or that were changed since; never one that this run reads
+    /// Replace files that abbe did not write or that were changed since; inputs of the run are
+    /// never replaced
     #[arg(long, display_order = 92)]
     pub(crate) force: bool,
 }
 
-// How a job is run, and what it prints.
+// How much is printed.
+#[derive(Args, Debug)]
+pub(crate) struct Showing {
+    /// Print every table and sentence, not only the answer
+    #[arg(long, display_order = 109, conflicts_with = "json")]
+    full: bool,
+}
+
+impl Showing {
+    pub(crate) fn detail(&self) -> Detail {
+        Detail::new(self.full)
+    }
+
+    /// Returns the line that says what to do next; nothing below a full report.
+    pub(crate) fn next(&self, text: &str) -> String {
+        match self.detail() {
+            Detail::Answer => next(text),
+            Detail::Full => String::new(),
+        }
+    }
+}
+
+// Execution of a job, and the form of its report.
 #[derive(Args, Debug)]
 pub(crate) struct Running {
-    /// How many threads work; the results are the same for any number. All cores if not given
+    /// Number of threads; the results do not depend on it. [default: all cores]
     #[arg(long, value_name = "N", display_order = 110, value_parser = whole(THREADS))]
     threads: Option<usize>,
-    /// Print JSON
+    /// Print the report as JSON
     #[arg(long, display_order = 111)]
     pub(crate) json: bool,
 }
 
 impl Running {
-    /// Sets the number of threads; to be called once, before there is work.
+    /// Sets the number of threads. Must be called once, before the job starts.
     pub(crate) fn start(&self) -> Result<(), Failure> {
         let Some(threads) = self.threads else { return Ok(()) };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build_global().map_err(|error| Failure::of("--threads", error))
+        pool.build_global().map_err(|error| Failure::new("--threads", error))
     }
 }
 
-/// The study that is given, or the one that belongs to the machine; one that was found beside its spec is named.
+/// Returns the given study, or the one that belongs to the machine. A study found beside the spec
+/// is named in a note.
 pub(crate) fn study(file: Option<&Path>, machine: &Machine) -> Result<Study, Diagnostics> {
     let study = Study::find(file, machine)?;
     if let (None, Some(beside)) = (file, Study::beside(machine)) {

@@ -14,25 +14,27 @@ use super::values::{share, whole};
 pub(crate) struct Simulate {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// Configurations: a CSV file with the joints and inputs of the map. Random ones within the limits if not given
+    /// Configurations: a CSV file with the joint and input columns of the map. [default: random
+    /// configurations within the limits]
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) data: Option<PathBuf>,
-    /// What the columns are to be: a map (TOML), or the name of a shipped one
+    /// Map (TOML) that describes the columns to write, or name of a shipped map
     #[arg(long, value_name = "FILE")]
     pub(crate) map: PathBuf,
-    /// How many random configurations, if no file says which
+    /// Number of random configurations
     #[arg(long, value_name = "N", default_value_t = SAMPLES.default, conflicts_with = "data", value_parser = whole(SAMPLES.range))]
     pub(crate) samples: usize,
-    /// One standard deviation of a coordinate: `0.04mm`. That of the map if not given
+    /// Standard deviation of the noise of each coordinate: `0.04mm`. [default: the uncertainty in
+    /// the map]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub(crate) noise: Option<String>,
-    /// Which share of the rows is grossly wrong
+    /// Fraction of the rows that are outliers, from 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = OUTLIERS.default, value_parser = share)]
     pub(crate) outliers: f64,
-    /// Draw the random sources of the spec too, anew in every row
+    /// Also draw the random sources of the spec, independently in every row
     #[arg(long)]
     pub(crate) random: bool,
-    /// Seed of everything random
+    /// Seed of the configurations, noise, outliers and random sources
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
     /// Write to this file instead of stdout

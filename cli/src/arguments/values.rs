@@ -1,4 +1,4 @@
-//! Values of options.
+//! Parsers of option values.
 
 use std::ops::RangeInclusive;
 use std::time::Duration;
@@ -6,13 +6,13 @@ use std::time::Duration;
 use abbe_study::options::{self, Choices};
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
-/// Reads whole numbers of a range.
+/// Returns a parser of whole numbers in a range.
 pub(super) fn whole(range: RangeInclusive<usize>) -> RangedI64ValueParser<usize> {
     let (least, most) = range.into_inner();
     RangedI64ValueParser::new().range(least as i64..=most as i64)
 }
 
-/// Reads values by their names, which help lists.
+/// Returns a parser of named values. Help lists the names.
 pub(super) fn named<T>(choices: Choices<T>) -> impl TypedValueParser<Value = T>
 where
     T: Copy + PartialEq + Send + Sync + 'static,

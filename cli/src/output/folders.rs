@@ -1,4 +1,5 @@
-//! Folders that were made for results. Those that are still empty in the end go again, also after an interruption.
+//! Folders made for results. Those that are still empty at the end, or after an interruption, are
+//! removed.
 
 use std::fs;
 use std::io;
@@ -7,12 +8,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Returns the folders that were made, from the outermost on. As long as they are held, no signal ends the process.
+/// Locks and returns the folders that were made, the outermost first. No signal ends the process
+/// while the guard is held.
 pub(crate) fn hold() -> MutexGuard<'static, Vec<PathBuf>> {
     MADE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Makes a folder and those above it.
+/// Makes a folder and its missing parents.
 pub(crate) fn make(path: &Path) -> io::Result<()> {
     let mut made = hold();
     let missing = path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
@@ -22,7 +24,7 @@ pub(crate) fn make(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }
 
-/// Removes those that are empty, the inner ones first.
+/// Removes the empty folders of the list, the innermost first.
 pub(crate) fn remove_empty(made: &[PathBuf]) {
     made.iter().rev().for_each(|folder| _ = fs::remove_dir(folder));
 }

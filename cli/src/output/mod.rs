@@ -1,7 +1,8 @@
-//! Where results go: stdout, and files that are whole or not there.
+//! Results: stdout, and files that are written completely or not at all.
 //!
-//! Every file of every command is written by `Outputs`, which knows what the command has read. `target` is where a path
-//! leads, `pending` a file that waits for its place; `folders` are those that were made, and `record` knows which files abbe wrote.
+//! `Outputs` writes every file of every command and knows the inputs of the command. `target`
+//! resolves a path, `pending` is a file under construction, `folders` lists the folders that were
+//! made, and `record` lists the files that abbe wrote.
 
 pub(crate) mod folders;
 mod outputs;
@@ -20,32 +21,33 @@ use crate::failure::Failure;
 pub(crate) use outputs::Outputs;
 pub(crate) use pending::Pending;
 
-/// What a command found out.
+/// Results of a command.
 #[derive(Debug)]
 pub(crate) struct Outcome {
     text: String,
     passed: bool,
-    /// Whether stdout has been given to a file of the results.
+    /// True if stdout carries a file of the results; the text then goes to stderr.
     aside: bool,
 }
 
 impl Outcome {
-    /// Results of a command that checks nothing.
+    /// Creates the outcome of a command that checks nothing.
     pub(crate) fn passed(text: String) -> Self {
         Self::checked(text, true)
     }
 
-    /// Results, and whether they are what they should be.
+    /// Creates the outcome of a command that checks something; the exit status is 1 unless
+    /// `passed`.
     pub(crate) fn checked(text: String, passed: bool) -> Self {
         Self { text, passed, aside: false }
     }
 
-    /// The same on stderr, if something else has been printed.
+    /// Moves the text to stderr if a file was printed to stdout.
     pub(crate) fn beside(self, printed: Printed) -> Self {
         Self { aside: printed.0, ..self }
     }
 
-    /// Writes the results to stdout; a reader who has seen enough is no failure.
+    /// Prints the text and returns the exit status.
     pub(crate) fn print(&self) -> Result<ExitCode, Failure> {
         match self.aside {
             true => note(self.text.trim_end()),
@@ -55,30 +57,30 @@ impl Outcome {
     }
 }
 
-/// Whether a file was written to stdout.
+/// True if a file was written to stdout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Printed(bool);
 
-/// Writes to stdout; a reader who has seen enough is no failure.
+/// Writes to stdout. A closed pipe is not an error: its reader has read enough.
 fn print(content: &mut impl Read) -> Result<(), Failure> {
     let mut out = stdout().lock();
     match io::copy(content, &mut out).and_then(|_| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::of("stdout", format!("cannot write the results: {error}")))
+            Err(Failure::new("stdout", format!("cannot write the results: {error}")))
         }
         _ => Ok(()),
     }
 }
 
-/// Results for machines: JSON in one line.
+/// Serializes a report as one line of JSON.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
-    let text = serde_json::to_string(value).map_err(|error| Failure::of("JSON", error))?;
+    let text = serde_json::to_string(value).map_err(|error| Failure::new("JSON", error))?;
     Ok(text + "\n")
 }
 
-/// A message beside the results, on stderr.
+/// Prints a message to stderr.
 pub(crate) fn note(message: &str) {
-    // Nobody is left to be told if this fails.
+    // A failed write to stderr cannot be reported anywhere.
     let _ = writeln!(stderr(), "{message}");
 }
 
@@ -90,5 +92,5 @@ pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "name another folder, or make room in this one",
         _ => "name another file or folder",
     };
-    Failure::of(path.display(), format!("cannot write this: {error}")).help(help)
+    Failure::new(path.display(), format!("cannot write this: {error}")).help(help)
 }

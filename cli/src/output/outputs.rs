@@ -1,4 +1,5 @@
-//! The files that a command writes: none that it reads, none that somebody else wrote, and each whole.
+//! Output files of a command: never an input, never a file that abbe did not write, and always
+//! complete.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,44 +11,54 @@ use super::target::{Identity, Target, identity, is_stdout, parent};
 use super::{Printed, cannot_write, folders, note, record};
 use crate::failure::Failure;
 
-/// What a command is about to write.
+/// Output files of one run.
 #[derive(Debug)]
 pub(crate) struct Outputs {
     inputs: Vec<(PathBuf, Identity)>,
     force: bool,
-    /// Where something will be.
+    /// Target paths of the output files opened so far.
     taken: Vec<Target>,
 }
 
 impl Outputs {
-    /// Those of a job. What it was read from is never written over, not even by `force`.
+    /// Creates the outputs of a job. The files that it reads are never replaced, not even with
+    /// `force`.
     pub(crate) fn new(job: &impl Reads, force: bool) -> Self {
         let inputs = job.files().into_iter().filter_map(|file| Some((file.clone(), identity(&file)?)));
         Self { inputs: inputs.collect(), force, taken: Vec::new() }
     }
 
-    /// Begins a file, or says why it must not be written. It is in its place after [`finish`](Self::finish).
+    /// Begins a file. [`finish`](Self::finish) moves it to its path.
+    ///
+    /// # Errors
+    ///
+    /// The path is an input, belongs to another result of this run, or holds a file that abbe did
+    /// not write.
     pub(crate) fn file(&mut self, path: &Path) -> Result<Pending, Failure> {
         let target = Target::find(path)?;
         self.check(path, &target)?;
         if self.taken.contains(&target) {
-            return Err(Failure::of(path.display(), "two results of this run would be written there")
+            return Err(Failure::new(path.display(), "two results of this run would be written there")
                 .help("give each a file of its own"));
         }
         self.taken.push(target.clone());
         Pending::begin(path, target)
     }
 
-    /// As [`file`](Self::file), if one is wanted.
+    /// Begins a file if a path is given; see [`file`](Self::file).
     pub(crate) fn wanted(&mut self, path: Option<&Path>) -> Result<Option<Pending>, Failure> {
         path.map(|path| self.file(path)).transpose()
     }
 
-    /// Makes a folder for files, or says why none must be written there.
+    /// Makes a folder for files.
+    ///
+    /// # Errors
+    ///
+    /// The path is a file, or a folder with files that abbe did not write.
     pub(crate) fn folder(&mut self, path: &Path) -> Result<(), Failure> {
         if is_stdout(path) || (path.exists() && !path.is_dir()) {
             return Err(
-                Failure::of(path.display(), "this is a file, not a folder").help("--out takes a folder")
+                Failure::new(path.display(), "this is a file, not a folder").help("--out takes a folder")
             );
         }
         if path.is_dir() && !self.force && !record::is_in(path) {
@@ -55,13 +66,13 @@ impl Outputs {
             if others.any(|entry| !entry.file_name().as_encoded_bytes().starts_with(PREFIX.as_bytes())) {
                 let help = "name another folder, or give `--force`: files of the same names are replaced, others stay";
                 let message = "there are files in this folder, and none was written by abbe";
-                return Err(Failure::of(path.display(), message).help(help));
+                return Err(Failure::new(path.display(), message).help(help));
             }
         }
         folders::make(path).map_err(|error| cannot_write(path, &error))
     }
 
-    /// Whether a path, and the file that it leads to if it is one, may be written.
+    /// Checks that a path, and the file that it resolves to, may be written.
     fn check(&self, path: &Path, target: &Target) -> Result<(), Failure> {
         let here = identity(path);
         if let Some((input, _)) = self.inputs.iter().find(|(_, input)| here.as_ref() == Some(input)) {
@@ -69,27 +80,27 @@ impl Outputs {
                 true => "this run reads this file, and would write over it".to_owned(),
                 false => format!("this is {}, which this run reads, and would write over", input.display()),
             };
-            return Err(Failure::of(path.display(), message).help("name another file for the result"));
+            return Err(Failure::new(path.display(), message).help("name another file for the result"));
         }
         let Target::File(file) = target else { return Ok(()) };
         let Some(old) = fs::metadata(file).ok().filter(|_| !self.force) else { return Ok(()) };
         let help = "name another file, or replace it with `--force`";
         if old.permissions().readonly() {
-            return Err(Failure::of(path.display(), "this file may only be read").help(help));
+            return Err(Failure::new(path.display(), "this file may only be read").help(help));
         }
         match record::is_ours(file) {
             Ok(true) => Ok(()),
             Ok(false) => {
                 let message = "this file was not written by abbe, or was changed since";
-                Err(Failure::of(path.display(), message).help(help))
+                Err(Failure::new(path.display(), message).help(help))
             }
             Err(error) => Err(cannot_write(path, &error).help(help)),
         }
     }
 
-    /// Puts the files in their places, now that all are complete, each in one step. A signal is heard after the last.
+    /// Moves the complete files to their paths, each in one step. Signals wait until all are moved.
     ///
-    /// What is written to a pipe or a device goes first: it may fail, and cannot be taken back.
+    /// Pipes and devices are written first: they may fail, and cannot be undone.
     pub(crate) fn finish(self, files: impl IntoIterator<Item = Pending>) -> Result<Printed, Failure> {
         let (files, streams): (Vec<_>, Vec<_>) = files.into_iter().partition(Pending::is_file);
         let printed = Printed(streams.iter().any(|stream| stream.target == Target::Stdout));
@@ -105,7 +116,7 @@ impl Outputs {
                 pending.complete(&file).map_err(|error| cannot_write(&pending.path, &error))?;
             complete.push((pending.path, file, temporary, hash));
         }
-        // Noted before they are there: whoever is killed in between leaves files that are known.
+        // Recorded before they are moved: if the process is killed in between, the files are known.
         let mut unknown = None;
         for (_, file, _, hash) in &complete {
             unknown = record::add(file, hash).err().map(|error| (file, error)).or(unknown);
@@ -123,7 +134,7 @@ impl Outputs {
     }
 }
 
-/// Folders that were made for nothing go again.
+/// Removes folders that were made but are still empty.
 impl Drop for Outputs {
     fn drop(&mut self) {
         folders::remove_empty(&folders::hold());

@@ -1,4 +1,4 @@
-//! A file that waits for its place until it, and all others of its command, are complete.
+//! File under construction: it moves to its path when all files of the command are complete.
 
 use std::fs::{self, File};
 use std::io::{self, Seek, Write};
@@ -11,19 +11,20 @@ use super::target::{Target, parent};
 use super::{cannot_write, folders, print};
 use crate::failure::Failure;
 
-/// What begins the names of the files that abbe writes for itself.
+/// Prefix of the names of abbe's own files.
 pub(super) const PREFIX: &str = ".abbe-";
 
-/// What is kept in memory, in bytes.
+/// Largest content kept in memory, in bytes.
 const SMALL: usize = 1 << 20;
 
-/// A file that is being written.
+/// File under construction.
 #[derive(Debug)]
 pub(crate) struct Pending {
-    /// As the user calls it.
+    /// Path as the user gave it.
     pub(super) path: PathBuf,
     pub(super) target: Target,
-    /// In memory, and beyond [`SMALL`] in a file without a name, which goes with the process.
+    /// Content: in memory up to [`SMALL`], then in an unnamed file, which the system deletes with
+    /// the process.
     content: SpooledTempFile,
 }
 
@@ -31,7 +32,7 @@ impl Pending {
     pub(super) fn begin(path: &Path, target: Target) -> Result<Self, Failure> {
         let content = match &target {
             Target::File(file) => {
-                // Whether the folder may be written to is seen now, not after a night of work.
+                // Checks write permission now rather than after hours of work.
                 let _held = folders::hold();
                 temporary(file).map_err(|error| cannot_write(path, &error))?;
                 SpooledTempFile::new_in(SMALL, parent(file))
@@ -41,25 +42,26 @@ impl Pending {
         Ok(Self { path: path.to_owned(), target, content })
     }
 
-    /// The same with a text, or bytes, in it.
+    /// Appends text or bytes, and returns the file.
     pub(crate) fn fill(mut self, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<Self, Failure> {
         self.write_all(content.as_ref()).map_err(|error| cannot_write(&self.path, &error))?;
         Ok(self)
     }
 
-    /// Whether it will be a file of its own, not what is written to a stream.
+    /// Returns true for a regular file, false for stdout and streams.
     pub(crate) fn is_file(&self) -> bool {
         matches!(self.target, Target::File(_))
     }
 
-    /// Copies the content to a temporary file beside `file`, and flushes it to the disk; returns its SHA-256, too.
+    /// Copies the content to a temporary file beside `file` and flushes it to the disk. Returns the
+    /// temporary file and its SHA-256.
     pub(super) fn complete(&mut self, file: &Path) -> io::Result<(NamedTempFile, String)> {
         let mut complete = temporary(file)?;
         self.content.rewind()?;
         io::copy(&mut self.content, &mut complete)?;
         complete.as_file().sync_all()?;
         self.content.rewind()?;
-        Ok((complete, hash::of_reader(&mut self.content)?))
+        Ok((complete, hash::reader(&mut self.content)?))
     }
 
     /// Appends the content to its stream.
@@ -84,7 +86,8 @@ impl Write for Pending {
     }
 }
 
-/// Makes a temporary file beside `file`, with the mode and, where that is allowed, the owner of the one that it will replace.
+/// Creates a temporary file beside `file`, with the mode and, if allowed, the owner of the file
+/// that it will replace.
 fn temporary(file: &Path) -> io::Result<NamedTempFile> {
     let old = fs::metadata(file).ok();
     let mut builder = Builder::new();

@@ -1,7 +1,9 @@
-//! Which files abbe wrote: `.abbe-written`, in every folder in which it wrote any, has the SHA-256 and the name of each, as
-//! `sha256sum` prints them. A file that is still one of them is abbe's, and may be replaced; any other is somebody's.
+//! Record of the files that abbe wrote: `.abbe-written` in each output folder lists their SHA-256
+//! and names in the format of `sha256sum`. A file that matches its entry belongs to abbe and may be
+//! replaced; all others belong to the user.
 //!
-//! One rule for all kinds of files: CSV has no room for a mark, and a mark would not say that a file was changed by hand.
+//! The record works for every kind of file. A mark inside the files would not: CSV has no place for
+//! one, and it would survive edits by hand.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -11,18 +13,18 @@ use abbe_study::hash;
 
 use super::target::parent;
 
-/// The record of a folder.
+/// File name of the record.
 const NAME: &str = ".abbe-written";
 
 const HEAD: &str = "# SHA-256 of the files that abbe wrote here. It replaces them as long as they are unchanged; others it \
                     replaces only with --force.\n";
 
-/// Whether there is a record in a folder.
+/// Returns true if the folder has a record.
 pub(super) fn is_in(folder: &Path) -> bool {
     fs::symlink_metadata(folder.join(NAME)).is_ok_and(|found| found.is_file())
 }
 
-/// Whether a file is abbe's, or has nothing in it.
+/// Returns true if the file is empty or matches its entry in the record.
 pub(super) fn is_ours(file: &Path) -> io::Result<bool> {
     if fs::metadata(file)?.len() == 0 {
         return Ok(true);
@@ -30,18 +32,19 @@ pub(super) fn is_ours(file: &Path) -> io::Result<bool> {
     if !is_in(parent(file)) {
         return Ok(false);
     }
-    let line = line(file, &hash::of_reader(File::open(file)?)?);
+    let line = line(file, &hash::reader(File::open(file)?)?);
     let record = fs::read(parent(file).join(NAME))?;
     Ok(String::from_utf8_lossy(&record).lines().any(|known| known == line))
 }
 
-/// Notes that a file with this SHA-256 is abbe's.
+/// Adds an entry for a file with this SHA-256 to the record of its folder.
 pub(super) fn add(file: &Path, hash: &str) -> io::Result<()> {
     let path = parent(file).join(NAME);
     if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
         return Err(io::Error::other(format!("{NAME} is no file")));
     }
     let mut record = File::options().read(true).append(true).create(true).open(path)?;
+    lock(&record)?;
     let mut known = Vec::new();
     record.read_to_end(&mut known)?;
     let (known, line) = (String::from_utf8_lossy(&known), line(file, hash));
@@ -53,8 +56,16 @@ pub(super) fn add(file: &Path, hash: &str) -> io::Result<()> {
         known if known.ends_with('\n') => "",
         _ => "\n",
     };
-    // In one step: runs at the same time append whole lines.
     record.write_all(format!("{before}{line}\n").as_bytes())
+}
+
+/// Waits until no other run reads or appends; dropping the file unlocks it. Without the lock a run
+/// may read half of the line that another one appends. A file system without locks has none.
+fn lock(record: &File) -> io::Result<()> {
+    match record.lock() {
+        Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(()),
+        result => result,
+    }
 }
 
 fn line(file: &Path, hash: &str) -> String {
@@ -72,7 +83,7 @@ mod tests {
         let file = folder.path().join("a  b, c.csv");
         fs::write(&file, "1,2\n").unwrap();
         assert!(!is_ours(&file).unwrap());
-        add(&file, &hash::of_text("1,2\n")).unwrap();
+        add(&file, &hash::text("1,2\n")).unwrap();
         assert!(is_ours(&file).unwrap());
         fs::write(&file, "1,3\n").unwrap();
         assert!(!is_ours(&file).unwrap());
@@ -87,7 +98,7 @@ mod tests {
             let file = folder.path().join(format!("{writer}.csv"));
             std::thread::spawn(move || {
                 for i in (0..20).chain(0..20) {
-                    add(&file, &hash::of_text(&i.to_string())).unwrap();
+                    add(&file, &hash::text(&i.to_string())).unwrap();
                 }
             })
         });
@@ -97,7 +108,7 @@ mod tests {
         lines.sort_unstable();
         let mut expected: Vec<String> = (0..8)
             .flat_map(|writer| (0..20).map(move |i| (writer, i)))
-            .map(|(writer, i)| line(Path::new(&format!("{writer}.csv")), &hash::of_text(&i.to_string())))
+            .map(|(writer, i)| line(Path::new(&format!("{writer}.csv")), &hash::text(&i.to_string())))
             .collect();
         expected.sort_unstable();
         assert_eq!(lines, expected);
@@ -109,7 +120,7 @@ mod tests {
         let file = folder.path().join("a.csv");
         fs::write(&file, "1\n").unwrap();
         fs::write(folder.path().join(NAME), format!("{HEAD}0123")).unwrap();
-        add(&file, &hash::of_text("1\n")).unwrap();
+        add(&file, &hash::text("1\n")).unwrap();
         assert!(is_ours(&file).unwrap());
     }
 }

@@ -1,4 +1,4 @@
-//! Where a path leads that is to be written, and which file is there.
+//! Resolution of output paths, and identity of the files there.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -7,27 +7,31 @@ use std::path::{Path, PathBuf};
 use super::cannot_write;
 use crate::failure::Failure;
 
-/// Where a path leads.
+/// Resolved output path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Target {
     /// `-`, or another name of stdout.
     Stdout,
-    /// A device, a pipe or an open descriptor: it is written through, and stays what it is.
+    /// Device, pipe or open descriptor: it is written through and not replaced.
     Stream(PathBuf),
-    /// A regular file, or one that is not there yet: its path without links.
+    /// Regular file, existing or new: its path without links.
     File(PathBuf),
 }
 
 const STDOUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
-/// Their names are links to whatever is open: what is there is not ours to replace.
+/// Names of open descriptors. They link to whatever is open, which must not be replaced.
 const DESCRIPTORS: [&str; 3] = ["/dev/fd", "/dev/stderr", "/proc/self/fd"];
 
-/// More links than any system follows.
+/// Limit of links to follow, above that of any system.
 const LINKS: usize = 40;
 
 impl Target {
-    /// Follows a path; a folder is no place for a file.
+    /// Resolves a path.
+    ///
+    /// # Errors
+    ///
+    /// The path is a folder, or cannot be read.
     pub(super) fn find(path: &Path) -> Result<Self, Failure> {
         if is_stdout(path) {
             return Ok(Self::Stdout);
@@ -46,7 +50,7 @@ impl Target {
             Ok(found) if !found.is_dir() => Ok(Self::Stream(path.to_owned())),
             Err(error) if error.kind() == ErrorKind::NotFound && !names_folder => new_file(path),
             Err(error) if error.kind() != ErrorKind::NotFound => Err(cannot_write(path, &error)),
-            _ => Err(Failure::of(path.display(), "this is a folder, not a file").help("name a file in it")),
+            _ => Err(Failure::new(path.display(), "this is a folder, not a file").help("name a file in it")),
         }
     }
 }
@@ -55,7 +59,7 @@ pub(super) fn is_stdout(path: &Path) -> bool {
     STDOUT.iter().any(|name| path == Path::new(name))
 }
 
-/// Returns the target of a path at which there is no file, at the end of links that lead nowhere.
+/// Returns the target of a path without a file, following dangling links to their end.
 fn new_file(path: &Path) -> Result<Target, Failure> {
     let mut end = path.to_owned();
     for _ in 0..LINKS {
@@ -68,24 +72,24 @@ fn new_file(path: &Path) -> Result<Target, Failure> {
     })?;
     match end.file_name() {
         Some(name) => Ok(Target::File(folder.join(name))),
-        None => Err(Failure::of(path.display(), "this names no file")),
+        None => Err(Failure::new(path.display(), "this names no file")),
     }
 }
 
-/// The folder of a file: the current one if the path names none.
+/// Returns the folder of a path: the current folder if the path names none.
 pub(super) fn parent(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// What identifies a regular file under all its names: device and inode.
+/// Identity of a regular file under all its names: device and inode.
 #[cfg(unix)]
 pub(super) type Identity = (u64, u64);
 
-/// What identifies a regular file: its path without links.
+/// Identity of a regular file: its path without links.
 #[cfg(not(unix))]
 pub(super) type Identity = PathBuf;
 
-/// Returns the identity of the regular file at the end of a path, if there is one.
+/// Returns the identity of the regular file at a path, if there is one.
 pub(super) fn identity(path: &Path) -> Option<Identity> {
     let found = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
     #[cfg(unix)]
@@ -100,7 +104,7 @@ fn device_and_inode(found: &fs::Metadata) -> Identity {
     (found.dev(), found.ino())
 }
 
-/// Whether stdout was sent to this file.
+/// Returns true if stdout is redirected to this file.
 fn is_open_as_stdout(file: &Path) -> bool {
     #[cfg(unix)]
     {

@@ -1,4 +1,4 @@
-//! A disk that is full: a small one in memory, of this test alone, where a process may mount one.
+//! Behavior on a full disk: a small tmpfs of this test, where a process may mount one.
 
 use std::fs;
 use std::path::Path;
@@ -10,14 +10,14 @@ use tempfile::tempdir;
 pub(crate) const TESTS: Tests =
     &[("what_does_not_fit_leaves_what_was_there", what_does_not_fit_leaves_what_was_there)];
 
-/// Runs `script` with a disk of so many KiB at `$1`, and the command as `$0`.
+/// Runs `script` with a tmpfs of `size` KiB at `$1` and the command as `$0`.
 fn on_disk(folder: &Path, size: usize, script: &str) -> Output {
     let script = format!("mount -t tmpfs -o size={size}k none \"$1\" || exit 77\n{script}");
     let arguments = ["--mount", "--", "sh", "-c", &script, env!("CARGO_BIN_EXE_abbe")];
     Command::new("unshare").args(arguments).arg(folder).output().expect("unshare was here before")
 }
 
-/// Sizes from nothing to enough: a report of several files over an older one.
+/// Sizes from nothing to enough, for a report of several files that replaces an older one.
 fn what_does_not_fit_leaves_what_was_there() -> Result<(), Missing> {
     let folder = tempdir().unwrap();
     let mut may = Command::new("unshare");
@@ -27,7 +27,7 @@ fn what_does_not_fit_leaves_what_was_there() -> Result<(), Missing> {
     }
     let (mut full, mut fits) = (0, 0);
     for size in [1000, 6000, 7000, 9000, 12_000, 12_500, 13_500, 20_000] {
-        // The old report, as much of it as fits: what is measured is the second run alone.
+        // The old report is written without limit; the test is about the second run alone.
         let script = r#"
             cd "$1"
             "$0" analyze scara --out r >old.log 2>&1 || exit 78
@@ -43,7 +43,7 @@ fn what_does_not_fit_leaves_what_was_there() -> Result<(), Missing> {
         let output = on_disk(folder.path(), size, script);
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         match output.status.code() {
-            // Not even the first fits.
+            // Not even the first report fits.
             Some(78) => {}
             Some(0) if said.starts_with("2 old 0") => {
                 assert!(said.contains("No space left") && said.contains("error: "), "{said}");

@@ -1,6 +1,7 @@
-//! Tests of the command that need tools or data that are not everywhere: each is ignored, with the reason, where they are
-//! missing.
+//! Tests of the command that need tools or data that not every computer has. Where they are
+//! missing, the test is ignored with the reason.
 
+mod accessibility;
 mod fmu;
 mod full_disk;
 mod measured_data;
@@ -12,6 +13,7 @@ use abbe_tests::needs::run;
 
 fn main() -> ExitCode {
     run(&[
+        ("accessibility", accessibility::TESTS),
         ("fmu", fmu::TESTS),
         ("full_disk", full_disk::TESTS),
         ("measured_data", measured_data::TESTS),

@@ -1,4 +1,5 @@
-//! `abbe identify` on measurements of UR5 and WAM that others made: fitted on the grid set, judged on the random set.
+//! `abbe identify` on published measurements of a UR5 and a WAM: fitted on the grid set, tested on
+//! the random set.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,7 +30,7 @@ fn number(report: &Value, keys: &[&str]) -> f64 {
     keys.iter().fold(report, |value, key| &value[key]).as_f64().unwrap_or_else(|| panic!("{keys:?}"))
 }
 
-/// The shipped map, as a file.
+/// Returns the path of a shipped map.
 fn map(robot: &str) -> String {
     text(&root().join("manipulators/maps").join(format!("{robot}.toml")))
 }
@@ -48,7 +49,8 @@ fn identify(robot: &str, more: &[&str]) -> Result<Value, Missing> {
     Ok(json(&[&arguments[..], more].concat()))
 }
 
-/// With the terms that the grid chooses; what is written leaves as much of the random set when it is measured.
+/// Identifies with the additional terms chosen on the grid set. The written spec leaves the same
+/// errors on the random set.
 fn richer(robot: &str) -> Result<Value, Missing> {
     let folder = tempdir().unwrap();
     let [spec, map] = ["found.toml", "found.map.toml"].map(|name| text(&folder.path().join(name)));
@@ -60,7 +62,8 @@ fn richer(robot: &str) -> Result<Value, Missing> {
     Ok(report)
 }
 
-/// The row of the README's table, as it rounds: as delivered, base and tool fitted, identified, with more terms.
+/// Checks the row of the README's table, rounded: as delivered, base and tool, identified, with
+/// additional terms.
 fn is_as_the_readme_has_it(title: &str, constants: &Value, richer: &Value) {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
     let row = readme.lines().find_map(|line| line.strip_prefix(&format!("| {title} | "))).expect("a row");
@@ -85,7 +88,8 @@ fn ur5_is_as_good_as_measured() -> Result<(), Missing> {
     assert!(number(&report, &["test", "after", "max"]) <= 0.160);
     let richer = richer("ur5")?;
     is_as_the_readme_has_it("UR5", &report, &richer);
-    // Two directions would be told only because the target is a little off the last axis, and badly: that is said.
+    // Two directions are weakly determined: only the small offset of the target from the last axis
+    // makes them observable.
     assert_eq!(report["not_known"].as_array().map(Vec::len), Some(2));
     assert!(report["parameters"].as_array().unwrap().iter().all(|p| p["hardly_known"] == false));
     Ok(())
@@ -98,9 +102,9 @@ fn wam_gains_by_terms_that_the_grid_alone_chooses() -> Result<(), Missing> {
     let richer = richer("wam")?;
     let crossed = ["cross_validation", "after", "mean"];
     assert!(number(&richer, &crossed) < number(&report, &crossed));
-    // The data's author published 2.9178.
+    // The author of the data published 2.9178.
     assert!(number(&richer, &["test", "after", "mean"]) <= 2.80);
-    // Most of it is backlash, by the direction from which the joints came.
+    // Backlash, by the direction of approach of the joints, explains most of it.
     let names = richer["terms"].as_array().unwrap().iter().map(|term| term["name"].as_str().unwrap());
     assert!(names.into_iter().any(|name| name == "q1: joint error with q1_direction"));
     is_as_the_readme_has_it("Barrett WAM", &report, &richer);
@@ -117,7 +121,7 @@ fn elastic_terms_are_written_with_their_weight() -> Result<(), Missing> {
     assert!(!report["terms"].as_array().unwrap().is_empty());
     let spec = fs::read_to_string(&out).unwrap();
     assert!(spec.contains("[[load]]") && spec.contains("compliance = ") && spec.starts_with("gravity = "));
-    // The spec computes what was fitted: the model with all of it, base and tool included.
+    // The written spec is the fitted model, including base and tool.
     let map = text(&folder.path().join("identified.map.toml"));
     let measured = json(&["measure", &out, &grid, "--map", &map, "--json"]);
     let left = number(&measured, &["explained", "left_rms"]);

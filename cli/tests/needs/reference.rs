@@ -1,5 +1,6 @@
-//! The command against an implementation of its own in plain Python (`tests/reference/`): random specs that together
-//! use every form of the language, 30 in a thorough run.
+//! Comparison of the command with an independent implementation in plain Python
+//! (`tests/reference/`), on random specs that together use every form of the spec language; 30
+//! specs in a thorough run.
 
 use std::path::Path;
 use std::process::Command;
@@ -12,9 +13,9 @@ pub(crate) const TESTS: Tests = &[
     ("further_ones_and_the_paper_are_as_plain_python_has_them", || compared("second")),
 ];
 
-/// Half of what is compared, for two cores.
+/// Runs half of the comparison, one half per core.
 fn compared(half: &str) -> Result<(), Missing> {
-    // TOML is read since Python 3.11.
+    // `tomllib` exists since Python 3.11.
     let python = Command::new("python3").args(["-c", "import tomllib"]).output();
     if !python.is_ok_and(|python| python.status.success()) {
         return Err(Missing("python3 (3.11 or newer) is not installed".to_owned()));

@@ -1,5 +1,5 @@
-//! What broke the command once, case by case, and a sample of damaged files: it ends, it says why and what to do, and files are
-//! as they were.
+//! Inputs that once broke the command, and a sample of damaged files: every run ends, refusals have
+//! a cause and a remedy, and files stay unchanged.
 
 use std::fs;
 use std::path::Path;
@@ -26,7 +26,7 @@ columns = ["x", "y", "z"]
 unit = "mm"
 "#;
 
-/// A spec with one frame.
+/// Returns a spec with one frame.
 fn arm(transform: &str) -> String {
     format!(
         "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"f\"\n\
@@ -35,7 +35,7 @@ fn arm(transform: &str) -> String {
     )
 }
 
-/// It ends in time, and with a place and a way out if it refuses.
+/// Runs the command. Asserts that it ends in time, and that a refusal has a place and a help line.
 fn run(arguments: &[&str]) -> Run {
     let begun = Instant::now();
     let run = abbe(arguments);
@@ -63,7 +63,7 @@ fn path(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// Measurements of the shipped SCARA, by the command.
+/// Simulates measurements of the shipped SCARA.
 fn measurements(folder: &Path) -> (String, String) {
     let map = write(folder, "map.toml", MAP);
     let data = folder.join("data.csv");
@@ -72,7 +72,7 @@ fn measurements(folder: &Path) -> (String, String) {
     (path(&map).to_owned(), fs::read_to_string(data).unwrap())
 }
 
-/// The text with its first cell of the last column, in one row, replaced.
+/// Replaces the last cell of one row.
 fn with_cell(data: &str, cell: &str) -> String {
     let mut lines: Vec<String> = data.lines().map(str::to_owned).collect();
     let (before, _) = lines[7].rsplit_once(',').unwrap();
@@ -133,7 +133,7 @@ fn what_never_ends_is_not_read_to_its_end() {
         &["analyze", "scara", "--study", path(&study)],
         "/dev/zero: the row in line 1 does not end within 4 MiB",
     );
-    // A quotation mark that nothing closes.
+    // An unclosed quotation mark.
     let file =
         write(folder.path(), "open.csv", &format!("q1,q2,d3,q4,x,y,z\n1,\"{}", "2,3\n".repeat(2_000_000)));
     refused(&["measure", "scara", path(&file), "--map", &map], "does not end within 4 MiB");
@@ -157,8 +157,8 @@ fn files_of_another_kind_are_called_by_their_names() {
     refused(&["check", path(&code)], "it seems to be Rust");
 }
 
-/// The sample: inputs stay as they are, numbers are finite.
-/// Its reciprocal is no number, and the decomposition of what is weighted with it had no end.
+/// A subnormal σ: its reciprocal overflowed, and the decomposition of the weighted rows did not
+/// end.
 #[test]
 fn uncertainties_that_nothing_can_be_weighted_with() {
     let folder = tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! `abbe analyze`: the paper's figures, studies, files.
+//! `abbe analyze`: the figures of the paper, studies, output files.
 
 use std::fs;
 
@@ -6,9 +6,9 @@ use abbe_manipulators::SHIPPED;
 use serde_json::Value;
 use tempfile::tempdir;
 
-use crate::running::{abbe, json, narrow, prints, shipped, write};
+use crate::running::{abbe, full, json, narrow, prints, shipped, write};
 
-/// To the last printed digit.
+/// Asserts agreement to the last printed digit.
 fn near(found: &Value, expected: f64, digits: i32) {
     let found = found.as_f64().expect("a number");
     assert!((found - expected).abs() <= 0.5 * 10_f64.powi(-digits), "{found} instead of {expected}");
@@ -49,14 +49,14 @@ fn the_papers_own_job_gives_the_papers_figures() {
     near(&report["combined"]["radius"], 5.480, 3);
     near(&report["after_compensation"]["total"], 0.3492, 4);
 
-    // Which of the published figures are met, and the one that is not.
+    // All published figures agree but one.
     let published = report["published"].as_array().expect("a list");
     let met = published.iter().map(|figure| figure["met"].as_bool()).collect::<Vec<_>>();
     assert_eq!(met, [Some(true), Some(false), Some(true), Some(true), Some(true)]);
     assert_eq!(published[1]["figure"], "spin encoder");
     assert_eq!(published[1]["x"], 0.074);
     assert_eq!(published[1]["y"], Value::Null);
-    // Far less than the errors themselves, but not nothing.
+    // The neglected second-order part is far smaller than the errors, but not zero.
     let neglected = report["first_order"]["largest_difference"].as_f64().expect("a number");
     assert!((0.01..0.02).contains(&neglected), "{neglected}");
 }
@@ -98,7 +98,7 @@ fn json_has_its_keys_in_order() {
 
 #[test]
 fn people_see_the_papers_figures_beside_ours() {
-    let text = prints(&["analyze", "pps"]);
+    let text = full(&["analyze", "pps"]);
     let squeezed = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
     let lines = squeezed.collect::<Vec<_>>();
     for expected in [
@@ -122,9 +122,9 @@ fn people_see_the_papers_figures_beside_ours() {
 #[test]
 fn every_shipped_manipulator_can_be_analyzed() {
     for shipped in SHIPPED {
-        narrow(&prints(&["analyze", shipped.name]));
+        narrow(&full(&["analyze", shipped.name]));
         let report = json(&["analyze", shipped.name, "--json"]);
-        // The temperature of machine3 is looked at with both ends of its range.
+        // The temperature of machine3 is evaluated at both ends of its range.
         let expected = match shipped.name {
             _ if shipped.study.is_some() => 999,
             "machine3" => 2000,
@@ -215,7 +215,7 @@ fn sources_can_be_switched_and_parameters_set() {
     ]);
     let names = report["sources"].as_array().unwrap().iter().map(|source| source["name"].as_str().unwrap());
     assert_eq!(names.collect::<Vec<_>>()[..2], [printed, "spin encoder"]);
-    // With the printed signs the error in Z cannot come below 0.154 mm.
+    // With the printed signs, the error in Z cannot be below 0.154 mm.
     assert!(source(&report, printed)["half_peak_to_peak"]["z"].as_f64().unwrap() > 0.154);
 
     let nominal = json(&["analyze", "pps", "--json"]);
@@ -269,13 +269,13 @@ fn what_cannot_be_reached_is_counted_with_its_reason() {
     let study = write(folder.path(), "study.toml", OUT_OF_REACH);
     let (study, out) = (study.to_str().unwrap(), folder.path().join("out"));
     let run = ["analyze", "pps", "--study", study, "--out", out.to_str().unwrap()];
-    let text = prints(&run);
+    let text = full(&run);
     assert!(
         text.contains(
             "Configurations  1, 3 unreachable: q4 outside its limits (2), d2 outside its limits (1)"
         )
     );
-    assert!(text.contains("y = 900 mm: d2 would have to be -520 mm, its limits are 0 mm … 560 mm"), "{text}");
+    assert!(text.contains("y = 900 mm: needs d2 = -520 mm, outside its limits 0 mm … 560 mm"), "{text}");
     let report = json(&[&run[..], &["--json"]].concat());
     assert_eq!((&report["configurations"], &report["unreachable"]), (&1.into(), &3.into()));
     let mut reader = csv::Reader::from_path(out.join("unreachable.csv")).unwrap();
@@ -292,7 +292,7 @@ fn a_spec_without_sources_has_nothing_to_add_up() {
     let folder = tempdir().unwrap();
     let spec = write(folder.path(), "slide.toml", SLIDE);
     let spec = spec.to_str().unwrap();
-    assert!(prints(&["analyze", spec]).contains("no error source that is switched on"));
+    assert!(full(&["analyze", spec]).contains("No error source is enabled"));
     let report = json(&["analyze", spec, "--json"]);
     assert_eq!(report["combined"]["radius"], 0.0);
 }
@@ -307,12 +307,12 @@ const SLIDE: &str = r#"
     transform = "Tx(d)"
 "#;
 
-/// A machine that was changed is not the one that the figures were printed of.
+/// Published figures do not apply to a machine with changes.
 #[test]
 fn published_figures_are_of_the_machine_as_it_is() {
     let run = abbe(&["analyze", "pps", "--set", "arm_EI=5e13 N*mm^2"]);
     assert_eq!(run.status, 0);
     assert!(run.stderr.contains("published figures are left out"), "{}", run.stderr);
     assert!(!run.stdout.contains("the paper  "), "{}", run.stdout);
-    assert!(prints(&["analyze", "pps"]).contains("the paper  "));
+    assert!(full(&["analyze", "pps"]).contains("the paper  "));
 }

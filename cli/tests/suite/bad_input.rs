@@ -1,4 +1,4 @@
-//! Bad usage and bad input: exit status 2, nothing on stdout, and a message that helps.
+//! Wrong usage and wrong input: exit status 2, empty stdout, and a message with a remedy.
 
 use std::fs;
 use std::path::Path;
@@ -104,7 +104,7 @@ fn places_to_write_to() {
     assert_eq!(fs::read_dir(&blocked).unwrap().count(), 1, "no partial file is left");
 }
 
-/// A study of the patient positioning system with some lines after its head.
+/// Runs a study of the patient positioning system with `lines` after its head.
 fn study(lines: &str, expected: &[&str]) {
     let folder = tempdir().unwrap();
     let path = write(folder.path(), "study.toml", &format!("[study]\ntitle = \"Bad\"\n{lines}\n"));
@@ -138,7 +138,7 @@ fn studies() {
     );
     study(
         "[workspace.presented]\npoint = [0, 0, 0]\nsolve = [\"d1\"]\napproaches = { d1 = [1] }",
-        &["`d1` cannot be held and solved for"],
+        &["`d1` cannot be both fixed and solved for"],
     );
     let joints = "[workspace.joints]\nsamples = 1\n";
     study(
@@ -150,7 +150,7 @@ fn studies() {
     let folder = tempdir().unwrap();
     refused(&["analyze", "pps", "--study", folder.path().to_str().unwrap()], &["this is a directory"]);
     refused(&["analyze", "pps", "--study", "nowhere.toml"], &["cannot read this file"]);
-    // Another machine's study.
+    // The study of another machine.
     let path = write(folder.path(), "study.toml", include_str!("../../../manipulators/studies/pps.toml"));
     refused(
         &["analyze", "ur5", "--study", path.to_str().unwrap()],
@@ -158,7 +158,7 @@ fn studies() {
     );
 }
 
-/// The nearest option, value, shipped name and file are named.
+/// Messages suggest the nearest option, value, shipped name and file.
 #[test]
 fn what_is_nearest() {
     let folder = tempdir().unwrap();
@@ -182,7 +182,7 @@ fn what_is_nearest() {
         (&["measure", "ur5", "arm.csv", "--map", "./arm.tml"], "did you mean `./arm.toml`?"),
         (&["measure", "ur5", "arn.csv", "--map", "ur5"], "did you mean `arm.csv`?"),
         (&["plan", "pps", "--map", "pps", "--sets", "arm.tom1"], "there is `arm.toml`"),
-        // One ending in common is not much: nothing is like this.
+        // A shared file ending alone is no reason for a suggestion.
         (&["check", "quay.toml"], "give the path of a file that can be read"),
         (&["analyze", "pps", "--study", "quay.toml"], "give the path of a file that can be read"),
         (&["import", "quay.urdf"], "give the path of a file that can be read"),

@@ -1,10 +1,10 @@
-//! `abbe bound`: the shape of its JSON, what it prints, and that nothing that is sampled exceeds it.
+//! `abbe bound`: the shape of its JSON, its text, and that no sampled error exceeds a bound.
 
 use serde_json::Value;
 use tempfile::tempdir;
 
 use crate::bad_input::refused;
-use crate::running::{abbe, json, prints, write};
+use crate::running::{abbe, full, json, write};
 
 const KINDS: [&str; 3] = ["repeatable", "random", "radius"];
 const ERRORS: [&str; 5] = ["norm", "x", "y", "z", "orientation"];
@@ -49,7 +49,7 @@ fn a_normal_source_stands_at_three_standard_deviations() {
     assert!((sampled - 0.12).abs() < 1e-12, "{sampled}");
 }
 
-/// What the analysis samples lies below, where it is the box that it samples; and not far below.
+/// Sampled errors lie below the bound, and close to it where the workspace is the box.
 #[test]
 fn nothing_that_is_sampled_exceeds_it() {
     for name in ["pps", "machine3", "puma560"] {
@@ -60,7 +60,7 @@ fn nothing_that_is_sampled_exceeds_it() {
             let certified = number(&bound[kind]["norm"]["certified"]);
             assert!(sampled <= certified * (1.0 + 1e-12), "{name} {kind}: {sampled} > {certified}");
             assert!(sampled >= 0.7 * number(&bound[kind]["norm"]["found"]), "{name} {kind}: {sampled}");
-            // Where there is one class alone both together are not said again.
+            // With sources of one class only, the total is not repeated.
             if let Some(own) = analysis["certified"][kind]["certified"].as_f64() {
                 assert!(sampled <= own * (1.0 + 1e-12), "{name} {kind}: {sampled} > {own}");
                 assert!(own >= number(&bound[kind]["norm"]["found"]), "{name} {kind}: {own}");
@@ -69,22 +69,23 @@ fn nothing_that_is_sampled_exceeds_it() {
     }
 }
 
-/// An analysis says it in a sentence and shows it on its page; of more joints than anything can be proved of it says nothing.
+/// An analysis states the bound in a sentence and on its page; for chains with too many joints to
+/// bound, it states nothing.
 #[test]
 fn an_analysis_says_it_too() {
     let folder = tempdir().unwrap();
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let page = |name: &str, folder: &std::path::Path| {
-        let said = words(&prints(&["analyze", name, "--out", folder.to_str().unwrap()]));
+        let said = words(&full(&["analyze", name, "--out", folder.to_str().unwrap()]));
         (said, std::fs::read_to_string(folder.join("report.html")).unwrap())
     };
     let (said, shown) = page("pps", &folder.path().join("pps"));
     let certified =
-        "Certified, to first order: in the box that contains the workspace, which holds more than it,";
+        "Certified, to first order: over the enclosing joint box, which is larger than the workspace,";
     assert!(said.contains(certified), "{said}");
     assert!(shown.contains("<h2>At most</h2>") && shown.contains("<title>Sampled and certified</title>"));
     assert!(shown.contains("the dashed line is the tolerance"), "pps has one");
-    // What is found in a box that holds more is no lower bound of the workspace.
+    // The largest error found in an enclosing box is no lower bound over the workspace.
     let of_box = shown.split("<h2>At most</h2>").nth(1).unwrap().split("</section>").next().unwrap();
     assert!(of_box.contains("whose own maximum may be smaller") && !of_box.contains("at least"), "{of_box}");
     let (_, shown) = page("machine3", &folder.path().join("machine3"));
@@ -96,7 +97,7 @@ fn an_analysis_says_it_too() {
     assert!(!said.contains("Certified") && !shown.contains("<h2>At most</h2>"), "{said}");
 }
 
-/// The error at the place that is printed is the one that was found.
+/// The error at the printed configuration is the largest error found.
 #[test]
 fn the_place_has_the_error_that_was_found() {
     let report = json(&["bound", "general6r", "--json", "--boxes", "500"]);
@@ -115,16 +116,16 @@ fn the_place_has_the_error_that_was_found() {
 
 #[test]
 fn the_text_says_what_is_proved() {
-    let text = prints(&["bound", "machine3"]);
+    let text = full(&["bound", "machine3"]);
     for part in
-        ["The box: x from 0 mm to 600 mm", "at least", "at most", "nothing in the box exceeds the second"]
+        ["The box: x from 0 mm to 600 mm", "at least", "at most", "no error in the box exceeds the second"]
     {
         assert!(
             text.replace('\u{a0}', " ").split_whitespace().collect::<Vec<_>>().join(" ").contains(part),
             "{part}\n{text}"
         );
     }
-    // Printed numbers are rounded to the safe side.
+    // Printed bounds are rounded up.
     let report = json(&["bound", "machine3", "--json"]);
     let line = text.lines().find(|line| line.trim_start().starts_with("norm")).unwrap();
     let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
@@ -135,7 +136,8 @@ fn the_text_says_what_is_proved() {
     );
 }
 
-/// The first joint of this arm turns all round, and everything with it: along x and y the error is as large as across z.
+/// The first joint of this arm makes full turns: along x and y the error is as large as along the
+/// worst direction normal to z.
 #[test]
 fn along_x_and_y_it_is_as_large_as_across_z() {
     let random = &json(&["bound", "ur5", "--json", "--boxes", "100000"])["random"];
@@ -146,9 +148,9 @@ fn along_x_and_y_it_is_as_large_as_across_z() {
 
 #[test]
 fn what_is_not_reached_is_said() {
-    let outcome = abbe(&["bound", "ur5", "--boxes", "10"]);
+    let outcome = abbe(&["bound", "ur5", "--boxes", "10", "--full"]);
     assert!(outcome.stdout.contains("gap not reached"), "{}", outcome.stdout);
-    assert!(outcome.stderr.contains("what is certified holds"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("the bounds hold"), "{}", outcome.stderr);
     let report = json(&["bound", "ur5", "--boxes", "10", "--json"]);
     assert_eq!(report["complete"], false);
 }
@@ -159,8 +161,8 @@ fn threads_change_nothing() {
     assert_eq!(one, abbe(&["bound", "puma560", "--threads", "3", "--json"]).stdout);
 }
 
-/// What is certified of the exact chain is more than the analysis samples of it, and not much more. Without repeatable sources there
-/// is nothing to say.
+/// The certified remainder, the exact chain minus its first order, exceeds the sampled one, but not
+/// by much. Without repeatable sources there is none.
 #[test]
 fn what_first_order_leaves_out_is_certified() {
     for name in ["machine3", "pps"] {
@@ -168,16 +170,17 @@ fn what_first_order_leaves_out_is_certified() {
         let report = json(&["bound", name, "--json"]);
         let certified = number(&report["remainder"]["certified"]);
         assert!(sampled <= certified && certified < 3.0 * sampled, "{name}: {sampled} {certified}");
-        let text = prints(&["bound", name]).split_whitespace().collect::<Vec<_>>().join(" ");
-        let (_, printed) = text.split_once("have the tool point more than ").unwrap();
+        let text = full(&["bound", name]).split_whitespace().collect::<Vec<_>>().join(" ");
+        let (_, printed) = text.split_once("differs from first order by no more than ").unwrap();
         let printed: f64 = printed.split(' ').next().unwrap().parse().unwrap();
         assert!(printed >= certified && printed < 1.2 * certified, "{name}: {printed} {certified}");
     }
     assert!(json(&["bound", "puma560", "--json"])["remainder"].is_null());
-    assert!(!prints(&["bound", "puma560"]).contains("Nowhere in the box"));
+    assert!(!full(&["bound", "puma560"]).contains("differs from first order"));
 }
 
-/// What compensation leaves is certified where the joints can do it, and where they cannot that is said.
+/// The remainder after compensation is bounded where the joints can compensate; elsewhere the
+/// report states that they cannot.
 #[test]
 fn what_compensation_leaves_is_certified() {
     for (name, orients) in [("machine3", false), ("pps", true)] {
@@ -186,8 +189,8 @@ fn what_compensation_leaves_is_certified() {
         let position = number(&left["position"]);
         assert!(position < 0.01 * number(&before["norm"]["found"]), "{name}: {left}");
         assert_eq!(left["orientation"].is_number(), orients, "{name}: {left}");
-        let text = prints(&["bound", name]).split_whitespace().collect::<Vec<_>>().join(" ");
-        let (_, printed) = text.split_once("J_q⁻¹ J_e ε, leaves no more than ").unwrap();
+        let text = full(&["bound", name]).split_whitespace().collect::<Vec<_>>().join(" ");
+        let (_, printed) = text.split_once("the repeatable error of the tool point is at most ").unwrap();
         let printed: f64 = printed.split(' ').next().unwrap().parse().unwrap();
         assert!(printed >= position && printed < 1.2 * position, "{name}: {printed} {position}");
     }
@@ -201,11 +204,11 @@ fn what_compensation_leaves_is_certified() {
     assert!(json(&["bound", "machine3", "--json"])["margin"].is_null());
     assert!(json(&["bound", "puma560", "--json"])["after_one_step"].is_null());
     let outcome =
-        prints(&["bound", "scara", "--boxes", "200"]).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(outcome.contains("compensation leaves could not be proved: near q1"), "{outcome}");
+        full(&["bound", "scara", "--boxes", "200"]).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(outcome.contains("compensation could not be bounded: near q1"), "{outcome}");
 }
 
-/// Dexterity is said where it is asked for, of a machine without errors as well.
+/// The dexterity is reported if requested, also for a machine without errors.
 #[test]
 fn dexterity_is_said_where_it_is_asked_for() {
     assert!(json(&["bound", "machine3", "--json"])["dexterity"].is_null());
@@ -213,14 +216,14 @@ fn dexterity_is_said_where_it_is_asked_for() {
     let (certified, found) = (number(&dexterity["point"]["certified"]), number(&dexterity["point"]["found"]));
     assert!((certified - 1.0).abs() < 1e-9 && (found - 1.0).abs() < 1e-9, "{dexterity}");
     assert!(dexterity["pose"].is_null());
-    // Its wrist is singular where it is stretched.
+    // The stretched wrist of this robot is singular.
     let report = json(&["bound", "puma560", "--least", "--boxes", "2000", "--json"]);
     let pose = &report["dexterity"]["pose"];
     assert!(number(&pose["found"]) < 1e-6 && number(&pose["certified"]) == 0.0, "{pose}");
-    assert!(prints(&["bound", "machine3", "--least"]).contains("tool point"));
+    assert!(full(&["bound", "machine3", "--least"]).contains("tool point"));
 }
 
-/// A clamped beam has 3 EI/L³, and is softest where it is longest.
+/// A clamped beam has a stiffness of 3 EI/L³ and is softest at full length.
 #[test]
 fn stiffness_is_said_where_something_gives_way() {
     assert!(json(&["bound", "machine3", "--least", "--json"])["stiffness"].is_null());
@@ -238,10 +241,11 @@ fn stiffness_is_said_where_something_gives_way() {
     let (certified, found) = (number(&stiffness["certified"]), number(&stiffness["found"]));
     assert!(certified <= exact && certified > 0.985 * exact && found < 1.01 * exact, "{stiffness}");
     assert!(json(&["bound", quill, "--json"])["stiffness"].is_null());
-    let text = prints(&["bound", quill, "--least"]);
+    let text = full(&["bound", quill, "--least"]);
     assert!(text.contains("tool point, N/mm") && text.contains("out = 400"), "{text}");
 
-    // A force at the tool point has no lever about the spindle's axis. And of what has no number nothing is found.
+    // A force at the tool point has no lever about the spindle's axis. Nothing is found where the
+    // stiffness has no number.
     let beam = "beam = { axis = \"z\", length = \"out\", EI_y = \"1.3e5 N*m^2\", EI_z = \"2e5 N*m^2\" }";
     let turns = |about_z: &str| {
         let text = spec.replace(beam, &format!("compliance = {{ diagonal = [0, 0, 0, 0, 0, {about_z}] }}"));
@@ -254,11 +258,12 @@ fn stiffness_is_said_where_something_gives_way() {
         "nowhere.toml",
         &spec.replace("\"1.3e5 N*m^2\"", "\"1e5 N*m^2 * sqrt(-1 - out^2/(1 m^2))\""),
     );
-    let text = prints(&["bound", nowhere.to_str().unwrap(), "--least", "--boxes", "100"]);
+    let text = full(&["bound", nowhere.to_str().unwrap(), "--least", "--boxes", "100"]);
     assert!(text.contains("0   not known   nowhere"), "{text}");
 }
 
-/// Errors that were identified on less than the box are not certified in silence, and what cannot be proved is not tried.
+/// Errors identified on less than the box are certified with a warning, and unprovable bounds are
+/// skipped.
 #[test]
 fn what_is_extrapolated_and_what_is_too_much_is_said() {
     let folder = tempdir().unwrap();
@@ -269,7 +274,7 @@ fn what_is_extrapolated_and_what_is_too_much_is_said() {
         let fitted = write(folder.path(), "found.toml", &(chain(2) + &ranges(end)));
         let run = abbe(&["bound", fitted.to_str().unwrap()]);
         assert_eq!(
-            (run.status, run.stderr.contains("extrapolated beyond it: q1 beyond -150° … 100°")),
+            (run.status, run.stderr.contains("they are extrapolated: q1 beyond -150° … 100°")),
             (0, warns),
             "{}",
             run.stderr
@@ -278,7 +283,7 @@ fn what_is_extrapolated_and_what_is_too_much_is_said() {
     let long = write(folder.path(), "long.toml", &chain(33));
     refused(
         &["bound", long.to_str().unwrap()],
-        &["33 joints", "of more than 31 at once nothing can be proved", "grid"],
+        &["33 joints", "a bound can be computed for up to 31", "grid"],
     );
 }
 

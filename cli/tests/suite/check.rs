@@ -1,14 +1,14 @@
-//! `abbe check`: what it shows, and its verdict.
+//! `abbe check`: its report and its verdict.
 
 use abbe_manipulators::SHIPPED;
 use tempfile::tempdir;
 
-use crate::running::{abbe, json, narrow, prints, write};
+use crate::running::{abbe, full, json, narrow, write};
 
 #[test]
 fn every_shipped_manipulator_passes() {
     for shipped in SHIPPED {
-        let text = prints(&["check", shipped.name]);
+        let text = full(&["check", shipped.name]);
         assert!(!text.contains("FAILS"), "{text}");
         narrow(&text);
     }
@@ -16,16 +16,16 @@ fn every_shipped_manipulator_passes() {
 
 #[test]
 fn it_shows_what_follows_from_a_spec() {
-    let text = prints(&["check", "pps"]);
+    let text = full(&["check", "pps"]);
     for word in [
         "Lengths in mm, orientation euler-yzx",
         "0 … 2256 mm",
         "-90 … 90 deg",
         "base rail curvature, signs as printed   repeatable   frame lateral   off",
-        "22 of 36 can be known from poses",
+        "22 of 36 from poses",
         "24 of 42 and 21 of 42",
         "sincos",
-        "slope of what first order neglects",
+        "slope of the first-order remainder",
     ] {
         let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(squeezed(&text).contains(&squeezed(word)), "{word}\n{text}");
@@ -43,7 +43,7 @@ fn it_shows_what_follows_from_a_spec() {
 
 #[test]
 fn a_law_that_fails_is_exit_status_1() {
-    // Within half of its limits this source has no value.
+    // This source is undefined over half of the joint range.
     let spec = r#"
         [manipulator]
         name = "slide"
@@ -60,19 +60,20 @@ fn a_law_that_fails_is_exit_status_1() {
     "#;
     let folder = tempdir().unwrap();
     let path = write(folder.path(), "slide.toml", spec);
-    let run = abbe(&["check", path.to_str().unwrap()]);
+    let run = abbe(&["check", path.to_str().unwrap(), "--full"]);
     assert_eq!(run.status, 1, "{}", run.stderr);
     assert!(run.stdout.contains("FAILS") && run.stdout.contains("not a finite number"), "{}", run.stdout);
     let run = abbe(&["check", path.to_str().unwrap(), "--json"]);
     assert_eq!(run.status, 1);
     assert!(run.stdout.contains("\"holds\":false"));
-    // What cannot be evaluated cannot be analyzed, and says where.
+    // A spec that cannot be evaluated cannot be analyzed; the message says where.
     let run = abbe(&["analyze", path.to_str().unwrap()]);
     assert_eq!((run.status, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("at d = -0.5 mm: the source \"wear\" has no finite value"), "{}", run.stderr);
 }
 
-/// What can be known does not depend on how orientations are written, nor on samples where Euler rows do not exist.
+/// Identifiability depends neither on the representation of orientations nor on samples at singular
+/// Euler angles.
 #[test]
 fn euler_rows_hide_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -88,11 +89,11 @@ fn euler_rows_hide_nothing() {
     };
     let found = spec("euler-yzx");
     assert_eq!(found, spec("rotation-vector"));
-    // With poses and a base frame 4 of the revolute and 2 of the prismatic joint, and 6.
+    // With poses and a base frame: 4 per revolute joint, 2 per prismatic joint, and 6 for the tool.
     assert_eq!(found[1]["rank"], 12);
 }
 
-/// `A · B` of matrices in rows.
+/// Multiplies two row-major matrices.
 fn product(a: &[[f64; 4]; 4], b: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
 }
@@ -106,7 +107,8 @@ fn near(a: &[[f64; 4]; 4], b: &[[f64; 4]; 4]) -> bool {
     a.as_flattened().iter().zip(b.as_flattened()).all(|(a, b)| (a - b).abs() <= 1e-9 * scale)
 }
 
-/// The numbers make the matrices, the matrices the pose; and that is the pose of `jacobian`.
+/// The printed parameters reproduce the matrices, the matrices the pose, and this is the pose of
+/// `jacobian`.
 #[test]
 fn the_nominal_chain_at_home_is_shown() {
     let about = |axis: usize, angle: f64| -> [[f64; 4]; 4] {
@@ -145,7 +147,7 @@ fn the_nominal_chain_at_home_is_shown() {
         assert!(near(&matrix(&jacobian["pose"]), &pose), "{}", shipped.name);
     }
     assert!(numbers > 30, "{numbers} frames have Denavit-Hartenberg numbers");
-    let text = prints(&["check", "pps"]);
+    let text = full(&["check", "pps"]);
     assert!(text.contains("Nominal chain at home") && text.contains("Axes and origins at home"), "{text}");
     let slide = json(&["check", "pps", "--json"]);
     assert!(slide["home"]["frames"].as_array().unwrap().iter().any(|link| link.get("dh").is_none()));
@@ -176,10 +178,10 @@ fn angles_beyond_a_turn_are_doubted() {
     let found = warned(&spec("90", ""));
     assert_eq!(found.len(), 2);
     let expected =
-        "an angle of the frame \"elbow\" is 90 rad, more than a turn; write 90deg if degrees are meant";
+        "an angle of the frame \"elbow\" is 90 rad, more than one revolution; write `90deg` for degrees";
     assert_eq!((found[0]["message"].as_str().unwrap(), &found[0]["line"]), (expected, &9.into()));
     assert!(found[1]["message"].as_str().unwrap().starts_with("an angle of the tool is 90 rad"));
-    // With a unit it is meant, and less than a turn is no wonder.
+    // No warning for an angle with a unit, or for one of less than a turn.
     let without = |text: &str| warned(&text.replace("Rx(twist)", "Rx(twist/90)"));
     assert!(without(&spec("\"720 deg\"", "")).is_empty());
     assert!(without(&spec("\"2*pi\"", "")).is_empty());

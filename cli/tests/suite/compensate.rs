@@ -6,13 +6,13 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::tempdir;
 
-use crate::running::{abbe, command, json, narrow, prints, shipped, write};
+use crate::running::{abbe, command, full, json, narrow, prints, shipped, write};
 
 fn path(path: &Path) -> &str {
     path.to_str().expect("a path is text")
 }
 
-/// The numbers of these columns, row by row.
+/// Returns the numbers of these columns, row by row.
 fn columns(file: &Path, names: [&str; 3]) -> Vec<[f64; 3]> {
     let text = fs::read_to_string(file).unwrap();
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
@@ -27,8 +27,8 @@ fn mean_distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().zip(b).map(distance).sum::<f64>() / a.len() as f64
 }
 
-/// The chapter's arm: measured, identified, compensated, and then asked where its tool really is, on commands that
-/// nobody measured.
+/// The arm of the chapter is measured, identified and compensated; then its real tool point is
+/// simulated for commands that were not measured.
 #[test]
 fn what_is_left_is_what_measuring_did_not_tell() {
     let chapter = include_str!("../../../docs/from-measurements-to-a-spec.md");
@@ -61,13 +61,13 @@ fn what_is_left_is_what_measuring_did_not_tell() {
 #[test]
 fn commands_are_in_the_columns_and_units_of_the_data() {
     let folder = tempdir().unwrap();
-    // Named as the spec names them: mm and rad.
+    // Columns named as in the spec, in mm and rad.
     let data =
         write(folder.path(), "data.csv", "d1,d2,d3,q4,q5,q6\n1128,280,300,0.5,0,0\n600,280,300,-0.5,0,0\n");
     let out = folder.path().join("out.csv");
-    let text = prints(&["compensate", "pps", path(&data), "--out", path(&out)]);
+    let text = full(&["compensate", "pps", path(&data), "--out", path(&out)]);
     narrow(&text);
-    assert!(text.contains("2 of 2 rows are compensated"), "{text}");
+    assert!(text.contains("2 of 2 commands corrected"), "{text}");
     let report = json(&["compensate", "pps", path(&data), "--json"]);
     let number = |value: &Value| value.as_f64().unwrap();
     assert!(number(&report["before"]["max"]) > 0.5 && number(&report["after"]["max"]) < 1e-6);
@@ -103,7 +103,7 @@ fn what_cannot_be_had_within_limits_is_said() {
     }
 }
 
-/// Poses of the ideal arm, given as such: the same commands as from its joints.
+/// Poses of the ideal arm as input give the same commands as its joints.
 #[test]
 fn poses_are_as_good_as_joints() {
     let folder = tempdir().unwrap();

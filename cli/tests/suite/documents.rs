@@ -1,27 +1,29 @@
-//! What the documents show is what the command prints: every `$ abbe …` in `docs/` is run, and the lines below it
-//! must stand in its output, in that order.
+//! The documents show the output of the command: every `$ abbe …` in `docs/` is run, and the lines
+//! below it must appear in its output in that order.
 
 use std::fs;
 use std::path::Path;
 
 use super::running::command;
 
-/// The fenced blocks of a document: language and text.
+/// Returns the fenced blocks of a document: language and text.
 pub(crate) fn blocks(text: &str) -> Vec<(&str, &str)> {
     text.split("```").skip(1).step_by(2).filter_map(|block| block.split_once('\n')).collect()
 }
 
 #[test]
 fn what_they_show_is_what_is_printed() {
-    let folder = tempfile::tempdir().unwrap();
     let mut run = 0;
     let pages = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")).unwrap();
     let pages =
         pages.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "md"));
-    for page in pages {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md");
+    for page in pages.chain([readme]) {
+        // Each chapter has its own files.
+        let folder = tempfile::tempdir().unwrap();
         let text = fs::read_to_string(page).unwrap();
         for (language, block) in blocks(&text) {
-            // A file says its name in its first line.
+            // The first line of a file names it.
             let first = block.lines().next().unwrap_or_default();
             let name = match language {
                 "toml" | "csv" => first.strip_prefix("# "),
@@ -40,7 +42,7 @@ fn what_they_show_is_what_is_printed() {
     assert!(run >= 4);
 }
 
-/// What the chapter says of the counts of its plan is what the plan says.
+/// The counts in the chapter are those of the plan file.
 #[test]
 fn counts_in_sentences_are_those_of_the_plan() {
     let text = include_str!("../../../docs/from-measurements-to-a-spec.md");

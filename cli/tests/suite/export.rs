@@ -1,10 +1,10 @@
-//! `abbe export`: where the files go, what is refused, and that text and JSON say the same.
+//! `abbe export`: output paths, refusals, and agreement of text and JSON.
 
 use std::fs;
 
 use tempfile::tempdir;
 
-use crate::running::{abbe, json, prints, write};
+use crate::running::{abbe, full, json, prints, write};
 
 const CELL: &str = "<robot name=\"cell\"><!-- one joint --><link name=\"base\"/><link name=\"arm\"/><link name=\"tool\"/>
 <joint name=\"turn\" type=\"revolute\"><parent link=\"base\"/><child link=\"arm\"/><origin xyz=\"0.3 0 0\"/><axis xyz=\"0 0 1\"/>
@@ -27,12 +27,12 @@ fn the_file_that_it_is_made_from_is_never_written_over() {
     }
     assert_eq!(fs::read_to_string(urdf).unwrap(), CELL);
 
-    // Alone on stdout, beside what is said of it; the same in a file.
-    let printed = abbe(&["export", spec, "--to", "urdf", "--from", urdf]);
+    // The file alone on stdout, its report on stderr; the same content in a file.
+    let printed = abbe(&["export", spec, "--to", "urdf", "--from", urdf, "--full"]);
     assert!(printed.stdout.starts_with("<robot name=\"cell\"><!-- one joint -->"), "{}", printed.stdout);
     assert!(printed.stderr.contains("+") && printed.stderr.contains("The sign"), "{}", printed.stderr);
     let out = folder.path().join("calibrated.urdf");
-    let said = prints(&["export", spec, "--to", "urdf", "--from", urdf, "-o", out.to_str().unwrap()]);
+    let said = full(&["export", spec, "--to", "urdf", "--from", urdf, "-o", out.to_str().unwrap()]);
     assert_eq!(fs::read_to_string(&out).unwrap(), printed.stdout);
     assert!(
         said.contains("\n-<joint name=\"flange\"") && said.contains("\n+<joint name=\"flange\""),

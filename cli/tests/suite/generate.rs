@@ -1,4 +1,4 @@
-//! `abbe generate`: the code that the other doors give.
+//! `abbe generate`: the same code as from the other interfaces.
 
 use std::fs;
 
@@ -44,7 +44,7 @@ fn nothing_is_written_if_the_spec_is_wrong() {
     assert!(!out.exists());
 }
 
-/// A header and a source, which need a folder.
+/// C has a header and a source, and therefore needs a folder.
 #[test]
 fn c_is_two_files() {
     let folder = tempdir().unwrap();
@@ -57,7 +57,8 @@ fn c_is_two_files() {
     }
 }
 
-/// The same bytes every time, wherever they are written; it is nothing for a screen, and has its version.
+/// An FMU has the same bytes wherever it is written, is not printed to a terminal, and follows the
+/// chosen version.
 #[test]
 fn a_functional_mock_up_unit_is_an_archive() {
     let folder = tempdir().unwrap();
@@ -75,7 +76,8 @@ fn a_functional_mock_up_unit_is_an_archive() {
     assert!(refused.status == 2 && refused.stderr.contains("`--lang fmu`"), "{}", refused.stderr);
 }
 
-/// In single precision nothing is in double precision, and what single precision does not have is refused.
+/// Single-precision code contains no double-precision operation; languages without single precision
+/// refuse it.
 #[test]
 fn c_in_single_precision() {
     let folder = tempdir().unwrap();

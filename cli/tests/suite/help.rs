@@ -1,4 +1,5 @@
-//! Help: its examples run, its exit status is what happens, and `docs/reference/command.md` has all of it.
+//! Help: its examples run, its exit status is documented, and `docs/reference/command.md` contains
+//! it.
 
 use std::fs;
 use std::path::Path;
@@ -8,12 +9,12 @@ use expect_test::expect_file;
 use crate::readme;
 use crate::running::{abbe, command, prints};
 
-/// The commands in the order in which they are listed.
+/// Returns the names of the commands in the order of the help.
 fn commands() -> Vec<String> {
     let text = prints(&["--help"]);
     let listed = text.lines().skip_while(|line| *line != "Commands:").skip(1);
     let listed = listed.take_while(|line| !line.is_empty());
-    // What goes on in a second line stands further right.
+    // Continuation lines are indented further.
     let names = listed.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
     names.filter(|name| !name.is_empty() && *name != "help").map(str::to_owned).collect()
 }
@@ -22,7 +23,7 @@ fn help(name: &str) -> String {
     prints(&[name, "--help"])
 }
 
-/// The lines below `Examples:`, without what is said of them.
+/// Returns the command lines below `Examples:` without their descriptions.
 fn examples(help: &str) -> Vec<&str> {
     let lines = help.lines().skip_while(|line| *line != "Examples:").skip(1);
     let lines = lines.take_while(|line| !line.is_empty()).map(str::trim_start);
@@ -36,7 +37,7 @@ const ROBOT: &str = r#"<robot name="robot">
 <joint name="turn" type="continuous"><parent link="base_link"/><child link="tool0"/><origin xyz="0.3 0 0"/></joint>
 </robot>"#;
 
-/// Of a UR5, whose second joint has another zero, and whose third counts the other way round.
+/// Data of a UR5 whose second joint has another zero and whose third joint has the opposite sign.
 const PENDANT: &str = "\
 A1,A2,A3,A4,A5,A6,X,Y,Z,A,B,C
 -62.9,100.6,31.2,24.9,30.2,-104.3,-564.47,648.70,50.42,-101.614,79.202,75.556
@@ -54,7 +55,7 @@ A1,A2,A3,A4,A5,A6,X,Y,Z,A,B,C
 const CALIBRATED: &str = "[manipulator]\nname = \"robot\"\nlength = \"m\"\n[[frame]]\nname = \"turn\"\n\
                           variable = { name = \"turn\", kind = \"revolute\", limits = [-3, 3] }\norigin = { xyz = [0.3, 0, 0] }\n";
 
-/// In their order: later ones read what earlier ones write.
+/// The examples run in order: later ones read the output of earlier ones.
 #[test]
 fn examples_run() {
     let folder = tempfile::tempdir().unwrap();
@@ -112,7 +113,7 @@ fn the_reference_has_every_help() {
     expect_file![path].assert_eq(&expected);
 }
 
-/// Options of the same name mean the same, and stand wherever they make sense.
+/// Options of one name mean the same in every command that needs them.
 #[test]
 fn options_stand_wherever_they_make_sense() {
     let with = |option: &str| -> Vec<String> {
@@ -157,11 +158,11 @@ fn every_command_has_a_manual_page() {
         }
     }
     assert!(page("abbe").contains("abbe\\-identify(1)"));
-    // And the record of what was written.
+    // The other file is the record of written files.
     assert_eq!(fs::read_dir(&out).unwrap().count(), commands().len() + 2);
 }
 
-/// Every option that a document writes after `abbe COMMAND` is one of that command.
+/// Every option that a document writes after `abbe COMMAND` exists in that command.
 #[test]
 fn documents_name_options_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -1,10 +1,10 @@
-//! `abbe import` as it is printed.
+//! `abbe import`: its printed output.
 
 use tempfile::tempdir;
 
 use crate::running::{prints, write};
 
-/// A robot of one joint, with a mass or none.
+/// Returns the URDF of a robot with one joint, with or without a mass.
 fn robot(name: &str, mass: bool) -> String {
     let inertial = if mass { "<inertial><mass value=\"2\"/></inertial>" } else { "" };
     format!(
@@ -30,7 +30,7 @@ fn one_is_not_many() {
     );
 }
 
-/// A title is not empty, and neither is the name of a machine.
+/// An empty name in the URDF gives neither an empty title nor an empty name.
 #[test]
 fn a_robot_without_a_name_is_a_robot() {
     let folder = tempdir().unwrap();

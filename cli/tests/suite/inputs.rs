@@ -1,4 +1,5 @@
-//! Inputs over their ranges: in workspaces, ledgers, files, plans and simulations, unless they are fixed.
+//! Inputs vary over their ranges in workspaces, ledgers, files, plans and simulations, unless they
+//! are set.
 
 use std::fs;
 use std::path::Path;
@@ -6,9 +7,9 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::tempdir;
 
-use crate::running::{abbe, json, prints, write};
+use crate::running::{abbe, full, json, prints, write};
 
-/// The README's arm: it sags by `3e-5/kg * payload` at its elbow, 450 mm from the tool point.
+/// Arm of the README: it sags by `3e-5/kg * payload` at its elbow, 450 mm from the tool point.
 const ARM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/examples/own-robot/specs/arm.toml");
 
 const SAG: &str = "arm sags under its load";
@@ -17,7 +18,7 @@ fn source<'r>(report: &'r Value, name: &str) -> &'r Value {
     report["sources"].as_array().unwrap().iter().find(|source| source["name"] == name).unwrap()
 }
 
-/// 3e-5/kg · payload · 450 mm.
+/// Computes the sag: 3e-5/kg · payload · 450 mm.
 fn sag(payload: f64) -> f64 {
     3e-5 * payload * 450.0
 }
@@ -41,7 +42,7 @@ fn without_a_study_both_ends_are_looked_at() {
     is(&source(&report, SAG)["worst"]["payload"], 5.0);
     is(&report["combined"]["worst"]["payload"], 5.0);
     assert_eq!(report["ledger"]["sources"][0]["name"], SAG);
-    // The worst configuration is where JSON says it is.
+    // The worst configuration in JSON has the largest error.
     let at = &source(&report, SAG)["worst"];
     let q = ["d1", "q2", "q3"].map(|name| at[name].to_string()).join(",");
     let there = json(&["jacobian", ARM, "--q", &q, "--set", "payload=5kg", "--json"]);
@@ -49,7 +50,7 @@ fn without_a_study_both_ends_are_looked_at() {
     let moved = there["error_jacobian"][2][12 + 3].as_f64().unwrap() * turn;
     assert!((moved.abs() - sag(5.0)).abs() < 1e-12, "{moved}");
 
-    let text = prints(&["analyze", ARM]);
+    let text = full(&["analyze", ARM]);
     assert!(text.contains("payload = 5 kg"), "{text}");
     assert!(text.contains("each with payload = 0 kg and 5 kg: 2"), "{text}");
     assert!(text.contains("payload within 0 kg … 5 kg (0 kg at home)"), "{text}");
@@ -65,7 +66,7 @@ fn what_is_set_does_not_move() {
         is(&source(&report, SAG)["plain_max"]["norm"], sag(2.0));
         assert!(source(&report, SAG)["worst"].get("payload").is_none());
     }
-    // The command has the last word.
+    // `--set` overrides the study.
     let folder = tempdir().unwrap();
     let study = "[study]\ntitle = \"Inputs\"\n[workspace.grid]\nq2 = [0, 1]\npayload = [\"1 kg\", \"4 kg\"]";
     let study = write(folder.path(), "study.toml", study);
@@ -137,7 +138,7 @@ fn a_path_may_have_a_column_for_them() {
 fn files_and_figures_have_them() {
     let folder = tempdir().unwrap();
     let out = folder.path().join("out");
-    prints(&["analyze", ARM, "--out", out.to_str().unwrap()]);
+    full(&["analyze", ARM, "--out", out.to_str().unwrap()]);
     let mut reader = csv::Reader::from_path(out.join("configurations.csv")).unwrap();
     let place = reader.headers().unwrap().iter().position(|name| name == "payload (kg)").unwrap();
     let payloads: Vec<String> = reader.records().map(|record| record.unwrap()[place].to_owned()).collect();
@@ -200,7 +201,8 @@ fn mistakes_have_a_place_and_a_way_out() {
     refused("[workspace.inputs]\npayload = [\"2 kg\"]", &["a workspace has one form"]);
 }
 
-/// The README's arm with another error that measurements can tell from the first one.
+/// Writes the arm of the README with a second error that measurements can separate from the sag,
+/// and its map.
 fn map(folder: &Path, inputs: &str) -> String {
     let map = format!(
         "[data]\nuncertainty = \"0.01 mm\"\nbase = \"exact\"\n[joints]\nd1 = {{ column = \"d1\", unit = \"mm\" }}\n\
@@ -226,7 +228,7 @@ fn simulations_and_plans_have_a_column_for_them() {
     let spread = drawn.iter().fold([f64::INFINITY, 0.0_f64], |[a, b], load| [a.min(*load), b.max(*load)]);
     assert!(spread[0] < 500.0 && spread[1] > 4500.0, "{spread:?}");
 
-    // Read back: the sag that the spec names explains what was measured, load by load.
+    // Reading back: the sag of the spec explains the simulated data for each payload.
     fs::write(path("data.csv"), &simulated).unwrap();
     let measured = json(&["measure", ARM, &path("data.csv"), "--map", &with, "--json"]);
     let explained = measured["explained"]["left_rms"].as_f64().unwrap();
@@ -236,9 +238,9 @@ fn simulations_and_plans_have_a_column_for_them() {
     assert!(loads(&fixed).iter().all(|load| *load == 2000.0));
 
     let plan = |more: &[&str]| {
-        prints(&[&["plan", ARM, "--map", &with, "--optimal", "12", "--candidates", "40"], more].concat())
+        full(&[&["plan", ARM, "--map", &with, "--optimal", "12", "--candidates", "40"], more].concat())
     };
-    assert!(plan(&[]).contains("Inputs: payload goes from "), "{}", plan(&[]));
+    assert!(plan(&[]).contains("Inputs: payload from "), "{}", plan(&[]));
     assert!(plan(&["--set", "payload=2kg"]).contains("Inputs: payload stays at 2 kg."));
 
     let without = map(folder.path(), "");
@@ -248,7 +250,7 @@ fn simulations_and_plans_have_a_column_for_them() {
     assert!(run.stderr.contains("`payload = { column = \"payload\", unit = \"kg\" }`"), "{}", run.stderr);
 }
 
-/// The range of a name in the table `[fitted]` of a spec, without units.
+/// Returns the range of a name in the table `[fitted]` of a spec, without units.
 fn fitted(spec: &str, name: &str) -> [f64; 2] {
     let table = spec.split("\n[fitted]\n").nth(1).unwrap();
     let line = table.lines().find(|line| line.starts_with(&format!("{name} = "))).unwrap();
@@ -268,12 +270,12 @@ fn an_identified_spec_remembers_where_it_was_fitted() {
         fs::write(&file, prints(&samples)).unwrap();
     }
     let (found, again) = (path("found.toml"), path("again.toml"));
-    prints(&["identify", ARM, &path("fit.csv"), "--map", &map, "--out", &found]);
+    full(&["identify", ARM, &path("fit.csv"), "--map", &map, "--out", &found]);
     let spec = fs::read_to_string(&found).unwrap();
     let payload = fitted(&spec, "payload");
     assert!(payload[0] >= 0.0 && payload[1] <= 5.0 && payload[0] < payload[1], "{payload:?}");
 
-    // Where it was fitted there is nothing to be said; elsewhere rows are counted, and rightly.
+    // No warning within the fitted range; outside it, the extrapolated rows are counted.
     let inside = abbe(&["measure", &found, &path("fit.csv"), "--map", &map]);
     assert!(inside.status == 0 && !inside.stderr.contains("extrapolated"), "{}", inside.stderr);
     let ranges = ["d1", "q2", "q3", "payload"].map(|name| fitted(&spec, name));
@@ -302,8 +304,8 @@ fn an_identified_spec_remembers_where_it_was_fitted() {
     assert!(run.stderr.contains("of 2000 configurations are outside the ranges"), "{}", run.stderr);
     assert!(run.stderr.contains("payload beyond "), "{}", run.stderr);
 
-    // Identified anew it remembers the new rows.
-    prints(&["identify", &found, &path("other.csv"), "--map", &map, "--out", &again]);
+    // Identified again, the spec records the range of the new rows.
+    full(&["identify", &found, &path("other.csv"), "--map", &map, "--out", &again]);
     let spec = fs::read_to_string(&again).unwrap();
     assert_eq!(spec.matches("[fitted]").count(), 1);
     assert_ne!(fitted(&spec, "payload"), payload);

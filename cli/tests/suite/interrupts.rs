@@ -1,7 +1,7 @@
-//! Ctrl-C in the middle of what takes long: the process is gone at once, with status 130, and has left no file.
+//! Ctrl-C during long work: the process ends at once with status 130 and leaves no file.
 //!
-//! Each command would take minutes. How long one took to be gone is printed; the limit is generous, for the computer may have
-//! other things to do, and far below the end of the work.
+//! Each command would take minutes. The time until the end is printed; its limit is generous for
+//! busy computers, yet far below the duration of the work.
 
 #![cfg(unix)]
 
@@ -15,12 +15,12 @@ use tempfile::tempdir;
 
 use crate::running::{UR5_MAP, command, prints, shipped, write};
 
-/// When it is interrupted.
+/// Time before the interrupt.
 const WORKED: Duration = Duration::from_millis(1500);
-/// When it must be gone.
+/// Limit of the time until the process ends.
 const GONE: Duration = Duration::from_secs(5);
 
-/// Rows of the shipped UR5, the same again and again but for their last joint and a little noise.
+/// Writes rows of the shipped UR5 that repeat except for the last joint and a little noise.
 fn rows(folder: &Path, map: &Path, count: usize) -> String {
     let some = prints(&["simulate", "ur5", "--map", map.to_str().unwrap(), "--samples", "1000"]);
     let mut lines = some.lines();
@@ -35,7 +35,7 @@ fn rows(folder: &Path, map: &Path, count: usize) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// So many frames in a line.
+/// Returns a spec of a serial chain with this number of frames.
 fn long(frames: usize) -> String {
     let mut spec = "[manipulator]\nname = \"long\"\nlength = \"mm\"\n".to_owned();
     for i in 0..frames {
@@ -91,7 +91,7 @@ fn whoever_is_interrupted_is_gone_at_once() {
     }
 }
 
-/// A reader of a pipe waits for it.
+/// The command waits for a pipe that nobody writes to.
 #[test]
 fn a_pipe_that_never_ends_is_no_prison() {
     let folder = tempdir().unwrap();

@@ -58,7 +58,8 @@ fn entries_are_those_computed_by_hand() {
         near(pose(row, 3), expected);
     }
     near(pose(2, 0), -1.0);
-    // F_4 is at (0, 600, 718). Its spin moves the point by Y × (850, 746, 0), its pitch by −Z × (850, 746, 0).
+    // F_4 is at (0, 600, 718). Its spin moves the point by Y × (850, 746, 0), its pitch by −Z ×
+    // (850, 746, 0).
     for (column, expected) in [
         ("e_x4", [0.0, 0.0, -1.0]),
         ("e_s4", [0.0, 0.0, -850.0]),

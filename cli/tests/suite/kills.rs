@@ -1,8 +1,8 @@
-//! Commands that are killed while they write: every file is the one of before or the one of after, none is lost, and the same
-//! command can be run again without `--force`. Of several files some may be new and some old only after `kill -9`, which may
-//! leave temporary files, too.
+//! Commands killed while they write: every file is either old or new, none is lost, and the same
+//! command can run again without `--force`. Only after `kill -9` may a set of files be partly old
+//! and partly new, and may temporary files remain.
 //!
-//! `ABBE_KILLS=1000` kills so often; it takes as long as it takes.
+//! `ABBE_KILLS=1000` sets the number of kills.
 
 #![cfg(unix)]
 
@@ -20,12 +20,12 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use crate::running::command;
 use crate::workshop::{Workshop, contents};
 
-/// How often, if nobody says, and in a thorough run.
+/// Default number of kills, and that of a thorough run.
 const KILLS: [usize; 2] = [18, 54];
-/// At most so long.
+/// Limit of the total time.
 const TIME: Duration = Duration::from_secs(15);
 
-/// A command in two forms whose files differ; `{}` is `d` or `t`, `[]` is 1 or 2.
+/// Commands in two forms whose output differs; `{}` is `d` or `t`, `[]` is 1 or 2.
 const COMMANDS: [&str; 9] = [
     "generate {}.spec.toml --out arm.rs",
     "simulate s.toml --map m.toml --samples 5000 --seed [] --out data.csv",
@@ -54,7 +54,7 @@ fn start(words: &[String]) -> Command {
     command
 }
 
-/// A workshop and the files that both forms of a command leave there, and how long it takes.
+/// Workshop, the output files of both forms of a command, and its duration.
 struct Victim {
     workshop: Workshop,
     line: &'static str,
@@ -81,12 +81,12 @@ impl Victim {
         Self { workshop, line, forms: [first, second], time }
     }
 
-    /// The temporary files that are there: those that `docs/output.md` says may be deleted.
+    /// Returns the temporary files present, which `docs/output.md` allows to delete.
     fn temporary(&self) -> Vec<PathBuf> {
         contents(self.workshop.0.path()).into_keys().filter(|path| is_temporary(path)).collect()
     }
 
-    /// Of which form the files are that differ; none if they are of both.
+    /// Returns the form that wrote the differing files; none if they are from both.
     fn form(&self) -> Option<usize> {
         let now = contents(self.workshop.0.path());
         for (path, before) in &self.forms[0] {
@@ -109,7 +109,7 @@ fn whoever_is_killed_leaves_whole_files_and_can_be_run_again() {
     let asked = std::env::var("ABBE_KILLS").ok().map(|kills| kills.parse::<usize>().unwrap());
     let mut random = Xoshiro256PlusPlus::seed_from_u64(9);
     let victims = COMMANDS.map(Victim::new);
-    // Below `nohup` this one is not heard.
+    // SIGHUP is ignored under `nohup`.
     let ignored = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = ignored.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
@@ -132,7 +132,7 @@ fn whoever_is_killed_leaves_whole_files_and_can_be_run_again() {
         let before = victim.form();
         let next = before.map_or(0, |form| 1 - form);
         let mut child = start(&words(&victim.workshop, victim.line, next)).spawn().unwrap();
-        // Most of them towards the end, where files are written.
+        // Most kills hit the end of the run, where files are written.
         let share = if random.random_bool(0.7) {
             random.random_range(0.6..1.1)
         } else {
@@ -144,7 +144,7 @@ fn whoever_is_killed_leaves_whole_files_and_can_be_run_again() {
         let status = child.wait().unwrap();
         let ended = match number {
             9 => status.signal() == Some(9),
-            // Before it can hear them they end it as they end any other.
+            // A signal before the handler is installed ends the process directly.
             n => status.code() == Some(128 + n) || status.signal() == Some(n),
         };
         let finished = status.code().is_some_and(|code| code <= 1);
@@ -152,14 +152,14 @@ fn whoever_is_killed_leaves_whole_files_and_can_be_run_again() {
         killed += usize::from(ended);
         let after = victim.form();
         if after.is_none() {
-            // Between two files of a set only what cannot be caught can strike.
+            // Only SIGKILL, which cannot be caught, may leave a set partly written.
             assert!(ended && number == 9, "{}: {name}: a set in halves", victim.line);
             mixed += 1;
         }
         let found = victim.temporary();
         assert!(found.is_empty() || number == 9, "{}: {name}: {status} leaves {found:?}", victim.line);
         left += usize::from(!found.is_empty());
-        // What was killed is done again, without --force and whatever is left, and leaves no more.
+        // The killed command runs again without --force, whatever it left, and leaves nothing more.
         if !found.is_empty() || after.is_none() || random.random_bool(0.2) {
             let again = start(&words(&victim.workshop, victim.line, next)).status().unwrap();
             assert!(again.code().is_some_and(|code| code <= 1), "{}: {again}", victim.line);

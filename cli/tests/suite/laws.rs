@@ -1,7 +1,7 @@
-//! What is promised of every command, for inputs that nobody chose: it ends; what it refuses it refuses with a place and a way
-//! out; what it reads stays as it was; no number that it gives is none; and the same input gives the same bytes.
+//! Properties of every command under random inputs: it ends; refusals have a place and a help line;
+//! inputs stay unchanged; output numbers are finite; the same input gives the same bytes.
 //!
-//! Seeded. `ABBE_ABUSE=20000` takes so many inputs, as long as it takes, and prints the figures with `--nocapture`.
+//! Seeded. `ABBE_ABUSE=20000` sets the number of inputs; statistics are printed with `--nocapture`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -16,10 +16,10 @@ use abbe_tests::thorough;
 use crate::running::{Run, command, prints};
 use crate::workshop::{FILES, WRITING, Workshop, contents};
 
-/// How long a run may take: one that is not optimized, on a computer that is busy.
+/// Limit of the duration of a run, for an unoptimized build on a busy computer.
 const LONGEST: Duration = Duration::from_secs(300);
 
-/// Every command that prints only, with what it reads.
+/// Commands that only print, with their inputs.
 const PRINTING: [(&str, &[&str]); 8] = [
     ("check s.toml", &["s.toml", "rail.csv"]),
     ("jacobian s.toml --q 100,0.2 --json", &["s.toml", "rail.csv"]),
@@ -31,7 +31,7 @@ const PRINTING: [(&str, &[&str]); 8] = [
     ("monitor s.toml d.csv t.csv --map m.toml --json", &["s.toml", "rail.csv", "m.toml", "d.csv", "t.csv"]),
 ];
 
-/// What stands where a word of a command line was.
+/// Replacements for words of a command line.
 const WORDS: [&str; 38] = [
     "",
     "-",
@@ -73,13 +73,13 @@ const WORDS: [&str; 38] = [
     "--help=x",
 ];
 
-/// So many in a thorough run, and half of it otherwise, if nobody asks for another number.
+/// Returns the number of inputs: `ABBE_ABUSE`, or `thoroughly`, halved in a normal run.
 fn many(thoroughly: u64) -> u64 {
     let usual = if thorough() { thoroughly } else { thoroughly / 2 };
     std::env::var("ABBE_ABUSE").ok().and_then(|many| many.parse().ok()).unwrap_or(usual)
 }
 
-/// A run in the workshop. One that does not end fails the test.
+/// Runs the command in the workshop. Fails the test if it does not end.
 fn run(workshop: &Workshop, words: &[String]) -> (Run, Duration) {
     let heard = ["stdout", "stderr"].map(|_| tempfile::NamedTempFile::new().unwrap());
     let [out, err] = heard.each_ref().map(|file| File::create(file.path()).unwrap());
@@ -101,21 +101,21 @@ fn run(workshop: &Workshop, words: &[String]) -> (Run, Duration) {
     (Run { status: status.code().unwrap(), stdout, stderr }, taken)
 }
 
-/// A refusal has a place and a way out and no results; nothing else ends with 2, and nothing with more.
-fn is_told(run: &Run) -> Result<(), String> {
+/// Checks that a refusal has a place, a help line and no results, and that the exit status matches.
+fn check_refusal(run: &Run) -> Result<(), String> {
     if run.stderr.contains("panicked") {
         return Err("it panics".to_owned());
     }
     match run.status {
         0 | 1 => Ok(()),
         2 => {
-            // The command line is shown by clap, with the argument in the message.
+            // Clap reports command-line errors, with the argument in the message.
             let of_a_file = run.stderr.contains("--> ") && run.stderr.contains("help: ");
             let of_an_argument = run.stderr.contains("try '--help'") && run.stderr.contains(['\'', '<']);
-            // Warnings may stand before it.
-            let told = run.stderr.lines().any(|line| line.starts_with("error: "));
-            let told = told && (of_a_file || of_an_argument);
-            match told && run.stdout.is_empty() {
+            // Warnings may come first.
+            let is_explained = run.stderr.lines().any(|line| line.starts_with("error: "));
+            let is_explained = is_explained && (of_a_file || of_an_argument);
+            match is_explained && run.stdout.is_empty() {
                 true => Ok(()),
                 false => Err("it is refused without a place, a way out, or with results".to_owned()),
             }
@@ -124,7 +124,7 @@ fn is_told(run: &Run) -> Result<(), String> {
     }
 }
 
-/// A word of a text that is a number and none.
+/// Returns the first word of a text that is a number but not finite.
 fn not_finite(text: &str) -> Option<&str> {
     let words = text.split(|c: char| !(c.is_alphanumeric() || c == '∞' || c == '_'));
     words.into_iter().find(|word| {
@@ -133,7 +133,7 @@ fn not_finite(text: &str) -> Option<&str> {
     })
 }
 
-/// What ended how.
+/// Number of runs by outcome.
 #[derive(Default)]
 struct Figures {
     answered: usize,
@@ -153,12 +153,12 @@ impl Figures {
     }
 }
 
-/// The files of one run: what changed, and what is new.
+/// Returns the files that one run changed or created.
 fn changes(before: &BTreeMap<PathBuf, Vec<u8>>, after: &BTreeMap<PathBuf, Vec<u8>>) -> BTreeSet<PathBuf> {
     before.keys().chain(after.keys()).filter(|path| before.get(*path) != after.get(*path)).cloned().collect()
 }
 
-/// Any command, any of its input files damaged.
+/// Every command, with any of its input files damaged.
 #[test]
 fn damaged_files_are_refused_or_answered() {
     let workshop = Workshop::new();
@@ -170,7 +170,7 @@ fn damaged_files_are_refused_or_answered() {
     for seed in 0..many(70) {
         let mut c = Choices::seeded(seed);
         let (line, inputs) = commands[seed as usize % commands.len()];
-        let name = *c.of(inputs);
+        let name = *c.one_of(inputs);
         let spoilt = if name.ends_with(".csv") { damaged_table } else { damaged };
         let spoilt = spoilt(&mut c, &whole[name]);
         fs::write(workshop.at(name), &spoilt).unwrap();
@@ -183,13 +183,13 @@ fn damaged_files_are_refused_or_answered() {
         let (run, taken) = run(&workshop, &words);
         let input =
             || format!("{seed}: {line}\n{name}:\n{}\n{}", String::from_utf8_lossy(&spoilt), run.stderr);
-        is_told(&run).unwrap_or_else(|what| panic!("{what}: {}", input()));
+        check_refusal(&run).unwrap_or_else(|what| panic!("{what}: {}", input()));
         let after = contents(workshop.0.path());
         for path in changes(&before, &after) {
             assert!(!before.contains_key(&path), "{} has changed: {}", path.display(), input());
             assert!(run.status != 2, "{} is there: {}", path.display(), input());
         }
-        // A name may be such a word, and a constant of a language; a number not.
+        // Such words are allowed as names and as constants of generated code, but not as numbers.
         let numbers = !line.contains("--report") && !line.starts_with("generate");
         if numbers && run.status != 2 && not_finite(&String::from_utf8_lossy(&spoilt)).is_none() {
             let written = after.iter().filter(|(path, _)| !before.contains_key(*path));
@@ -200,7 +200,7 @@ fn damaged_files_are_refused_or_answered() {
             }
         }
         figures.add(&run, taken);
-        // As it was.
+        // Restores the input.
         fs::write(workshop.at(name), &whole[name]).unwrap();
         for path in changes(&before, &after) {
             fs::remove_file(path).unwrap();
@@ -211,7 +211,7 @@ fn damaged_files_are_refused_or_answered() {
     assert!(figures.answered > 0 && figures.refused > 0);
 }
 
-/// Any command, any of its words replaced, left out, doubled or moved.
+/// Every command, with any of its words replaced, removed, doubled or moved.
 #[test]
 fn damaged_command_lines_are_refused_or_answered() {
     let workshop = Workshop::new();
@@ -228,7 +228,7 @@ fn damaged_command_lines_are_refused_or_answered() {
             words.push("out".to_owned());
         }
         for _ in 0..1 + c.below(2) {
-            // Not the command itself: what stands there is another one.
+            // The command itself stays: another word there would be another command.
             let (at, to) = (1 + c.below(words.len().max(2) - 1), 1 + c.below(words.len().max(2) - 1));
             if at >= words.len() {
                 continue;
@@ -237,12 +237,12 @@ fn damaged_command_lines_are_refused_or_answered() {
                 0 => _ = words.remove(at),
                 1 => words.insert(at, words[at].clone()),
                 2 => words.swap(at, to),
-                _ => words[at] = (*c.of(&WORDS)).to_owned(),
+                _ => words[at] = (*c.one_of(&WORDS)).to_owned(),
             }
         }
         let before = contents(workshop.0.path());
         let (run, taken) = run(&workshop, &words);
-        is_told(&run).unwrap_or_else(|what| panic!("{what}: {seed}: {words:?}\n{}", run.stderr));
+        check_refusal(&run).unwrap_or_else(|what| panic!("{what}: {seed}: {words:?}\n{}", run.stderr));
         let after = contents(workshop.0.path());
         let forced = words.iter().any(|word| word == "--force");
         for path in changes(&before, &after) {
@@ -263,7 +263,7 @@ fn damaged_command_lines_are_refused_or_answered() {
     assert!(figures.answered > 0 && figures.refused > 0);
 }
 
-/// A second run, and any number of threads: what is printed, and every file.
+/// A second run, and any number of threads, give the same text and the same files.
 #[test]
 fn the_same_input_gives_the_same_bytes() {
     let workshop = Workshop::new();
@@ -300,7 +300,7 @@ fn the_same_input_gives_the_same_bytes() {
     assert!(compared > 30, "{compared}");
 }
 
-/// No file may grow beyond a limit, whatever it is: all files are of before, or all of after.
+/// Files are either all old or all new if a limit on their size stops the run.
 #[test]
 fn a_disk_that_fills_up_leaves_all_files_or_none() {
     let workshop = Workshop::new();
@@ -317,7 +317,7 @@ fn a_disk_that_fills_up_leaves_all_files_or_none() {
         let output = limited.args(&words).stdin(Stdio::null()).stdout(Stdio::null()).output().unwrap();
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
         let run = Run { status: output.status.code().unwrap(), stdout: String::new(), stderr };
-        is_told(&run).unwrap_or_else(|what| panic!("{what}: {line}, {limit}: {}", run.stderr));
+        check_refusal(&run).unwrap_or_else(|what| panic!("{what}: {line}, {limit}: {}", run.stderr));
         let after = contents(workshop.0.path());
         let changed = changes(&before, &after);
         if run.status == 2 {
@@ -325,7 +325,7 @@ fn a_disk_that_fills_up_leaves_all_files_or_none() {
             assert!(changed.is_empty(), "{line}, {limit}: {changed:?}");
         } else {
             done += 1;
-            // What was written may not have been noted on the full disk.
+            // The record may have failed on the full disk.
             words.push("--force".to_owned());
             let (whole, _) = self::run(&workshop, &words);
             assert!(whole.status <= 1 && contents(workshop.0.path()) == after, "{line}, {limit}");
@@ -338,7 +338,7 @@ fn a_disk_that_fills_up_leaves_all_files_or_none() {
     assert!(full > 0 && done > 0, "{full} {done}");
 }
 
-/// The laws see what they are to see.
+/// Each property detects its violation.
 #[test]
 fn what_breaks_a_law_is_seen() {
     let run = |status, stdout: &str, stderr: &str| Run {
@@ -346,16 +346,16 @@ fn what_breaks_a_law_is_seen() {
         stdout: stdout.to_owned(),
         stderr: stderr.to_owned(),
     };
-    let told = "error: no\n--> a.toml\n = help: do so";
-    assert!(is_told(&run(2, "", told)).is_ok() && is_told(&run(0, "yes", "")).is_ok());
+    let refusal = "error: no\n--> a.toml\n = help: do so";
+    assert!(check_refusal(&run(2, "", refusal)).is_ok() && check_refusal(&run(0, "yes", "")).is_ok());
     for (status, stdout, stderr) in [
-        (2, "half a result", told),
+        (2, "half a result", refusal),
         (2, "", "error: no\n--> a.toml"),
         (2, "", "error: no\n = help: do so"),
         (101, "", ""),
         (0, "", "thread 'main' panicked at"),
     ] {
-        assert!(is_told(&run(status, stdout, stderr)).is_err(), "{status} {stderr}");
+        assert!(check_refusal(&run(status, stdout, stderr)).is_err(), "{status} {stderr}");
     }
     for text in ["1,NaN", "x = inf mm", "-inf", "[Infinity]", "∞°"] {
         assert!(not_finite(text).is_some(), "{text}");

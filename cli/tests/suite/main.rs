@@ -1,7 +1,8 @@
-//! The command as its users run it: the binary itself, its output, its exit status.
+//! Tests of the binary as users run it: its output and its exit status.
 
 mod abuse;
 mod analyze;
+mod answers;
 mod bad_input;
 mod bound;
 mod check;

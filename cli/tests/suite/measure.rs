@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::tempdir;
 
-use crate::running::{abbe, json, narrow, prints, write};
+use crate::running::{abbe, full, json, narrow, prints, write};
 
 fn path(path: &Path) -> &str {
     path.to_str().expect("a path is text")
@@ -20,7 +20,7 @@ fn the_papers_plan_has_450_rows() {
     assert_eq!((&report["sets"][0]["rows"], &report["sets"][1]["rows"]), (&112.into(), &338.into()));
     let text = fs::read_to_string(&plan).unwrap();
     assert_eq!((text.lines().next(), text.lines().count()), (Some("d1,d2,d3,q4"), 451));
-    narrow(&prints(&["plan", "pps", "--map", "pps", "--sets", "pps"]));
+    narrow(&full(&["plan", "pps", "--map", "pps", "--sets", "pps"]));
 }
 
 #[test]
@@ -36,13 +36,13 @@ fn chosen_poses_tell_more_than_as_many_others() {
     assert!(mean(&best) < mean(&any));
     let run = abbe(&["plan", "ur5", "--map", "ur5", "--optimal", "5"]);
     assert_eq!(run.status, 2);
-    assert!(run.stderr.contains("so few configurations"), "{}", run.stderr);
+    assert!(run.stderr.contains("too few configurations"), "{}", run.stderr);
     let run = abbe(&["plan", "ur5", "--map", "ur5", "--optimal", "50", "--candidates", "1"]);
     assert_eq!(run.status, 2);
     assert!(run.stderr.contains("50 configurations cannot be chosen from 1 samples"), "{}", run.stderr);
 }
 
-/// The best by one criterion is not so good by the other; the model's own error is in what is promised.
+/// The best set by one criterion is worse by the other; predictions include the model error.
 #[test]
 fn criteria_and_the_models_own_error() {
     let plan = |more: &[&str]| {
@@ -72,7 +72,7 @@ fn simulated_rows_are_the_same_every_time() {
 fn accuracy_and_repeatability_are_those_put_in() {
     let folder = tempdir().unwrap();
     let plan = folder.path().join("plan.csv");
-    // Ten configurations, thirty visits each.
+    // Ten configurations with thirty visits each.
     let configurations = prints(&["simulate", "pps", "--map", "pps", "--samples", "10"]);
     let commanded = |line: &str| line.split(',').take(4).collect::<Vec<_>>().join(",") + "\n";
     let mut lines = configurations.lines().map(commanded);
@@ -88,7 +88,7 @@ fn accuracy_and_repeatability_are_those_put_in() {
         (&repeated["configurations"], &repeated["visits"], &repeated["fewest"]),
         (&10.into(), &300.into(), &30.into())
     );
-    // The repeatable sources are all there is beside chance; chance stays within its bounds.
+    // Apart from random errors within their bounds, the repeatable sources explain everything.
     assert!(report["explained"]["share"].as_f64().unwrap() > 0.99);
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let explained = &report["explained"];
@@ -97,21 +97,21 @@ fn accuracy_and_repeatability_are_those_put_in() {
         (number(&explained["likely"][0])..=number(&explained["likely"][1])).contains(&inside),
         "{explained}"
     );
-    // Random sources alone: 0.0992 mm at most; noise of the targets on top.
+    // Random sources alone give at most 0.0992 mm; the noise of the targets adds to it.
     let rp = repeated["rp"]["max"].as_f64().unwrap();
     assert!((0.05..0.35).contains(&rp), "{rp}");
-    // ΔX by hand, of the first row of errors.csv.
+    // ΔX of the first row of errors.csv, computed by hand.
     let out = folder.path().join("out");
-    let text = prints(&["measure", "pps", path(&data), "--map", "pps", "--out", path(&out)]);
+    let text = full(&["measure", "pps", path(&data), "--map", "pps", "--out", path(&out)]);
     narrow(&text);
     assert!(text.contains("ISO 9283"));
-    assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains("as it should be"), "{text}");
+    assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains("as expected"), "{text}");
     assert_eq!(fs::read_to_string(out.join("errors.csv")).unwrap().lines().count(), 301);
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     for expected in ["cf. Figure 13", "cf. Figure 14", "Repeatability: how often"] {
         assert!(page.contains(expected), "{expected}");
     }
-    // Without noise and chance the sources explain everything.
+    // Without noise and random errors, the sources explain everything.
     let exact = ["simulate", "pps", "--map", "pps", path(&plan), "--out", path(&data), "--noise", "0"];
     prints(&exact);
     let report = json(&["measure", "pps", path(&data), "--map", "pps", "--json"]);
@@ -163,18 +163,19 @@ fn maps_and_plans_with_mistakes() {
     refused(&["simulate", "pps", "--map", "pps", "--outliers", "2"], &["a share is from 0 to 1"]);
 }
 
-/// Only of the machine that the paper measured.
+/// The comparison with the paper appears only for the machine that the paper measured.
 #[test]
 fn figures_of_the_paper_are_of_its_machine() {
     let folder = tempdir().unwrap();
     let (data, out) = (folder.path().join("data.csv"), folder.path().join("out"));
     prints(&["simulate", "ur5", "--map", "ur5", "--samples", "20", "--out", path(&data)]);
-    prints(&["measure", "ur5", path(&data), "--map", "ur5", "--out", path(&out)]);
+    full(&["measure", "ur5", path(&data), "--map", "ur5", "--out", path(&out)]);
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("Accuracy: errors in space") && !page.contains("of the paper"));
 }
 
-/// Each instrument in its own unit, in text, as JSON, on the page, and what is left of every reading in a file.
+/// Each instrument reports in its own unit in text, JSON and page, and errors.csv has the residual
+/// of every reading.
 #[test]
 fn instruments_are_measured_each_in_its_unit() {
     let folder = tempdir().unwrap();
@@ -190,13 +191,13 @@ fn instruments_are_measured_each_in_its_unit() {
     let report = json(&[&measure[..], &["--json"]].concat());
     let wire = &report["instruments"][0];
     assert_eq!((&wire["name"], &wire["unit"], &wire["count"]), (&"wire".into(), &"um".into(), &40.into()));
-    // 10 µm of noise, less what goes into the zero and the place: 12 % at one standard deviation.
+    // 10 µm of noise, reduced by the fitted zero and fixture: 12 % at one standard deviation.
     let rms = wire["left"]["rms"].as_f64().unwrap();
     assert!((6.0..14.0).contains(&rms), "{wire}");
     let tracker = report["instruments"][1]["left"]["rms"].as_f64().unwrap();
     assert!((tracker / (0.02 * 3f64.sqrt()) - 1.0).abs() < 0.3, "{report}");
-    let text = prints(&[&measure[..], &["--out", path(&out)]].concat());
-    for said in ["wire", "um", "tracker", "std. error", "Where the instruments stand was found"] {
+    let text = full(&[&measure[..], &["--out", path(&out)]].concat());
+    for said in ["wire", "um", "tracker", "std. error", "The stations of the instruments were fitted"] {
         assert!(text.contains(said), "{said}: {text}");
     }
     narrow(&text);
@@ -206,7 +207,8 @@ fn instruments_are_measured_each_in_its_unit() {
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains("tracker_z (mm)"));
 }
 
-/// What a map calls the zero of a joint is added after unit and sign when rows are read, and taken off when they are written.
+/// The joint zero of a map is added after unit and sign when rows are read, and subtracted when
+/// they are written.
 #[test]
 fn a_zero_and_a_rotation_vector_are_read_as_they_are_written() {
     let folder = tempdir().unwrap();
@@ -236,6 +238,7 @@ fn a_zero_and_a_rotation_vector_are_read_as_they_are_written() {
     let report = json(&["measure", "ur5", path(&data), "--map", path(&other), "--json"]);
     let errors = report["errors"].as_array().unwrap();
     let norm = errors.iter().find(|error| error["name"] == "norm").unwrap();
-    // The spec's random sources stay: tenths of a millimetre. A zero that is not undone is decimetres.
+    // The random sources of the spec remain: tenths of a millimetre. A missing zero would be
+    // decimetres.
     assert!(norm["rms"].as_f64().unwrap() < 1.0, "{norm}");
 }

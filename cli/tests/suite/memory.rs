@@ -1,5 +1,5 @@
-//! How much memory a row takes: what a long file takes more than a short one, row by row. Memory is the same on every computer,
-//! time is not.
+//! Memory per row of measurements: the difference between a long and a short file. Unlike time,
+//! memory does not depend on the computer.
 
 #![cfg(target_os = "linux")]
 
@@ -15,7 +15,7 @@ use crate::running::{UR5_MAP, command, prints, shipped, write};
 /// Rows of the two files.
 const ROWS: [usize; 2] = [5_000, 45_000];
 
-/// The most memory that a command had while it was looked at, which is nearly until its end: bytes.
+/// Returns the peak memory of a command in bytes, polled until shortly before its end.
 fn peak(words: &[&str]) -> f64 {
     let mut child = command(words).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let status = format!("/proc/{}/status", child.id());
@@ -33,8 +33,8 @@ fn peak(words: &[&str]) -> f64 {
     }
 }
 
-/// Bytes that a row more takes.
-fn of_a_row(words: impl Fn(usize) -> Vec<String>) -> f64 {
+/// Returns the bytes per additional row.
+fn bytes_per_row(words: impl Fn(usize) -> Vec<String>) -> f64 {
     let [few, many] = ROWS.map(|rows| {
         let words = words(rows);
         peak(&words.iter().map(String::as_str).collect::<Vec<_>>())
@@ -46,7 +46,8 @@ fn data(folder: &Path, rows: usize) -> String {
     folder.join(format!("{rows}.csv")).to_str().unwrap().to_owned()
 }
 
-/// The first twenty rows of a file again and again, twenty-five times a day, each a little higher.
+/// Writes the first twenty rows of a file repeatedly, twenty-five times per day, each slightly
+/// higher.
 fn visited_again(folder: &Path, rows: usize) -> String {
     let text = fs::read_to_string(data(folder, rows)).unwrap();
     let mut lines = text.lines();
@@ -63,8 +64,8 @@ fn visited_again(folder: &Path, rows: usize) -> String {
     write(folder, &format!("again-{rows}.csv"), &checks).to_str().unwrap().to_owned()
 }
 
-/// Of a million rows it is less: what was given back between two steps is used again. Some 2 MB more or less, 50 bytes a row, are
-/// by chance: how far threads are ahead of what is written.
+/// The limits hold for a million rows, too, where freed memory is reused. About 2 MB, or 50 bytes
+/// per row, vary with the lead of the threads over the writer.
 #[test]
 fn rows_are_small() {
     let folder = tempdir().unwrap();
@@ -80,16 +81,18 @@ fn rows_are_small() {
     }
     let own = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>();
     let on = |command: &str, more: &[&str]| {
-        of_a_row(|rows| own(&[&[command, spec, &data(folder.path(), rows), "--map", map], more].concat()))
+        bytes_per_row(
+            |rows| own(&[&[command, spec, &data(folder.path(), rows), "--map", map], more].concat()),
+        )
     };
-    let samples = of_a_row(|rows| {
+    let samples = bytes_per_row(|rows| {
         own(&["simulate", spec, "--map", map, "--samples", &rows.to_string(), "--out", out, "--force"])
     });
     let days = UR5_MAP.replace("[data]\n", "[data]\ntime = \"day\"\n");
     let days = write(folder.path(), "days.toml", &days).to_str().unwrap().to_owned();
     let checked =
-        of_a_row(|rows| own(&["monitor", spec, &visited_again(folder.path(), rows), "--map", &days]));
-    let judged = of_a_row(|rows| {
+        bytes_per_row(|rows| own(&["monitor", spec, &visited_again(folder.path(), rows), "--map", &days]));
+    let judged = bytes_per_row(|rows| {
         let file = data(folder.path(), rows);
         own(&["identify", spec, &file, "--map", map, "--test", &file])
     });

@@ -7,9 +7,9 @@ use tempfile::{TempDir, tempdir};
 
 use crate::documents::blocks;
 use crate::report::is_alone;
-use crate::running::{abbe, command, json, narrow, prints, write};
+use crate::running::{abbe, command, full, json, narrow, prints, write};
 
-/// The files of the chapter, and checks of the machine until a day.
+/// Writes the files of the chapter, and checks of the machine for some days.
 fn chapter() -> TempDir {
     let folder = tempdir().unwrap();
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/watch-a-machine.md");
@@ -22,7 +22,7 @@ fn chapter() -> TempDir {
     }
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (spec, map) = (at("worn.toml"), at("floor.toml"));
-    prints(&["plan", &spec, "--map", &map, "--sets", &at("mornings.toml"), "--out", &at("mornings.csv")]);
+    full(&["plan", &spec, "--map", &map, "--sets", &at("mornings.toml"), "--out", &at("mornings.csv")]);
     prints(&[
         "simulate",
         &spec,
@@ -37,7 +37,7 @@ fn chapter() -> TempDir {
     folder
 }
 
-/// The rows of some days, with the heading.
+/// Returns the rows of some days, with the header.
 fn days(folder: &Path, days: std::ops::Range<usize>) -> String {
     let text = fs::read_to_string(folder.join("checks.csv")).unwrap();
     let lines: Vec<&str> = text.lines().collect();
@@ -68,10 +68,10 @@ fn the_elbow_of_the_chapter_is_found() {
     let [first, last] = [0, 1].map(|i| finding["between"][i].as_f64().unwrap());
     assert!(first <= 60.0 && 60.0 <= last, "{first} {last}");
     let alarm = report["alarm"]["check"].as_u64().unwrap();
-    // 0.002 mrad at some 560 mm is about 1 µm a day.
+    // 0.002 mrad at about 560 mm is about 1 µm per day.
     assert!((60..80).contains(&alarm), "{alarm}");
 
-    // The map may have the tolerance: the limit of the largest error.
+    // The map may give the tolerance as the limit of the largest error.
     let limits = fs::read_to_string(&map).unwrap() + "\n[accept]\nmean = \"0.01 mm\"\nmax = \"0.1 mm\"\n";
     let limited = write(folder.path(), "limited.toml", &limits);
     let limited = limited.to_str().unwrap();
@@ -79,12 +79,12 @@ fn the_elbow_of_the_chapter_is_found() {
     assert_eq!((&of_map["tolerance"], &of_map["finding"]), (&0.1.into(), &report["finding"]));
 
     let used_up =
-        prints(&["monitor", &spec, &checks, "--map", &map, "--disable", "wear", "--tolerance", "0.01mm"]);
-    assert!(used_up.contains("more than the tolerance of 0.01 mm"), "{used_up}");
+        full(&["monitor", &spec, &checks, "--map", &map, "--disable", "wear", "--tolerance", "0.01mm"]);
+    assert!(used_up.contains("exceeds the tolerance of 0.01 mm"), "{used_up}");
 
     assert_eq!(call(&["--check"]).status, 1);
     assert_eq!(call(&[]).status, 0);
-    assert!(call(&["--since", "88"]).stdout.contains("No alarm"));
+    assert!(call(&["--since", "88"]).stdout.contains("no alarm"));
     let wrong = call(&["--since", "soon"]);
     assert_eq!(wrong.status, 2);
     assert!(wrong.stderr.contains("`soon` is no date"), "{}", wrong.stderr);
@@ -115,9 +115,12 @@ fn files_are_checks_by_the_dates_in_their_names() {
         fs::write(folder.path().join(name), days(folder.path(), day..day + 1)).unwrap();
     }
     let run = |files: &[&str]| {
-        let arguments =
-            [&["monitor", "worn.toml"][..], files, &["--map", "files.toml", "--disable", "wear", "--check"]]
-                .concat();
+        let arguments = [
+            &["monitor", "worn.toml"][..],
+            files,
+            &["--map", "files.toml", "--disable", "wear", "--check", "--full"],
+        ]
+        .concat();
         let output = command(&arguments).current_dir(folder.path()).output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         (output.status.code(), text(output.stdout), text(output.stderr))

@@ -1,4 +1,5 @@
-//! Output cannot hurt: inputs stay, what others wrote stays, files are whole or not there.
+//! Output files: inputs and files of others stay unchanged, and files are written completely or not
+//! at all.
 
 use std::fs;
 use std::path::Path;
@@ -65,7 +66,7 @@ fn the_map_beside_a_found_spec_is_not_that_of_the_run() {
         refused(&run, "this run reads this file");
         assert!(run.stderr.contains("x.map.toml"), "{}", run.stderr);
     }
-    // And a map of somebody's is not replaced, and the spec not written without it.
+    // A map of the user is not replaced, and the spec is not written without its map.
     refused(
         &run(&workshop, "identify s.toml d.csv --map m.toml --out", &workshop.path("x.toml"), &[]),
         "not written by abbe",
@@ -92,11 +93,11 @@ fn what_abbe_did_not_write_needs_force() {
             None => (workshop.path("out.x"), workshop.at("out.x")),
         };
         let done = |run: Run| assert!(run.status <= 1, "{line}: {}", run.stderr);
-        // Ten times a day, no question.
+        // Repeated runs replace their own files without asking.
         done(run(&workshop, line, &out, &[]));
         done(run(&workshop, line, &out, &[]));
         let written = fs::read(&file).unwrap();
-        // Changed by hand: a row of a plan that was measured, a spec that was corrected.
+        // Changed by hand: a plan with measured values, a corrected spec.
         fs::write(&file, [&written[..], b"\nby hand\n"].concat()).unwrap();
         let before = contents(workshop.0.path());
         refused(&run(&workshop, line, &out, &[]), "was changed since");
@@ -104,7 +105,7 @@ fn what_abbe_did_not_write_needs_force() {
         done(run(&workshop, line, &out, &["--force"]));
         assert!(fs::read(&file).unwrap() == written, "{line}");
         done(run(&workshop, line, &out, &[]));
-        // An empty file has nothing to lose: `mktemp` makes one.
+        // An empty file may be replaced: `mktemp` creates one.
         fs::write(&file, "").unwrap();
         done(run(&workshop, line, &out, &[]));
         for name in ["out.x", "out.map.toml", "out"] {
@@ -129,7 +130,7 @@ fn a_folder_of_somebodys_is_left_alone() {
         assert_eq!(run(&workshop, line, &workshop.path("mine"), &["--force"]).status, 0);
         assert_eq!(fs::read_to_string(workshop.at("mine/thesis.tex")).unwrap(), "ten years");
         fs::remove_dir_all(workshop.at("mine")).unwrap();
-        // An empty one is as good as none, and a job that fails makes none.
+        // An empty folder may be used, and a failed job creates none.
         fs::create_dir(workshop.at("mine")).unwrap();
         assert_eq!(run(&workshop, line, &workshop.path("mine"), &[]).status, 0);
         fs::remove_dir_all(workshop.at("mine")).unwrap();
@@ -150,7 +151,7 @@ fn links_are_followed_and_modes_kept() {
     fs::create_dir(workshop.at("elsewhere")).unwrap();
     link(Path::new("elsewhere/arm.rs"), &workshop.at("link.rs"), false);
     link(Path::new("link.rs"), &workshop.at("again.rs"), false);
-    // To a file that is not there yet, and to one that is.
+    // A new file, and existing files of different modes.
     for expected in [None, Some(0o600), Some(0o664), Some(0o755)] {
         if let Some(mode) = expected {
             set("elsewhere/arm.rs", mode);
@@ -184,7 +185,7 @@ fn what_is_no_file_is_written_through() {
         words.push(out.to_owned());
         words
     };
-    // Stdout by all its names; what would be printed there goes to stderr.
+    // Stdout under all its names; the text goes to stderr instead.
     for out in ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] {
         let run = abbe(&plan(out));
         assert_eq!((run.status, &run.stdout[..], &run.stderr), (0, PATH, &data), "{out}");
@@ -217,16 +218,19 @@ fn what_is_no_file_is_written_through() {
         if reader == "cat" {
             assert_eq!((run.status, String::from_utf8(read.stdout).unwrap()), (0, PATH.to_owned()));
         } else {
-            // Whether it had gone before we wrote is a race; that it is said if so, is not.
+            // The reader may be gone before or after the write; a broken pipe is reported.
             assert!(run.status == 0 || run.stderr.contains("Broken pipe"), "{}", run.stderr);
         }
         assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
     }
-    // No map can stand beside a device.
-    refused(&run(&workshop, "identify s.toml d.csv --map m.toml --out", "/dev/null", &[]), "no file");
+    // No map can be written beside a device.
+    refused(
+        &run(&workshop, "identify s.toml d.csv --map m.toml --out", "/dev/null", &[]),
+        "not a regular file",
+    );
 }
 
-/// The disk is full: here, no file may grow beyond a limit.
+/// Simulates a full disk by a limit on the size of files.
 #[test]
 #[cfg(unix)]
 fn a_full_disk_leaves_the_old_file() {
@@ -261,7 +265,7 @@ fn runs_at_once_do_not_disturb_each_other() {
         assert!(child.wait().unwrap().success());
     }
     assert_eq!(contents(workshop.0.path()).len(), FILES.len() + 2);
-    // Whoever was last, it is known to be ours.
+    // The file is in the record, whichever run wrote last.
     for i in 0..2 {
         assert!(start(i).wait().unwrap().success());
     }
@@ -297,8 +301,8 @@ fn names_of_columns_come_back_whatever_they_are() {
     }
 }
 
-/// Any sequence of runs over any files: what a run reads is as it was; without `--force` so is what others wrote; and a run that
-/// fails has changed nothing.
+/// Random sequences of runs over random files: inputs stay unchanged; without `--force`, so do
+/// files of others; a failed run changes nothing.
 #[test]
 #[cfg(unix)]
 fn inputs_are_untouched_and_files_whole_or_not_there() {
@@ -328,7 +332,7 @@ fn inputs_are_untouched_and_files_whole_or_not_there() {
         let forced = random.random_bool(0.3);
         let read = |name: &&str| fs::read(workshop.at(name)).unwrap();
         let (all, before) = (contents(workshop.0.path()), inputs.iter().map(read).collect::<Vec<_>>());
-        // What somebody wrote whom nobody forced.
+        // Files of others that were not forced.
         let theirs = FILES.iter().filter(|_| !forced).chain(["mine.txt"].iter().filter(|_| !forced));
         let theirs: Vec<_> = theirs.map(|name| (name, read(name))).collect();
         let run = run(&workshop, line, &workshop.path(out), if forced { &["--force"] } else { &[] });
@@ -341,7 +345,7 @@ fn inputs_are_untouched_and_files_whole_or_not_there() {
             written += 1;
             assert!(run.status <= 1, "{line} {out}: {}", run.stderr);
         }
-        // What was forced over is put back: from then on it is abbe's no more.
+        // Restores files replaced by force; they no longer match the record.
         for (path, content) in &all {
             if FILES.iter().chain(&["mine.txt"]).any(|name| workshop.at(name) == *path) {
                 fs::write(path, content).unwrap();

@@ -31,5 +31,5 @@ fn paths_of_any_bytes() {
     // A study beside it is found, too.
     fs::write(name(b"arm\xff.study.toml"), "[study]\ntitle = \"Any\"\n[workspace.joints]\nsamples = 5\n")
         .unwrap();
-    assert!(abbe(&[word("analyze"), spec]).stdout.contains("\nAny\n"));
+    assert!(abbe(&[word("analyze"), spec]).stdout.contains("Study     Any\n"));
 }

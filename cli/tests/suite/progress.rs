@@ -1,5 +1,5 @@
-//! A run that takes long says so to whoever watches it on a terminal: how much is done, of how much, how long the rest takes,
-//! and how it is ended; and writes nothing of that into a pipe.
+//! A long run shows its progress on a terminal: count, total, remaining time and Ctrl-C. Nothing of
+//! that goes into a pipe.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -16,13 +16,13 @@ use nix::unistd::Pid;
 use crate::running::command;
 use crate::workshop::Workshop;
 
-/// How long a run may take until it tells something.
+/// Limit of the time until the first progress line.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// How many rows a run has that takes long.
+/// Number of rows of a long run.
 const ROWS: usize = 400_000;
 
-/// Runs that take minutes: they are ended as soon as they have told.
+/// Runs that take minutes; the test ends them after the first progress line.
 const LONG: [&str; 4] = [
     "analyze s.toml --study slow.toml",
     "plan s.toml --map m.toml --optimal 2000 --candidates 50000",
@@ -30,14 +30,14 @@ const LONG: [&str; 4] = [
     "identify s.toml long.csv --map m.toml --terms auto",
 ];
 
-/// Runs with parts that take seconds or minutes and have no count: how long they are at work is what they tell.
+/// Runs with long parts that have no count; they show the elapsed time.
 const UNCOUNTED: [&str; 3] = [
     "check long.toml",
     "measure s.toml long.csv --map m.toml",
     "simulate s.toml --map m.toml --samples 2000000",
 ];
 
-/// The workshop with measurements and a chain that are long.
+/// Returns the workshop with long measurements and a long chain.
 fn workshop() -> Workshop {
     let workshop = Workshop::new();
     let row = |i: usize| {
@@ -53,12 +53,12 @@ fn workshop() -> Workshop {
     workshop
 }
 
-/// What comes out of one end, as it comes.
+/// Reads from one end of a terminal on a thread.
 fn heard(mut from: File) -> Receiver<Vec<u8>> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let mut piece = [0; 4096];
-        // A terminal that nobody writes to any more ends with an error.
+        // Reading from a terminal without a writer ends with an error.
         while let Ok(length @ 1..) = from.read(&mut piece) {
             if sender.send(piece[..length].to_vec()).is_err() {
                 return;
@@ -68,8 +68,8 @@ fn heard(mut from: File) -> Receiver<Vec<u8>> {
     receiver
 }
 
-/// How much is done, of how much, if a line of progress says so, and how long the rest takes and how to end it.
-fn told(text: &str) -> Option<(usize, usize)> {
+/// Parses count and total from a progress line that also has the remaining time and Ctrl-C.
+fn progress_counts(text: &str) -> Option<(usize, usize)> {
     let (before, after) = text.split_once(" done, ")?;
     let (before, total) = before.rsplit_once(" of ")?;
     let done = before.rsplit(|c: char| !c.is_ascii_digit()).next()?;
@@ -79,7 +79,7 @@ fn told(text: &str) -> Option<(usize, usize)> {
     Some((done.parse().ok()?, total.parse().ok()?))
 }
 
-/// Ctrl-C; the exit status.
+/// Sends Ctrl-C and returns the exit status.
 fn interrupted(mut child: Child) -> Option<i32> {
     kill(Pid::from_raw(child.id().try_into().unwrap()), Signal::SIGINT).unwrap();
     let status = child.wait().unwrap();
@@ -108,7 +108,7 @@ fn what_takes_long_says_how_long_to_a_terminal_alone() {
             let piece = pieces.recv_timeout(left).unwrap_or_else(|_| panic!("{line} tells nothing: {text}"));
             text += &String::from_utf8_lossy(&piece);
             let at_work = text.contains("at work for ") && text.contains("s, Ctrl-C ends it");
-            if let Some(found) = told(&text) {
+            if let Some(found) = progress_counts(&text) {
                 break found;
             } else if at_work && UNCOUNTED.contains(&line) {
                 break (0, 2);
@@ -116,7 +116,7 @@ fn what_takes_long_says_how_long_to_a_terminal_alone() {
         };
         assert!(found.0 < found.1 && found.1 > 1, "{line}: {found:?}");
         assert_eq!(interrupted(watched), Some(130), "{line}");
-        // As long again: it would have told by now.
+        // Waits as long again, in which the second would have written.
         thread::sleep(begun.elapsed());
         assert!([Some(0), Some(130)].contains(&interrupted(piped)), "{line}");
         let mut text = String::new();
@@ -133,7 +133,7 @@ fn what_takes_long_says_how_long_to_a_terminal_alone() {
 
 #[test]
 fn what_a_line_of_progress_tells() {
-    assert_eq!(told("\r####------ 12 of 345 done, 6s left, Ctrl-C ends it"), Some((12, 345)));
+    assert_eq!(progress_counts("\r####------ 12 of 345 done, 6s left, Ctrl-C ends it"), Some((12, 345)));
     for text in [
         "",
         "12 of 345 done",
@@ -141,6 +141,6 @@ fn what_a_line_of_progress_tells() {
         "12 of 345 done, 0s left, Ctrl-C ends it",
         "of done, 6s left, Ctrl-C ends it",
     ] {
-        assert_eq!(told(text), None, "{text}");
+        assert_eq!(progress_counts(text), None, "{text}");
     }
 }

@@ -1,15 +1,15 @@
-//! What the README says to do works: its spec, its commands; its code is that of the example crate.
+//! The README: its spec and its commands work, and its code is that of the example crate.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::running::{command, json, prints};
+use super::running::{command, full, json};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The blocks of that language, without their fences.
+/// Returns the blocks of this language, without their fences.
 fn blocks(language: &str) -> Vec<String> {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
     let fenced = readme.split("```").skip(1).step_by(2);
@@ -22,7 +22,7 @@ fn example(file: &str) -> String {
     fs::read_to_string(root().join("tests/examples/own-robot").join(file)).unwrap()
 }
 
-/// The spec that it shows.
+/// Returns the spec in the README.
 pub(crate) fn spec() -> String {
     blocks("toml").swap_remove(0)
 }
@@ -36,7 +36,8 @@ fn its_code_is_that_of_the_example() {
     assert!(example("src/main.rs").starts_with(main));
 }
 
-/// 20 µrad × 850 mm with the arm stretched: the lever begins at the shoulder's axis, not at the elbow.
+/// 20 µrad × 850 mm with the arm stretched: the lever begins at the axis of the shoulder, not at
+/// the elbow.
 #[test]
 fn its_shoulder_encoder_turns_about_the_shoulder() {
     let folder = tempfile::tempdir().unwrap();
@@ -52,16 +53,16 @@ fn its_shoulder_encoder_turns_about_the_shoulder() {
     let norm = encoder["plain_max"]["norm"].as_f64().unwrap();
     assert!((norm - 0.0170).abs() < 1e-5, "{norm}");
     assert_eq!(json(&["check", path, "--json"])["notes"].as_array().map(Vec::len), Some(0));
-    // And as an error of the frame it is another one, which is said.
+    // As an error of the frame it differs, and a message says so.
     let spec = fs::read_to_string(path).unwrap();
     let start = spec.find("joint = \"q2\"").unwrap();
     let end = spec[start..].find("error = \"20e-6\"").unwrap() + start;
     let other = format!("{}frame = \"shoulder\"\ne_r{}", &spec[..start], &spec[end + "error".len()..]);
     fs::write(path, other).unwrap();
-    let note = "`shoulder encoder` at shoulder turns about an axis 400 mm from that of q2; if the joint's own error is \
-                meant, write `joint = \"q2\"`.";
+    let note = "`shoulder encoder` at shoulder rotates about an axis 400 mm from that of q2; for an error of the \
+                joint itself, write `joint = \"q2\"`.";
     assert_eq!(json(&["check", path, "--json"])["notes"][0], note);
-    let text = prints(&["check", path]).split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = full(&["check", path]).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains(note), "{text}");
 }
 

@@ -10,14 +10,14 @@ use tempfile::tempdir;
 
 use crate::running::{abbe, prints, shipped, write};
 
-/// The files of a folder with their texts.
+/// Reads the files of a folder.
 fn files(folder: &Path) -> BTreeMap<String, String> {
     let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("a file").path());
     let name = |path: &Path| path.file_name().expect("a name").to_string_lossy().into_owned();
     entries.map(|path| (name(&path), fs::read_to_string(&path).expect("a text"))).collect()
 }
 
-/// What an analysis writes.
+/// Returns the files that an analysis writes.
 fn written(arguments: &[&str]) -> BTreeMap<String, String> {
     let folder = tempdir().expect("a folder");
     let out = folder.path().join("out");
@@ -26,7 +26,7 @@ fn written(arguments: &[&str]) -> BTreeMap<String, String> {
     files(Path::new(out))
 }
 
-/// Well-formed, with a title and numbers, and nothing that is not finite.
+/// Asserts that an SVG is well-formed, has a title and numbers, and that all numbers are finite.
 fn is_drawn(name: &str, svg: &str) {
     let document = Document::parse(svg).unwrap_or_else(|error| panic!("{name}: {error}"));
     let root = document.root_element();
@@ -43,7 +43,8 @@ fn is_drawn(name: &str, svg: &str) {
     }
 }
 
-/// Nothing is loaded and nothing is run: no script and no address in it, and links go to files beside it. Every figure is drawn.
+/// Asserts that a page loads and runs nothing: no script and no address, only links to files beside
+/// it; and that every figure is drawn.
 pub(crate) fn is_alone(report: &str) {
     for address in ["<script", "http:", "https:", "//cdn", "@import", "url(", "src=", "NaN", "Infinity"] {
         assert!(!report.contains(address), "{address}");
@@ -96,16 +97,16 @@ fn the_report_stands_alone() {
     let files = written(&["pps"]);
     let report = &files["report.html"];
     is_alone(report);
-    // The figures of the study, and what is certified. All are on paper, too.
+    // The figures of the study, and the bound. All are printed on paper, too.
     assert_eq!(report.matches("<div class=\"picture\"><svg").count(), 8);
     assert!(!report.contains("display: none"));
-    // What was read.
+    // The inputs.
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == "pps").expect("it is shipped");
     for text in [shipped.spec, shipped.study.expect("it has a study")] {
         let hash = sha256(text);
         assert!(report.contains(&hash), "{hash}");
     }
-    // Conventions, verdicts, and what cannot be had.
+    // Conventions, verdicts and limitations.
     for words in [
         "spin about Y, roll about Z, pitch about X",
         "misses by 4 %",
@@ -140,7 +141,7 @@ fn every_shipped_manipulator_has_a_report() {
     }
 }
 
-/// Verdicts are on what is published.
+/// Only published figures have verdicts.
 #[test]
 fn verdicts_have_a_column_where_there_are_any() {
     for (arguments, any) in [(&["pps"][..], true), (&["scara"], false)] {
@@ -152,7 +153,7 @@ fn verdicts_have_a_column_where_there_are_any() {
 #[test]
 fn a_folder_that_cannot_be_written_to_stays_as_it_was() {
     let folder = tempdir().expect("a folder");
-    // The place of one of the files is taken by a folder: none of the others may appear.
+    // A folder has the name of one of the files: no other file may appear.
     let out = folder.path().join("out");
     fs::create_dir_all(out.join("report.html")).expect("a folder");
     let run = abbe(&["analyze", "pps", "--force", "--out", out.to_str().expect("a path")]);
@@ -177,7 +178,7 @@ fn a_study_says_which_figures() {
     is_drawn("travel-q4.svg", &files["travel-q4.svg"]);
     assert!(files["report.html"].contains("&lt;b&gt; &amp; &quot;b&quot;"));
 
-    // A source that is switched off is said to be so.
+    // The page names a disabled source as disabled.
     let off = study("[[figure]]\nkind = \"cloud\"\nsource = \"assembly\"\n");
     let files = written(&["pps", "--study", &off, "--disable", "assembly"]);
     assert!(files["report.html"].contains("“assembly” is switched off"));

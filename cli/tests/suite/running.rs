@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
-/// What a run gave.
+/// Output and exit status of a run.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Run {
     pub(crate) status: i32,
@@ -14,7 +14,7 @@ pub(crate) struct Run {
     pub(crate) stderr: String,
 }
 
-/// The binary with these arguments; nothing of the environment decides what it prints.
+/// Creates a command whose output does not depend on the environment.
 pub(crate) fn command<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_abbe"));
     command.args(arguments).env_remove("NO_COLOR").env_remove("COLUMNS").stdin(Stdio::null());
@@ -30,14 +30,19 @@ pub(crate) fn abbe<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Run {
     run
 }
 
-/// What it prints when all is well.
+/// Returns the stdout of a successful run.
 pub(crate) fn prints<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> String {
     let run = abbe(arguments);
     assert_eq!(run.status, 0, "{}", run.stderr);
     run.stdout
 }
 
-/// The JSON that it prints: finite numbers only, in one line.
+/// Returns the stdout of a successful run with `--full`.
+pub(crate) fn full(arguments: &[&str]) -> String {
+    prints(&[arguments, &["--full"]].concat())
+}
+
+/// Returns the printed JSON: one line of finite numbers.
 pub(crate) fn json<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Value {
     let text = prints(arguments);
     assert_eq!(text.lines().count(), 1);
@@ -47,7 +52,7 @@ pub(crate) fn json<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Value {
     serde_json::from_str(&text).expect("this is JSON")
 }
 
-/// A text for a terminal of 100 columns.
+/// Asserts that a text fits a terminal of 100 columns.
 pub(crate) fn narrow(text: &str) {
     let widest = text.lines().max_by_key(|line| line.chars().count()).unwrap_or_default();
     assert!(widest.chars().count() <= 100, "{widest}");
@@ -55,14 +60,14 @@ pub(crate) fn narrow(text: &str) {
     assert!(!text.contains(['\u{1b}', '\u{a0}']), "no colours, no spaces that are none");
 }
 
-/// A file in a folder.
+/// Writes a file in a folder.
 pub(crate) fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
     let path = folder.join(name);
     fs::write(&path, text).expect("the folder can be written to");
     path
 }
 
-/// A map of the shipped UR5 whose columns are called as its variables.
+/// Returns a map of the shipped UR5 whose columns have the names of its variables.
 #[cfg(unix)]
 pub(crate) const UR5_MAP: &str = r#"
 [data]
@@ -79,7 +84,7 @@ columns = ["x", "y", "z"]
 unit = "mm"
 "#;
 
-/// A shipped spec.
+/// Returns a shipped spec.
 pub(crate) fn shipped(name: &str) -> &'static str {
     let shipped = abbe_manipulators::SHIPPED.iter().find(|shipped| shipped.name == name);
     shipped.expect("this is shipped").spec

@@ -1,13 +1,13 @@
-//! What a study can ask for: workspaces of every form, compensation, draws, threads, interruption.
+//! Studies: workspaces of every form, compensation, draws, threads, interruption.
 
 use std::fs;
 
 use serde_json::Value;
 use tempfile::tempdir;
 
-use crate::running::{abbe, command, json, narrow, prints, write};
+use crate::running::{abbe, command, full, json, narrow, prints, write};
 
-/// A study of a manipulator, with further arguments.
+/// Runs a study of a manipulator with further arguments.
 fn study(manipulator: &str, text: &str, more: &[&str]) -> Value {
     let folder = tempdir().unwrap();
     let path = write(folder.path(), "study.toml", &format!("[study]\ntitle = \"A study\"\n{text}"));
@@ -57,7 +57,7 @@ fn a_box_is_reached_by_inverse_kinematics() {
         &["`z` is missing", "\"free\" or \"home\""],
     );
     refused("[workspace.box]\nx = [1]\ny = [1]\nz = [1]\nsolve = [\"q9\"]", &[], &["no variable `q9`"]);
-    // A point and no more cannot be reached either.
+    // A single unreachable point.
     refused(
         "[workspace.box]\nx = [\"90 m\"]\ny = [1626]\nz = [1568]\nsolve = [\"d1\"]",
         &[],
@@ -72,11 +72,9 @@ fn a_path_is_read_from_a_file_beside_the_study() {
     let path = write(folder.path(), "study.toml", text);
     write(folder.path(), "path.csv", "d1 (m), q4 (deg),x\n0.038,-90,250\n# a remark\n1.128,0,0\n2.3,0,0\n");
     let arguments = ["analyze", "pps", "--study", path.to_str().unwrap()];
-    let text = prints(&arguments);
+    let text = full(&arguments);
     narrow(&text);
-    assert!(
-        text.contains("3 configurations of path.csv") && text.contains("d1 = 2300 mm: d1 would have to be")
-    );
+    assert!(text.contains("3 configurations of path.csv") && text.contains("d1 = 2300 mm: needs d1 = "));
     let report = json(&[&arguments[..], &["--json"]].concat());
     assert_eq!((&report["configurations"], &report["unreachable"]), (&2.into(), &1.into()));
     assert_eq!(report["combined"]["worst_parameters"].as_object().unwrap().keys().collect::<Vec<_>>(), ["x"]);
@@ -133,9 +131,9 @@ fn the_ledger_ranks_and_the_budget_is_read_backwards() {
     let combined = &report["combined"];
     assert!(number(&combined["worst_case_radius"]) > radius);
     assert!(number(&combined["enclosing_sphere"]["radius"]) <= number(&combined["repeatable_radius"]));
-    let text = prints(&["analyze", "pps"]);
+    let text = full(&["analyze", "pps"]);
     for expected in
-        ["What the tolerance allows", "gain per percent", "random: standard deviation", "smallest sphere"]
+        ["Error allowance", "gain per percent", "random: standard deviation", "smallest enclosing sphere"]
     {
         assert!(text.contains(expected), "{expected}\n{text}");
     }
@@ -153,7 +151,7 @@ fn draws_are_the_same_for_a_seed_and_any_number_of_threads() {
         number(&worst["largest"]) < radius + 0.02 && number(&worst["quantiles"][0]["value"]) > 0.9 * radius
     );
     for manipulator in ["pps", "puma560", "machine3"] {
-        narrow(&prints(&["analyze", manipulator, "--monte-carlo", "100"]));
+        narrow(&full(&["analyze", manipulator, "--monte-carlo", "100"]));
     }
     for bad in [["--monte-carlo", "0"], ["--monte-carlo", "1e3"], ["--threads", "0"], ["--seed", "-1"]] {
         let run = abbe(&[&["analyze", "pps"], &bad[..]].concat());
@@ -169,10 +167,14 @@ fn first_order_that_is_too_coarse_is_a_warning() {
         write(folder.path(), "study.toml", &text.replace("tolerance = \"0.5 mm\"", "tolerance = \"0.1 mm\""));
     let run = abbe(&["analyze", "pps", "--study", path.to_str().unwrap(), "--json"]);
     assert_eq!(run.status, 0);
-    assert!(run.stderr.starts_with("warning: first order is off by up to 0.01"), "{}", run.stderr);
+    assert!(
+        run.stderr.starts_with("warning: first order differs from the exact chain by up to 0.01"),
+        "{}",
+        run.stderr
+    );
     assert_eq!(abbe(&["analyze", "pps"]).stderr, "");
     // Random sources alone are compared at their bounds.
-    assert!(prints(&["analyze", "puma560"]).contains("J_e ε of the random sources at their bounds"));
+    assert!(full(&["analyze", "puma560"]).contains("J_e ε of the random sources at their bounds"));
 }
 
 #[test]
@@ -197,7 +199,7 @@ fn an_interruption_leaves_no_half_written_file() {
     let arguments = ["analyze", "pps", "--study", path.to_str().unwrap(), "--out", out.to_str().unwrap()];
     let mut child = command(&arguments).spawn().unwrap();
     let begun = Instant::now();
-    // What is written has no name yet, but the process has it open.
+    // The file under construction has no name, but the process has it open.
     let open = format!("/proc/{}/fd", child.id());
     let is_written = || {
         let files = fs::read_dir(&open).into_iter().flatten().flatten();
@@ -213,7 +215,7 @@ fn an_interruption_leaves_no_half_written_file() {
     assert!(!out.exists());
 }
 
-/// Where Euler rows do not exist a configuration is counted and shown, and the others are analyzed.
+/// Configurations at singular Euler angles are counted and shown; the others are analyzed.
 #[test]
 fn euler_singularities_are_counted() {
     let folder = tempdir().unwrap();
@@ -229,7 +231,7 @@ fn euler_singularities_are_counted() {
     assert_eq!((&result["configurations"], &result["unreachable"]), (&Value::from(23), &Value::from(2)));
 }
 
-/// The verdict stands first, and `--check` makes it the exit status.
+/// The verdict is the first line, and `--check` makes it the exit status.
 #[test]
 fn a_verdict_is_an_exit_status() {
     let folder = tempdir().unwrap();
@@ -240,12 +242,20 @@ fn a_verdict_is_an_exit_status() {
     };
     let missed = run("tolerance = \"0.5 mm\"\n", &["--check"]);
     assert_eq!(missed.status, 1, "{}", missed.stderr);
-    assert!(missed.stdout.starts_with("Verdict: not met\n"), "{}", missed.stdout);
+    assert!(
+        missed.stdout.contains(": NOT MET, tolerance 0.5 mm at 20 configurations\n"),
+        "{}",
+        missed.stdout
+    );
     assert_eq!(run("tolerance = \"0.5 mm\"\n", &[]).status, 0);
     let met = run("tolerance = { position = \"20 mm\", orientation = \"20 mrad\" }\n", &["--check"]);
     assert_eq!(met.status, 0, "{}", met.stderr);
-    assert!(met.stdout.starts_with("Verdict: met\nPosition: met for certain."), "{}", met.stdout);
-    // One of two is enough to miss.
+    assert!(
+        met.stdout.contains(": MET, tolerance 20 mm and 20 mrad at 20 configurations\n"),
+        "{}",
+        met.stdout
+    );
+    // One of two tolerances suffices to miss.
     let turned = run("tolerance = { position = \"20 mm\", orientation = \"0.02 mrad\" }\n", &["--check"]);
     assert_eq!(turned.status, 1);
     let none = run("", &["--check"]);
@@ -254,7 +264,7 @@ fn a_verdict_is_an_exit_status() {
     assert!(!run("", &[]).stdout.contains("Verdict"));
 }
 
-/// Rows 4 to 6 in pictures, the budget and the draws on the page and in a file.
+/// Rows 4 to 6 have figures; the budget and the draws are on the page and in a file.
 #[test]
 fn a_report_says_what_it_covers() {
     let folder = tempdir().unwrap();
@@ -263,7 +273,7 @@ fn a_report_says_what_it_covers() {
     let path = write(folder.path(), "study.toml", text);
     let out = folder.path().join("out");
     let study = path.to_str().unwrap();
-    prints(&["analyze", "pps", "--study", study, "--monte-carlo", "500", "--out", out.to_str().unwrap()]);
+    full(&["analyze", "pps", "--study", study, "--monte-carlo", "500", "--out", out.to_str().unwrap()]);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     let places =
         ["Verdict: not met", "Every source alone", "Ledger of the orientation", "Uncertainty budget (mm)"]
@@ -273,14 +283,15 @@ fn a_report_says_what_it_covers() {
         let svg = std::fs::read_to_string(out.join(figure)).unwrap();
         assert!(svg.contains("mrad") && !svg.contains(" mm<"), "{figure}");
     }
-    // Three quantiles, the largest, mean and standard deviation at both places, below the heading.
+    // A header, then three quantiles, the largest norm, mean and standard deviation at both
+    // configurations.
     let drawn = std::fs::read_to_string(out.join("monte_carlo.csv")).unwrap();
     assert_eq!(drawn.lines().count(), 1 + 2 * 6);
     let sources = std::fs::read_to_string(out.join("sources.csv")).unwrap();
     assert!(sources.contains("random standard deviation") && sources.contains("worst case"));
 }
 
-/// Found, said in one line, and left for a study that is given.
+/// A study beside the spec is named in a note, and ignored if a study is given.
 #[test]
 fn a_study_beside_the_spec() {
     let folder = tempdir().unwrap();
@@ -292,10 +303,10 @@ fn a_study_beside_the_spec() {
     assert!(without.stdout.contains("No study") && without.stderr.is_empty(), "{}", without.stderr);
     write(folder.path(), "arm.study.toml", &study("Beside"));
     let beside = abbe(&["analyze", spec]);
-    assert!(beside.stdout.contains("\nBeside\n"), "{}", beside.stdout);
+    assert!(beside.stdout.contains("Study     Beside\n"), "{}", beside.stdout);
     let note =
         format!("note: the study is {}, beside the spec\n", folder.path().join("arm.study.toml").display());
     assert_eq!(beside.stderr, note);
     let given = abbe(&["analyze", spec, "--study", other.to_str().unwrap()]);
-    assert!(given.stdout.contains("\nAnother\n") && given.stderr.is_empty(), "{}", given.stderr);
+    assert!(given.stdout.contains("Study     Another\n") && given.stderr.is_empty(), "{}", given.stderr);
 }

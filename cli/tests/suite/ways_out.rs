@@ -1,4 +1,4 @@
-//! What is said to those who gave something else than they meant: the cause, with its unit and its number, and a way out.
+//! Messages for plausible mistakes: the cause, with unit and number, and a remedy.
 
 use std::path::Path;
 
@@ -22,18 +22,18 @@ q6 = { column = "q6", unit = "deg" }
 
 const POINT: &str = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
 
-/// A map of the UR5.
+/// Returns a map of the UR5.
 fn map(measured: &str) -> String {
     let head = "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.1 mrad\"\n";
     format!("{head}{JOINTS}{measured}")
 }
 
-/// As one line.
+/// Joins the lines of a text.
 fn joined(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A folder that nobody may write in: whoever is root gives up that right first.
+/// Makes a folder read-only. Root first gives up its privilege.
 #[cfg(unix)]
 #[test]
 fn a_folder_that_may_only_be_read() {
@@ -68,7 +68,7 @@ fn a_folder_that_may_only_be_read() {
     }
 }
 
-/// A pose that no joints reach: how far it is away, with its unit, and it counts among the rows.
+/// An unreachable pose: the message gives its distance with a unit, and it counts among the rows.
 #[test]
 fn poses_out_of_reach_are_counted_and_have_a_unit() {
     let folder = tempdir().unwrap();
@@ -83,16 +83,16 @@ fn poses_out_of_reach_are_counted_and_have_a_unit() {
     assert_eq!(status, 1, "{stderr}");
     narrow(&stdout);
     let said = joined(&stdout);
-    assert!(said.contains("3 of 4 rows are compensated"), "{stdout}");
-    let away = said.split("out of reach, at best ").nth(1).unwrap_or_else(|| panic!("{stdout}"));
+    assert!(said.contains("3 of 4 commands corrected"), "{stdout}");
+    let away = said.split("out of reach by ").nth(1).unwrap_or_else(|| panic!("{stdout}"));
     let mut words = away.split(' ');
     let distance: f64 = words.next().unwrap().parse().unwrap();
-    // The arm is 0.9 m long and more than 4 m away.
+    // The arm is 0.9 m long, and the pose more than 4 m away.
     assert!((3800.0..4300.0).contains(&distance) && words.next() == Some("mm"), "{stdout}");
-    assert!(std::fs::read_to_string(&page).unwrap().contains("3 of 4 rows are compensated"));
+    assert!(std::fs::read_to_string(&page).unwrap().contains("3 of 4 commands corrected"));
 }
 
-/// A test file that is the fitted one, or has some of its rows.
+/// A test file that is the fitted file, or shares rows with it.
 #[test]
 fn test_rows_that_were_fitted_judge_nothing() {
     let folder = tempdir().unwrap();
@@ -114,13 +114,13 @@ fn test_rows_that_were_fitted_judge_nothing() {
             assert_eq!(run.status, 0, "{}", run.stderr);
             narrow(&run.stdout);
             let expected = match known {
-                60 => "60 of the 60 test rows are rows of the fit, digit by digit: by them nothing is judged",
-                _ => "1 of the 21 test rows is a row of the fit, digit by digit: by it nothing is judged",
+                60 => "60 of the 60 test rows are rows of the fit: they cannot validate the model",
+                _ => "1 of the 21 test rows is a row of the fit: it cannot validate the model",
             };
             for said in [joined(&run.stdout), joined(&run.stderr)] {
                 assert_eq!(said.contains(expected), known > 0, "{said}");
             }
-            let claims = ["Nothing of the test rows was used", "used for nothing else"];
+            let claims = ["for validation only", "used for nothing else"];
             let page = std::fs::read_to_string(&page).unwrap();
             assert_eq!(page.contains(claims[1]), known == 0);
             assert_eq!(run.stdout.contains(claims[0]), known == 0 && more == ["--full"]);
@@ -128,7 +128,7 @@ fn test_rows_that_were_fitted_judge_nothing() {
     }
 }
 
-/// A title above the heading is named, `sep=;` is obeyed.
+/// A title above the header is reported; `sep=;` is supported.
 #[test]
 fn what_stands_above_a_heading() {
     let folder = tempdir().unwrap();
@@ -149,7 +149,8 @@ fn what_stands_above_a_heading() {
     }
 }
 
-/// A way out must be one: without `--fold` there is nothing to leave out, and of one thing it is not said that they are.
+/// Suggestions are applicable: none to leave out `--fold` if it is not given, and no plural for one
+/// thing.
 #[test]
 fn robots_in_the_words_of_their_numbers() {
     let folder = tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! A folder with an arm and all kinds of files that a command reads, to write beside them.
+//! Folder with an arm and every kind of input file, as a place for outputs.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -74,11 +74,11 @@ const URDF: &str = r#"<robot name="arm">
 </robot>
 "#;
 
-/// As a path and as a plan: the map's column has the name that says its unit.
+/// Used as a path and as a plan; the column names of the map include units.
 pub(crate) const PATH: &str =
     "d1,q2 (deg)\n0,-90\n100,-60\n200,-30\n300,0\n500,30\n600,60\n700,90\n800,120\n";
 
-/// The files of it, by what they are.
+/// Files of the workshop.
 pub(crate) const FILES: [&str; 12] = [
     "s.toml",
     "rail.csv",
@@ -94,7 +94,7 @@ pub(crate) const FILES: [&str; 12] = [
     "dh.csv",
 ];
 
-/// Every command that writes, with what it reads of it, without the path that it writes to: a file, or a folder.
+/// Commands that write, with their inputs and without the output path, which is a file or a folder.
 pub(crate) const WRITING: [(&str, &[&str]); 18] = [
     ("man --out", &[]),
     ("generate s.toml --out", &["s.toml", "rail.csv"]),
@@ -131,7 +131,7 @@ pub(crate) const WRITING: [(&str, &[&str]); 18] = [
     ("import dh.csv --dh standard --units mm,deg --out", &["dh.csv"]),
 ];
 
-/// Whether a command writes a folder, and then a file in it.
+/// Returns the name of a file in the output folder of a command, if it writes a folder.
 pub(crate) fn in_folder(command: &str) -> Option<&'static str> {
     let folders = [
         ("man", "abbe.1"),
@@ -160,14 +160,14 @@ impl Workshop {
         ] {
             fs::write(workshop.at(name), text).unwrap();
         }
-        // The same configurations twice.
+        // Both have the same configurations.
         for (name, at, seed) in [("d.csv", "--samples 30", "1"), ("t.csv", "d.csv", "2")] {
             let line = format!("simulate s.toml {at} --map m.toml --seed {seed}");
             fs::write(workshop.at(name), prints(&workshop.words(&line))).unwrap();
         }
         fs::write(workshop.at("r.toml"), prints(&workshop.words("import r.urdf"))).unwrap();
         prints(&workshop.words("analyze s.toml --study study.toml --shard 1/1 --out a.part"));
-        // A part is like a file that was copied here: abbe has written nothing beside it.
+        // The part counts as a copied file: there is no record of it.
         fs::remove_file(workshop.at(".abbe-written")).unwrap();
         workshop
     }
@@ -180,7 +180,7 @@ impl Workshop {
         self.at(name).to_str().expect("a path is text").to_owned()
     }
 
-    /// The words of a command, with the paths of its files.
+    /// Splits a command line into words, with the paths of its files.
     pub(crate) fn words(&self, line: &str) -> Vec<String> {
         // Numbers have points, too.
         let is_file = |word: &str| word.contains('.') && word.contains(char::is_alphabetic);
@@ -189,7 +189,7 @@ impl Workshop {
     }
 }
 
-/// All files below a folder, through links, with what is in them; but for the records of what was written.
+/// Reads all files below a folder, following links, except the records of written files.
 pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut all = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {

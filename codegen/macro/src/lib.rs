@@ -1,4 +1,4 @@
-//! The macro door: a spec file becomes a module where the macro stands.
+//! The macro `manipulator!`, which expands a spec file to a module.
 
 use std::path::Path;
 
@@ -6,15 +6,16 @@ use proc_macro::TokenStream;
 use quote::quote;
 use syn::LitStr;
 
-/// Generates the module of a manipulator from its spec file, given relative to the crate's `Cargo.toml`.
+/// Generates the module of a manipulator from its spec file. The path is relative to the crate's
+/// `Cargo.toml`.
 ///
 /// ```ignore
 /// abbe_macro::manipulator!("specs/arm.toml");
 /// let (pose, error_jacobian) = arm::error_jacobian(&q, &arm::Parameters::NOMINAL)?;
 /// ```
 ///
-/// The crate is compiled anew when the file changes. Mistakes in the file are shown as compile errors, with
-/// their place in it.
+/// The crate is compiled again when the file changes. Mistakes in the file are reported as compile
+/// errors that show their position in the file.
 #[proc_macro]
 pub fn manipulator(input: TokenStream) -> TokenStream {
     let file = match syn::parse2::<LitStr>(input.into()) {
@@ -34,7 +35,7 @@ fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
         Ok(spec) => {
             let module: proc_macro2::TokenStream = abbe_codegen::print::rust(&spec).parse()?;
             let files = [&path].into_iter().chain(&spec.beside).map(|path| path.to_string_lossy());
-            // The compiler watches files that are included.
+            // Makes the compiler track the files as dependencies.
             Ok(quote! {
                 #module
                 #(const _: &[u8] = include_bytes!(#files);)*

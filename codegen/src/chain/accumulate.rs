@@ -1,4 +1,5 @@
-//! From the tip to the base: what the errors of all frames do to the tool point, without any frame's pose in `F_0`.
+//! Accumulates the effects of all frames' errors on the tool point from the tip to the base,
+//! without the poses of the frames in `F_0`.
 
 use abbe_spec::Spec;
 
@@ -12,19 +13,19 @@ pub(super) struct Links {
     tool: Vec<Local>,
 }
 
-/// What is accumulated, in the axes of the frame that has been reached.
+/// A quantity accumulated from the tip, in the axes of the current frame.
 pub(crate) trait Accumulated {
-    /// How many numbers it is.
+    /// Number of nodes that represent the quantity.
     const NUMBERS: usize;
-    /// What so many numbers are.
+    /// Rebuilds the quantity from its [`NUMBERS`](Self::NUMBERS) nodes.
     fn from_numbers(numbers: &[Node]) -> Self;
-    /// Its numbers.
+    /// Returns the nodes that represent the quantity.
     fn numbers(&self) -> Vec<Node>;
-    /// Columns of six rows.
+    /// Returns the quantity as columns of six rows.
     fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]>;
-    /// Takes in the six errors of the frame; `lever` is the tool point as seen from it.
+    /// Adds the six errors of the current frame; `lever` is the tool point relative to it.
     fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector);
-    /// Goes over to the axes before a motion.
+    /// Transforms the quantity to the axes before a motion.
     fn turn(&mut self, graph: &mut Graph, motion: &Local);
 }
 
@@ -34,24 +35,24 @@ impl Links {
         Self { frames, tool: Local::motions(graph, &spec.tool) }
     }
 
-    /// Links of which each is known as a whole, the tool the last.
-    pub(super) fn of(graph: &mut Graph, links: &[Frame]) -> Self {
-        let mut frames: Vec<Vec<Local>> = links.iter().map(|link| Local::of(graph, link)).collect();
+    /// Builds links from one rigid motion each; the last one is the tool.
+    pub(super) fn from_frames(graph: &mut Graph, links: &[Frame]) -> Self {
+        let mut frames: Vec<Vec<Local>> = links.iter().map(|link| Local::from_frame(graph, link)).collect();
         let tool = frames.pop().unwrap_or_default();
         Self { frames, tool }
     }
 
-    /// The motions of a link; the tool is the last.
+    /// Returns the motions of a link; the tool is the last link.
     pub(super) fn motions(&self, link: usize) -> &[Local] {
         self.frames.get(link).unwrap_or(&self.tool)
     }
 
-    /// The pose behind a link, the tool being the last, from that before it.
+    /// Returns the pose behind a link from the pose before it; the tool is the last link.
     pub(super) fn onwards(&self, graph: &mut Graph, link: usize, before: Frame) -> Frame {
         self.motions(link).iter().fold(before, |frame, motion| motion.behind(graph, &frame))
     }
 
-    /// A pose in the axes before a link from that in those behind it.
+    /// Transforms a pose from the axes behind a link to those before it.
     pub(super) fn before(&self, graph: &mut Graph, link: usize, pose: Frame) -> Frame {
         Frame {
             axes: pose.axes.map(|axis| self.direction(graph, link, axis)),
@@ -59,23 +60,24 @@ impl Links {
         }
     }
 
-    /// A direction in the axes before a link.
+    /// Transforms a direction from the axes behind a link to those before it.
     pub(super) fn direction(&self, graph: &mut Graph, link: usize, v: Vector) -> Vector {
         self.motions(link).iter().rev().fold(v, |v, motion| motion.direction(graph, v))
     }
 
-    /// A point in the axes before a link, from their origin.
+    /// Transforms a point from the frame behind a link to the frame before it.
     pub(super) fn point(&self, graph: &mut Graph, link: usize, p: Vector) -> Vector {
         self.motions(link).iter().rev().fold(p, |p, motion| motion.point(graph, p))
     }
 
-    /// From the origin before a link to that behind it, where the link's axes are these.
+    /// Returns the vector from the origin before a link to the origin behind it, given the axes of
+    /// the link.
     pub(super) fn shift(&self, graph: &mut Graph, link: usize, axes: &[Vector; 3]) -> Vector {
         let start = Frame { axes: *axes, position: [graph.zero(); 3] };
         self.onwards(graph, link, start).position
     }
 
-    /// Accumulates from the tip to `F_0`:
+    /// Accumulates from the tip to `F_0`. At each frame i:
     ///
     /// ```text
     /// ρ = p_T − p_i        take in ε_i at ρ        ρ ← t_i + R_i ρ, and what is accumulated ← R_i of it
@@ -84,8 +86,9 @@ impl Links {
         self.accumulate_past(graph, errors, 0, sum)
     }
 
-    /// The same, but behind the shifts and turns about z that `A_1` begins with: what is along z and across z is as large as in
-    /// `F_0`, and does not depend on the angles of these turns.
+    /// Accumulates like [`accumulate`](Self::accumulate), but stops behind the leading translations
+    /// and rotations about z of `A_1`. Magnitudes along z and across z are the same there as in
+    /// `F_0` and do not depend on the angles of these rotations.
     pub(super) fn accumulate_behind_turns<A: Accumulated>(
         &self,
         graph: &mut Graph,
@@ -97,7 +100,7 @@ impl Links {
         self.accumulate_past(graph, errors, turns, sum)
     }
 
-    /// The same in the axes behind the first so many motions of `A_1`.
+    /// Accumulates to the axes behind the first `skipped` motions of `A_1`.
     fn accumulate_past<A: Accumulated>(
         &self,
         graph: &mut Graph,
@@ -111,7 +114,8 @@ impl Links {
         sum
     }
 
-    /// The same in the axes of a frame, from 0: what it and all behind it do; nothing behind the last one.
+    /// Accumulates the effects of `frame` (from 0) and all frames behind it, in the axes of that
+    /// frame. Behind the last frame the sum is unchanged.
     pub(super) fn accumulate_to<A: Accumulated>(
         &self,
         graph: &mut Graph,
@@ -122,7 +126,7 @@ impl Links {
         self.behind(graph, errors, frame, sum).0
     }
 
-    /// The same, and the tool point, in the axes of a frame.
+    /// Returns the accumulated quantity and the tool point, both in the axes of `frame`.
     fn behind<A: Accumulated>(
         &self,
         graph: &mut Graph,
@@ -143,7 +147,7 @@ impl Links {
         (sum, lever)
     }
 
-    /// The x axis of the tool in `F_0`.
+    /// Returns the x axis of the tool in `F_0`.
     pub(super) fn first_axis(&self, graph: &mut Graph) -> Vector {
         let (zero, one) = (graph.zero(), graph.constant(1.0));
         let motions = self.frames.iter().chain([&self.tool]).flatten();
@@ -151,7 +155,7 @@ impl Links {
     }
 }
 
-/// Goes over to the axes before a motion.
+/// Transforms the sum and the lever to the axes before a motion.
 fn go_before<A: Accumulated>(graph: &mut Graph, motion: &Local, sum: &mut A, lever: &mut Vector) {
     sum.turn(graph, motion);
     *lever = motion.point(graph, *lever);

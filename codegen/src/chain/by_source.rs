@@ -1,4 +1,4 @@
-//! What the spec's own sources do to the tool point.
+//! Effects of the spec's own sources on the tool point.
 
 use abbe_spec::Spec;
 
@@ -8,13 +8,14 @@ use super::displacement::Displacement;
 use super::rows::Rows;
 use crate::graph::{Graph, Node};
 
-/// `ΔX = J_e ε` along the chain.
+/// Returns `ΔX = J_e ε`, accumulated along the chain.
 pub(super) fn along(graph: &mut Graph, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
     let none = Displacement::none(graph);
     links.accumulate(graph, errors, none).column(graph, rows)
 }
 
-/// The six errors of every frame that each source causes by itself, a random one for its magnitude.
+/// Returns the six errors of every frame that each source causes alone; random sources at their
+/// standard deviation or magnitude.
 pub(super) fn errors_by_source(zero: Node, spec: &Spec, effects: &[EffectNode]) -> Vec<Vec<[Node; 6]>> {
     let mut errors = vec![vec![[zero; 6]; spec.frames.len()]; spec.enabled_sources().count()];
     for effect in effects {
@@ -23,7 +24,7 @@ pub(super) fn errors_by_source(zero: Node, spec: &Spec, effects: &[EffectNode]) 
     errors
 }
 
-/// `ΔX = J_e ε` from the columns of `J_e`.
+/// Returns `ΔX = J_e ε` from the columns of `J_e`.
 pub(super) fn product(graph: &mut Graph, columns: &[[Node; 6]], errors: &[[Node; 6]]) -> [Node; 6] {
     let mut sum = [graph.zero(); 6];
     for (column, error) in columns.iter().zip(errors.as_flattened()) {

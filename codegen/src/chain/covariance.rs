@@ -1,4 +1,4 @@
-//! `J_e diag(σ²) J_eᵀ` without `J_e`.
+//! Computes `J_e diag(σ²) J_eᵀ` without `J_e`.
 
 use super::accumulate::Accumulated;
 use super::local::Local;
@@ -8,19 +8,21 @@ use crate::graph::{Graph, Node, Vector};
 
 type Matrix = [Vector; 3];
 
-/// The covariance of the tool point's displacement δ and turn θ, in blocks of rows; those on the diagonal are symmetric.
+/// Covariance of the tool point's displacement δ and rotation θ, in 3 × 3 blocks; the diagonal
+/// blocks are symmetric.
 ///
-/// With `δ = … + d + θ × ρ` for a frame's errors, and `L = −[ρ]` (so that `θ × ρ = L θ`), a frame adds
+/// With `δ = … + d + θ × ρ` for the errors of a frame, and `L = −[ρ]` (so that `θ × ρ = L θ`), a
+/// frame adds
 ///
 /// ```text
 /// PP += diag(σ_d²) + L diag(σ_θ²) Lᵀ        PR += L diag(σ_θ²)        RR += diag(σ_θ²)
 /// ```
 pub(crate) struct Covariance {
-    /// δ by δ.
+    /// Covariance of δ.
     pp: Matrix,
-    /// δ by θ.
+    /// Covariance of δ with θ.
     pr: Matrix,
-    /// θ by θ.
+    /// Covariance of θ.
     rr: Matrix,
 }
 
@@ -31,13 +33,13 @@ impl Covariance {
     }
 }
 
-/// The entries of a symmetric block that say all about it.
+/// Entries of the upper triangle of a symmetric block.
 const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
 impl Accumulated for Covariance {
     const NUMBERS: usize = 21;
 
-    /// The upper triangle of PP, all of PR, the upper triangle of RR.
+    /// Reads the upper triangle of PP, all of PR, and the upper triangle of RR.
     fn from_numbers(numbers: &[Node]) -> Self {
         let symmetric = |first: usize| {
             let mut block = [[numbers[0]; 3]; 3];
@@ -55,11 +57,12 @@ impl Accumulated for Covariance {
         upper(&self.pp).into_iter().chain(self.pr.concat()).chain(upper(&self.rr)).collect()
     }
 
-    /// The 6 × 6 covariance of ΔX: with B from the small rotation to rows 4–6, `PR Bᵀ` and `B RR Bᵀ`.
+    /// Returns the 6 × 6 covariance of ΔX, with `PR Bᵀ` and `B RR Bᵀ`, where B maps the small
+    /// rotation to rows 4–6.
     fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
-        let pr = self.pr.map(|row| rows.of(graph, row));
-        let half = transposed(self.rr.map(|row| rows.of(graph, row)));
-        let rr = symmetric(half.map(|row| rows.of(graph, row)));
+        let pr = self.pr.map(|row| rows.orientation_rows(graph, row));
+        let half = transposed(self.rr.map(|row| rows.orientation_rows(graph, row)));
+        let rr = symmetric(half.map(|row| rows.orientation_rows(graph, row)));
         let upper = (0..3).map(|i| joined(self.pp[i], pr[i]));
         let lower = (0..3).map(|i| joined(transposed(pr)[i], rr[i]));
         upper.chain(lower).collect()
@@ -101,7 +104,7 @@ impl Accumulated for Covariance {
     }
 }
 
-/// `cos²`, `sin cos`, `cos 2θ` and `sin 2θ` of a turn: the blocks share them.
+/// `cos²`, `sin cos`, `cos 2θ` and `sin 2θ` of a rotation, shared by the blocks.
 #[derive(Clone, Copy)]
 struct Double {
     square: Node,
@@ -119,7 +122,8 @@ impl Double {
     }
 }
 
-/// `R S Rᵀ` of a symmetric S for a turn: with `d = S_jj − S_kk` and `m = S_jk`
+/// Returns `R S Rᵀ` of a symmetric S for a rotation about a coordinate axis. With `d = S_jj − S_kk`
+/// and `m = S_jk`:
 ///
 /// ```text
 /// x = cos² d − sin 2θ m        S_jj ← S_kk + x        S_kk ← S_jj − x        S_jk ← sin cos d + cos 2θ m
@@ -142,7 +146,8 @@ fn turned_symmetric(graph: &mut Graph, motion: &Local, axis: usize, double: Doub
     turned
 }
 
-/// `R M Rᵀ` of any M for a turn: with `d = M_jj − M_kk` and `f = M_jk + M_kj`
+/// Returns `R M Rᵀ` of any M for a rotation about a coordinate axis. With `d = M_jj − M_kk` and `f
+/// = M_jk + M_kj`:
 ///
 /// ```text
 /// x = cos² d − sin cos f       M_jj ← M_kk + x        M_kk ← M_jj − x
@@ -168,7 +173,7 @@ fn turned(graph: &mut Graph, motion: &Local, axis: usize, double: Double, m: &Ma
     turned
 }
 
-/// `R M Rᵀ`, first the columns, then the rows.
+/// Returns `R M Rᵀ`: transforms the columns, then the rows.
 fn congruent(graph: &mut Graph, motion: &Local, m: &Matrix) -> Matrix {
     let columns = transposed(*m).map(|column| motion.direction(graph, column));
     transposed(columns).map(|row| motion.direction(graph, row))
@@ -178,7 +183,7 @@ fn transposed(m: Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
 
-/// The upper triangle on both sides of the diagonal.
+/// Copies the upper triangle to the lower one.
 fn symmetric(m: Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| m[i.min(j)][i.max(j)]))
 }

@@ -1,6 +1,7 @@
-//! What a number of the chain that is off does, as errors of the frames whose transforms depend on it.
+//! Converts a deviation of a number of the chain to errors of the frames whose transforms depend on
+//! it.
 //!
-//! With `A_i E_i = A_i(x + δx)` the errors of frame i are, to first order,
+//! With `A_i E_i = A_i(x + δx)`, the errors of frame i are, to first order,
 //!
 //! ```text
 //! ε_i = vee(A_i⁻¹ ∂A_i/∂x) δx          and of the tool, after E_n:   ε_n = vee(∂T/∂x T⁻¹) δx
@@ -14,18 +15,19 @@ use super::symbol_jacobian::{Steps, twist};
 use super::walk::walk;
 use crate::graph::{Graph, Node, Op, Vector};
 
-/// Velocity and rotation per unit of the number, in the axes of a frame.
+/// Velocity and rotation per unit of a number of the chain, in the axes of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameTwist {
     /// The frame, from 0.
     pub frame: usize,
-    /// Velocity of its origin.
+    /// Velocity of the frame's origin.
     pub velocity: Vector,
-    /// Rotation about its axes.
+    /// Rotation about the frame's axes.
     pub rotation: Vector,
 }
 
-/// What a number of the chain does to every frame that depends on it; the tool's part is one of the last frame.
+/// Returns the twist of every frame that depends on a number of the chain. The tool's twist is
+/// added to the last frame's.
 pub fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<FrameTwist> {
     let symbol = match number {
         ChainNumber::Joint(variable) => Symbol::Variable(variable),
@@ -55,7 +57,8 @@ pub fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<
     twists
 }
 
-/// What a joint does to the frame that declares it; of the last frame with the tool's part.
+/// Returns the twist of the frame that declares a joint. For the last frame it includes the tool's
+/// twist.
 pub fn joint_twist(graph: &mut Graph, spec: &Spec, joint: usize) -> FrameTwist {
     let (frame, symbol) = (spec.variables[joint].frame, Symbol::Variable(joint));
     let mut twist = local_twist(graph, spec, symbol, frame);
@@ -65,7 +68,7 @@ pub fn joint_twist(graph: &mut Graph, spec: &Spec, joint: usize) -> FrameTwist {
     twist
 }
 
-/// What a symbol does to one frame.
+/// Returns the twist of one frame per unit of a symbol.
 pub(super) fn local_twist(graph: &mut Graph, spec: &Spec, symbol: Symbol, frame: usize) -> FrameTwist {
     let mut body = Body::at_rest(graph);
     for factor in &spec.frames[frame].factors {
@@ -75,7 +78,7 @@ pub(super) fn local_twist(graph: &mut Graph, spec: &Spec, symbol: Symbol, frame:
     FrameTwist { frame, velocity: body.velocity, rotation: body.rotation }
 }
 
-/// The tool comes after the errors of the last frame.
+/// Adds the twist of the tool, which follows the errors of the last frame.
 fn add_tool(graph: &mut Graph, spec: &Spec, symbol: Symbol, last: &mut FrameTwist) {
     let mut steps = Vec::new();
     let start = graph.identity();
@@ -87,7 +90,8 @@ fn add_tool(graph: &mut Graph, spec: &Spec, symbol: Symbol, last: &mut FrameTwis
     last.rotation = graph.add_vectors(last.rotation, rotation);
 }
 
-/// The motion of a frame that goes through a product of factors, in the axes behind those it has gone through:
+/// Twist of a frame that passes through a product of factors, in the axes behind the factors passed
+/// so far:
 ///
 /// ```text
 /// through (R, t):     v ← Rᵀ (v + ω × t)     ω ← Rᵀ ω
@@ -119,7 +123,7 @@ impl Body {
         self.rotation = motion.direction_behind(graph, self.rotation);
     }
 
-    /// What a symbol does to a factor that has been gone through.
+    /// Adds the twist that a symbol causes within a factor already passed.
     fn add_factor(&mut self, graph: &mut Graph, factor: &Factor, symbol: Symbol) {
         match factor {
             Factor::Elementary(Elementary { motion, axis, amount }) => {
@@ -135,7 +139,7 @@ impl Body {
                 self.add(graph, *motion, part);
             }
             Factor::Matrix(_) => {
-                // The parts of a matrix move one after the other as well.
+                // The local motions of a matrix move one after the other as well.
                 let mut body = Self::at_rest(graph);
                 for motion in Local::motions(graph, std::slice::from_ref(factor)) {
                     body.go_through_motion(graph, &motion);
@@ -181,8 +185,8 @@ impl Body {
     }
 }
 
-/// `∂θ/∂x` from the sine and cosine of θ: `cos θ ∂sin θ/∂x − sin θ ∂cos θ/∂x`, and simply `±∂a/∂x` where these are ± the
-/// sine and cosine of a, or the other way round.
+/// Returns `∂θ/∂x = cos θ ∂sin θ/∂x − sin θ ∂cos θ/∂x`. If the two are the sine and cosine of a
+/// known angle a, in either order and with either sign, this is `±∂a/∂x`.
 fn turning(graph: &mut Graph, sine: Node, cosine: Node, symbol: Symbol) -> Node {
     let plain = |graph: &Graph, node: Node| match graph.op(node) {
         Op::Call(function, angle) => Some((function, angle)),

@@ -1,4 +1,4 @@
-//! How far joints move the tool: rows of `J_q` whose least singular value is sought.
+//! Rows of `J_q`, whose least singular value measures dexterity.
 
 use abbe_spec::Spec;
 
@@ -6,20 +6,20 @@ use super::accumulate::Links;
 use super::joint_columns::{JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_tool, errors_of_joints, units};
 use crate::graph::{Graph, Node};
 
-/// Rows of `J_q` at the tool point, in metres and rad, in the axes of the frame where they need the fewest operations: one entry for
-/// each joint.
+/// Rows of `J_q` at the tool point, in metres and radians, one entry per joint. They are expressed
+/// in the axes of the frame where they take the fewest operations.
 #[derive(Clone, Debug)]
 pub struct Dexterity {
-    /// The graph they are nodes of.
+    /// The graph of the nodes.
     pub graph: Graph,
     /// Rows 1–3.
     pub point: Vec<Vec<Node>>,
-    /// All six rows; none of fewer than six joints.
+    /// Six rows of the pose; `None` for fewer than six joints.
     pub pose: Option<Vec<Vec<Node>>>,
 }
 
 impl Dexterity {
-    /// That of a checked spec; none if it has fewer than three joints.
+    /// Builds the rows for a checked spec. Returns `None` for fewer than three joints.
     pub fn new(spec: &Spec) -> Option<Self> {
         let joints = spec.variables.len();
         if joints < JOINTS_OF_A_POINT {

@@ -1,4 +1,4 @@
-//! `ΔX = J_e ε` without `J_e`.
+//! Computes `ΔX = J_e ε` without `J_e`.
 
 use super::accumulate::Accumulated;
 use super::local::Local;
@@ -6,15 +6,15 @@ use super::rows::Rows;
 use super::six::vectors;
 use crate::graph::{Graph, Node, Vector};
 
-/// What the frames from the tip to the one that has been reached do to the tool point:
+/// Displacement of the tool point caused by the frames from the tip to the current one:
 ///
 /// ```text
 /// δ ← R_i (δ + d_i + θ_i × ρ)        θ ← R_i (θ + θ_i)
 /// ```
 pub(crate) struct Displacement {
-    /// δ.
+    /// Translation δ.
     pub(super) shift: Vector,
-    /// θ.
+    /// Rotation θ.
     pub(super) turn: Vector,
 }
 
@@ -24,7 +24,7 @@ impl Displacement {
         Self { shift: zero, turn: zero }
     }
 
-    /// The six rows of ΔX.
+    /// Returns the six rows of ΔX.
     pub(super) fn column(&self, graph: &mut Graph, rows: &Rows) -> [Node; 6] {
         rows.column(graph, self.shift, self.turn)
     }
@@ -42,7 +42,7 @@ impl Accumulated for Displacement {
         [self.shift, self.turn].concat()
     }
 
-    /// ΔX alone.
+    /// Returns ΔX as the only column.
     fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
         vec![self.column(graph, rows)]
     }

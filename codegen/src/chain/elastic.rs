@@ -1,8 +1,8 @@
-//! Beams and compliances under loads: what each of them carries, and how far it gives way.
+//! Deflection of beams and compliances under loads.
 //!
-//! A load acts where it is. What is beyond an element is carried by it as a whole: loads of frames behind its own, and of
-//! its own frame. A beam extends from its end M back to where it is clamped, and a load of its own frame acts on it
-//! where the load's point projects onto it: beyond M at M, before the clamp not at all.
+//! An element carries the loads of the frames behind its own and of its own frame. A beam extends
+//! from its end M back to its clamped end. A load of the beam's own frame acts where the load's
+//! point projects onto the beam: beyond M it acts at M, before the clamped end not at all.
 
 use abbe_core::Component;
 use abbe_spec::expr::{Function, Motion, motion};
@@ -12,19 +12,19 @@ use super::six::{six, vectors};
 use super::walk::transform;
 use crate::graph::{Frame, Graph, Node, Vector};
 
-/// Six errors per unit of a force and a moment, both in the order of ε.
+/// Six errors per unit of force and moment, both in the order of ε.
 type Compliance = [[Node; 6]; 6];
 
 /// A beam or compliance on the link of a frame.
 pub(super) struct Element<'a> {
     pub(super) effect: &'a Effect,
-    /// Its place M, as seen from the frame.
+    /// Pose of M relative to the frame.
     pub(super) place: &'a Frame,
 }
 
-/// Everything that acts on the structure.
+/// Loads on the structure.
 pub(super) struct Loads<'a> {
-    /// The poses of all frames in `F_0`.
+    /// Poses of all frames in `F_0`.
     frames: &'a [Frame],
     acting: Vec<Acting>,
     weights: Vec<Weight<'a>>,
@@ -33,24 +33,24 @@ pub(super) struct Loads<'a> {
 /// A force and a moment at a point.
 #[derive(Clone, Copy)]
 struct Acting {
-    /// The frame that they move with.
+    /// Index of the frame that the point is fixed to.
     frame: usize,
-    /// The point, as seen from that frame.
+    /// The point relative to that frame.
     point: Vector,
-    /// In the axes of `F_0`.
+    /// Force in the axes of `F_0`.
     force: Vector,
-    /// In the axes of `F_0`.
+    /// Moment in the axes of `F_0`.
     moment: Vector,
 }
 
-/// A beam's own weight.
+/// Weight of a beam.
 struct Weight<'a> {
     effect: &'a Effect,
-    /// Its end M, as seen from its frame.
+    /// Pose of the beam's end M relative to its frame.
     end: Frame,
     axis: usize,
     length: Node,
-    /// Force per length, in the axes of `F_0`.
+    /// Force per unit of length, in the axes of `F_0`.
     force: Vector,
 }
 
@@ -72,14 +72,14 @@ impl<'a> Loads<'a> {
         Self { frames, acting, weights }
     }
 
-    /// A force at the tool point alone, in the axes that the poses of the frames are in.
+    /// Creates a single force at the tool point, in the axes that the frames' poses are given in.
     pub(super) fn at_tool(graph: &mut Graph, spec: &Spec, frames: &'a [Frame], force: Vector) -> Self {
         let point = transform(graph, &spec.tool).position;
         let acting = Acting { frame: frames.len() - 1, point, force, moment: [graph.zero(); 3] };
         Self { frames, acting: vec![acting], weights: Vec::new() }
     }
 
-    /// `ε = C w` of a compliance, in its axes.
+    /// Returns the errors `ε = C w` of a compliance, in its axes.
     pub(super) fn give_way(
         &self,
         graph: &mut Graph,
@@ -89,7 +89,7 @@ impl<'a> Loads<'a> {
         let there = graph.then(&self.frames[element.effect.frame], element.place);
         let mut carried = self.carried(graph, element);
         for weight in self.weights.iter().filter(|weight| weight.effect.frame == element.effect.frame) {
-            // What of the beam is beyond the place of the compliance.
+            // Only the part of the beam beyond the compliance loads it.
             let before = graph.sub_vectors(element.place.position, weight.end.position);
             let along = graph.dot(weight.end.axes[weight.axis], before);
             let beyond = back(graph, along, weight.length);
@@ -99,9 +99,10 @@ impl<'a> Loads<'a> {
         product(graph, compliance, wrench)
     }
 
-    /// The end of a beam, clamped at its other end, in the axes of M.
+    /// Returns the deflection of a beam's end M relative to its clamped end, in the axes of M.
     ///
-    /// At a distance ℓ before the end, a load bends the beam up to there and swings the straight rest:
+    /// A load at a distance ℓ before the end bends the beam up to that point; the rest stays
+    /// straight and rotates:
     ///
     /// ```text
     /// (δ, θ) = C(L − ℓ) w        δ_M = δ + θ × ℓ a        θ_M = θ
@@ -149,7 +150,8 @@ impl<'a> Loads<'a> {
         sum
     }
 
-    /// The loads at the element's frame or behind it, and the weights of all beams of frames behind it.
+    /// Returns the loads at and behind the element's frame, and the weights of all beams of frames
+    /// behind it.
     fn carried(&self, graph: &mut Graph, element: &Element<'_>) -> Vec<Acting> {
         let frame = element.effect.frame;
         let mut carried: Vec<Acting> =
@@ -160,7 +162,7 @@ impl<'a> Loads<'a> {
         carried
     }
 
-    /// The force and moment of loads about a point, both in `F_0`, in the order of ε and along some axes.
+    /// Returns the force and moment of loads about a point, in the given axes and the order of ε.
     fn wrench(&self, graph: &mut Graph, axes: &[Vector; 3], about: Vector, loads: &[Acting]) -> [Node; 6] {
         let mut force = [graph.zero(); 3];
         let mut moment = force;
@@ -203,7 +205,7 @@ fn acting(graph: &mut Graph, spec: &Spec, load: &Load, frames: &[Frame], gravity
 }
 
 impl Weight<'_> {
-    /// The weight of the last part of the beam, so long, in the middle of that.
+    /// Returns the weight of the beam's last part of this length, at the middle of that part.
     fn of_last(&self, graph: &mut Graph, length: Node) -> Acting {
         let two = graph.constant(2.0);
         let half = graph.div(length, two);
@@ -217,7 +219,8 @@ impl Weight<'_> {
     }
 }
 
-/// How far before the end of a beam a point is that lies so far `along` it from there: `min(max(−along, 0), length)`.
+/// Returns the distance of a point before the end of a beam, clamped to its length:
+/// `min(max(−along, 0), length)`.
 fn back(graph: &mut Graph, along: Node, length: Node) -> Node {
     let minus = graph.neg(along);
     let back = match graph.value(minus) {
@@ -241,7 +244,7 @@ fn back(graph: &mut Graph, along: Node, length: Node) -> Node {
     graph.div(twice, two)
 }
 
-/// Components along axes: `Rᵀ v`.
+/// Returns the components along axes: `Rᵀ v`.
 fn local(graph: &mut Graph, axes: &[Vector; 3], v: Vector) -> Vector {
     axes.map(|axis| graph.dot(axis, v))
 }
@@ -250,7 +253,7 @@ fn add(graph: &mut Graph, a: [Node; 6], b: [Node; 6]) -> [Node; 6] {
     std::array::from_fn(|i| graph.add(a[i], b[i]))
 }
 
-/// `C w`.
+/// Returns `C w`.
 fn product(graph: &mut Graph, compliance: &Compliance, wrench: [Node; 6]) -> [Node; 6] {
     compliance.map(|row| {
         let products: Vec<Node> = row.iter().zip(wrench).map(|(c, w)| graph.mul(*c, w)).collect();
@@ -258,12 +261,13 @@ fn product(graph: &mut Graph, compliance: &Compliance, wrench: [Node; 6]) -> [No
     })
 }
 
-/// The index of a motion along or about an axis, counted on from a beam's own, in the order of ε.
+/// Returns the index in ε of a motion along or about an axis. Axis numbers wrap at 3.
 fn index(kind: Motion, axis: usize) -> usize {
     Component::ALL.iter().position(|c| motion(*c) == (kind, axis % 3)).expect("six components")
 }
 
-/// Euler–Bernoulli: the end of a clamped beam along a, with b and c the axes that follow it in cyclic order.
+/// Euler–Bernoulli compliance of the end of a clamped beam along a. The axes b and c follow a in
+/// cyclic order.
 ///
 /// ```text
 /// δ_a = F_a L/EA      δ_b = F_b L³/3EI_c + M_c L²/2EI_c      δ_c = F_c L³/3EI_b − M_b L²/2EI_b
@@ -282,7 +286,7 @@ fn beam_compliance(graph: &mut Graph, beam: &Beam, length: Node) -> Compliance {
         let stiffness = graph.lower(torsion);
         compliance[turn(a)][turn(a)] = graph.div(length, stiffness);
     }
-    // Bending about c moves along b; about b it moves along −c.
+    // Bending about c displaces along b; bending about b along −c.
     for (along, about, stiffness, sign) in [(b, c, &beam.bending[1], 1.0), (c, b, &beam.bending[0], -1.0)] {
         let stiffness = graph.lower(stiffness);
         let angle = graph.div(length, stiffness);
@@ -298,7 +302,7 @@ fn beam_compliance(graph: &mut Graph, beam: &Beam, length: Node) -> Compliance {
     compliance
 }
 
-/// The end of the same beam under a force w per length, which is `C(x) w dx` summed up:
+/// Returns the deflection of the end under a force w per unit of length, `∫ C(x) w dx`:
 ///
 /// ```text
 /// δ_a = w_a L²/2EA      δ_b = w_b L⁴/8EI_c      δ_c = w_c L⁴/8EI_b      θ_c = w_b L³/6EI_c      θ_b = −w_c L³/6EI_b

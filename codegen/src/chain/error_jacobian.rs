@@ -7,15 +7,17 @@ use super::moments::Moments;
 use super::rows::Rows;
 use crate::graph::{Frame, Graph, Node, Vector};
 
-/// What the six columns of a frame are made of: its axes, and of the rotations `e_s e_r e_p` the moments and rows 4–6.
+/// Parts of a frame's six columns: its axes, and the moments and rows 4–6 of the rotations `e_s e_r
+/// e_p`.
 pub(crate) struct Columns {
     axes: [Vector; 3],
-    /// Those of `e_s e_r e_p`.
+    /// Moments of `e_s e_r e_p`.
     pub(super) moments: [Vector; 3],
     rows: [Vector; 3],
 }
 
-/// The six columns of every frame: with `T_i = (R_i, p_i)` and the tool point `p_T` these are
+/// Returns the six columns of every frame. With `T_i = (R_i, p_i)` and the tool point `p_T` these
+/// are
 ///
 /// ```text
 /// translation along e    (R_i e ; 0)
@@ -28,25 +30,25 @@ pub(super) fn columns(
     rows: &Rows,
 ) -> Vec<Columns> {
     let of_frame = |(i, frame): (usize, &Frame)| {
-        let moments = moments.of(graph, i);
+        let moments = moments.of_frame(graph, i);
         Columns::new(graph, frame, moments, rows)
     };
     frames.iter().enumerate().map(of_frame).collect()
 }
 
 impl Columns {
-    /// Those of a frame, from the moments of its x, y and z axis.
+    /// Builds the columns of a frame from the moments of its x, y and z axes.
     pub(crate) fn new(graph: &mut Graph, frame: &Frame, moments: [Vector; 3], rows: &Rows) -> Self {
         let rotations =
             [Component::Spin, Component::Roll, Component::Pitch].map(|component| motion(component).1);
         Self {
             axes: frame.axes,
             moments: rotations.map(|axis| moments[axis]),
-            rows: rotations.map(|axis| rows.of(graph, frame.axes[axis])),
+            rows: rotations.map(|axis| rows.orientation_rows(graph, frame.axes[axis])),
         }
     }
 
-    /// The six columns, every entry of them.
+    /// Returns all entries of the six columns.
     pub(crate) fn dense(&self, graph: &mut Graph) -> [[Node; 6]; 6] {
         let zero = [graph.zero(); 3];
         Component::ALL.map(|component| {
@@ -61,8 +63,8 @@ impl Columns {
         })
     }
 
-    /// What is neither zero nor repeated: the axes, the moments of `e_s e_r e_p`, and where rows 4–6 are not the axes
-    /// again, these too.
+    /// Returns the entries that are neither zero nor repeated: the axes, the moments of `e_s e_r
+    /// e_p`, and rows 4–6 where they differ from the axes.
     pub(crate) fn distinct(&self, rows: &Rows) -> Vec<Node> {
         let rows = match rows {
             Rows::RotationVector => &[][..],

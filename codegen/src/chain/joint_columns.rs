@@ -1,4 +1,4 @@
-//! Columns of `J_q`, and what errors do, at any frame of the chain and in its axes.
+//! Columns of `J_q`, and effects of errors, at any frame of the chain and in its axes.
 
 use abbe_core::VariableKind;
 use abbe_spec::{ChainNumber, Spec};
@@ -10,12 +10,12 @@ use super::local::Local;
 use super::six::six;
 use crate::graph::{Graph, Node, Vector};
 
-/// How many joints move the tool in all ways; those of fewer are asked for the tool point alone.
+/// Number of joints that control the full pose. With fewer, only the tool point is considered.
 pub(super) const JOINTS_OF_A_POSE: usize = 6;
-/// How many joints a tool point takes.
+/// Number of joints that control the tool point.
 pub(super) const JOINTS_OF_A_POINT: usize = 3;
 
-/// What a unit of each joint does, as errors of all frames.
+/// Returns the effect of a unit of each joint, as errors of all frames.
 pub(super) fn errors_of_joints(graph: &mut Graph, spec: &Spec) -> Vec<Vec<[Node; 6]>> {
     let errors = |joint: usize| {
         let mut errors = vec![[graph.zero(); 6]; spec.frames.len()];
@@ -27,7 +27,7 @@ pub(super) fn errors_of_joints(graph: &mut Graph, spec: &Spec) -> Vec<Vec<[Node;
     (0..spec.variables.len()).map(errors).collect()
 }
 
-/// One rad or one metre of each joint, in its unit.
+/// Returns 1 rad or 1 m in the unit of each joint.
 pub(super) fn units(spec: &Spec) -> Vec<f64> {
     let unit = |kind: VariableKind| match kind {
         VariableKind::Revolute => 1.0,
@@ -36,7 +36,7 @@ pub(super) fn units(spec: &Spec) -> Vec<f64> {
     spec.variables.iter().map(|variable| unit(variable.kind)).collect()
 }
 
-/// What errors of all frames do to the tool point, in the axes of a frame.
+/// Returns the effect of errors of all frames on the tool point, in the axes of a frame.
 pub(super) fn at_tool(graph: &mut Graph, links: &Links, errors: &[[Node; 6]], frame: usize) -> Displacement {
     let origin = [graph.zero(); 3];
     let lever = (frame + 1..=errors.len()).rev().fold(origin, |point, link| links.point(graph, link, point));
@@ -44,7 +44,8 @@ pub(super) fn at_tool(graph: &mut Graph, links: &Links, errors: &[[Node; 6]], fr
     Displacement { shift: moved(graph, &there, lever, 1.0), ..there }
 }
 
-/// What errors of all frames do to the point of the tool at the origin of one, in its axes.
+/// Returns the effect of errors of all frames on the point of the tool at the origin of a frame, in
+/// its axes.
 pub(super) fn at_origin(
     graph: &mut Graph,
     links: &Links,
@@ -84,7 +85,7 @@ pub(super) fn at_origin(
     }
 }
 
-/// What the point does that is further by a shift, or before it.
+/// Returns the velocity of the point at (or, with a negative sign, before) a given offset.
 fn moved(graph: &mut Graph, sum: &Displacement, shift: Vector, sign: f64) -> Vector {
     let swing = graph.cross(sum.turn, shift);
     if sign > 0.0 { graph.add_vectors(sum.shift, swing) } else { graph.sub_vectors(sum.shift, swing) }

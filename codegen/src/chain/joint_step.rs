@@ -1,7 +1,7 @@
-//! The joint motion that takes the errors back to first order: `d` with `J_q d = −J_e ε`.
+//! Joint motion `d` that cancels the errors to first order: `J_q d = −J_e ε`.
 //!
-//! d is the same in whatever axes and at whatever point both sides are taken; so both are taken at the frame where d needs
-//! the fewest operations.
+//! The solution is independent of the axes and the point in which both sides are expressed. The
+//! frame in which d takes the fewest operations is used.
 
 use abbe_spec::Spec;
 
@@ -12,16 +12,16 @@ use super::joint_columns::{
 use super::minors::{products, solve};
 use crate::graph::{Graph, Node};
 
-/// What joints and errors do to the tool, all at one frame and in its axes.
+/// Effects of joints and errors on the tool, all at one frame and in its axes.
 pub(super) struct Equations {
-    /// Columns of each joint: three rows of the tool point, or six of the tool.
+    /// One column per joint: three rows of the tool point, or six of the tool.
     joints: Vec<Vec<Node>>,
-    /// What the errors do.
+    /// Effect of the errors.
     errors: Vec<Node>,
 }
 
-/// The joint motion in the units of the joints, `−J_q⁻¹ J_e ε`; of more joints than needed the shortest, in metres and rad. None
-/// of fewer than three joints.
+/// Returns the joint motion `−J_q⁻¹ J_e ε` in the units of the joints. With redundant joints it is
+/// the shortest one, measured in metres and radians. Returns `None` for fewer than three joints.
 pub(super) fn joint_step(
     graph: &mut Graph,
     spec: &Spec,
@@ -67,7 +67,7 @@ impl Equations {
                 (0..count).map(|i| self.joints.iter().map(|column| column[i]).collect()).collect();
             return solve(graph, &rows, &back);
         }
-        // d = U² Jᵀ (J U² Jᵀ)⁻¹ (−J_e ε), with U the units of the joints.
+        // d = U² Jᵀ (J U² Jᵀ)⁻¹ (−J_e ε), where U holds the units of the joints.
         let weighted: Vec<Vec<Node>> = self
             .joints
             .iter()

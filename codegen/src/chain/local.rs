@@ -1,7 +1,8 @@
-//! A transform `A_i` as local motions, each of which takes little to apply to a vector or a tensor.
+//! Local motions of a transform `A_i`, each cheap to apply to a vector or a tensor.
 //!
-//! A matrix that is one turn about a coordinate axis, up to an exchange of axes, is taken apart again; so is its
-//! position as far as it lies along the turned axes: `(a cos q, a sin q, 0)` is a shift by a constant before the turn.
+//! A matrix that is a rotation about a coordinate axis, up to a permutation of axes, is decomposed
+//! again. So is its position as far as it lies along the rotated axes: `(a cos q, a sin q, 0)` is a
+//! translation by a constant after the rotation.
 
 use abbe_spec::Factor;
 use abbe_spec::expr::{Elementary, Motion};
@@ -9,18 +10,18 @@ use abbe_spec::expr::{Elementary, Motion};
 use super::walk::about;
 use crate::graph::{Frame, Graph, Node, Op, Vector};
 
-/// One of the motions that make up a transform, each in the axes that those before it lead to.
+/// One of the motions that make up a transform, in the axes that the preceding motions lead to.
 pub(crate) enum Local {
     /// A translation.
     Shift(Vector),
-    /// A turn about coordinate axis 0, 1 or 2.
+    /// A rotation about coordinate axis 0, 1 or 2.
     Turn { axis: usize, sine: Node, cosine: Node },
-    /// Any other rotation, by its columns; often an exchange of axes, which takes nothing.
+    /// A general rotation, by columns; often a permutation of axes, which costs nothing.
     Rotation([Vector; 3]),
 }
 
 impl Local {
-    /// The motions of a product of factors, in its order.
+    /// Returns the motions of a product of factors, in its order.
     pub(super) fn motions(graph: &mut Graph, factors: &[Factor]) -> Vec<Self> {
         let mut motions = Vec::new();
         for factor in factors {
@@ -51,14 +52,14 @@ impl Local {
         motions
     }
 
-    /// The motions of a rigid motion.
-    pub(super) fn of(graph: &mut Graph, motion: &Frame) -> Vec<Self> {
+    /// Returns the motions of a rigid motion.
+    pub(super) fn from_frame(graph: &mut Graph, motion: &Frame) -> Vec<Self> {
         let mut motions = Vec::new();
         taken_apart(graph, motion, &mut motions);
         motions
     }
 
-    /// A direction in the axes before the motion.
+    /// Transforms a direction to the axes before the motion.
     pub(crate) fn direction(&self, graph: &mut Graph, v: Vector) -> Vector {
         match self {
             Self::Shift(_) => v,
@@ -75,7 +76,7 @@ impl Local {
         }
     }
 
-    /// A direction, given in the axes before the motion, in those behind it.
+    /// Transforms a direction from the axes before the motion to those behind it.
     pub(super) fn direction_behind(&self, graph: &mut Graph, v: Vector) -> Vector {
         match self {
             Self::Shift(_) => v,
@@ -87,7 +88,7 @@ impl Local {
         }
     }
 
-    /// The pose behind the motion from that before it.
+    /// Returns the pose behind the motion from the pose before it.
     pub(super) fn behind(&self, graph: &mut Graph, frame: &Frame) -> Frame {
         match self {
             Self::Shift(shift) => {
@@ -101,7 +102,7 @@ impl Local {
         }
     }
 
-    /// A point in the axes before the motion, from their origin.
+    /// Transforms a point to the frame before the motion.
     pub(crate) fn point(&self, graph: &mut Graph, p: Vector) -> Vector {
         match self {
             Self::Shift(shift) => graph.add_vectors(*shift, p),
@@ -128,7 +129,8 @@ fn elementary(graph: &mut Graph, motion: Motion, axis: usize, amount: Node) -> L
     }
 }
 
-/// `T(t) R = T(t − R u) R T(u)`, and R as a turn and an exchange of axes if it is one.
+/// Decomposes `T(t) R = T(t − R u) R T(u)`, and R into a rotation about a coordinate axis and a
+/// permutation of axes if possible.
 fn taken_apart(graph: &mut Graph, matrix: &Frame, motions: &mut Vec<Local>) {
     let (before, after) = shifts(graph, matrix);
     motions.push(Local::Shift(before));
@@ -139,13 +141,13 @@ fn taken_apart(graph: &mut Graph, matrix: &Frame, motions: &mut Vec<Local>) {
     motions.push(Local::Shift(after));
 }
 
-/// What of the position stays before the rotation, and what becomes a shift along its columns after it.
+/// Splits the position into a translation before the rotation and one along its columns after it.
 fn shifts(graph: &mut Graph, matrix: &Frame) -> (Vector, Vector) {
     let zero = graph.zero();
     let (mut before, mut after) = (matrix.position, [zero; 3]);
     for (j, axis) in matrix.axes.iter().enumerate() {
         let rows: Vec<usize> = (0..3).filter(|&i| axis[i] != zero && before[i] != zero).collect();
-        // One product alone is no more than what it would become.
+        // A single product would not get cheaper.
         if rows.len() < 2 {
             continue;
         }
@@ -165,10 +167,11 @@ fn shifts(graph: &mut Graph, matrix: &Frame) -> (Vector, Vector) {
     (before, after)
 }
 
-/// A rotation as a turn about a coordinate axis and an exchange of axes after it, if it is that.
+/// Decomposes a rotation into a rotation about a coordinate axis and a permutation of axes after
+/// it, if possible.
 ///
-/// Some entry (i, j) is ±1: axis j stays on axis i. Any other column k holds the cosine and sine of a turn that brings
-/// axis i + 1 there, and the last column is then ± where axis i + 2 goes.
+/// Some entry (i, j) is ±1, so column j is ± axis i. Another column k holds the cosine and sine of
+/// the angle by which axis i + 1 is rotated, and the last column is ± the rotated axis i + 2.
 fn turn(graph: &mut Graph, axes: &[Vector; 3]) -> Option<(Local, [Vector; 3])> {
     let zero = graph.zero();
     let unit = |graph: &Graph, node: Node| graph.value(node).filter(|value| value.abs() == 1.0);
@@ -197,7 +200,8 @@ mod tests {
     use super::*;
     use abbe_spec::expr::Symbol;
 
-    /// The matrix of an elbow, `Rz(q) Tz(d) Tx(a) Rx(-π/2)`, becomes one turn by q and shifts by numbers.
+    /// The matrix of an elbow, `Rz(q) Tz(d) Tx(a) Rx(-π/2)`, becomes one rotation by q and constant
+    /// translations.
     #[test]
     fn a_matrix_is_taken_apart() {
         let mut graph = Graph::new();

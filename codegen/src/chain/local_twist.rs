@@ -1,4 +1,4 @@
-//! What a symbol does to one transform by itself: for the loops of long chains.
+//! Twists of single transforms per unit of a symbol, for the loops of long chains.
 
 use std::collections::HashMap;
 
@@ -9,18 +9,18 @@ use super::symbol_jacobian::{Steps, twist};
 use super::walk::walk;
 use crate::graph::{Graph, Node};
 
-/// The velocity of the origin of the frame before a transform and the rotation, in its axes, that a symbol causes.
+/// Velocity of the origin and rotation, in the axes before a transform, per unit of a symbol.
 #[derive(Clone, Debug)]
 pub struct LocalTwist {
-    /// The transform, from 0; the tool is the last.
+    /// Index of the transform, from 0; the tool is the last.
     pub transform: usize,
-    /// Which of the symbols it is.
+    /// Index of the symbol.
     pub column: usize,
     /// Velocity and rotation.
     pub twist: [Node; 6],
 }
 
-/// Those that are not zero, transform by transform: `dA_i/dx A_i⁻¹`.
+/// Returns the nonzero twists `dA_i/dx A_i⁻¹`, transform by transform.
 pub(super) fn local_twists(graph: &mut Graph, spec: &Spec, symbols: &[Symbol]) -> Vec<LocalTwist> {
     let columns: HashMap<Symbol, usize> =
         symbols.iter().enumerate().map(|(i, symbol)| (*symbol, i)).collect();

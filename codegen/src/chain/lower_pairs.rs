@@ -1,5 +1,5 @@
-//! Which frames are joints of the simplest kind, lower pairs: a turn about an axis, or a slide along one, by their own variable
-//! alone and one to one.
+//! Recognizes frames that are lower pairs: a rotation about a fixed axis, or a translation along
+//! one, by their own variable only and with slope ±1.
 
 use abbe_core::VariableKind;
 use abbe_spec::expr::{Elementary, Expression, Motion, Symbol};
@@ -7,10 +7,12 @@ use abbe_spec::{Factor, Frame, Spec};
 
 use crate::graph::{Graph, Node};
 
-/// Of every frame, whether it is one, or fixed; of the last, whether the tool is fixed, too.
+/// Returns, for every frame, whether it is a lower pair or fixed; for the last frame the tool must
+/// be fixed as well.
 ///
-/// Proved, not tried: by derivatives that are the numbers ±1, and in a matrix by `y‴ = −y′` of every entry (a constant, a
-/// sine and a cosine, nothing else) or `y″ = 0`. What these do not prove counts as none.
+/// The proof is symbolic: derivatives that are the constants ±1, and for a matrix `y‴ = −y′` (a
+/// constant, a sine and a cosine only) or `y″ = 0` for every entry. A frame for which the proof
+/// fails counts as no lower pair.
 pub(crate) fn lower_pairs(spec: &Spec) -> Vec<bool> {
     let moves = |factor: &Factor| {
         let variable = |symbol| matches!(symbol, Symbol::Variable(_));
@@ -72,7 +74,7 @@ fn is_zero(graph: &Graph, node: Node) -> bool {
 mod tests {
     use super::*;
 
-    /// A spec of one frame with the revolute variable `q` after one with `d`, and a tool.
+    /// Parses a spec of one frame with the revolute variable `q` after one with `d`, and a tool.
     fn pairs(frame: &str, tool: &str) -> Vec<bool> {
         let text = format!(
             "[manipulator]\nname = \"arm\"\nlength = \"m\"\n[parameters]\na = \"0.3 m\"\nk = 1\n\

@@ -1,7 +1,7 @@
-//! How large the errors of the tool point are, as nodes whose largest values are sought.
+//! Magnitudes of the tool point's errors, as nodes to be maximized.
 //!
-//! A norm is the same in the axes of any frame. So that of what a source does is taken in the axes of the first frame that it
-//! moves: the joints before that drop out of it.
+//! A norm is the same in the axes of any frame. The norm of a source's effect is taken in the axes
+//! of the first frame that the source affects, so that the joints before that frame drop out.
 
 use abbe_core::{Class, Orientation};
 use abbe_spec::Spec;
@@ -15,55 +15,59 @@ use super::six::vectors;
 use super::sources;
 use crate::graph::{Graph, Node, Vector};
 
-/// The size of an error of the tool point.
+/// Magnitude of an error of the tool point.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Magnitude {
-    /// It, or its square.
+    /// The magnitude or its square.
     pub node: Node,
-    /// Whether the node is its square.
+    /// `true` if the node is the square of the magnitude.
     pub squared: bool,
-    /// Numbers of which it is a norm, and so convex in them; none if nothing of the kind is known.
+    /// Numbers of which the magnitude is a norm, and in which it is therefore convex; empty if none
+    /// are known.
     pub parts: Vec<Node>,
 }
 
 impl Magnitude {
-    /// The length of a vector.
+    /// Returns the length of a vector.
     pub(super) fn length(graph: &mut Graph, vector: Vector) -> Self {
         Self { node: graph.dot(vector, vector), squared: true, parts: vector.to_vec() }
     }
 }
 
-/// How large the errors of the tool point are. Of each: the norm of the position's, those along x, y and z of `F_0`, and the
-/// norm of rows 4–6.
+/// Magnitudes of the errors of the tool point. The five entries are the norm of the position error,
+/// its components along x, y and z of `F_0`, and the norm of rows 4–6.
 #[derive(Clone, Debug)]
 pub struct Magnitudes {
-    /// The graph they are nodes of.
+    /// The graph of the nodes.
     pub graph: Graph,
-    /// Of `Σ` of the enabled repeatable sources, with signs.
+    /// Signed sum of the enabled repeatable sources.
     pub repeatable: [Magnitude; 5],
-    /// Root sum of squares of the enabled random sources at their bounds: of a normal one 3σ.
+    /// Root sum of squares of the enabled random sources at their bounds (3σ for a normal
+    /// distribution).
     pub random: [Magnitude; 5],
-    /// Both, added.
+    /// Sum of the repeatable and random magnitudes.
     pub radius: [Magnitude; 5],
-    /// Of each kind what the errors along x and along y do not exceed: the norm of both, or of random sources the largest root
-    /// sum of squares along a direction across z. Turns about z that the chain begins with change nothing of it.
+    /// Upper bounds of the errors along x and along y, for each kind: the norm of both, or for
+    /// random sources the largest root sum of squares along a direction perpendicular to z. They do
+    /// not depend on leading rotations about z.
     pub across_z: [Magnitude; 3],
-    /// The parts of all of them.
+    /// Parts of all magnitudes.
     pub apart: Apart,
 }
 
-/// The parts of the errors of the tool point, each by itself: norms that depend on few joints.
+/// Parts of the errors of the tool point: norms that each depend on few joints.
 #[derive(Clone, Debug)]
 pub struct Apart {
-    /// ‖t_k‖, from the origin of each frame to that of the next, and from the last one to the tool point.
+    /// ‖t_k‖ from the origin of each frame to that of the next, and from the last one to the tool
+    /// point.
     pub links: Vec<Magnitude>,
-    /// ‖d_i‖ and ‖θ_i‖ of the errors of each frame: of all repeatable sources.
+    /// ‖d_i‖ and ‖θ_i‖ of the errors of each frame: sum of all repeatable sources.
     pub repeatable: Vec<[Magnitude; 2]>,
-    /// Of each random source at its bound.
+    /// ‖d_i‖ and ‖θ_i‖ of each random source at its bound.
     pub random: Vec<Vec<[Magnitude; 2]>>,
 }
 
-/// ‖d‖ and ‖θ‖ of the errors of each frame.
+/// Returns ‖d‖ and ‖θ‖ of the errors of each frame.
 fn sizes_apart(graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<[Magnitude; 2]> {
     let sizes = |errors: &[Node; 6]| {
         let (shift, turn) = vectors(*errors);
@@ -72,20 +76,20 @@ fn sizes_apart(graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<[Magnitude; 2]> {
     errors.iter().map(sizes).collect()
 }
 
-/// What some errors of frames do to the tool point.
-struct Moved {
-    /// δ, in the axes of the first frame that they move.
+/// Displacement of the tool point caused by errors of frames.
+struct ToolDisplacement {
+    /// δ in the axes of the first frame with an error.
     shift: Vector,
     /// δ in `F_0`.
     along: Vector,
-    /// x and y of δ behind the turns about z that the chain begins with.
+    /// x and y of δ behind the leading rotations about z.
     across_z: [Node; 2],
-    /// Numbers with the norm of rows 4–6.
+    /// Numbers with the same norm as rows 4–6.
     turn: Vector,
 }
 
 impl Magnitudes {
-    /// Those of a checked spec.
+    /// Builds the magnitudes of a checked spec.
     pub fn new(spec: &Spec) -> Self {
         let (mut graph, effects) = sources::effects(spec);
         let g = &mut graph;
@@ -102,7 +106,7 @@ impl Magnitudes {
             repeatable: sizes_apart(g, &errors),
             random: Vec::new(),
         };
-        let repeatable = Moved::by(g, spec, &links, &rows, &errors);
+        let repeatable = ToolDisplacement::by(g, spec, &links, &rows, &errors);
         let mut sums = [zero; 5];
         let mut parts: [Vec<Node>; 5] = Default::default();
         // Σ x², Σ y², Σ x y.
@@ -115,7 +119,7 @@ impl Magnitudes {
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
                 let at_bound: Vec<[Node; 6]> = at_bound.collect();
                 apart.random.push(sizes_apart(g, &at_bound));
-                let moved = Moved::by(g, spec, &links, &rows, &at_bound);
+                let moved = ToolDisplacement::by(g, spec, &links, &rows, &at_bound);
                 let squares = moved.squares(g);
                 sums = std::array::from_fn(|i| g.add(sums[i], squares[i]));
                 parts.iter_mut().zip(moved.parts()).for_each(|(parts, own)| parts.extend(own));
@@ -142,14 +146,14 @@ impl Magnitudes {
     }
 }
 
-/// The size of the repeatable errors, and that of the random ones, added.
+/// Returns the sum of the repeatable and the random magnitude.
 fn both(graph: &mut Graph, size: Node, repeatable: &Magnitude, random: &Magnitude) -> Magnitude {
     let other = graph.sqrt(random.node);
     let parts = [&repeatable.parts[..], &random.parts].concat();
     Magnitude { node: graph.add(size, other), squared: false, parts }
 }
 
-/// `(a + b)/2 + √(((a − b)/2)² + c²)` of the matrix (a c; c b).
+/// Returns the largest eigenvalue `(a + b)/2 + √(((a − b)/2)² + c²)` of the matrix (a c; c b).
 fn largest_eigenvalue(graph: &mut Graph, [a, b, c]: [Node; 3]) -> Node {
     let half = graph.constant(0.5);
     let [sum, difference] = [graph.add(a, b), graph.sub(a, b)].map(|node| graph.mul(half, node));
@@ -159,7 +163,7 @@ fn largest_eigenvalue(graph: &mut Graph, [a, b, c]: [Node; 3]) -> Node {
     graph.add(sum, root)
 }
 
-impl Moved {
+impl ToolDisplacement {
     fn by(graph: &mut Graph, spec: &Spec, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> Self {
         let zero = graph.zero();
         let first = errors.iter().position(|errors| *errors != [zero; 6]).unwrap_or(errors.len());
@@ -175,7 +179,7 @@ impl Moved {
         Self { shift, along: [x, y, z], across_z: [across_x, across_y], turn }
     }
 
-    /// The numbers of which each of the five is a norm.
+    /// Returns the numbers of which each of the five magnitudes is a norm.
     fn parts(&self) -> [Vec<Node>; 5] {
         let [x, y, z] = self.along.map(|part| vec![part]);
         [self.shift.to_vec(), x, y, z, self.turn.to_vec()]

@@ -1,17 +1,18 @@
-//! Minors of a matrix of nodes, and what follows from them: linear equations without a pivot that may be 0.
+//! Minors of a matrix of nodes, and the solution of linear equations from them without a pivot that
+//! may be 0.
 
 use crate::graph::{Graph, Node};
 
-/// The minors of all rows together, for each set of as many columns; sets are masks of bits.
+/// Returns the minors of all rows, for each set of as many columns. A set is a bit mask.
 ///
-/// Those of the first k rows come from those of the first k − 1 (Laplace):
+/// The minors of the first k rows follow from those of the first k − 1 (Laplace expansion):
 ///
 /// ```text
 /// M_k(S) = Σ_{c ∈ S} (−1)^(k − 1 + place of c in S) a_kc M_{k−1}(S without c)
 /// ```
 ///
-/// So six rows of seven columns take 448 products where nothing is 0, and hold the determinant and all that Cramer's rule divides
-/// by it.
+/// Six rows of seven columns take at most 448 products, and give the determinant and every
+/// numerator of Cramer's rule.
 pub(super) fn minors(graph: &mut Graph, rows: &[Vec<Node>]) -> Vec<Node> {
     let zero = graph.zero();
     let columns = rows.first().map_or(0, Vec::len);
@@ -35,7 +36,7 @@ pub(super) fn minors(graph: &mut Graph, rows: &[Vec<Node>]) -> Vec<Node> {
     known
 }
 
-/// x of `A x = b` by Cramer's rule; `rows` are those of the square matrix A.
+/// Solves `A x = b` by Cramer's rule; `rows` are the rows of the square matrix A.
 pub(super) fn solve(graph: &mut Graph, rows: &[Vec<Node>], b: &[Node]) -> Vec<Node> {
     let count = rows.len();
     let extended: Vec<Vec<Node>> = rows.iter().zip(b).map(|(row, b)| [&row[..], &[*b]].concat()).collect();
@@ -51,7 +52,7 @@ pub(super) fn solve(graph: &mut Graph, rows: &[Vec<Node>], b: &[Node]) -> Vec<No
     (0..count).map(unknown).collect()
 }
 
-/// `Σ a_i b_i`.
+/// Returns `Σ a_i b_i`.
 pub(super) fn products(graph: &mut Graph, a: &[Node], b: &[Node]) -> Node {
     a.iter().zip(b).fold(graph.zero(), |sum, (a, b)| {
         let product = graph.mul(*a, *b);

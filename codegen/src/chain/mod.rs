@@ -1,13 +1,17 @@
-//! From a spec to the nodes of everything that is generated: poses, Jacobians, generalized errors.
+//! Builds the nodes of everything that is generated from a spec: poses, Jacobians, generalized
+//! errors.
 //!
-//! `walk` goes along the chain factor by factor and keeps every frame's pose in `F_0`; `error_jacobian` (with
-//! `moments`) and `symbol_jacobian` read their columns off these poses by the structured product rule; `rows` turns a
-//! small rotation into rows 4–6; `sources` gives ε, with `deviation` for errors of joints and parameters and `elastic`
-//! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
-//! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`, and `magnitudes`, whose
-//! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it, `joint_step` (by `minors`) what takes
-//! the errors back to first order, and `residual` what is left then; `dexterity` is how far joints move the tool (`joint_columns`), and `tool_compliance` how far a force does. [`Model`]
-//! holds the results. What else leads to the same, `ways` and `moving` state: a program takes what needs the fewest operations.
+//! `walk` follows the chain factor by factor and keeps every frame's pose in `F_0`.
+//! `error_jacobian` (with `moments`) and `symbol_jacobian` read their columns off these poses by
+//! the structured product rule; `rows` converts a small rotation to rows 4–6. `sources` gives ε,
+//! with `deviation` for errors of joints and parameters and `elastic` for deflection under loads.
+//! In the other direction, `accumulate` goes from the tip to the base over the `local` motions and
+//! adds every frame's errors: `displacement`, `covariance`, `by_source`, and the `magnitudes` to be
+//! maximized. `real` is the exact chain with errors and `remainder` its difference from first
+//! order. `joint_step` (by `minors`) cancels the errors to first order and `residual` is the error
+//! left after it. `dexterity` holds rows of `J_q` (`joint_columns`), `tool_compliance` the
+//! displacement per force. `equivalent_forms` and `moving` state alternative forms, from which a
+//! program takes the cheapest. [`Model`] holds the results.
 
 mod accumulate;
 mod by_source;
@@ -16,6 +20,7 @@ mod deviation;
 mod dexterity;
 mod displacement;
 mod elastic;
+mod equivalent_forms;
 mod error_jacobian;
 mod joint_columns;
 mod joint_step;
@@ -36,7 +41,6 @@ mod sources;
 mod symbol_jacobian;
 mod tool_compliance;
 mod walk;
-mod ways;
 
 pub(crate) use accumulate::Accumulated;
 pub(crate) use covariance::Covariance;

@@ -1,4 +1,4 @@
-//! Everything that is generated for a manipulator, as nodes of one graph.
+//! Quantities that are generated for a manipulator, as nodes of one graph.
 
 use abbe_core::Class;
 use abbe_spec::expr::{Elementary, Motion, Symbol};
@@ -9,6 +9,7 @@ use super::accumulate::Links;
 use super::by_source;
 use super::covariance::Covariance;
 use super::displacement::Displacement;
+use super::equivalent_forms::EquivalentForms;
 use super::error_jacobian;
 use super::local_twist::{LocalTwist, local_twists};
 use super::moments::Moments;
@@ -18,71 +19,75 @@ use super::rows::Rows;
 use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
-use super::ways::Ways;
 use crate::graph::{Frame, Graph, Node, Op, Vector};
 
-/// A Jacobian, or anything else with its rows: columns, rows as the spec's orientation says.
+/// A Jacobian, or another matrix with the same six rows: columns, with rows 4–6 by the spec's
+/// orientation.
 #[derive(Clone, Debug)]
 pub struct Jacobian {
     /// The columns.
     pub columns: Vec<[Node; 6]>,
-    /// `cos ρ` where the rows are Euler angles: they are meaningless where it is 0.
+    /// `cos ρ` if the rows are Euler angles; they are undefined where it is 0.
     pub margin: Option<Node>,
 }
 
-/// The nodes of everything that is generated for a manipulator.
+/// Nodes of all quantities that are generated for a manipulator.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// The graph they are nodes of.
+    /// The graph of the nodes.
     pub graph: Graph,
-    /// `A_1 … A_n` and the tool, each by itself.
+    /// `A_1 … A_n` and the tool transform.
     pub transforms: Vec<Frame>,
     /// The poses of `F_1 … F_n` in `F_0`.
     pub frames: Vec<Frame>,
-    /// The pose of the tool point in `F_0`: `A_T`.
+    /// Pose of the tool point in `F_0`: `A_T`.
     pub tool: Frame,
     /// `J_e`: six columns per frame.
     pub error_jacobian: Jacobian,
-    /// What of `J_e` is neither zero nor repeated: as many nodes for each frame.
+    /// Entries of `J_e` that are neither zero nor repeated; the same number for each frame.
     pub distinct: Vec<Vec<Node>>,
     /// `J_q`: one column per variable.
     pub joint_jacobian: Jacobian,
     /// `∂X_T/∂s`: one column per parameter.
     pub parameter_jacobian: Jacobian,
-    /// The effects of the enabled sources, source by source.
+    /// Effects of the enabled sources, source by source.
     pub effects: Vec<EffectNode>,
-    /// ε: the sum of the enabled repeatable sources, six per frame.
+    /// ε: sum of the enabled repeatable sources, six per frame.
     pub generalized_errors: Vec<[Node; 6]>,
     /// `ΔX = J_e ε` for any ε: one column.
     pub displacement: Jacobian,
     /// `J_e diag(σ²) J_eᵀ` for any variances σ²: six columns.
     pub covariance: Jacobian,
-    /// `J_e ε` of the enabled repeatable sources, one column: along the chain, and from the columns of `J_e`.
+    /// `J_e ε` of the enabled repeatable sources, one column: accumulated along the chain, and from
+    /// the columns of `J_e`.
     pub predicted_displacement: [Jacobian; 2],
-    /// `J_e ε` of each enabled source by itself, one column per source: the same two ways.
+    /// `J_e ε` of each enabled source alone, one column per source, computed in the same two forms.
     pub source_displacements: [Jacobian; 2],
-    /// The pose of the tool point with the errors of the enabled repeatable sources, exactly.
+    /// Exact pose of the tool point with the errors of the enabled repeatable sources.
     pub real_pose: Frame,
-    /// The same with the errors of all enabled sources, each times its magnitude.
+    /// Exact pose of the tool point with the errors of all enabled sources, each times its
+    /// magnitude.
     pub drawn_pose: Frame,
-    /// Of a long chain with more than errors of frames, those of every frame that make the nominal chain that of `real_pose`.
+    /// Errors of every frame with which the nominal chain gives `real_pose`. Only for a long chain
+    /// with errors other than those at the frames themselves.
     pub real_errors: Option<Vec<[Node; 6]>>,
-    /// Of a long chain, those that make it that of `drawn_pose`.
+    /// Errors of every frame with which the nominal chain gives `drawn_pose`. Only for a long
+    /// chain.
     pub drawn_errors: Vec<[Node; 6]>,
-    /// `J_q` with rotation-vector rows whatever the spec's are.
+    /// `J_q` with rotation-vector rows for any orientation of the spec.
     pub joint_twists: Vec<[Node; 6]>,
-    /// Of a long chain, what variables do to each transform.
+    /// Twists of each transform per unit of the variables. Only for a long chain.
     pub joint_local_twists: Vec<LocalTwist>,
-    /// Of a long chain, what parameters do to each transform.
+    /// Twists of each transform per unit of the parameters. Only for a long chain.
     pub parameter_local_twists: Vec<LocalTwist>,
 }
 
-/// How many frames a chain may have whose functions are written without loops: beyond, straight-line code outgrows the
-/// instruction cache, and takes minutes to compile where its loops take seconds.
+/// Largest number of frames for which straight-line code is generated. Beyond it, straight-line
+/// code outgrows the instruction cache and takes minutes to compile where loops take seconds.
 pub(super) const LONGEST_WITHOUT_LOOPS: usize = 30;
 
 impl Model {
-    /// Builds all nodes. A checked spec cannot fail.
+    /// Builds all nodes. This cannot fail for a checked spec.
     pub fn new(spec: &Spec) -> Self {
         let mut graph = Graph::with_tables(&spec.tables);
         let g = &mut graph;
@@ -178,15 +183,15 @@ impl Model {
             for (chain, real) in [(&real, &real_poses), (&drawn, &drawn_poses)] {
                 if *real != poses {
                     let links = chain.links(g);
-                    Ways::of_poses(g, &links, real);
+                    EquivalentForms::of_poses(g, &links, real);
                 }
             }
-            let ways = Ways::new(g, &links, &poses);
-            ways.moments(g, &by_frame);
+            let forms = EquivalentForms::new(g, &links, &poses);
+            forms.moments(g, &by_frame);
             let symbols: Vec<Symbol> = (0..spec.variables.len()).map(Symbol::Variable).collect();
-            ways.twists(g, spec, &symbols, &twists);
+            forms.twists(g, spec, &symbols, &twists);
             let symbols: Vec<Symbol> = (0..spec.parameters.len()).map(Symbol::Parameter).collect();
-            ways.twists(g, spec, &symbols, &parameter_twists);
+            forms.twists(g, spec, &symbols, &parameter_twists);
         }
         Self {
             graph,
@@ -226,8 +231,8 @@ fn name(graph: &mut Graph, frame: &Frame, index: &str) {
     }
 }
 
-/// Names the lengths of a transform that are numbers: `x2` is that along x from frame 1 to frame 2, `a2` the radius where
-/// a matrix has `a cos θ` and `a sin θ`.
+/// Names the constant lengths of a transform: `x2` is the length along x from frame 1 to frame 2,
+/// `a2` the radius where a matrix has `a cos θ` and `a sin θ`.
 fn name_lengths(graph: &mut Graph, factors: &[Factor], index: &str) {
     for factor in factors {
         match factor {
@@ -258,7 +263,7 @@ fn name_length(graph: &mut Graph, amount: Node, axis: usize, index: &str) {
     }
 }
 
-/// Whether functions of a chain are loops over its frames.
+/// Returns `true` if the functions of the chain are loops over its frames.
 pub(crate) fn is_long(spec: &Spec) -> bool {
     spec.frames.len() > LONGEST_WITHOUT_LOOPS
 }

@@ -1,6 +1,8 @@
-//! The velocity `a × (p_T − p_i)` that a small turn about an axis `a` of frame i gives the tool point.
+//! Moments: the velocity `a × (p_T − p_i)` of the tool point per unit of rotation about an axis `a`
+//! of frame i.
 //!
-//! Written out it takes 6 multiplications and 3 additions. Less does it where another frame has the same axis:
+//! The direct formula takes 6 multiplications and 3 additions. It takes fewer where another frame
+//! has the same axis:
 //!
 //! ```text
 //! p_i = p_j + δ        a × (p_T − p_i) = a × (p_T − p_j) − a × δ
@@ -8,23 +10,24 @@
 //! δ = d b, b ⊥ a       a × δ = d c, with c the third axis of the frame that has a and b
 //! ```
 //!
-//! The tool point itself serves as such a frame: every moment about it is 0.
+//! The tool point itself serves as such a frame, because every moment about it is 0.
 
 use super::walk::Step;
 use crate::graph::{Frame, Graph, Node, Vector};
 
-/// Everything the moments can be read from.
+/// Quantities from which the moments are computed.
 pub(super) struct Moments<'m> {
     frames: &'m [Frame],
     tool: &'m Frame,
-    /// The translations from frame i to the next, and from the last frame to the tool: direction and distance.
+    /// Translations from frame i to the next, and from the last frame to the tool: direction and
+    /// distance.
     segments: Vec<Vec<(Vector, Node)>>,
-    /// The axes of the frame before and their moments.
+    /// Axes of the preceding frame and their moments.
     before: Vec<(Vector, Vector)>,
 }
 
 impl<'m> Moments<'m> {
-    /// `ends` says how many of the steps lead to each frame.
+    /// Collects the translations of a chain; `ends` is the number of steps that lead to each frame.
     pub(super) fn new(
         graph: &Graph,
         frames: &'m [Frame],
@@ -40,8 +43,8 @@ impl<'m> Moments<'m> {
         Self { frames, tool, segments, before: Vec::new() }
     }
 
-    /// The moments of the three axes of frame i; frames are asked for in their order.
-    pub(super) fn of(&mut self, graph: &mut Graph, i: usize) -> [Vector; 3] {
+    /// Returns the moments of the three axes of frame i. Call it for the frames in ascending order.
+    pub(super) fn of_frame(&mut self, graph: &mut Graph, i: usize) -> [Vector; 3] {
         let axes = self.frames[i].axes;
         let mut known = Vec::new();
         let moments = axes.map(|axis| {
@@ -53,33 +56,34 @@ impl<'m> Moments<'m> {
         moments
     }
 
-    /// `a × (p_T − p_i)` by the way that takes the fewest operations.
+    /// Returns `a × (p_T − p_i)` by the formula that takes the fewest operations.
     fn moment(&self, graph: &mut Graph, i: usize, axis: Vector) -> Vector {
-        let mut ways: Vec<Way> = Vec::new();
+        let mut forms: Vec<MomentForm> = Vec::new();
         if let Some(offset) = self.offset(graph, i, self.segments[i..].iter().flatten(), axis) {
-            ways.push(Way { known: None, offset });
+            forms.push(MomentForm { known: None, offset });
         }
         for &(known, moment) in &self.before {
             if let Some(same) = parallel(graph, known, axis)
                 && let Some(offset) = self.offset(graph, i, self.segments[i - 1].iter(), axis)
             {
                 let moment = if same { moment } else { graph.neg_vector(moment) };
-                ways.push(Way { known: Some(moment), offset });
+                forms.push(MomentForm { known: Some(moment), offset });
             }
         }
-        let Some(way) = ways.into_iter().min_by_key(Way::operations) else {
+        let Some(form) = forms.into_iter().min_by_key(MomentForm::operations) else {
             let lever = self.lever(graph, i);
             return graph.cross(axis, lever);
         };
-        let offset = way.offset.vector(graph);
-        match way.known {
+        let offset = form.offset.vector(graph);
+        match form.known {
             // About the tool point every moment is 0, and δ is the lever itself.
             None => offset,
             Some(moment) => graph.sub_vectors(moment, offset),
         }
     }
 
-    /// `a × δ` for the sum δ of some translations, if it takes at most one product of a number and an axis.
+    /// Returns `a × δ` for the sum δ of translations if it takes at most one product of a number
+    /// and an axis.
     fn offset<'t>(
         &self,
         graph: &mut Graph,
@@ -100,7 +104,7 @@ impl<'m> Moments<'m> {
         Some(offset)
     }
 
-    /// `a × b` for two axes of one frame, near frame i: its third axis, or the negative of it.
+    /// Returns `a × b` for two axes of one frame near frame i: ± its third axis.
     fn cross(&self, graph: &mut Graph, i: usize, a: Vector, b: Vector) -> Option<Vector> {
         let near = self.frames[i.saturating_sub(1)..].iter().take(3).chain([self.tool]);
         for frame in near {
@@ -118,7 +122,7 @@ impl<'m> Moments<'m> {
         None
     }
 
-    /// `p_T − p_i`.
+    /// Returns `p_T − p_i`.
     fn lever(&self, graph: &mut Graph, i: usize) -> Vector {
         let lever = graph.sub_vectors(self.tool.position, self.frames[i].position);
         for (node, axis) in lever.into_iter().zip("xyz".chars()) {
@@ -135,14 +139,14 @@ enum Offset {
     Along(Vector, Node),
 }
 
-/// A moment that is known, or none if it is that of the tool point, and what lies between.
-struct Way {
+/// A known moment (`None` for the tool point) and the offset from it.
+struct MomentForm {
     known: Option<Vector>,
     offset: Offset,
 }
 
-impl Way {
-    /// Multiplications and additions.
+impl MomentForm {
+    /// Returns the number of multiplications and additions.
     fn operations(&self) -> usize {
         match (&self.offset, self.known) {
             (Offset::Zero, _) => 0,
@@ -161,7 +165,7 @@ impl Offset {
     }
 }
 
-/// Whether two vectors are the same (`true`) or the negative of each other (`false`).
+/// Returns `Some(true)` for equal vectors and `Some(false)` for opposite ones.
 fn parallel(graph: &mut Graph, a: Vector, b: Vector) -> Option<bool> {
     if a == b {
         return Some(true);

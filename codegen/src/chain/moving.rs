@@ -1,14 +1,15 @@
-//! Another way to `ΔX = J_e ε`: what the frames do to the origin that has been reached, and with that to the tool point.
+//! Alternative form of `ΔX = J_e ε`: accumulates the displacement of the current origin instead of
+//! the tool point's.
 //!
-//! With w the displacement of the point at the frame's origin, as if it were fixed to the tool, θ that of `Displacement` and
-//! ρ the tool point as seen from the frame:
+//! Let w be the displacement of the point at the frame's origin, considered as fixed to the tool, θ
+//! the rotation of `Displacement`, and ρ the tool point relative to the frame:
 //!
 //! ```text
 //! δ = w + θ × ρ        take in ε_i: w ← w + d_i        through a shift by t: w ← w − θ × t
 //! ```
 //!
-//! A shift along an axis takes two products where an error at a lever ρ takes six; and where several frames have one origin
-//! nothing has to be done between them.
+//! A translation along an axis takes two products, where an error at a lever ρ takes six. Between
+//! frames with a common origin there is nothing to compute.
 
 use super::accumulate::{Accumulated, Links};
 use super::displacement::Displacement;
@@ -16,7 +17,8 @@ use super::local::Local;
 use super::six::vectors;
 use crate::graph::{Graph, Node};
 
-/// States at every frame that both ways are equal; proposes to change there from one to the other.
+/// States at every frame that both forms are equal, and proposes to switch from one to the other
+/// there.
 pub(super) fn equate(graph: &mut Graph, links: &Links, errors: &[[Node; 6]]) {
     let zero = [graph.zero(); 3];
     let mut at_tool = Displacement::none(graph);
@@ -31,7 +33,7 @@ pub(super) fn equate(graph: &mut Graph, links: &Links, errors: &[[Node; 6]]) {
         let back = graph.sub_vectors(at_tool.shift, swing);
         graph.equate_vectors(at_tool.shift, there);
         graph.equate_vectors(at_origin, back);
-        // From the tip to this frame by origins, from here by the tool point.
+        // Path from the tip to this frame by origins, from here on by the tool point.
         origins.extend(at_origin);
         graph.propose_together([&origins[..], &there].concat());
         for motion in links.motions(link).iter().rev() {

@@ -1,14 +1,16 @@
 //! The exact chain with the errors of the spec's own sources: equation (6) with true rotations.
 //!
-//! Every source has a magnitude m, which its errors are multiplied with: 1 of a repeatable one, 0 of a random one where only
-//! the former are meant, and what was drawn in a draw. What several sources do at one frame comes in this order:
+//! Every source has a magnitude m that multiplies its errors: 1 for a repeatable source; for a
+//! random source 0 in the pose without random errors, and the drawn number in a Monte Carlo draw.
+//! At one frame the order is:
 //!
 //! ```text
 //! Π_i  A_i(q + Σ m δq, s + Σ m δs)  ·  Π L E_M(m e) L⁻¹  ·  E_i(Σ m e)          then  T(s + Σ m δs)
 //! ```
 //!
-//! the numbers of `A_i` as they really are, those of a `dh` frame too; then errors located elsewhere on the link, in the order of
-//! the file; then the sum of all errors of the frame itself. To first order no order matters.
+//! first the deviating numbers of `A_i`, including those of a `dh` frame; then the errors located
+//! elsewhere on the link, in the order of the file; then the sum of all errors at the frame itself.
+//! To first order the order does not matter.
 
 use abbe_core::Component;
 use abbe_spec::expr::{Expression, Motion, Symbol, motion};
@@ -25,12 +27,12 @@ pub(super) struct RealChain<'a> {
     spec: &'a Spec,
     causes: &'a Causes,
     magnitudes: Vec<Node>,
-    /// How much more numbers of the chain are.
+    /// Deviation of each number of the chain.
     deviations: Vec<(ChainNumber, Node)>,
 }
 
 impl<'a> RealChain<'a> {
-    /// One magnitude for each enabled source.
+    /// Creates the chain; `magnitudes` has one node for each enabled source.
     pub(super) fn new(graph: &mut Graph, spec: &'a Spec, causes: &'a Causes, magnitudes: Vec<Node>) -> Self {
         let mut deviations: Vec<(ChainNumber, Node)> = Vec::new();
         for deviation in &causes.deviations {
@@ -44,7 +46,8 @@ impl<'a> RealChain<'a> {
         Self { spec, causes, magnitudes, deviations }
     }
 
-    /// The poses of all frames and `A_T` of the real machine; errors that are always zero are left out.
+    /// Returns the poses of all frames and `A_T` of the real machine, without errors that are
+    /// always zero.
     pub(super) fn poses(&self, graph: &mut Graph) -> Vec<Frame> {
         let mut pose = graph.identity();
         let links = 0..=self.spec.frames.len();
@@ -55,22 +58,23 @@ impl<'a> RealChain<'a> {
         links.map(behind).collect()
     }
 
-    /// Extends a pose by a link of the real machine; the tool is the last.
+    /// Extends a pose by a link of the real machine; the tool is the last link.
     fn behind(&self, graph: &mut Graph, pose: Frame, link: usize) -> Frame {
         let pose = self.nominal(graph, pose, link);
         if link < self.spec.frames.len() { self.displaced(graph, pose, link) } else { pose }
     }
 
-    /// The real machine as local motions.
+    /// Returns the real machine as local motions.
     pub(super) fn links(&self, graph: &mut Graph) -> Links {
         let identity = graph.identity();
         let links: Vec<Frame> =
             (0..=self.spec.frames.len()).map(|link| self.behind(graph, identity, link)).collect();
-        Links::of(graph, &links)
+        Links::from_frames(graph, &links)
     }
 
-    /// The tool point of the real machine, as seen from the first frame that is not where it should be: in the nominal axes of
-    /// that frame, or of the one before it if a number of its transform is off. Zero if everything is where it should be.
+    /// Returns the tool point of the real machine relative to the first frame with an error, in the
+    /// nominal axes of that frame, or of the frame before it if a number of its transform deviates.
+    /// Returns zero for a chain without errors.
     pub(super) fn tool_point_from_first_error(&self, graph: &mut Graph) -> Vector {
         let (zero, last) = (graph.zero(), self.spec.frames.len());
         let mut point = [zero; 3];
@@ -82,27 +86,28 @@ impl<'a> RealChain<'a> {
             let start = graph.identity();
             if self.is_changed(link) {
                 let nominal = self.nominal(graph, start, link);
-                motions.extend(Local::of(graph, &nominal));
+                motions.extend(Local::from_frame(graph, &nominal));
             } else if link > first {
                 motions.extend(Local::motions(graph, self.factors(link)));
             }
             if link < last && self.has_errors(graph, link) {
                 let errors = self.displaced(graph, start, link);
-                motions.extend(Local::of(graph, &errors));
+                motions.extend(Local::from_frame(graph, &errors));
             }
             point = motions.iter().rev().fold(point, |point, motion| motion.point(graph, point));
         }
         point
     }
 
-    /// Whether something follows the `A_i` of a frame.
+    /// Returns `true` if errors follow the `A_i` of a frame.
     fn has_errors(&self, graph: &mut Graph, frame: usize) -> bool {
         let none = [graph.zero(); 6];
         self.plain(graph, frame) != none || !self.located(graph, frame).is_empty()
     }
 
-    /// The six errors of every frame that make the nominal chain the real one: `E_i` is all that follows the nominal `A_i`,
-    /// and the last one has the tool's part, `T(s + δs) T⁻¹`.
+    /// Returns the six errors of every frame that make the nominal chain the real one. `E_i` is the
+    /// product of all motions that follow the nominal `A_i`; the last one includes the tool's part,
+    /// `T(s + δs) T⁻¹`.
     pub(super) fn errors(&self, graph: &mut Graph) -> Vec<[Node; 6]> {
         let last = self.spec.frames.len();
         let errors = |graph: &mut Graph, frame: usize| {
@@ -122,18 +127,18 @@ impl<'a> RealChain<'a> {
             let nominal = transform(graph, &self.spec.frames[frame].factors);
             let back = graph.inverse(&nominal);
             let motion = graph.then(&back, &real);
-            six_of(graph, &motion)
+            errors_of_motion(graph, &motion)
         };
         (0..last).map(|frame| errors(graph, frame)).collect()
     }
 
-    /// Whether there is more than the errors of frames themselves.
+    /// Returns `true` if there are errors other than those at the frames themselves.
     pub(super) fn is_more_than_errors_of_frames(&self, graph: &mut Graph) -> bool {
         !self.deviations.is_empty()
             || (0..self.spec.frames.len()).any(|frame| !self.located(graph, frame).is_empty())
     }
 
-    /// The factors of a frame, or of the tool behind the last one.
+    /// Returns the factors of a frame, or of the tool behind the last frame.
     fn factors(&self, frame: usize) -> &[Factor] {
         self.spec.frames.get(frame).map_or(&self.spec.tool, |frame| &frame.factors)
     }
@@ -150,7 +155,7 @@ impl<'a> RealChain<'a> {
         }
     }
 
-    /// How much more the number of factor `place` of a Denavit-Hartenberg frame is.
+    /// Returns the deviation of factor `place` of a Denavit-Hartenberg frame.
     fn deviation_of_factor(&self, frame: usize, place: usize) -> Option<Node> {
         let number = *self.spec.frames.get(frame)?.convention?.order().get(place)?;
         self.deviation(ChainNumber::DenavitHartenberg { frame, number })
@@ -163,7 +168,7 @@ impl<'a> RealChain<'a> {
             || (0..factors.len()).any(|place| self.deviation_of_factor(frame, place).is_some())
     }
 
-    /// Extends a pose by `A_i` as its numbers really are.
+    /// Extends a pose by `A_i` with the deviations of its numbers.
     fn nominal(&self, graph: &mut Graph, pose: Frame, frame: usize) -> Frame {
         let factors = self.factors(frame);
         if !self.is_changed(frame) {
@@ -184,7 +189,7 @@ impl<'a> RealChain<'a> {
         })
     }
 
-    /// Extends a pose by everything that follows `A_i`.
+    /// Extends a pose by all errors that follow `A_i`.
     fn displaced(&self, graph: &mut Graph, mut pose: Frame, frame: usize) -> Frame {
         for (place, errors) in self.located(graph, frame) {
             pose = graph.then(&pose, &place);
@@ -196,7 +201,7 @@ impl<'a> RealChain<'a> {
         displaced(graph, pose, &errors)
     }
 
-    /// The places on the link of a frame that have errors.
+    /// Returns the poses on the link of a frame that have errors, with these errors.
     fn located(&self, graph: &mut Graph, frame: usize) -> Vec<(Frame, [Node; 6])> {
         let zero = graph.zero();
         let at_frame = self.causes.errors.iter().filter(|caused| caused.frame == frame);
@@ -208,7 +213,7 @@ impl<'a> RealChain<'a> {
         located.collect()
     }
 
-    /// The sum of the errors of a frame itself: of each source, then of all.
+    /// Returns the sum of the errors at a frame itself: within each source, then over the sources.
     fn plain(&self, graph: &mut Graph, frame: usize) -> [Node; 6] {
         let mut sums = [graph.zero(); 6];
         for (source, magnitude) in self.magnitudes.iter().enumerate() {
@@ -228,7 +233,8 @@ impl<'a> RealChain<'a> {
     }
 }
 
-/// A pose and `E = T(e_x, e_y, e_z) R_y(e_s) R_z(e_r) R_x(e_p)`, in the order of ε.
+/// Returns a pose times `E = T(e_x, e_y, e_z) R_y(e_s) R_z(e_r) R_x(e_p)`, with errors in the order
+/// of ε.
 pub(crate) fn displaced(graph: &mut Graph, mut pose: Frame, errors: &[Node; 6]) -> Frame {
     for (component, error) in Component::ALL.into_iter().zip(errors) {
         if *error == graph.zero() {
@@ -242,8 +248,8 @@ pub(crate) fn displaced(graph: &mut Graph, mut pose: Frame, errors: &[Node; 6]) 
     pose
 }
 
-/// The six errors whose E is that motion: position, and `R = R_y(σ) R_z(ρ) R_x(π)`.
-fn six_of(graph: &mut Graph, motion: &Frame) -> [Node; 6] {
+/// Returns the six errors whose E is a given motion: position, and `R = R_y(σ) R_z(ρ) R_x(π)`.
+fn errors_of_motion(graph: &mut Graph, motion: &Frame) -> [Node; 6] {
     let ([x, y, z], [e_x, e_y, e_z]) = (motion.axes, motion.position);
     let (squares, minus) = ([x[0], x[2]].map(|entry| graph.mul(entry, entry)), graph.neg(x[2]));
     let sum = graph.add(squares[0], squares[1]);

@@ -1,4 +1,4 @@
-//! What first order leaves out, as a node whose largest value is sought.
+//! Remainder of the first-order prediction, as a node to be maximized.
 
 use abbe_core::Class;
 use abbe_spec::Spec;
@@ -9,16 +9,17 @@ use super::real::RealChain;
 use super::sources;
 use crate::graph::Graph;
 
-/// What `J_e ε` of the repeatable sources leaves out of the position of the tool point.
+/// Remainder of the tool point's position after `J_e ε` of the repeatable sources.
 ///
-/// With t times their errors the exact chain has the tool point at p(t), and `p'(0)` is `J_e ε`. So
+/// With t times their errors, the exact chain has the tool point at p(t), and `p'(0)` is `J_e ε`.
+/// Hence
 ///
 /// ```text
 /// p(1) − p(0) − J_e ε  =  ∫₀¹ (1 − t) p″(t) dt        which is no longer than ½ ‖p″(t)‖ is anywhere in 0 ≤ t ≤ 1
 /// ```
 #[derive(Clone, Debug)]
 pub struct Remainder {
-    /// The graph it is a node of.
+    /// The graph of the node.
     pub graph: Graph,
     /// ½ ‖p″(t)‖.
     pub magnitude: Magnitude,
@@ -27,7 +28,7 @@ pub struct Remainder {
 }
 
 impl Remainder {
-    /// That of a checked spec.
+    /// Builds the remainder of a checked spec.
     pub fn new(spec: &Spec) -> Self {
         let (mut graph, _, causes) = sources::effects_and_causes(spec);
         let g = &mut graph;

@@ -1,4 +1,4 @@
-//! What is left once the joints have taken the errors back to first order, as nodes whose largest values are sought.
+//! Error left after one step of compensation, as nodes to be maximized.
 
 use abbe_core::Class;
 use abbe_spec::expr::{Elementary, Symbol};
@@ -12,31 +12,34 @@ use super::real::RealChain;
 use super::sources::{self, Causes};
 use crate::graph::{Graph, Node, Vector};
 
-/// How far the real tool is from where the ideal one should be after one step of compensation, `q′ = q − J_q⁻¹ J_e ε`.
+/// Deviation of the real tool from the ideal one after one step of compensation, `q′ = q − J_q⁻¹
+/// J_e ε`.
 ///
-/// With t times the step d and t times the errors of the repeatable sources, the exact chain has the tool point at p(t). As
-/// `p′(0) = J_e ε + J_q d` is 0,
+/// With t times the step d and t times the errors of the repeatable sources, the exact chain has
+/// the tool point at p(t). Because `p′(0) = J_e ε + J_q d` is 0,
 ///
 /// ```text
 /// p(1) − p(0)  =  ∫₀¹ (1 − t) p″(t) dt        which is no longer than ½ ‖p″(t)‖ is anywhere in 0 ≤ t ≤ 1
 /// ```
 ///
-/// and the tool has turned by no more than `∫₀¹ ‖ω(t)‖ dt ≤ ½ max ‖ω′(t)‖`. An error e that depends on joints is `t e(q + t d)`; one
-/// that has kinks or jumps is `t e(q) + t² (e(q + d) − e(q))`, which has none along t.
+/// and the tool rotates by at most `∫₀¹ ‖ω(t)‖ dt ≤ ½ max ‖ω′(t)‖`. An error e that depends on
+/// joints is `t e(q + t d)`. An error with kinks or jumps is `t e(q) + t² (e(q + d) − e(q))`, which
+/// is smooth in t.
 #[derive(Clone, Debug)]
 pub struct Residual {
-    /// The graph they are nodes of.
+    /// The graph of the nodes.
     pub graph: Graph,
     /// ½ ‖p″(t)‖.
     pub point: Magnitude,
-    /// ½ ‖ω′(t)‖; none of fewer than six joints, which correct the tool point alone.
+    /// ½ ‖ω′(t)‖; `None` for fewer than six joints, which correct the tool point only.
     pub turn: Option<Magnitude>,
     /// t.
     pub share: Symbol,
 }
 
 impl Residual {
-    /// That of a checked spec; none if it has fewer than three joints, or if its transforms have kinks.
+    /// Builds the residual of a checked spec. Returns `None` for fewer than three joints, or if the
+    /// transforms have kinks.
     pub fn new(spec: &Spec) -> Option<Self> {
         let (mut graph, effects, mut causes) = sources::effects_and_causes(spec);
         let g = &mut graph;
@@ -55,7 +58,7 @@ impl Residual {
         let tool = g.identity();
         let tool = (0..=spec.frames.len()).rev().fold(tool, |tool, link| links.before(g, link, tool));
         let nodes = [&tool.position[..], tool.axes.as_flattened()].concat();
-        // Of a chain that itself has kinks nothing follows from its derivatives.
+        // The bound from derivatives does not hold if the chain itself has kinks.
         if nodes.iter().any(|node| g.may_have_kinks(*node, is_joint)) {
             return None;
         }
@@ -94,10 +97,10 @@ impl Residual {
     }
 }
 
-/// t.
+/// The symbol t.
 const SHARE: Symbol = Symbol::Magnitude(0);
 
-/// A joint as it is at t = 0, while others go along with t.
+/// Returns the symbol of a joint at t = 0.
 fn held(joint: usize) -> Symbol {
     Symbol::Magnitude(1 + joint)
 }
@@ -113,7 +116,8 @@ fn held_joint(symbol: Symbol) -> Option<usize> {
     }
 }
 
-/// An error that has kinks or jumps along some joint: the value at t = 0, and t times how far it is from that after the step.
+/// Replaces an error with kinks or jumps along a joint by its value at t = 0 plus t times its
+/// change over the step.
 fn without_kinks(graph: &mut Graph, error: Node, step: &[Node]) -> Node {
     if !graph.may_have_kinks(error, is_joint) {
         return error;
@@ -137,7 +141,8 @@ fn without_kinks(graph: &mut Graph, error: Node, step: &[Node]) -> Node {
     graph.add(before, change)
 }
 
-/// A joint that moves everything alike: nothing that moves stands before it, nothing else depends on it, and no norm does.
+/// Returns the joint that rotates or translates the whole machine: no moving factor precedes it,
+/// and nothing else, in particular no norm, depends on it.
 fn leading_joint(graph: &mut Graph, spec: &Spec, causes: &Causes) -> Option<usize> {
     let factors = &spec.frames.first()?.factors;
     let symbols = |factor: &Factor| -> Vec<Symbol> {

@@ -4,22 +4,24 @@ use abbe_core::Orientation;
 
 use crate::graph::{Graph, Node, Vector};
 
-/// What turns a small rotation ω in `F_0` into rows 4–6.
+/// Map from a small rotation ω in `F_0` to rows 4–6.
 pub(crate) enum Rows {
-    /// ω itself.
+    /// The rotation vector ω itself.
     RotationVector,
     /// Changes of spin σ, roll ρ and pitch π.
     EulerYzx(EulerYzx),
 }
 
-/// With `R_T = R_y(σ) R_z(ρ) R_x(π)`, its first column is `(cos σ cos ρ, sin ρ, −sin σ cos ρ)`, and
+/// Map to Euler angles. With `R_T = R_y(σ) R_z(ρ) R_x(π)`, the first column of `R_T` is `(cos σ cos
+/// ρ, sin ρ, −sin σ cos ρ)`, and
 ///
 /// ```text
 /// ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂
 /// π̇ = (r11 ωx + r31 ωz) / cos² ρ      ρ̇ = (r11 ωz − r31 ωx) / cos ρ      σ̇ = ωy − r21 π̇
 /// ```
 pub(crate) struct EulerYzx {
-    /// `cos ρ = √(r11² + r31²)`: where it is 0 there are no rows. None if only its parts are known.
+    /// `cos ρ = √(r11² + r31²)`; where it is 0 the rows are undefined. `None` if only the parts are
+    /// known.
     margin: Option<Node>,
     /// `(r11, r31) / cos ρ`.
     roll: [Node; 2],
@@ -30,7 +32,7 @@ pub(crate) struct EulerYzx {
 }
 
 impl Rows {
-    /// `first_axis` is the first column of `R_T`.
+    /// Creates the map; `first_axis` is the first column of `R_T`.
     pub(crate) fn new(graph: &mut Graph, orientation: Orientation, first_axis: Vector) -> Self {
         if orientation == Orientation::RotationVector {
             return Self::RotationVector;
@@ -47,10 +49,10 @@ impl Rows {
         Self::EulerYzx(EulerYzx { margin: Some(margin), roll, pitch, first_axis })
     }
 
-    /// How many numbers Euler rows take.
+    /// Number of nodes that represent the map to Euler angles.
     pub(crate) const PARTS: usize = 7;
 
-    /// What Euler rows take; nothing if rows are a rotation vector.
+    /// Returns the nodes that represent the map; empty for a rotation vector.
     pub(crate) fn parts(&self) -> Vec<Node> {
         match self {
             Self::RotationVector => Vec::new(),
@@ -60,7 +62,7 @@ impl Rows {
         }
     }
 
-    /// Euler rows from their parts; their margin is not known.
+    /// Rebuilds the map to Euler angles from its parts, without the margin.
     pub(crate) fn from_parts(parts: &[Node]) -> Self {
         let first_axis = [parts[4], parts[5], parts[6]];
         Self::EulerYzx(EulerYzx {
@@ -71,7 +73,7 @@ impl Rows {
         })
     }
 
-    /// `cos ρ` where the rows are Euler angles.
+    /// Returns `cos ρ` if the rows are Euler angles.
     pub(crate) fn margin(&self) -> Option<Node> {
         match self {
             Self::RotationVector => None,
@@ -79,11 +81,11 @@ impl Rows {
         }
     }
 
-    pub(super) fn of(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
+    pub(super) fn orientation_rows(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
         let Self::EulerYzx(EulerYzx { roll, pitch, first_axis, .. }) = self else {
             return omega;
         };
-        // About R_T x̂ it is pitch alone.
+        // A rotation about R_T x̂ changes the pitch only.
         let (zero, minus) = (graph.zero(), graph.neg_vector(omega));
         for (turn, pitch) in [(omega, 1.0), (minus, -1.0)] {
             if turn == *first_axis {
@@ -99,10 +101,10 @@ impl Rows {
         [graph.sub(y, part), roll, pitch]
     }
 
-    /// A column from the velocity of the tool point and the rotation ω.
+    /// Returns a column from the velocity of the tool point and the rotation ω.
     pub(crate) fn column(&self, graph: &mut Graph, velocity: Vector, omega: Vector) -> [Node; 6] {
         let [x, y, z] = velocity;
-        let [four, five, six] = self.of(graph, omega);
+        let [four, five, six] = self.orientation_rows(graph, omega);
         [x, y, z, four, five, six]
     }
 }

@@ -1,4 +1,5 @@
-//! ε of the sources: what is given, what a located error is at its frame, what gives way under loads.
+//! ε of the sources: given errors, located errors converted to their frame, and deflections under
+//! loads.
 
 use abbe_core::{Class, Component};
 use abbe_spec::expr::Symbol;
@@ -13,71 +14,71 @@ use crate::graph::{Frame, Graph, Node};
 /// One generalized error that a source causes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EffectNode {
-    /// The source, among those that are switched on.
+    /// Index of the source among the enabled ones.
     pub source: usize,
-    /// The frame, from 0.
+    /// Index of the frame, from 0.
     pub frame: usize,
-    /// Which of its six errors.
+    /// Component of the six errors.
     pub component: Component,
-    /// Its value.
+    /// Value of the error.
     pub value: Node,
 }
 
 impl EffectNode {
-    /// What it acts on.
+    /// Returns the source, frame and component of the error.
     pub fn effect(&self) -> abbe_core::Effect {
         abbe_core::Effect::new(self.source, self.frame, self.component)
     }
 }
 
-/// What the enabled sources cause where they cause it: for the exact chain.
+/// Errors of the enabled sources at the places where they occur, for the exact chain.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Causes {
-    /// Errors at frames and at places on their links, in the order of the file.
+    /// Errors at frames and elsewhere on their links, in the order of the file.
     pub(super) errors: Vec<PlacedErrors>,
-    /// Numbers of the chain that are off.
+    /// Deviations of numbers of the chain.
     pub(super) deviations: Vec<DeviationNode>,
 }
 
 impl Causes {
-    /// Every error.
+    /// Iterates over all errors mutably.
     pub(super) fn errors_mut(&mut self) -> impl Iterator<Item = &mut Node> {
         let of_numbers = self.deviations.iter_mut().map(|deviation| &mut deviation.error);
         self.errors.iter_mut().flat_map(|placed| &mut placed.errors).chain(of_numbers)
     }
 }
 
-/// Six errors at a place.
+/// Six errors at a place on a link.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedErrors {
-    /// The source, among those that are switched on.
+    /// Index of the source among the enabled ones.
     pub(super) source: usize,
-    /// The frame, from 0.
+    /// Index of the frame, from 0.
     pub(super) frame: usize,
-    /// The place L on its link; none if it is the frame itself.
+    /// Pose L of the place relative to the frame; `None` for the frame itself.
     pub(super) place: Option<Frame>,
-    /// In the axes of the place.
+    /// The errors in the axes of the place.
     pub(super) errors: [Node; 6],
 }
 
-/// How much more a number of the chain is.
+/// Deviation of a number of the chain.
 #[derive(Clone, Debug)]
 pub(super) struct DeviationNode {
-    /// The source, among those that are switched on.
+    /// Index of the source among the enabled ones.
     pub(super) source: usize,
-    /// Which number.
+    /// The number that deviates.
     pub(super) number: ChainNumber,
-    /// How much more.
+    /// Actual minus nominal value.
     pub(super) error: Node,
 }
 
-/// The effects of every enabled source by themselves, and the graph they are in.
+/// Returns the effects of every enabled source, with a graph of their own.
 pub fn effects(spec: &Spec) -> (Graph, Vec<EffectNode>) {
     let (graph, effects, _) = effects_and_causes(spec);
     (graph, effects)
 }
 
-/// The same, and what causes them.
+/// Returns the effects and their causes, with a graph of their own.
 pub(super) fn effects_and_causes(spec: &Spec) -> (Graph, Vec<EffectNode>, Causes) {
     let mut graph = Graph::with_tables(&spec.tables);
     let mut at = graph.identity();
@@ -90,14 +91,15 @@ pub(super) fn effects_and_causes(spec: &Spec) -> (Graph, Vec<EffectNode>, Causes
     (graph, effects, causes)
 }
 
-/// The effects of every enabled source, source by source, without those that are always zero, and what causes them.
+/// Returns the effects of every enabled source, source by source, without those that are always
+/// zero, and their causes.
 pub(super) fn effects_in(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (Vec<EffectNode>, Causes) {
     let loads = Loads::new(graph, spec, frames);
     let zero = graph.zero();
     let mut nodes = Vec::new();
     let mut causes = Causes::default();
     for (source, declared) in spec.enabled_sources().enumerate() {
-        // Several effects of one source on one error of one frame are one effect.
+        // Several effects of one source on one error of one frame are added to one effect.
         let mut sums = vec![[zero; 6]; frames.len()];
         let times = times(graph, declared);
         for effect in &declared.effects {
@@ -130,7 +132,7 @@ pub(super) fn effects_in(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (V
     (nodes, causes)
 }
 
-/// What the errors of a source are multiplied by.
+/// Returns the factor of all errors of a source.
 fn times(graph: &mut Graph, source: &Source) -> Node {
     match source.tuned_by {
         Some(input) => graph.symbol(Symbol::Input(input)),
@@ -138,7 +140,7 @@ fn times(graph: &mut Graph, source: &Source) -> Node {
     }
 }
 
-/// What the enabled repeatable beams and compliances do under loads, six errors per frame.
+/// Returns the errors of the enabled repeatable beams and compliances under loads, six per frame.
 pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads) -> Vec<[Node; 6]> {
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
     for source in spec.enabled_sources().filter(|source| source.class == Class::Repeatable) {
@@ -159,7 +161,7 @@ fn add(graph: &mut Graph, sums: &mut [Node; 6], errors: [Node; 6]) {
     }
 }
 
-/// ε: the sum of the repeatable sources, six errors per frame.
+/// Returns ε, the sum of the repeatable sources, six errors per frame.
 pub(super) fn generalized_errors(graph: &mut Graph, spec: &Spec, effects: &[EffectNode]) -> Vec<[Node; 6]> {
     let sources: Vec<&Source> = spec.enabled_sources().collect();
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
@@ -170,7 +172,7 @@ pub(super) fn generalized_errors(graph: &mut Graph, spec: &Spec, effects: &[Effe
     sums
 }
 
-/// Six errors at a place as errors of its frame: `E_i = L E_M L⁻¹`, to first order
+/// Converts six errors at a place to errors of its frame: `E_i = L E_M L⁻¹`, to first order
 ///
 /// ```text
 /// θ_i = R_L θ_M        d_i = R_L d_M + p_L × θ_i
@@ -183,7 +185,7 @@ fn at_frame(graph: &mut Graph, place: &Frame, there: [Node; 6]) -> [Node; 6] {
     six(graph.add_vectors(shift, lever), turn)
 }
 
-/// The six errors of an effect at its place M, in the axes of that.
+/// Returns the six errors of an effect at its place M, in the axes of M.
 fn at_place(graph: &mut Graph, effect: &Effect, place: &Frame, loads: &Loads) -> [Node; 6] {
     match &effect.cause {
         Cause::Errors(errors) => {

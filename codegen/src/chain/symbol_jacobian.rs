@@ -6,14 +6,14 @@ use indexmap::IndexMap;
 use super::walk::Step;
 use crate::graph::{Graph, Node, Vector};
 
-/// The velocity of the tool point and the rotation that a symbol causes: the sum over all factors that depend on it, each by its own small motion
+/// Returns the velocity of the tool point and the rotation per unit of a symbol, the sum over all
+/// factors that depend on it:
 ///
 /// ```text
 /// translation by f along e            (e ; 0) ∂f/∂x
 /// rotation by f about a through p     (a × (p_T − p) ; a) ∂f/∂x
 /// matrix (R, t) after T = (R₀, p₀)    ω = R₀ vee(∂R/∂x Rᵀ),  (R₀ ∂t/∂x + ω × (p_T − p₀ − R₀ t) ; ω)
 /// ```
-///
 pub(super) fn twist(graph: &mut Graph, steps: &Steps, symbol: Symbol, tool: Vector) -> [Vector; 2] {
     let mut velocity = [graph.zero(); 3];
     let mut rotation = [graph.zero(); 3];
@@ -46,7 +46,7 @@ pub(super) fn twist(graph: &mut Graph, steps: &Steps, symbol: Symbol, tool: Vect
     [velocity, rotation]
 }
 
-/// Steps, and which of them depend on a symbol: a chain has many of both.
+/// Steps, indexed by the symbols that they depend on.
 pub(super) struct Steps {
     list: Vec<Step>,
     by_symbol: IndexMap<Symbol, Vec<usize>>,
@@ -63,13 +63,13 @@ impl Steps {
         Self { list, by_symbol }
     }
 
-    /// The symbols that some step depends on.
+    /// Returns the symbols that at least one step depends on.
     pub(super) fn symbols(&self) -> impl Iterator<Item = Symbol> {
         self.by_symbol.keys().copied()
     }
 }
 
-/// `v + ω × (p_T − p)`.
+/// Returns `v + ω × (p_T − p)`.
 pub(crate) fn swing(graph: &mut Graph, velocity: Vector, omega: Vector, tool: Vector, at: Vector) -> Vector {
     if omega == [graph.zero(); 3] {
         return velocity;
@@ -79,7 +79,8 @@ pub(crate) fn swing(graph: &mut Graph, velocity: Vector, omega: Vector, tool: Ve
     graph.add_vectors(velocity, part)
 }
 
-/// `vee(Ṙ Rᵀ)`, from columns: entry (i, j) of the product is the sum over columns c of `ċ_i c_j`.
+/// Returns `vee(Ṙ Rᵀ)` from columns: entry (i, j) of the product is the sum over columns c of `ċ_i
+/// c_j`.
 fn spin_of(graph: &mut Graph, axes: &[Vector; 3], slopes: [Vector; 3]) -> Vector {
     std::array::from_fn(|axis| {
         let (i, j) = ((axis + 2) % 3, (axis + 1) % 3);

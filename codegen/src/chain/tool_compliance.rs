@@ -1,4 +1,5 @@
-//! How far a force at the tool point moves it: the matrix whose largest singular value is sought.
+//! Displacement of the tool point per force there: the matrix whose largest singular value is
+//! sought.
 
 use abbe_core::Class;
 use abbe_spec::Spec;
@@ -9,19 +10,20 @@ use super::joint_columns::at_tool;
 use super::sources::elastic_errors;
 use crate::graph::{Graph, Node};
 
-/// How far a force at the tool point moves it, because of the enabled repeatable beams and compliances: in the spec's unit of length per
-/// its unit of force, which makes m/N of any unit of length.
+/// Compliance of the tool point due to the enabled repeatable beams and compliances, in the spec's
+/// unit of length per its unit of force. That is m/N for any unit of length.
 #[derive(Clone, Debug)]
 pub struct ToolCompliance {
-    /// The graph they are nodes of.
+    /// The graph of the nodes.
     pub graph: Graph,
-    /// The motion along each axis of `F_1`, one row for each axis along which the force acts. Nothing gives way before `F_1`: the singular
-    /// values are those in `F_0`, and the joint before it is not needed.
+    /// Displacement in the axes of `F_1`, one row for each axis of the force. Nothing deflects
+    /// before `F_1`, so the singular values equal those in `F_0` and the first joint is not needed.
     pub rows: Vec<Vec<Node>>,
 }
 
 impl ToolCompliance {
-    /// That of a checked spec; none if no force moves the tool point.
+    /// Builds the compliance of a checked spec. Returns `None` if no force displaces the tool
+    /// point.
     pub fn new(spec: &Spec) -> Option<Self> {
         let mut sources = spec.enabled_sources().filter(|source| source.class == Class::Repeatable);
         if !sources.any(|source| source.effects.iter().any(|effect| effect.cause.is_elastic())) {

@@ -1,11 +1,11 @@
-//! Along the chain, one factor after the other: equation (2).
+//! Follows the chain factor by factor: equation (2).
 
 use abbe_spec::Factor;
 use abbe_spec::expr::{Elementary, Expression, Motion, Symbol};
 
 use crate::graph::{Frame, Graph, Node, Vector};
 
-/// A factor as it stands in the chain, everything in `F_0`.
+/// A factor at its position in the chain, expressed in `F_0`.
 pub(super) enum Step {
     /// A translation by `amount` along `direction`.
     Translation { direction: Vector, amount: Node },
@@ -16,7 +16,7 @@ pub(super) enum Step {
 }
 
 impl Step {
-    /// The symbols that it depends on by itself, whatever stands before it.
+    /// Returns the symbols that the step itself depends on, regardless of the factors before it.
     pub(super) fn symbols(&self, graph: &Graph) -> Vec<Symbol> {
         match self {
             Self::Translation { amount, .. } | Self::Rotation { amount, .. } => graph.symbols(&[*amount]),
@@ -29,7 +29,7 @@ impl Step {
     }
 }
 
-/// Extends the pose `frame` by a product of factors.
+/// Extends the pose `frame` by a product of factors and appends their steps.
 pub(super) fn walk(graph: &mut Graph, frame: Frame, factors: &[Factor], steps: &mut Vec<Step>) -> Frame {
     let mut frame = frame;
     let mut rest = factors;
@@ -51,7 +51,7 @@ pub(super) fn walk(graph: &mut Graph, frame: Frame, factors: &[Factor], steps: &
     frame
 }
 
-/// The motion of a product of factors by itself: a local `A_i`, from `F_i` to `F_{i-1}`.
+/// Returns the motion of a product of factors: a local `A_i`, from `F_i` to `F_{i-1}`.
 pub fn transform(graph: &mut Graph, factors: &[Factor]) -> Frame {
     let identity = graph.identity();
     factors.iter().fold(identity, |frame, factor| apply(graph, frame, factor).0)
@@ -61,7 +61,7 @@ fn apply(graph: &mut Graph, frame: Frame, factor: &Factor) -> (Frame, Step) {
     apply_with(graph, frame, factor, &|graph, amount| graph.lower(amount))
 }
 
-/// Extends a pose by a factor whose numbers are what `lower` makes of its expressions.
+/// Extends a pose by a factor; `lower` converts its expressions to nodes.
 pub(super) fn apply_with(
     graph: &mut Graph,
     frame: Frame,
@@ -108,7 +108,7 @@ pub(super) fn apply_with(
     }
 }
 
-/// The columns of `R = cos θ I + sin θ [a] + (1 − cos θ) a aᵀ`.
+/// Returns the columns of `R = cos θ I + sin θ [a] + (1 − cos θ) a aᵀ`.
 pub(super) fn about(graph: &mut Graph, axis: [f64; 3], angle: Node) -> [Vector; 3] {
     let (sine, cosine, one) = (graph.sin(angle), graph.cos(angle), graph.constant(1.0));
     let versine = graph.sub(one, cosine);
@@ -122,7 +122,7 @@ pub(super) fn about(graph: &mut Graph, axis: [f64; 3], angle: Node) -> [Vector; 
     })
 }
 
-/// Entry (i, j) of the matrix `[a]` with `[a] v = a × v`.
+/// Returns entry (i, j) of the matrix `[a]` with `[a] v = a × v`.
 fn skew(a: [f64; 3], i: usize, j: usize) -> f64 {
     match (3 + j - i) % 3 {
         0 => 0.0,

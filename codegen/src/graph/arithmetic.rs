@@ -1,16 +1,17 @@
-//! The constructors of numbers, sums, products and powers, and with them every simplification of these: exact ones only.
+//! Constructors of constants, sums, products and powers, with their simplifications. All of them
+//! are exact.
 //!
-//! Signs move outwards until a sum takes them in, so that a term and its negative share one node.
+//! Signs move outwards until a sum absorbs them, so that a term and its negative share one node.
 
 use abbe_spec::expr::{Function, Symbol};
 
 use super::{Graph, Node, Op};
 
-/// The largest whole exponent that is written out as multiplications.
+/// Largest integer exponent that is expanded to multiplications.
 const LARGEST_WRITTEN_POWER: f64 = 16.0;
 
 impl Graph {
-    /// A number; there is one zero.
+    /// Returns a constant; −0 becomes 0.
     ///
     /// ```
     /// # use abbe_codegen::graph::Graph;
@@ -23,17 +24,17 @@ impl Graph {
         self.intern(Op::Constant((value + 0.0).to_bits()))
     }
 
-    /// The number 0.
+    /// Returns the constant 0.
     pub fn zero(&mut self) -> Node {
         self.constant(0.0)
     }
 
-    /// A variable, parameter, input or generalized error.
+    /// Returns a variable, parameter, input or generalized error.
     pub fn symbol(&mut self, symbol: Symbol) -> Node {
         self.intern(Op::Symbol(symbol))
     }
 
-    /// `-a`: a double sign vanishes, and so does a difference the other way round.
+    /// Returns `-a`. A double negation cancels, and `-(a - b)` becomes `b - a` if that node exists.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -53,7 +54,8 @@ impl Graph {
         }
     }
 
-    /// `a + b`: zero vanishes, operands are ordered, signs make differences, and `sin² + cos² = 1`.
+    /// Returns `a + b`. Zeros vanish, operands are sorted, signs become differences, and `sin² +
+    /// cos² = 1`.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -88,7 +90,8 @@ impl Graph {
         self.intern(Op::Add(a.min(b), a.max(b)))
     }
 
-    /// `a - b`: zero and equal operands vanish; a difference known the other way round is its negative.
+    /// Returns `a - b`. Zeros vanish, equal operands cancel, and if `b - a` exists the result is
+    /// its negative.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -125,7 +128,7 @@ impl Graph {
         }
     }
 
-    /// `a · b`: 0, 1 and −1 vanish, operands are ordered, signs move out.
+    /// Returns `a · b`. Factors 0, 1 and −1 vanish, operands are sorted, signs move outwards.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -160,7 +163,8 @@ impl Graph {
         }
     }
 
-    /// `a / b`: `0/b` and `a/1` vanish, signs move out. A constant zero below stays: its value is no number.
+    /// Returns `a / b`. `0/b` and `a/1` simplify, signs move outwards. A division by a constant 0
+    /// is kept, because it has no value.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -192,7 +196,7 @@ impl Graph {
         }
     }
 
-    /// `base ^ exponent`: whole exponents become products, halves square roots.
+    /// Returns `base ^ exponent`. Integer exponents become products, half-integers square roots.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -232,7 +236,7 @@ impl Graph {
         result
     }
 
-    /// `x` if a node is `-x`, counting negative numbers.
+    /// Returns `x` if the node is `-x` or a negative constant.
     pub(super) fn negated(&mut self, a: Node) -> Option<Node> {
         match self.op(a) {
             Op::Neg(inner) => Some(inner),

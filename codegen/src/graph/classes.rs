@@ -1,4 +1,4 @@
-//! Which nodes are stated to be equal.
+//! Equivalence classes of nodes that have been stated to be equal.
 
 use indexmap::IndexMap;
 
@@ -8,20 +8,20 @@ use super::node::Node;
 /// A node or its negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signed {
-    /// The node, which is no change of sign.
+    /// The node; never a negation.
     pub node: Node,
-    /// Whether its negative is meant.
+    /// `true` for the negative of the node.
     pub negative: bool,
 }
 
-/// What is known to be equal.
+/// Equivalence classes of nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Classes {
-    /// What stands for all that are equal to a node, by its place; of a node that is equal to no other one none.
+    /// Representative of each node's class, by node index; `None` for a node without equals.
     pub(super) first: Vec<Option<Signed>>,
-    /// All that are equal to one that stands for them, itself the first.
+    /// Members of each class by its representative, which is the first member.
     pub(super) all: IndexMap<Node, Vec<Signed>, Build>,
-    /// Nodes that may pay together where none of them does alone.
+    /// Groups of nodes that may save operations together though none of them does alone.
     pub(super) together: Vec<Vec<Node>>,
 }
 

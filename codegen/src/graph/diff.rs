@@ -1,11 +1,11 @@
-//! The derivative of a node by a symbol, by forward accumulation.
+//! Derivatives of nodes by a symbol, by forward accumulation.
 
 use abbe_spec::expr::{Function, Lookup, Symbol};
 
 use super::{Graph, Node, Op};
 
 impl Graph {
-    /// `∂f/∂x`.
+    /// Returns `∂f/∂x`.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -19,10 +19,11 @@ impl Graph {
         self.diff_all(&[f], x)[0]
     }
 
-    /// The derivatives of several nodes by one symbol, in one pass over what they are made of.
+    /// Returns the derivatives of several nodes by one symbol, in one pass over their operands.
     pub fn diff_all(&mut self, nodes: &[Node], x: Symbol) -> Vec<Node> {
         let zero = self.zero();
-        // By places in the graph. Operands have smaller handles, so that ascending order is an order of evaluation.
+        // Indexed by node. Operands have smaller indices, so that ascending order evaluates them
+        // first.
         let mut derivatives: Vec<Option<Node>> =
             vec![None; nodes.iter().max().map_or(0, |last| last.index() + 1)];
         for node in self.reached_from(nodes) {
@@ -35,7 +36,7 @@ impl Graph {
         nodes.iter().map(|node| derivatives[node.index()].unwrap_or(zero)).collect()
     }
 
-    /// The symbols that some nodes depend on.
+    /// Returns the symbols that the nodes depend on.
     pub fn symbols(&self, nodes: &[Node]) -> Vec<Symbol> {
         let symbol = |node| match self.op(node) {
             Op::Symbol(symbol) => Some(symbol),
@@ -44,7 +45,8 @@ impl Graph {
         self.reached_from(nodes).into_iter().filter_map(symbol).collect()
     }
 
-    /// Whether a node may jump, or have a kink, along one of the chosen symbols: then it is not what its derivative sums up to.
+    /// Returns `true` if a node may jump or have a kink along one of the chosen symbols. Its
+    /// integrated derivative then differs from the node.
     pub(crate) fn may_have_kinks(&self, node: Node, chosen: impl Fn(Symbol) -> bool) -> bool {
         let depends = self.depends(node, chosen);
         self.reached_from(&[node]).into_iter().filter(|node| depends[node.index()]).any(|node| {
@@ -56,16 +58,16 @@ impl Graph {
         })
     }
 
-    /// How many nodes some nodes are made of.
+    /// Returns the number of nodes that `nodes` depend on, including themselves.
     pub(crate) fn size(&self, nodes: &[Node]) -> usize {
         self.reached_from(nodes).len()
     }
 
-    /// The nodes that some nodes are made of, they themselves among them, in ascending order.
+    /// Returns the nodes that `nodes` depend on, including themselves, in ascending order.
     pub(super) fn reached_from(&self, nodes: &[Node]) -> Vec<Node> {
         let mut reached = vec![false; nodes.iter().max().map_or(0, |last| last.index() + 1)];
         nodes.iter().for_each(|node| reached[node.index()] = true);
-        // Operands have smaller handles: whoever uses a node has been looked at before it.
+        // Operands have smaller indices, so that all users of a node have been visited before it.
         for index in (0..reached.len()).rev() {
             if reached[index] {
                 self.op(Node(index as u32)).operands().for_each(|operand| reached[operand.index()] = true);
@@ -74,11 +76,11 @@ impl Graph {
         self.nodes().zip(reached).filter_map(|(node, reached)| reached.then_some(node)).collect()
     }
 
-    /// The derivative of one node, given those of its operands.
+    /// Returns the derivative of one node, given the derivatives of its operands.
     fn derivative(&mut self, node: Node, of: impl Fn(Node) -> Node) -> Node {
         match self.op(node) {
             Op::Constant(_) => self.zero(),
-            // Only nodes that depend on x come here, so a symbol is x itself.
+            // Only nodes that depend on x get here, so the symbol is x itself.
             Op::Symbol(_) => self.constant(1.0),
             // (-a)' = -a'
             Op::Neg(a) => self.neg(of(a)),
@@ -110,7 +112,7 @@ impl Graph {
                 let (above, below) = (self.sub(first, second), self.add(xx, yy));
                 self.div(above, below)
             }
-            // min(a, b)' = a' where a < b, else b'; max(a, b)' the other way round
+            // min(a, b)' = a' where a < b, else b'; max(a, b)' with a and b exchanged
             Op::Min(a, b) => self.derivative_of_smaller([a, b], of(a), of(b)),
             Op::Max(a, b) => self.derivative_of_smaller([b, a], of(a), of(b)),
             Op::Call(function, a) => {
@@ -124,8 +126,8 @@ impl Graph {
         }
     }
 
-    /// `x'` where `a < b`, else `y'`: `(x' + y' − side(a − b) (x' − y')) / 2`. Where a and b are equal that is the derivative
-    /// to one of the two sides.
+    /// Returns `x'` where `a < b`, else `y'`: `(x' + y' − side(a − b) (x' − y')) / 2`. Where a and
+    /// b are equal, this is the one-sided derivative of one side.
     fn derivative_of_smaller(&mut self, [a, b]: [Node; 2], x: Node, y: Node) -> Node {
         let (sum, difference, distance) = (self.add(x, y), self.sub(x, y), self.sub(a, b));
         let side = self.call(Function::Side, distance);
@@ -135,7 +137,7 @@ impl Graph {
         self.mul(half, twice)
     }
 
-    /// `f'(a)`, where `value` is `f(a)`.
+    /// Returns `f'(a)`, where `value` is `f(a)`.
     fn slope(&mut self, function: Function, a: Node, value: Node) -> Node {
         let one = self.constant(1.0);
         match function {
@@ -175,9 +177,9 @@ impl Graph {
             Function::Exp => value,
             // log' = 1/a
             Function::Log => self.div(one, a),
-            // |a|' = sign a, where a is 0 that to the right
+            // |a|' = sign a; at 0 the right-hand derivative, 1
             Function::Abs => self.call(Function::Side, a),
-            // 0 on both sides of where they jump
+            // 0 on both sides of the jump
             Function::Sign | Function::Side => self.zero(),
         }
     }

@@ -1,4 +1,5 @@
-//! Nodes that are equal though they take other operations: a program computes whichever takes the fewest.
+//! Equalities between nodes with different operations. A program computes the cheapest member of a
+//! class.
 
 use super::arena::Graph;
 use super::classes::{Classes, Signed};
@@ -6,7 +7,7 @@ use super::node::{Node, Op};
 use super::vector::Vector;
 
 impl Graph {
-    /// States that two nodes are equal, whatever the symbols are.
+    /// States that two nodes are equal for all values of the symbols.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -22,7 +23,8 @@ impl Graph {
     /// ```
     pub fn equate(&mut self, a: Node, b: Node) {
         let (a, b) = (self.class(a), self.class(b));
-        // The oldest stands for all, so that no node comes before what stands for its operands.
+        // The oldest node represents the class, so that no node precedes the representatives of its
+        // operands.
         let (a, b) = if a.node < b.node { (a, b) } else { (b, a) };
         if a.node == b.node {
             return;
@@ -46,17 +48,18 @@ impl Graph {
         }
     }
 
-    /// Proposes nodes, each equal to others, that may pay together where none of them does alone; those that others use first.
+    /// Proposes nodes, each equal to others, that may save operations together though none of them
+    /// does alone. Operands come before their users.
     pub(crate) fn propose_together(&mut self, nodes: Vec<Node>) {
         self.classes.together.push(nodes);
     }
 
-    /// What was proposed together.
+    /// Returns the proposed groups of nodes.
     pub(crate) fn together(&self) -> &[Vec<Node>] {
         &self.classes.together
     }
 
-    /// The node that stands for all that are equal to this one, or to its negative.
+    /// Returns the representative of a node's class, with the node's sign.
     pub fn class(&self, node: Node) -> Signed {
         let node = match self.op(node) {
             Op::Neg(a) => Signed { node: a, negative: true },
@@ -65,7 +68,7 @@ impl Graph {
         self.first(node.node).map_or(node, |first| first.times(node.negative))
     }
 
-    /// All that is equal to a node that stands for it, or whose negative is: itself first.
+    /// Returns all members of the class of a representative, itself first.
     pub fn equal(&self, first: Node) -> impl Iterator<Item = Signed> {
         let all = self.first(first).and_then(|first| self.classes.all.get(&first.node));
         let others = all.map_or(&[][..], |all| &all[1..]);
@@ -76,12 +79,12 @@ impl Graph {
         self.classes.first.get(node.index()).copied().flatten()
     }
 
-    /// Forgets what was stated: what programs choose is held against what they would be without a choice.
+    /// Removes all equalities, for comparison with a program without alternatives.
     pub fn forget_equal(&mut self) {
         self.classes = Classes::default();
     }
 
-    /// All nodes that stand for more than themselves.
+    /// Returns the representatives of all classes with more than one member.
     pub fn classes(&self) -> impl Iterator<Item = Node> {
         self.classes.all.keys().copied()
     }

@@ -1,11 +1,11 @@
-//! The values of nodes at given values of the symbols: for checks, not for speed.
+//! Evaluates nodes at given values of the symbols: for checks, not for speed.
 
 use abbe_spec::expr::{Binary, Symbol};
 
 use super::{Graph, Node, Op};
 
 impl Graph {
-    /// The values of some nodes.
+    /// Returns the values of `nodes`.
     pub fn evaluate(&self, nodes: &[Node], symbol: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let count = nodes.iter().map(|node| node.index() + 1).max().unwrap_or(0);
         let mut values: Vec<f64> = Vec::with_capacity(count);
@@ -21,9 +21,9 @@ impl Graph {
                 Op::Div(a, b) => of(a) / of(b),
                 Op::Pow(a, b) => of(a).powf(of(b)),
                 Op::Atan2(a, b) => of(a).atan2(of(b)),
-                Op::Min(a, b) => Binary::Min.of(of(a), of(b)),
-                Op::Max(a, b) => Binary::Max.of(of(a), of(b)),
-                Op::Call(function, a) => function.of(of(a)),
+                Op::Min(a, b) => Binary::Min.evaluate(of(a), of(b)),
+                Op::Max(a, b) => Binary::Max.evaluate(of(a), of(b)),
+                Op::Call(function, a) => function.evaluate(of(a)),
                 Op::Lookup(lookup, a) => {
                     self.tables()[usize::from(lookup.table)].derivative(u32::from(lookup.order), of(a))
                 }

@@ -1,4 +1,4 @@
-//! The constructors of sine, cosine, roots, tables and every other function, with their simplifications: exact ones only.
+//! Constructors of functions and tables, with their simplifications. All of them are exact.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,7 +7,7 @@ use abbe_spec::expr::{Function, Lookup};
 use super::{Graph, Node, Op};
 
 impl Graph {
-    /// Sine: odd, and exact at (and shifted by) multiples of π/2.
+    /// Returns the sine: odd, and exact at (and shifted by) multiples of π/2.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -43,7 +43,7 @@ impl Graph {
         }
     }
 
-    /// Cosine: even, and exact at (and shifted by) multiples of π/2.
+    /// Returns the cosine: even, and exact at (and shifted by) multiples of π/2.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -76,7 +76,7 @@ impl Graph {
         }
     }
 
-    /// Square root.
+    /// Returns the square root.
     ///
     /// ```
     /// # use abbe_codegen::graph::Graph;
@@ -88,7 +88,7 @@ impl Graph {
         self.called(Function::Sqrt, a)
     }
 
-    /// The angle of the point `(x, y)`.
+    /// Returns the angle of the point `(x, y)`.
     pub fn atan2(&mut self, y: Node, x: Node) -> Node {
         match (self.value(y), self.value(x)) {
             (Some(a), Some(b)) => self.folded(a.atan2(b), Op::Atan2(y, x)),
@@ -96,7 +96,8 @@ impl Graph {
         }
     }
 
-    /// The smaller of two: of equals one, operands are ordered, and of two negatives it is the negative of the larger.
+    /// Returns the smaller of two nodes. Equal operands give one of them, operands are sorted, and
+    /// `min(-x, -y)` becomes `-max(x, y)`.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -124,7 +125,7 @@ impl Graph {
         }
     }
 
-    /// The larger of two, by the same rules.
+    /// Returns the larger of two nodes, simplified by the same rules as `min`.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -150,7 +151,7 @@ impl Graph {
         }
     }
 
-    /// `x` and `y` of two nodes that are `-x` and `-y` and no numbers.
+    /// Returns `x` and `y` if the nodes are `-x` and `-y` and not constants.
     fn both_negated(&self, a: Node, b: Node) -> Option<[Node; 2]> {
         match (self.op(a), self.op(b)) {
             (Op::Neg(x), Op::Neg(y)) => Some([x, y]),
@@ -158,7 +159,7 @@ impl Graph {
         }
     }
 
-    /// Absolute value: of a negative that of the positive, of itself itself.
+    /// Returns the absolute value: signs of the operand vanish, and it is idempotent.
     ///
     /// ```
     /// # use abbe_spec::expr::{Function, Symbol};
@@ -177,7 +178,7 @@ impl Graph {
         }
     }
 
-    /// Sign: odd, and its own sign.
+    /// Returns the sign: odd and idempotent.
     ///
     /// ```
     /// # use abbe_spec::expr::{Function, Symbol};
@@ -199,7 +200,7 @@ impl Graph {
         }
     }
 
-    /// Logarithm: that of an exponential function is its argument.
+    /// Returns the logarithm, the inverse of an exponential function.
     ///
     /// ```
     /// # use abbe_spec::expr::{Function, Symbol};
@@ -218,7 +219,8 @@ impl Graph {
         }
     }
 
-    /// A table or a derivative of it: of a number a number, and 0 beyond the degree of its pieces.
+    /// Returns a table lookup or one of its derivatives. A constant operand gives a constant;
+    /// derivatives beyond the table's degree are 0.
     pub fn look_up(&mut self, lookup: Lookup, a: Node) -> Node {
         let table = self.tables()[usize::from(lookup.table)].clone();
         let (order, op) = (u32::from(lookup.order), Op::Lookup(lookup, a));
@@ -229,7 +231,7 @@ impl Graph {
         }
     }
 
-    /// Any function of one operand, by its own rules.
+    /// Returns any function of one operand, simplified by its own rules.
     pub fn call(&mut self, function: Function, a: Node) -> Node {
         match function {
             Function::Sin => self.sin(a),
@@ -244,17 +246,18 @@ impl Graph {
     fn called(&mut self, function: Function, a: Node) -> Node {
         let op = Op::Call(function, a);
         match self.value(a) {
-            Some(x) => self.folded(function.of(x), op),
+            Some(x) => self.folded(function.evaluate(x), op),
             None => self.intern(op),
         }
     }
 
-    /// A constant, unless the operation gave none that can be computed with.
+    /// Returns a constant if the value is finite, and the unevaluated operation otherwise.
     pub(super) fn folded(&mut self, value: f64, op: Op) -> Node {
         if value.is_finite() { self.constant(value) } else { self.intern(op) }
     }
 
-    /// An angle without its constant summand if that is a whole number of quarter turns, and that number mod 4.
+    /// Splits a constant summand that is an integer number of quarter turns off an angle. Returns
+    /// the rest and that number mod 4.
     fn quarter_turns(&mut self, a: Node) -> (Node, u8) {
         let (rest, shift, sign) = match self.op(a) {
             Op::Constant(_) => (self.zero(), a, 1.0),

@@ -1,17 +1,17 @@
-//! A quick hash of operations. They come from specs, so that nobody gains by two that have the same.
+//! A fast hash of operations. They come from specs, so collisions by malicious input do not matter.
 
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Makes [`Quick`] ones.
+/// Builds [`Quick`] hashers.
 pub(super) type Build = BuildHasherDefault<Quick>;
 
-/// Multiplies by an odd number, word by word.
+/// Hashes word by word by multiplication with an odd number.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Quick(u64);
 
 impl Quick {
     fn add(&mut self, word: u64) {
-        // 2⁶⁴ over the golden ratio.
+        // 2⁶⁴ divided by the golden ratio.
         self.0 = (self.0 ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(23);
     }
 }

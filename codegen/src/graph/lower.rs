@@ -1,16 +1,16 @@
-//! Brings a checked expression into the graph.
+//! Converts checked expressions to nodes.
 
 use abbe_spec::expr::{Binary, Expression, Kind, Symbol};
 
 use super::{Graph, Node};
 
 impl Graph {
-    /// The node of an expression.
+    /// Returns the node of an expression.
     pub fn lower(&mut self, expression: &Expression) -> Node {
         self.lower_with(expression, &|graph, symbol| graph.symbol(symbol))
     }
 
-    /// The node of an expression in which each name stands for a node.
+    /// Returns the node of an expression in which `value` gives the node of each symbol.
     pub(crate) fn lower_with(
         &mut self,
         expression: &Expression,
@@ -34,7 +34,7 @@ impl Graph {
                         (Binary::Atan2, _) => self.atan2(a, b),
                         (Binary::Min, _) => self.min(a, b),
                         (Binary::Max, _) => self.max(a, b),
-                        // Checked: every exponent has a value.
+                        // The reader has checked that every exponent is constant.
                         (Binary::Pow, exponent) => self.power(a, exponent.unwrap_or(1.0)),
                     }
                 }

@@ -1,8 +1,8 @@
 //! The symbolic core: expressions as a graph in which equal subexpressions are one node.
 //!
-//! [`Graph`] holds the nodes; the rules by which they simplify are its constructors (`arithmetic`,
-//! `functions`), and what takes other operations to the same value is stated in `equal`; `diff` is the derivative of any node by any symbol, `evaluate` its value, `substitute` puts nodes in the place of symbols, `vector` is three-dimensional arithmetic, and
-//! `lower` brings a checked expression in.
+//! [`Graph`] holds the nodes. Its constructors (`arithmetic`, `functions`) simplify; `equal` states
+//! equalities that a program chooses from; `diff` differentiates any node by any symbol; `evaluate`
+//! computes values; `lower` converts checked expressions.
 
 mod arena;
 mod arithmetic;

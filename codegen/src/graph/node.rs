@@ -1,26 +1,27 @@
-//! Nodes, and what each does.
+//! Nodes and their operations.
 
 use abbe_spec::expr::{Function, Lookup, Symbol};
 
-/// A handle to a node of a [`Graph`](super::Graph). Operands have smaller handles than the node that uses them.
+/// Handle to a node of a [`Graph`](super::Graph). Operands have smaller indices than the nodes that
+/// use them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Node(pub(super) u32);
 
 impl Node {
-    /// Its place in the graph, from 0.
+    /// Returns the index of the node in the graph, from 0.
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// What a node does. Numbers are held as bits, so that equal ones are one node.
+/// Operation of a node. Constants are held as bits, so that equal constants are one node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
-    /// A number.
+    /// A constant.
     Constant(u64),
     /// A variable, parameter, input or generalized error.
     Symbol(Symbol),
-    /// A change of sign.
+    /// A negation.
     Neg(Node),
     /// A sum.
     Add(Node, Node),
@@ -30,22 +31,22 @@ pub enum Op {
     Mul(Node, Node),
     /// A quotient.
     Div(Node, Node),
-    /// A power whose exponent is a constant that is no whole number.
+    /// A power with a constant exponent that is not an integer.
     Pow(Node, Node),
-    /// The angle of the point (second, first).
+    /// The angle of the point (x, y); the operands are y, x.
     Atan2(Node, Node),
-    /// The smaller.
+    /// The smaller operand.
     Min(Node, Node),
-    /// The larger.
+    /// The larger operand.
     Max(Node, Node),
     /// A function of one operand.
     Call(Function, Node),
-    /// A table.
+    /// A table lookup.
     Lookup(Lookup, Node),
 }
 
 impl Op {
-    /// The operands, none, one or two.
+    /// Returns the operands: none, one or two.
     pub fn operands(self) -> impl Iterator<Item = Node> + Clone {
         let (first, second) = match self {
             Self::Constant(_) | Self::Symbol(_) => (None, None),

@@ -1,11 +1,11 @@
-//! Nodes put in the place of symbols.
+//! Substitutes nodes for symbols.
 
 use abbe_spec::expr::Symbol;
 
 use super::{Graph, Node, Op};
 
 impl Graph {
-    /// Some nodes with other nodes in the place of those symbols for which there is one.
+    /// Returns `nodes` with each symbol replaced by the node that `other` gives for it, if any.
     ///
     /// ```
     /// # use abbe_spec::expr::Symbol;
@@ -16,7 +16,8 @@ impl Graph {
     /// assert_eq!(g.substitute(&[sine], |_| Some(twice)), [g.sin(twice)]);
     /// ```
     pub fn substitute(&mut self, nodes: &[Node], other: impl Fn(Symbol) -> Option<Node>) -> Vec<Node> {
-        // By places in the graph. Operands have smaller handles, so that ascending order is an order of evaluation.
+        // Indexed by node. Operands have smaller indices, so that ascending order evaluates them
+        // first.
         let mut made: Vec<Node> = self.nodes().collect();
         for node in self.reached_from(nodes) {
             let of = |operand: Node| made[operand.index()];

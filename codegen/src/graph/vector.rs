@@ -2,53 +2,53 @@
 
 use super::{Graph, Node};
 
-/// Three nodes: x, y, z.
+/// Three nodes: the x, y and z components.
 pub type Vector = [Node; 3];
 
-/// A rigid motion as nodes: its axes as columns, and its position.
+/// A rigid motion as nodes: rotation matrix by columns, and position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// The x, y and z axis.
+    /// The x, y and z axes.
     pub axes: [Vector; 3],
     /// The origin.
     pub position: Vector,
 }
 
 impl Graph {
-    /// No motion.
+    /// Returns the identity.
     pub fn identity(&mut self) -> Frame {
         let (zero, one) = (self.zero(), self.constant(1.0));
         Frame { axes: [[one, zero, zero], [zero, one, zero], [zero, zero, one]], position: [zero; 3] }
     }
 
-    /// `a + b`.
+    /// Returns `a + b`.
     pub fn add_vectors(&mut self, a: Vector, b: Vector) -> Vector {
         std::array::from_fn(|i| self.add(a[i], b[i]))
     }
 
-    /// `a - b`.
+    /// Returns `a - b`.
     pub fn sub_vectors(&mut self, a: Vector, b: Vector) -> Vector {
         std::array::from_fn(|i| self.sub(a[i], b[i]))
     }
 
-    /// `k a`.
+    /// Returns `k a`.
     pub fn scale(&mut self, k: Node, a: Vector) -> Vector {
         a.map(|component| self.mul(k, component))
     }
 
-    /// `-a`.
+    /// Returns `-a`.
     pub fn neg_vector(&mut self, a: Vector) -> Vector {
         a.map(|component| self.neg(component))
     }
 
-    /// `a · b`.
+    /// Returns `a · b`.
     pub fn dot(&mut self, a: Vector, b: Vector) -> Node {
         let products: [Node; 3] = std::array::from_fn(|i| self.mul(a[i], b[i]));
         let sum = self.add(products[0], products[1]);
         self.add(sum, products[2])
     }
 
-    /// `a × b`.
+    /// Returns `a × b`.
     pub fn cross(&mut self, a: Vector, b: Vector) -> Vector {
         std::array::from_fn(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -57,14 +57,14 @@ impl Graph {
         })
     }
 
-    /// `R v`, where the columns of `R` are `axes`.
+    /// Returns `R v`, where the columns of `R` are `axes`.
     pub fn turn(&mut self, axes: &[Vector; 3], v: Vector) -> Vector {
         let [x, y, z] = [0, 1, 2].map(|i| self.scale(v[i], axes[i]));
         let sum = self.add_vectors(x, y);
         self.add_vectors(sum, z)
     }
 
-    /// The product of two motions.
+    /// Returns the product `a b` of two motions.
     pub fn then(&mut self, a: &Frame, b: &Frame) -> Frame {
         let offset = self.turn(&a.axes, b.position);
         Frame {
@@ -73,20 +73,20 @@ impl Graph {
         }
     }
 
-    /// The motion back: `Rᵀ`, `−Rᵀ p`.
+    /// Returns the inverse motion: `Rᵀ`, `−Rᵀ p`.
     pub fn inverse(&mut self, frame: &Frame) -> Frame {
         let axes = [0, 1, 2].map(|i: usize| frame.axes.map(|axis| axis[i]));
         let back = frame.axes.map(|axis| self.dot(axis, frame.position));
         Frame { axes, position: self.neg_vector(back) }
     }
 
-    /// A motion turned about its own axis 0, 1 or 2: two columns change.
+    /// Returns a motion rotated about its own axis 0, 1 or 2; two columns change.
     pub fn turned(&mut self, frame: &Frame, axis: usize, angle: Node) -> Frame {
         let (sine, cosine) = (self.sin(angle), self.cos(angle));
         self.turned_by(frame, axis, sine, cosine)
     }
 
-    /// The same by an angle whose sine and cosine are known.
+    /// Returns a motion rotated about its own axis, given the sine and cosine of the angle.
     pub(crate) fn turned_by(&mut self, frame: &Frame, axis: usize, sine: Node, cosine: Node) -> Frame {
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         let (u, v) = (frame.axes[j], frame.axes[k]);
@@ -98,7 +98,7 @@ impl Graph {
         turned
     }
 
-    /// A motion moved along its own axis 0, 1 or 2.
+    /// Returns a motion translated along its own axis 0, 1 or 2.
     pub fn moved(&mut self, frame: &Frame, axis: usize, distance: Node) -> Frame {
         let offset = self.scale(distance, frame.axes[axis]);
         Frame { axes: frame.axes, position: self.add_vectors(frame.position, offset) }

@@ -1,7 +1,7 @@
-//! The statements of a program.
+//! Prints the statements of a program.
 //!
-//! A step that is used once and has no name of its own is written where it is used, as long as the expression
-//! stays narrow; the order of the arithmetic, and so every bit of the result, stays the same.
+//! A step without a name that is used once is written inline, as long as the expression stays
+//! narrow. The order of the arithmetic, and so every bit of the result, stays the same.
 
 use super::expression::{Binding, Expression, Syntax, Value};
 use super::layout::{NARROW, width};
@@ -9,7 +9,7 @@ use super::names::Names;
 use super::statement::Statement;
 use crate::program::{Action, Operand, Program, Step};
 
-/// The statements of a program, and its outputs.
+/// Returns the statements of a program and its outputs.
 pub(super) fn body(
     program: &Program,
     names: &mut Names<'_>,
@@ -27,7 +27,7 @@ pub(super) fn body(
         writer.numbers.push((*value, named));
     }
     let mut ready = vec![0; program.registers];
-    // Results are written as they are, without arithmetic.
+    // Outputs are names or constants, without arithmetic.
     let mut returned = vec![false; program.registers];
     for output in &program.outputs {
         if let Operand::Register(register) = output {
@@ -38,7 +38,7 @@ pub(super) fn body(
     while let Some(step) = steps.next() {
         if let Action::SinCos(angle) = step.action {
             let mut pairs = vec![(step.register, angle)];
-            // An angle may be the sine of another.
+            // An angle may depend on the sine of another angle.
             let is_written = |angle: &Operand| match angle {
                 Operand::Register(register) => writer.registers[*register].is_some(),
                 _ => true,
@@ -67,7 +67,7 @@ pub(super) fn body(
         text: writer.output(*output),
         ready: match output {
             Operand::Register(register) => ready[*register],
-            // Numbers get their names first, if they get one.
+            // Named numbers are bound before everything else.
             Operand::Constant(value) if program.numbers.iter().any(|(named, _)| named == value) => {
                 writer.numbers.len()
             }
@@ -84,13 +84,13 @@ struct Writer<'w, 's> {
     syntax: &'w dyn Syntax,
     /// Numbers that have names.
     numbers: Vec<(f64, Expression)>,
-    /// How each register is written where it is used: its name, or the whole expression.
+    /// Expression that stands for each register: its name, or the whole operation.
     registers: Vec<Option<Expression>>,
     statements: Vec<Statement>,
 }
 
 impl Writer<'_, '_> {
-    /// A statement that gives a value its name, and what stands for it from here on.
+    /// Binds a value to a name and returns the expression for it.
     fn bind(&mut self, name: Option<&str>, value: String) -> Expression {
         let name = self.names.step(name);
         self.statements.push(Statement::Let { name: name.clone(), value });
@@ -115,7 +115,8 @@ impl Writer<'_, '_> {
         self.statements.push(Statement::SinCos(written));
     }
 
-    /// The expression of an action. Of its operands that would make it too wide, the widest get statements of their own.
+    /// Returns the expression of an action. If it is too wide, the widest operands get statements
+    /// of their own.
     fn write(&mut self, action: Action) -> Expression {
         let mut operands: Vec<Expression> = action.operands().map(|operand| self.operand(operand)).collect();
         loop {
@@ -138,7 +139,7 @@ impl Writer<'_, '_> {
                 named.map_or_else(|| self.syntax.number(value), |(_, name)| name.clone())
             }
             Operand::Symbol(symbol) => Expression::name(self.names.symbol(symbol).to_owned()),
-            // Every step comes after those it uses.
+            // Every step comes after its operands.
             Operand::Register(register) => self.registers[register].clone().expect("a step that came before"),
         }
     }

@@ -1,27 +1,29 @@
-//! Corrected commands: a text that a language has for them, with a manipulator's numbers.
+//! Corrected commands: the template of a language with a manipulator's numbers.
 //!
-//! The steps are those of [`abbe_core::compensator`]; their constants stand there.
+//! The algorithm and its constants are those of [`abbe_core::compensator`].
 
 use abbe_core::VariableKind;
 use abbe_core::compensator::{DAMPING, ITERATIONS, LEAST_SINE, LEVER, REST};
 use abbe_spec::Spec;
 
-/// Numbers that depend on how many digits there are.
+/// Tolerances that depend on the precision.
 pub(super) struct Tolerances {
-    /// What keeps steps bounded, in metres and rad: λ, or its root where no squares are made.
+    /// Damping of the steps, in metres and radians: λ, or its square root where no squares are
+    /// formed.
     pub(super) damping: f64,
-    /// The step below which there is rest, in rad and metres.
+    /// Step size for convergence, in radians and metres.
     pub(super) rest: f64,
-    /// Below this, twice the sine of an angle has no square, and is the angle's double.
+    /// Below this value the square of twice the sine of an angle underflows, and the angle itself
+    /// is used.
     pub(super) least_sine: f64,
 }
 
 impl Tolerances {
-    /// Those of double precision.
+    /// Tolerances of double precision.
     pub(super) const DOUBLE: Self = Self { damping: DAMPING, rest: REST, least_sine: LEAST_SINE };
 }
 
-/// One rad or one metre in the unit of each variable.
+/// Returns 1 rad or 1 m in the unit of each variable.
 pub(super) fn units(spec: &Spec) -> impl Iterator<Item = f64> {
     spec.variables.iter().map(|variable| match variable.kind {
         VariableKind::Revolute => 1.0,
@@ -29,7 +31,7 @@ pub(super) fn units(spec: &Spec) -> impl Iterator<Item = f64> {
     })
 }
 
-/// A text with numbers, as the language writes them, in place of words in capitals.
+/// Replaces the words in capitals of a template by numbers in the syntax of the language.
 pub(super) fn numbered(
     text: &str,
     spec: &Spec,
@@ -50,7 +52,7 @@ pub(super) fn numbered(
     placed.iter().fold(text.to_owned(), |text, (word, value)| text.replace(word, value))
 }
 
-/// A metre in the manipulator's unit.
+/// Returns a metre in the manipulator's unit.
 fn metre(spec: &Spec) -> f64 {
     1.0 / spec.length.in_metres()
 }

@@ -1,4 +1,4 @@
-//! Expressions as text, and what a language says about them.
+//! Expressions as text, and the syntax of a language.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,7 @@ use abbe_spec::expr::{Function, Lookup};
 
 use crate::program::Action;
 
-/// How strongly the outermost operator of an expression binds.
+/// Precedence of the outermost operator of an expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 pub(super) enum Binding {
     Choice,
@@ -16,37 +16,37 @@ pub(super) enum Binding {
     Atom,
 }
 
-/// What a value is written as.
+/// An expression as text.
 #[derive(Clone)]
 pub(super) struct Expression {
     pub(super) text: String,
     pub(super) binding: Binding,
-    /// Whether it is no more than a name.
+    /// `true` for a bare name.
     pub(super) is_name: bool,
 }
 
-/// The operators, numbers and reserved names of a language.
+/// Operators, numbers and reserved names of a language.
 pub(super) trait Syntax {
-    /// Names that it has itself, or that its functions use, with spaces between them.
+    /// Returns names that the language or its functions use, separated by spaces.
     fn reserved(&self) -> Cow<'static, str>;
-    /// How a name is written, where not every name of a spec can be one.
+    /// Returns the function that spells a name of the spec as an identifier of the language.
     fn spelled(&self) -> fn(&str) -> String {
         str::to_owned
     }
-    /// A number as an operand.
+    /// Returns a number as an operand.
     fn number(&self, value: f64) -> Expression;
-    /// 0 and 1 as results.
+    /// Returns 0 and 1 as results.
     fn zero_and_one(&self) -> [&'static str; 2];
-    /// An action on operands that are written already.
+    /// Returns an action on operands that are expressions already.
     fn action(&self, action: Action, operands: &[Expression]) -> Expression;
 }
 
 /// A result of a program.
 pub(super) struct Value {
     pub(super) text: String,
-    /// After how many statements it is known.
+    /// Number of statements after which the value is available.
     pub(super) ready: usize,
-    /// Whether it is zero in every configuration.
+    /// `true` if the value is 0 in every configuration.
     pub(super) is_zero: bool,
 }
 
@@ -55,12 +55,12 @@ impl Expression {
         Self { text, binding, is_name: false }
     }
 
-    /// A number as the language writes it.
+    /// Creates a number in the syntax of the language.
     pub(super) fn number(text: String, value: f64) -> Self {
         Self::new(text, if value.is_sign_negative() { Binding::Sign } else { Binding::Atom })
     }
 
-    /// `name(first, second, …)`.
+    /// Creates `name(first, second, …)`.
     pub(super) fn call(name: &str, operands: &[Self]) -> Self {
         let arguments: Vec<&str> = operands.iter().map(|operand| operand.text.as_str()).collect();
         Self::new(format!("{name}({})", arguments.join(", ")), Binding::Atom)
@@ -70,7 +70,7 @@ impl Expression {
         Self { text, binding: Binding::Atom, is_name: true }
     }
 
-    /// The expression as an operand of something that needs at least this binding.
+    /// Returns the text as an operand, in parentheses if the expression binds less than `binding`.
     pub(super) fn at_least(&self, binding: Binding) -> Cow<'_, str> {
         if self.binding >= binding {
             Cow::Borrowed(&self.text)
@@ -80,7 +80,8 @@ impl Expression {
     }
 }
 
-/// Two operands and a sign between them. The right one needs a stronger operator, so that nothing is reassociated.
+/// Joins two operands by an operator. The right operand must bind more strongly, so that nothing is
+/// reassociated.
 pub(super) fn infix(a: &Expression, sign: &str, b: &Expression) -> Expression {
     let (own, right) = match sign {
         "+" | "-" => (Binding::Sum, Binding::Product),
@@ -89,7 +90,7 @@ pub(super) fn infix(a: &Expression, sign: &str, b: &Expression) -> Expression {
     Expression::new(format!("{} {sign} {}", a.at_least(own), b.at_least(right)), own)
 }
 
-/// An action that is a function.
+/// An action that is printed as a function call.
 pub(super) enum Called {
     Power,
     Atan2,
@@ -99,12 +100,12 @@ pub(super) enum Called {
     Lookup(Lookup),
 }
 
-/// What is written with signs between operands, in languages without operators of their own for sums of products; what is not,
-/// is called.
+/// Prints an action by infix operators for languages without fused multiply-add. Any other action
+/// is returned as a call.
 pub(super) fn arithmetic(action: Action, operands: &[Expression]) -> Result<Expression, Called> {
     let product = || infix(&operands[0], "*", &operands[1]);
     Ok(match action {
-        // No two signs next to each other: that would be a decrement.
+        // Two adjacent signs would be a decrement.
         Action::Neg(_) => Expression::new(format!("-{}", operands[0].at_least(Binding::Atom)), Binding::Sign),
         Action::Add(..) => infix(&operands[0], "+", &operands[1]),
         Action::Sub(..) => infix(&operands[0], "-", &operands[1]),

@@ -1,7 +1,7 @@
-//! Arrays of a routine as flat ones, for languages without arrays of arrays.
+//! Flat arrays of a routine, for languages without arrays of arrays.
 
 use super::layout::{NARROW, Writer, width};
-use crate::program::{Place, Routine, Routines, Row};
+use crate::program::{ArrayRows, Routine, Routines, Row};
 
 /// The arrays of one routine.
 #[derive(Clone, Copy)]
@@ -11,13 +11,13 @@ pub(super) struct Flat<'p> {
 }
 
 impl Flat<'_> {
-    /// How many numbers an array holds.
+    /// Returns the number of elements of an array.
     pub(super) fn len(&self, array: usize) -> usize {
         self.routine.arrays[array].len(&self.routines.description)
     }
 
-    /// Where the rows of a place begin that are not counted by a loop, and where they end; all of it else.
-    pub(super) fn range(&self, Place { array, row }: Place) -> [usize; 2] {
+    /// Returns the start and end of fixed rows, or of the whole array for rows that a loop counts.
+    pub(super) fn range(&self, ArrayRows { array, row }: ArrayRows) -> [usize; 2] {
         let (all, row_len) =
             (self.len(array), self.routine.arrays[array].row_len(&self.routines.description));
         match row {
@@ -28,11 +28,11 @@ impl Flat<'_> {
         }
     }
 
-    /// Where in its array number k of row `index` of a place is; a loop counts `i`, and `listed` is how an entry of a table
-    /// is written.
+    /// Returns the index of element k of row `index` of a place. The loop counter is `i`, and
+    /// `listed` prints an entry of a table.
     pub(super) fn index(
         &self,
-        Place { array, row }: Place,
+        ArrayRows { array, row }: ArrayRows,
         index: usize,
         k: usize,
         listed: impl Fn(&str, usize) -> String,
@@ -58,7 +58,7 @@ impl Flat<'_> {
     }
 }
 
-/// Entries one after the other, as many as a line holds.
+/// Prints entries one after the other, as many as fit on a line.
 pub(super) fn filled(writer: &mut Writer, before: &str, entries: &[String], between: &str) {
     let mut line = String::new();
     for entry in entries {

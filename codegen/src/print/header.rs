@@ -1,4 +1,4 @@
-//! What stands above a generated module.
+//! The documentation at the top of a generated module.
 
 use abbe_core::Orientation;
 use abbe_spec::expr::{Binary, Expression, Function, Interpolation, Kind, Outside, Term};
@@ -8,7 +8,7 @@ use super::layout::Writer;
 use super::text::escaped;
 use crate::program::{Block, Routine, Routines, Stage};
 
-/// The names of rows 1–6.
+/// Returns the names of rows 1–6.
 fn rows(orientation: Orientation) -> &'static str {
     match orientation {
         Orientation::RotationVector => "x, y, z of the tool point; small rotation about x, y, z of `F_0`",
@@ -18,7 +18,7 @@ fn rows(orientation: Orientation) -> &'static str {
     }
 }
 
-/// The module's documentation.
+/// Prints the module's documentation.
 pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     let mut paragraph = |text: &str| {
         if !text.is_empty() {
@@ -45,7 +45,7 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     row("- Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).");
     if let Some(places) = one_sided(spec) {
         writer.documentation_line("");
-        writer.documentation(&format!("Derivatives are one-sided, and that of `sign` is 0, in {places}."));
+        writer.documentation(&format!("Derivatives are one-sided (0 for `sign`) in {places}."));
     }
     let mut row = |text: &str| writer.documentation_line(text);
     row("");
@@ -57,7 +57,7 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     }
     if spec.enabled_sources().next().is_some() {
         row("");
-        row("| source | is an error of |");
+        row("| source | location |");
         row("|---|---|");
     }
     for source in spec.enabled_sources() {
@@ -71,14 +71,14 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     }
 }
 
-/// What a function takes, and whether that is in loops.
+/// Returns the operation counts of a function, and whether they include a loop over the frames.
 pub(super) fn operations(routine: &Routine) -> String {
     let is_loop = |stage: &Stage| matches!(stage, Stage::Block(Block { repeated: Some(_), .. }));
     let loops = if routine.stages.iter().any(is_loop) { ", in a loop over the frames" } else { "" };
     format!("{}{loops}", routine.operations)
 }
 
-/// Where transforms have no derivative, frame by frame.
+/// Lists the points at which transforms have no derivative, frame by frame.
 fn one_sided(spec: &Spec) -> Option<String> {
     let frames =
         spec.frames.iter().enumerate().map(|(i, frame)| (format!("frame {}", i + 1), &frame.factors));

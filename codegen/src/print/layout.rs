@@ -1,29 +1,29 @@
-//! Lines, laid out as rustfmt does: what is narrow on one line, else one below the other.
+//! Lays out lines as rustfmt does: narrow lists on one line, wider ones with one entry per line.
 
 use super::text::{harmless, wrapped};
 
-/// How long a line may be.
+/// Maximum length of a line.
 const LINE: usize = 100;
 
-/// How wide an expression, the entries of an array or the arguments of a call may be on one line.
+/// Maximum width of an expression, an array or the arguments of a call on one line.
 pub(super) const NARROW: usize = 60;
 
-/// How wide entries without operators may be for several of them to share a line.
+/// Maximum width of entries without operators that may share a line.
 const SHORT: usize = 10;
 
-/// How far a block is indented.
+/// Indentation of a block.
 const STEP: usize = 4;
 
 /// Source text that grows line by line.
 pub(super) struct Writer {
     text: String,
     depth: usize,
-    /// How a line of documentation begins.
+    /// Start of a documentation line.
     comment: &'static str,
 }
 
 impl Writer {
-    /// No lines yet; those of documentation begin with `comment`.
+    /// Creates an empty text whose documentation lines start with `comment`.
     pub(super) fn new(comment: &'static str) -> Self {
         Self { text: String::new(), depth: 0, comment }
     }
@@ -32,12 +32,12 @@ impl Writer {
         self.text
     }
 
-    /// How far lines are indented.
+    /// Returns the current indentation.
     pub(super) fn indent(&self) -> usize {
         STEP * self.depth
     }
 
-    /// Lines, each indented as far as blocks are open.
+    /// Appends lines at the current indentation.
     pub(super) fn lines(&mut self, lines: &str) {
         for line in lines.lines() {
             self.text.extend(std::iter::repeat_n(' ', self.indent()));
@@ -46,7 +46,7 @@ impl Writer {
         }
     }
 
-    /// Lines with empty ones between them, which stay empty.
+    /// Appends lines at the current indentation; empty lines stay empty.
     pub(super) fn paragraphs(&mut self, lines: &str) {
         for line in lines.trim().lines() {
             if line.is_empty() { self.blank() } else { self.lines(line) }
@@ -57,30 +57,30 @@ impl Writer {
         self.text.push('\n');
     }
 
-    /// The head of a block, `head {`.
+    /// Opens a block: `head {`.
     pub(super) fn open(&mut self, head: &str) {
         self.lines(&format!("{head} {{"));
         self.depth += 1;
     }
 
-    /// The head of a block that has no brackets.
+    /// Opens a block without brackets.
     pub(super) fn begin(&mut self, head: &str) {
         self.lines(head);
         self.depth += 1;
     }
 
-    /// The end of a block that has no brackets, and nothing to say so.
+    /// Closes a block without brackets.
     pub(super) fn end(&mut self) {
         self.depth -= 1;
     }
 
-    /// The beginning of a block on a line of its own.
+    /// Opens a block on a line of its own.
     pub(super) fn open_alone(&mut self) {
         self.lines("{");
         self.depth += 1;
     }
 
-    /// `before{ first, second, … }after`, as many as a line holds.
+    /// Appends `before{ first, second, … }after`, with as many entries on a line as fit.
     pub(super) fn braces(&mut self, before: &str, entries: &[impl AsRef<str>], after: &str) {
         let inner = entries.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", ");
         if self.indent() + width(before) + width(&inner) + 6 <= LINE {
@@ -96,26 +96,26 @@ impl Writer {
         self.lines(end);
     }
 
-    /// A paragraph of documentation, in as many lines as it takes.
+    /// Appends a paragraph of documentation, wrapped to the line length.
     pub(super) fn documentation(&mut self, paragraph: &str) {
         for line in wrapped(paragraph, LINE - self.indent() - self.comment.len() - 1) {
             self.documentation_line(&line);
         }
     }
 
-    /// A line of documentation as it is; an empty one parts paragraphs.
+    /// Appends one line of documentation; an empty one separates paragraphs.
     pub(super) fn documentation_line(&mut self, line: &str) {
         let space = if self.comment.is_empty() { "" } else { " " };
         self.lines(format!("{}{space}{}", self.comment, harmless(line)).trim_end());
     }
 
-    /// A line beside the code, cut where it is too long.
+    /// Appends a line comment, truncated to the line length.
     pub(super) fn comment(&mut self, text: &str) {
         let line: String = format!("// {}", harmless(text)).chars().take(LINE - self.indent()).collect();
         self.lines(line.trim_end());
     }
 
-    /// `use path::{first, second, …};`.
+    /// Appends `use path::{first, second, …};`.
     pub(super) fn imports(&mut self, path: &str, names: &[&str]) {
         let line = format!("use {path}::{{{}}};", names.join(", "));
         if fits(self.indent(), width(&line)) {
@@ -126,8 +126,8 @@ impl Writer {
         self.lines(&(lines + "};"));
     }
 
-    /// The head of a function, `name(first, second, …) result {`, with all that stands before its arguments as the name;
-    /// an empty one is closed at once.
+    /// Appends the head of a function, `name(first, second, …) result {`, where `name` includes
+    /// everything before the arguments. An empty function is closed immediately.
     pub(super) fn function(&mut self, name: &str, arguments: &[String], result: &str, is_empty: bool) {
         let head = format!("{name}({}){result} {{", arguments.join(", "));
         if fits(self.indent(), width(&head)) {
@@ -143,7 +143,7 @@ impl Writer {
         self.depth += usize::from(!is_empty);
     }
 
-    /// `before[name(first, …), name(second, …), …]after`.
+    /// Appends `before[name(first, …), name(second, …), …]after`.
     pub(super) fn array_of_calls(&mut self, before: &str, calls: &[(&str, Vec<String>)], after: &str) {
         let indent = self.indent();
         let entries: Vec<String> =
@@ -156,15 +156,15 @@ impl Writer {
         }
     }
 
-    /// `before[first, second, …]after`.
+    /// Appends `before[first, second, …]after`.
     pub(super) fn array(&mut self, before: &str, entries: &[String], after: &str) {
         let lines = array(self.indent(), before, entries, after);
         self.lines(&lines);
     }
 }
 
-/// `before[first, second, …]after` at an indentation: on one line if it is narrow, short entries filling lines,
-/// others one below the other.
+/// Returns `before[first, second, …]after` at an indentation: on one line if it is narrow;
+/// otherwise short entries fill lines and longer ones get a line each.
 pub(super) fn array(indent: usize, before: &str, entries: &[String], after: &str) -> String {
     if let Some(line) = on_one_line(indent, before, ["[", "]"], entries, after) {
         return line;
@@ -186,7 +186,8 @@ pub(super) fn array(indent: usize, before: &str, entries: &[String], after: &str
     lines + "]" + after
 }
 
-/// `before[first, second, …]after` where it is a pattern: narrow, or one entry below the other.
+/// Returns `before[first, second, …]after` as a pattern: on one line if it is narrow, otherwise one
+/// entry per line.
 pub(super) fn pattern(indent: usize, before: &str, entries: &[String], after: &str) -> String {
     on_one_line(indent, before, ["[", "]"], entries, after).unwrap_or_else(|| {
         let mut lines = format!("{before}[\n");
@@ -195,7 +196,8 @@ pub(super) fn pattern(indent: usize, before: &str, entries: &[String], after: &s
     })
 }
 
-/// `name(first, second, …)` at an indentation: narrow, or one argument below the other.
+/// Returns `name(first, second, …)` at an indentation: on one line if it is narrow, otherwise one
+/// argument per line.
 pub(super) fn call(indent: usize, name: &str, arguments: &[String]) -> String {
     on_one_line(indent, name, ["(", ")"], arguments, ",")
         .map_or_else(|| long_call(name, arguments), |line| line.trim_end_matches(',').to_owned())
@@ -220,7 +222,7 @@ fn on_one_line(
     (entries.is_empty() || fits).then_some(line)
 }
 
-/// Entries one after the other, as many as a line holds.
+/// Appends entries one after the other, as many as fit on a line.
 fn filled(lines: &mut String, indent: usize, entries: &[impl AsRef<str>]) {
     let mut column = 0;
     for entry in entries {
@@ -256,12 +258,12 @@ fn one_below_the_other(lines: &mut String, entries: &[String]) {
     }
 }
 
-/// How many columns a text takes.
+/// Returns the width of a text in columns.
 pub(super) fn width(text: &str) -> usize {
     text.chars().count()
 }
 
-/// Whether a line of so many columns fits at an indentation.
+/// Returns `true` if a text of this width fits on a line at an indentation.
 pub(super) fn fits(indent: usize, columns: usize) -> bool {
     indent + columns <= LINE
 }

@@ -1,10 +1,11 @@
-//! From routines to source text: formatted, documented, the same bytes every time.
+//! Prints routines as source text: formatted, documented and deterministic.
 //!
-//! `statements` says what a routine does, one small `statement` after the other; `body` does so for a program, with
-//! an `expression` of a language's operators where a step needs no name, and `names` for everything. `layout` sets lines,
-//! `flat` has arrays as flat ones, `compensated` the numbers of corrected commands, `header` and `text` are what stands in
-//! comments, `records` what a manipulator has. A language is a folder: how it writes operators, numbers, statements, a
-//! function, corrected commands, and what is around it.
+//! `statements` converts a routine to language-independent statements (`statement`); `body` does so
+//! for a program, with an `expression` for each step that needs no name and `names` for the rest.
+//! `layout` lays out lines, `flat` indexes flat arrays, `compensated` inserts numbers in the
+//! templates of corrected commands, `header` and `text` print documentation, `records` the
+//! description of a manipulator. Each language is a folder with its operators, numbers, statements,
+//! functions, corrected commands and the surrounding module.
 
 mod body;
 mod c;
@@ -34,12 +35,12 @@ use abbe_spec::Spec;
 use crate::chain::Model;
 use crate::program::Routines;
 
-/// A language that is generated.
+/// A target language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
     /// A module for the crate `abbe`.
     Rust,
-    /// A header and a source in C99, and what they compute in.
+    /// A header and a source in C99, with the floating-point type that they compute in.
     C(Real),
     /// An ES module of pure functions.
     JavaScript,
@@ -47,12 +48,12 @@ pub enum Language {
     Python,
     /// A class of static functions, for Matlab and Octave.
     Matlab,
-    /// The files of a functional mock-up unit, whose archive simulators load.
+    /// The files of a functional mock-up unit, an archive that simulators load.
     Fmu(Fmi),
 }
 
 impl Language {
-    /// All of them; C and the unit as they are without being asked for something else.
+    /// Every language; C and the functional mock-up unit in their default variant.
     pub const ALL: [Self; 6] = [
         Self::Rust,
         Self::C(Real::Double),
@@ -62,7 +63,7 @@ impl Language {
         Self::Fmu(Fmi::Three),
     ];
 
-    /// Its name on the command line.
+    /// Returns the name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Rust => "rust",
@@ -74,7 +75,7 @@ impl Language {
         }
     }
 
-    /// A number of the manipulator that the code could not hold.
+    /// Returns a number of the manipulator that the code cannot represent, if any.
     pub fn lost(self, spec: &Spec) -> Option<f64> {
         match self {
             Self::C(real @ Real::Float) => c::lost(spec, &Routines::new(spec, &Model::new(spec)), real),
@@ -82,7 +83,7 @@ impl Language {
         }
     }
 
-    /// The code of a manipulator: one file, or several that belong together.
+    /// Returns the code of a manipulator: one file, or several that belong together.
     pub fn files(self, spec: &Spec) -> Vec<SourceFile> {
         let tunable = matches!(self, Self::Fmu(_)).then(|| spec.with_magnitudes_as_inputs());
         let spec = tunable.as_ref().unwrap_or(spec);
@@ -101,7 +102,7 @@ impl Language {
     }
 }
 
-/// The source of a manipulator's module, `pub mod name { … }`.
+/// Returns the source of a manipulator's Rust module, `pub mod name { … }`.
 pub fn rust(spec: &Spec) -> String {
     let model = Model::new(spec);
     rust::module(spec, &model, &Routines::new(spec, &model))

@@ -1,4 +1,4 @@
-//! What symbols and steps are called in generated code.
+//! Names of symbols and steps in generated code.
 
 use std::collections::HashSet;
 
@@ -13,21 +13,22 @@ use crate::program::{Action, Array, Operand, Program, Routine, Stage};
 pub(super) struct Names<'s> {
     spec: &'s Spec,
     used: HashSet<String>,
-    /// What the language can have as a name.
+    /// Spells a name as an identifier of the language.
     spelled: fn(&str) -> String,
     counter: usize,
     variables: Vec<String>,
     parameters: Vec<String>,
     inputs: Vec<String>,
-    /// Six per frame.
+    /// Six names per frame.
     errors: Vec<String>,
     magnitudes: Vec<String>,
-    /// What the body of a loop reads.
+    /// Names of the numbers that the body of a loop reads.
     locals: Vec<String>,
 }
 
 impl<'s> Names<'s> {
-    /// No name is reserved, or that of an array, of a routine that is called, or of a table.
+    /// Creates the names of a routine. Reserved words and the names of arrays, called routines and
+    /// tables are not available.
     pub(super) fn new(
         spec: &'s Spec,
         routine: &Routine,
@@ -39,7 +40,7 @@ impl<'s> Names<'s> {
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
         let arrays = arrays.map(|array| array.name).chain(routine.arrays.iter().map(|array| array.name));
         let called = routine.stages.iter().filter_map(|stage| match stage {
-            // In some languages with the name of the manipulator before its own.
+            // Some languages prefix the name of the manipulator.
             Stage::Call { routine, .. } => Some([(*routine).to_owned(), format!("{}_{routine}", spec.name)]),
             _ => None,
         });
@@ -66,8 +67,8 @@ impl<'s> Names<'s> {
         names
     }
 
-    /// Names what is given for each generalized error by its first letter: of `variances`, `v2_s` is that of `e_s` of
-    /// frame 2.
+    /// Names the elements of an array of errors by its first letter: `v2_s` is the element of
+    /// `variances` for `e_s` of frame 2.
     pub(super) fn name_errors(&mut self, given: &str) {
         let letter = &given[..1];
         for frame in 1..=self.spec.frames.len() {
@@ -84,13 +85,13 @@ impl<'s> Names<'s> {
         self.magnitudes = (1..=count).map(|source| self.free(&format!("m{source}"))).collect();
     }
 
-    /// Another block begins, which reads other numbers.
+    /// Clears the names of local symbols at the start of another block.
     pub(super) fn forget_locals(&mut self) {
         self.locals.clear();
     }
 
-    /// Names those numbers of a row that are used, the first of them local symbol `first`: of a pose by row and column,
-    /// of errors by component, else x, y, z or counted.
+    /// Names the used elements of a row, whose first element is local symbol `first`: poses by row
+    /// and column, errors by component, others by x, y, z or number.
     pub(super) fn name_locals(&mut self, array: &Array, first: usize, used: &[bool]) -> Vec<Option<String>> {
         let letter = self.letter(array);
         let singular = array.name.trim_end_matches('s');
@@ -110,7 +111,7 @@ impl<'s> Names<'s> {
         names
     }
 
-    /// The first letter of an array; where its numbers have names already, that of the next one.
+    /// Returns the first letter of an array, or the next letter that no other array uses.
     fn letter(&self, array: &Array) -> char {
         // Links are the transforms A_i.
         let first = if array.name == "links" { 'a' } else { array.name.chars().next().unwrap_or('x') };
@@ -118,7 +119,7 @@ impl<'s> Names<'s> {
         (first..='z').find(|letter| !is_taken(letter)).unwrap_or(first)
     }
 
-    /// What local symbols from `first` on are called.
+    /// Sets the names of the local symbols from `first` on.
     pub(super) fn take_locals(&mut self, first: usize, names: &[Option<String>]) {
         self.used.extend(names.iter().flatten().cloned());
         let last = first + names.len();
@@ -128,20 +129,21 @@ impl<'s> Names<'s> {
         }
     }
 
-    /// A variable, parameter, input, generalized error, or what a loop reads.
+    /// Returns the name of a variable, parameter, input, generalized error, magnitude or local
+    /// symbol.
     pub(super) fn symbol(&self, symbol: Symbol) -> &str {
         match symbol {
             Symbol::Variable(i) => &self.variables[i],
             Symbol::Parameter(i) => &self.parameters[i],
             Symbol::Input(i) => &self.inputs[i],
-            // Named before the body is written, in the functions that have them.
+            // Named before the body is printed, in the functions that take errors.
             Symbol::Error(i) => &self.errors[i],
             Symbol::Magnitude(i) => &self.magnitudes[i],
             Symbol::Local(i) => &self.locals[i],
         }
     }
 
-    /// The result of a step: its own name, or else the next `t…`.
+    /// Returns a name for the result of a step: the proposed one, or the next `t…`.
     pub(super) fn step(&mut self, proposed: Option<&str>) -> String {
         match proposed {
             Some(name) => self.free(name),
@@ -152,10 +154,10 @@ impl<'s> Names<'s> {
         }
     }
 
-    /// Sine and cosine: `s2` and `c2` of the variable of frame 2, with an offset or without, `sin_x` and `cos_x`
-    /// of a parameter x.
+    /// Returns names for a sine and cosine: `s2` and `c2` for the variable of frame 2, with or
+    /// without an offset, `sin_x` and `cos_x` for a parameter x.
     pub(super) fn sine_and_cosine(&mut self, angle: Operand, program: &Program) -> (String, String) {
-        // No two underlines next to each other.
+        // Avoid two adjacent underscores.
         let of = |name: &str| {
             let name = name.trim_start_matches('_');
             (format!("sin_{name}"), format!("cos_{name}"))
@@ -184,7 +186,7 @@ impl<'s> Names<'s> {
     }
 }
 
-/// The variable of `variable ± something else`.
+/// Returns the variable of `variable ± something else`, or the angle itself.
 fn without_offset(angle: Operand, program: &Program) -> Operand {
     let is_variable = |operand: &Operand| matches!(operand, Operand::Symbol(Symbol::Variable(_)));
     let step = program.steps.iter().find(|step| Operand::Register(step.register) == angle);

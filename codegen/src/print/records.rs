@@ -1,10 +1,11 @@
-//! What a manipulator is called and has, as records within records.
+//! The description of a manipulator as nested records.
 
 use abbe_core::Description;
 
 use super::layout::Writer;
 
-/// Names, units, limits and nominal values; keys and numbers as the language writes them.
+/// Prints names, units, limits and nominal values, with keys and numbers in the syntax of the
+/// language.
 pub(super) fn records(
     writer: &mut Writer,
     description: &Description,
@@ -52,7 +53,7 @@ pub(super) fn records(
     list("sources", description.sources.iter().map(|source| quoted(&source.name)).collect());
 }
 
-/// A text on one line, between quotation marks.
+/// Returns a text on one line, in quotation marks.
 pub(super) fn quoted(text: &str) -> String {
     format!("{:?}", text.replace(char::is_control, " "))
 }

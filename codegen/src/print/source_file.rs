@@ -3,8 +3,8 @@
 /// A file of generated code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceFile {
-    /// Its name: that of the manipulator, and an extension; in an archive with its folder.
+    /// File name: the manipulator's name and an extension; in an archive including the folder.
     pub name: String,
-    /// What stands in it.
+    /// Contents of the file.
     pub text: String,
 }

@@ -1,34 +1,34 @@
-//! One small statement of any language.
+//! Language-independent statements.
 
 use super::expression::{Expression, Value};
-use crate::program::{Place, Repeated};
+use crate::program::{ArrayRows, Repeated};
 
-/// One statement. Arrays are indices of the routine's.
+/// A statement. Arrays are indices in the routine's list of arrays.
 pub(super) enum Statement {
-    /// Names for the numbers of a place; those without use have none.
-    Unpack { names: Vec<Option<String>>, from: Place },
-    /// What comes next.
+    /// Binds names to the numbers of a place; unused ones have none.
+    Unpack { names: Vec<Option<String>>, from: ArrayRows },
+    /// A comment on the following statements.
     Comment(String),
-    /// A name for a value.
+    /// Binds a name to a value.
     Let { name: String, value: String },
-    /// Names for sine and cosine of angles.
+    /// Binds names to sines and cosines of angles.
     SinCos(Vec<([String; 2], Expression)>),
-    /// An array that is not given begins.
+    /// Declares a local array.
     Declare(usize),
-    /// Zeros for an array.
+    /// Fills an array with zeros.
     Clear(usize),
-    /// An array becomes what rows of another one are.
-    Copy { from: Place, to: usize },
-    /// Row `index` of a place becomes these; a `fresh` array begins with them.
-    Assign { to: Place, index: usize, values: Vec<Value>, fresh: bool },
-    /// A part of column `index` of `J_e`, for what takes columns one by one.
+    /// Copies rows of an array to another one.
+    Copy { from: ArrayRows, to: usize },
+    /// Assigns row `index` of a place; a `fresh` array is declared with these values.
+    Assign { to: ArrayRows, index: usize, values: Vec<Value>, fresh: bool },
+    /// Part of column `index` of `J_e`, for consumers that take columns one by one.
     Column { index: usize, part: &'static str, values: Vec<Value> },
-    /// Another routine; of the arrays that it fills, those that begin here.
+    /// Calls another routine, which initializes the `fresh` arrays.
     Call { routine: &'static str, arrays: Vec<usize>, fresh: Vec<usize> },
-    /// Entries of an array as sums of terms.
+    /// Computes entries of an array as sums of terms.
     Sums { sums: usize, terms: usize, entries: usize },
-    /// For every row.
+    /// Loops over rows.
     For { repeated: Repeated, body: Vec<Statement> },
-    /// The margin is returned.
+    /// Returns the margin.
     Return(String),
 }

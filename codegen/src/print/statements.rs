@@ -1,4 +1,4 @@
-//! What a routine does, as small statements of any language, and which of its arrays it uses.
+//! Converts a routine to language-independent statements, and finds which of its arrays it uses.
 
 use std::collections::HashSet;
 
@@ -11,14 +11,14 @@ use super::body::body;
 use super::expression::{Syntax, Value};
 use super::names::Names;
 use super::statement::Statement;
-use crate::program::{Block, Operand, Place, Program, Role, Routine, Row, Stage};
+use crate::program::{ArrayRows, Block, Operand, Program, Role, Routine, Row, Stage};
 
 /// The statements of a routine.
 pub(super) struct Statements {
     pub(super) list: Vec<Statement>,
-    /// Which of its arrays it uses.
+    /// Arrays that the routine uses.
     pub(super) used: Vec<bool>,
-    /// Whether 0 and 1 are results.
+    /// `true` if 0 and 1 are results.
     pub(super) constants: [bool; 2],
 }
 
@@ -32,7 +32,8 @@ impl Statements {
         Self::with(spec, description, routine, syntax, false)
     }
 
-    /// The same; the columns of `J_e` go part by part to what takes them.
+    /// Converts a routine, and prints the columns of `J_e` part by part for a consumer that takes
+    /// them one by one.
     pub(super) fn by_columns(
         spec: &Spec,
         description: &Description,
@@ -72,7 +73,7 @@ impl Statements {
             writer.stage(stage, &mut list);
         }
         if let Some(margin) = writer.margin.take() {
-            // What would be named only to be returned is returned as it is.
+            // A name that would only be returned is replaced by its value.
             let named = |last: &mut Statement| matches!(last, Statement::Let { name, .. } if *name == margin);
             let value = match list.pop_if(named) {
                 Some(Statement::Let { value, .. }) => value,
@@ -91,11 +92,11 @@ struct Writer<'w> {
     description: &'w Description,
     syntax: &'w dyn Syntax,
     names: Names<'w>,
-    /// Those of the arguments alone, with which every loop begins.
+    /// Names of the arguments only, with which every loop starts.
     outermost: Option<Names<'w>>,
-    /// Which arrays are there already.
+    /// Arrays that have been declared.
     begun: Vec<bool>,
-    /// Of these, which the block at hand fills at once.
+    /// Arrays that the current block fills completely at their declaration.
     whole: Vec<usize>,
     constants: [bool; 2],
     margin: Option<String>,
@@ -103,7 +104,7 @@ struct Writer<'w> {
 }
 
 impl Writer<'_> {
-    /// Names for those numbers of the arguments that programs use as symbols.
+    /// Binds names to the elements of the arguments that programs use as symbols.
     fn arguments(&mut self, used: &HashSet<Symbol>) -> Vec<Statement> {
         let mut statements = Vec::new();
         for (array, argument) in self.routine.arrays.iter().enumerate() {
@@ -127,13 +128,13 @@ impl Writer<'_> {
             if symbols.iter().any(|symbol| used.contains(symbol)) {
                 let name = |symbol| used.contains(symbol).then(|| self.names.symbol(*symbol).to_owned());
                 let names = symbols.iter().map(name).collect();
-                statements.push(Statement::Unpack { names, from: Place { array, row: Row::All } });
+                statements.push(Statement::Unpack { names, from: ArrayRows { array, row: Row::All } });
             }
         }
         statements
     }
 
-    /// The arrays that have not begun begin.
+    /// Returns the arrays that have not been declared, and marks them as declared.
     fn begin(&mut self, arrays: impl Iterator<Item = usize>) -> Vec<usize> {
         let margin = |array: usize| self.routine.arrays[array].role == Role::Margin;
         let empty = |array: usize| self.routine.arrays[array].len(self.description) == 0;
@@ -151,7 +152,7 @@ impl Writer<'_> {
         statements.extend(arrays.into_iter().map(Statement::Declare));
     }
 
-    /// What begins as zeros takes their name.
+    /// Marks 0 as used if a local array is initialized with zeros.
     fn take_zeros(&mut self, arrays: &[usize]) {
         self.constants[0] |= arrays.iter().any(|array| self.routine.arrays[*array].role == Role::Zeros);
     }
@@ -168,7 +169,7 @@ impl Writer<'_> {
                 match block.repeated {
                     None => self.block(block, statements),
                     Some(repeated) => {
-                        // A loop is a scope of its own: it may use names again.
+                        // A loop is a scope of its own and may reuse names.
                         let mut names = self.outermost.clone().unwrap_or_else(|| self.names.clone());
                         self.read_before(block, &mut names, statements);
                         let names = std::mem::replace(&mut self.names, names);
@@ -197,7 +198,7 @@ impl Writer<'_> {
                 self.declare(fresh, statements);
                 statements.push(Statement::Copy { from: *from, to: *to });
             }
-            // There is nothing to clear.
+            // An empty array needs no clearing.
             Stage::Clear(array) if self.routine.arrays[*array].is_empty(self.description) => {}
             Stage::Clear(array) => {
                 let fresh = self.begin([*array].into_iter());
@@ -208,9 +209,10 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether an array that is not seen from outside begins with what a block writes.
+    /// Returns `true` if a block writes a local array completely, so that the array needs no
+    /// initial zeros.
     fn is_filled_at_once(&self, block: &Block, array: usize) -> bool {
-        let place = Place { array, row: Row::All };
+        let place = ArrayRows { array, row: Row::All };
         let declared = &self.routine.arrays[array];
         declared.role == Role::Zeros
             && declared.shape.len() == declared.row_rank()
@@ -218,8 +220,8 @@ impl Writer<'_> {
             && block.writes.contains(&place)
     }
 
-    /// The frame that a row of a result belongs to.
-    fn frame_of(&self, place: &Place, index: usize, rows: usize) -> Option<usize> {
+    /// Returns the frame that a row of a result belongs to.
+    fn frame_of(&self, place: &ArrayRows, index: usize, rows: usize) -> Option<usize> {
         let array = &self.routine.arrays[place.array];
         let by_frames = matches!(array.shape[0], Count::Frames | Count::Errors) && array.shape.len() > 1;
         (by_frames && place.row == Row::All).then(|| index / (rows / self.description.frames.len()))
@@ -230,12 +232,13 @@ impl Writer<'_> {
         Statement::Comment(format!("Frame {}: {name}", frame + 1))
     }
 
-    /// The places that a block reads, the number of the first local symbol of each, and which of its numbers are used.
-    fn reads<'b>(&self, block: &'b Block) -> Vec<(&'b Place, usize, Vec<bool>)> {
-        // What reads nothing has no local symbols.
+    /// Returns the places that a block reads, the first local symbol of each, and which of its
+    /// elements are used.
+    fn reads<'b>(&self, block: &'b Block) -> Vec<(&'b ArrayRows, usize, Vec<bool>)> {
+        // A block without reads has no local symbols.
         let used = if block.reads.is_empty() { HashSet::new() } else { used_symbols(&block.program) };
         let mut first = 0;
-        let mut read = |place: &'b Place| {
+        let mut read = |place: &'b ArrayRows| {
             let next = first + self.routine.arrays[place.array].place_len(place.row, self.description);
             let taken = (first..next).map(|local| used.contains(&Symbol::Local(local))).collect();
             (place, std::mem::replace(&mut first, next), taken)
@@ -243,7 +246,7 @@ impl Writer<'_> {
         block.reads.iter().map(&mut read).collect()
     }
 
-    /// What is the same in every turn of a loop is read before it, with names that are free inside of it and outside.
+    /// Reads loop invariants before the loop, with names that are free inside and outside of it.
     fn read_before(&mut self, block: &Block, names: &mut Names<'_>, statements: &mut Vec<Statement>) {
         names.forget_locals();
         for (place, first, taken) in
@@ -284,7 +287,7 @@ impl Writer<'_> {
             }
             let row = array.row_len(self.description);
             let rows = match place.row {
-                // What has one row has it even if there is nothing in it.
+                // A one-row array has one row even if it is empty.
                 Row::All if array.shape.len() == array.row_rank() => 1,
                 Row::All => array.len(self.description) / row,
                 _ => 1,
@@ -306,7 +309,8 @@ impl Writer<'_> {
                 }
             }
         }
-        // What is known is written at once, so that it need not be kept; in a loop, after everything is known.
+        // Outside loops, assign values as soon as they are known so that they need not be kept; in
+        // a loop, after all computations.
         if block.repeated.is_some() {
             assignments.iter_mut().for_each(|assignment| assignment.ready = body.len());
         }
@@ -327,11 +331,11 @@ impl Writer<'_> {
     }
 }
 
-/// A column of `J_e` in parts, each of which is known at its own time.
+/// Splits a column of `J_e` into parts that become known at different times.
 fn parts(index: usize, mut column: Vec<Value>) -> Vec<(&'static str, Vec<Value>)> {
     let rows = column.split_off(3);
     match index % 6 {
-        // Translations turn nothing.
+        // Translations cause no rotation.
         0..3 => vec![("along", column)],
         _ => vec![("moment", column), ("turn", rows)],
     }
@@ -339,7 +343,7 @@ fn parts(index: usize, mut column: Vec<Value>) -> Vec<(&'static str, Vec<Value>)
 
 /// A statement that writes a row.
 struct Assignment {
-    /// After how many statements of the program its values are known.
+    /// Number of statements after which its values are known.
     ready: usize,
     /// The frame that the row belongs to.
     frame: Option<usize>,
@@ -363,7 +367,7 @@ fn used_symbols(program: &Program) -> HashSet<Symbol> {
     operands.chain(program.outputs.iter().copied()).filter_map(symbol).collect()
 }
 
-/// Whether anything reads or writes an array; `symbols` are those of the routine.
+/// Returns `true` if the routine reads or writes an array; `symbols` are those of the routine.
 fn uses(routine: &Routine, symbols: &HashSet<Symbol>, description: &Description, array: usize) -> bool {
     let as_symbols = symbols.iter().any(|symbol| {
         let name = match symbol {

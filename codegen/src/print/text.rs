@@ -1,6 +1,6 @@
 //! A spec's free text as documentation.
 
-/// A text in which nothing is a link, a tag or a block of code.
+/// Escapes links, tags and code blocks.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {
@@ -12,7 +12,8 @@ pub(super) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A text that can stand in a comment of any language: in one line, read in one direction, and it ends no comment.
+/// Makes a text safe for a comment of any language: on one line, in one writing direction, without
+/// the end of a comment.
 pub(super) fn harmless(text: &str) -> String {
     let turns = |c: char| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let ends = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}');
@@ -22,7 +23,7 @@ pub(super) fn harmless(text: &str) -> String {
         .replace(r#"""""#, "'''")
 }
 
-/// A text in lines of bounded width.
+/// Wraps a text to lines of bounded width.
 pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

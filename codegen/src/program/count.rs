@@ -1,4 +1,4 @@
-//! How many operations a program takes: the cheapest sign of quality there is.
+//! Operation counts, a simple measure of the quality of a program.
 
 use std::fmt;
 use std::ops::AddAssign;
@@ -14,11 +14,11 @@ pub struct Operations {
     pub mul: usize,
     /// Additions and subtractions.
     pub add: usize,
-    /// Changes of sign.
+    /// Negations.
     pub neg: usize,
     /// Divisions.
     pub div: usize,
-    /// Sines, cosines, or both of one angle.
+    /// Sines, cosines, or both of one angle together.
     pub sincos: usize,
     /// Square roots.
     pub sqrt: usize,
@@ -27,7 +27,7 @@ pub struct Operations {
 }
 
 impl Program {
-    /// How many operations it takes.
+    /// Returns the operation counts of the program.
     pub fn operations(&self) -> Operations {
         let mut count = Operations::default();
         for step in &self.steps {
@@ -56,17 +56,18 @@ impl Program {
 }
 
 impl Operations {
-    /// By what two ways to compute the same are compared: all that takes time.
+    /// Returns the number by which alternative programs are compared: the operations that take
+    /// significant time.
     pub fn weight(self) -> usize {
         self.mul + self.add + self.div + self.sincos
     }
 
-    /// So many times as many.
+    /// Returns the counts multiplied by `count`.
     pub fn times(self, count: usize) -> Self {
         self.each(Self::default(), |a, _| a * count)
     }
 
-    /// Both together.
+    /// Returns the sum of both counts.
     pub fn plus(self, other: Self) -> Self {
         self.each(other, |a, b| a + b)
     }
@@ -84,7 +85,8 @@ impl Operations {
     }
 }
 
-/// `138 mul, 79 add, 6 sincos`: multiplications and additions always, the rest where there is any.
+/// Prints as `138 mul, 79 add, 6 sincos`. Multiplications and additions always appear, other
+/// operations only if there are any.
 impl fmt::Display for Operations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} mul, {} add", self.mul, self.add)?;

@@ -1,11 +1,11 @@
-//! The description of a manipulator: what generated code has as a constant.
+//! The description of a manipulator, a constant in generated code.
 
 use abbe_core::{Description, Effect, Frame, Input, Parameter, Source, Variable};
 use abbe_spec::Spec;
 
 use crate::chain::lower_pairs;
 
-/// What a manipulator of this spec says about itself, with these effects of its enabled sources.
+/// Returns the description of a spec with the effects of its enabled sources.
 pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>) -> Description {
     let frames = spec.frames.iter().zip(lower_pairs(spec));
     let variables = spec.variables.iter();

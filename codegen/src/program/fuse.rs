@@ -1,11 +1,11 @@
-//! Products that are only summed become part of the sum: one operation where the machine has it, and one
-//! rounding less.
+//! Fuses products into sums: one operation on machines with fused multiply-add, and one rounding
+//! less.
 
 use super::{Action, Operand, Program, Step};
 
 impl Program {
-    /// Makes `a · b ± c` one step wherever nothing else uses the product. Of two products the first is kept whole:
-    /// `a · b + c · d` becomes `a.mul_add(b, c · d)`.
+    /// Makes `a · b ± c` one step wherever nothing else uses the product. Of two products the first
+    /// stays separate: `a · b + c · d` becomes `a.mul_add(b, c · d)`.
     pub(super) fn fuse(&mut self) {
         let mut product: Vec<Option<(Operand, Operand)>> = vec![None; self.registers];
         let mut fused = vec![false; self.registers];
@@ -42,7 +42,7 @@ impl Program {
         }
     }
 
-    /// Which registers are results.
+    /// Returns which registers are results.
     fn returned(&self) -> Vec<bool> {
         let mut returned = vec![false; self.registers];
         for output in &self.outputs {
@@ -53,7 +53,7 @@ impl Program {
         returned
     }
 
-    /// Numbers the registers of the steps that are left without gaps.
+    /// Renumbers the registers of the remaining steps without gaps.
     fn renumber(&mut self) {
         let mut numbers = vec![usize::MAX; self.registers];
         let mut next = 0;
@@ -83,7 +83,7 @@ impl Operand {
 }
 
 impl Action {
-    /// The same with other operands.
+    /// Applies `f` to every operand.
     fn map(self, f: impl Fn(Operand) -> Operand) -> Self {
         match self {
             Self::Neg(a) => Self::Neg(f(a)),

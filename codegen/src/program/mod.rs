@@ -1,9 +1,10 @@
-//! Programs: what to compute, in which order, in no particular language.
+//! Programs: the steps of a computation in order, independent of a language.
 //!
-//! A [`Program`] is straight-line: [`Step`]s, each after those it uses, and the values it returns. `outputs` says which
-//! nodes are the outputs of which function; a [`Routine`] is how a function is computed: mostly one program, of long
-//! chains several with loops around them (`loops`). [`Routines`] are all functions of a manipulator. Of
-//! nodes that are equal `select` chooses those that take the fewest operations together, and `write` makes steps of them.
+//! A [`Program`] is straight-line: [`Step`]s, each after its operands, and the values it returns.
+//! `outputs` gives the nodes of each function. A [`Routine`] computes one function: usually with
+//! one program, for long chains with several programs in loops (`loops`). [`Routines`] holds all
+//! functions of a manipulator. `select` chooses, among equal nodes, those that take the fewest
+//! operations together; `write` converts them to steps.
 
 mod count;
 mod description;
@@ -22,6 +23,6 @@ mod write;
 pub use count::Operations;
 pub use outputs::{results, straight_line};
 pub use rounding::Rounded;
-pub use routine::{Array, Block, Place, Repeated, Role, Routine, Row, Stage, Sums, Table};
+pub use routine::{Array, ArrayRows, Block, Repeated, Role, Routine, Row, Stage, Sums, Table};
 pub use routines::Routines;
 pub use step::{Action, Operand, Program, Step};

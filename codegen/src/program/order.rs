@@ -1,12 +1,12 @@
-//! Sines and cosines first, where their angles allow it: many together take half the time of one by one.
+//! Moves sines and cosines to the beginning: computed together they take half the time.
 
 use abbe_spec::expr::Function;
 
 use super::{Action, Operand, Program, Step};
 
 impl Program {
-    /// Puts all sine and cosine pairs whose angles need no function themselves next to each other at the beginning,
-    /// behind what their angles are made of.
+    /// Moves all sine and cosine pairs whose angles use no function next to each other at the
+    /// beginning, after the operands of their angles.
     pub(super) fn sines_first(&mut self) {
         let mut plain = vec![false; self.registers];
         let mut pairs = vec![false; self.registers];
@@ -22,7 +22,7 @@ impl Program {
                 _ => plain[*register] = operands,
             }
         }
-        // What the angles are made of, and nothing else.
+        // Exactly the operands of the angles.
         let mut needed = vec![false; self.registers];
         for step in self.steps.iter().rev() {
             if pairs[step.register] || needed[step.register] {

@@ -1,4 +1,4 @@
-//! Which nodes of a model are the outputs of which function: told here, and nowhere else.
+//! The nodes of a model that each function returns. No other file states this.
 
 use abbe_core::Function;
 
@@ -7,38 +7,43 @@ use super::select::Selections;
 use crate::chain::{Jacobian, Model};
 use crate::graph::{Frame, Node};
 
-/// The nodes that a function gives.
+/// Nodes that a function returns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Outputs {
-    /// Those of each result, in the order of the signature.
+    /// Nodes of each result, in the order of the signature.
     pub(super) results: Vec<Vec<Node>>,
-    /// `cos ρ`, where rows are Euler angles.
+    /// `cos ρ`, if rows are Euler angles.
     pub(super) margin: Option<Node>,
 }
 
-/// The straight-line program of a function: its results one after the other, the margin last.
+/// Returns the straight-line program of a function: its results in order, the margin last.
 pub fn straight_line(function: Function, model: &Model) -> Program {
-    fewest(ways(function, model), model, &mut Selections::default()).1
+    fewest(alternatives(function, model), model, &mut Selections::default()).1
 }
 
-/// The nodes of each result of a function, and those of the margin, in one of the ways to compute them.
+/// Returns the nodes of each result of a function and of its margin, in the first of its
+/// alternative forms.
 pub fn results(function: Function, model: &Model) -> (Vec<Vec<Node>>, Option<Node>) {
-    let Outputs { results, margin } = ways(function, model).swap_remove(0);
+    let Outputs { results, margin } = alternatives(function, model).swap_remove(0);
     (results, margin)
 }
 
-/// Of several ways to compute a function the outputs and the program with the fewest operations.
-pub(super) fn fewest(ways: Vec<Outputs>, model: &Model, selections: &mut Selections) -> (Outputs, Program) {
-    let ways = ways.into_iter().map(|outputs| {
+/// Returns the outputs and the program with the fewest operations among alternative forms.
+pub(super) fn fewest(
+    alternatives: Vec<Outputs>,
+    model: &Model,
+    selections: &mut Selections,
+) -> (Outputs, Program) {
+    let alternatives = alternatives.into_iter().map(|outputs| {
         let nodes: Vec<Node> = outputs.results.iter().flatten().copied().chain(outputs.margin).collect();
         let program = Program::with(&model.graph, &nodes, selections);
         (outputs, program)
     });
-    ways.min_by_key(|(_, program)| program.operations().weight()).expect("every function has outputs")
+    alternatives.min_by_key(|(_, program)| program.operations().weight()).expect("every function has outputs")
 }
 
-/// The outputs of a function, and where there are two ways to compute them, both.
-pub(super) fn ways(function: Function, model: &Model) -> Vec<Outputs> {
+/// Returns the outputs of a function, in all alternative forms.
+pub(super) fn alternatives(function: Function, model: &Model) -> Vec<Outputs> {
     let plain = |results: Vec<Vec<Node>>| vec![Outputs { results, margin: None }];
     let rows = |first: Option<&Frame>, jacobian: &Jacobian| Outputs {
         results: first.map(pose).into_iter().chain([jacobian.columns.concat()]).collect(),
@@ -60,10 +65,10 @@ pub(super) fn ways(function: Function, model: &Model) -> Vec<Outputs> {
         Function::Displacement => vec![rows(None, &model.displacement)],
         Function::Covariance => vec![rows(None, &model.covariance)],
         Function::PredictedDisplacement => {
-            model.predicted_displacement.iter().map(|way| rows(None, way)).collect()
+            model.predicted_displacement.iter().map(|jacobian| rows(None, jacobian)).collect()
         }
         Function::SourceDisplacements => {
-            model.source_displacements.iter().map(|way| rows(None, way)).collect()
+            model.source_displacements.iter().map(|jacobian| rows(None, jacobian)).collect()
         }
         Function::RealPose => plain(vec![pose(&model.real_pose)]),
         Function::DrawnPose => plain(vec![pose(&model.drawn_pose)]),
@@ -71,7 +76,7 @@ pub(super) fn ways(function: Function, model: &Model) -> Vec<Outputs> {
     }
 }
 
-/// A pose by columns.
+/// Returns the entries of a pose by columns.
 fn pose(frame: &Frame) -> Vec<Node> {
     frame.axes.iter().flatten().chain(&frame.position).copied().collect()
 }

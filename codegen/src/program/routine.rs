@@ -1,64 +1,67 @@
-//! How a function is computed, in no particular language: arrays, and stages that read and write their rows.
+//! Routines: functions as arrays, and stages that read and write their rows, independent of a
+//! language.
 //!
-//! A stage is a straight-line [`Program`], once or for every frame, the call of another routine, or a table of sums. Most
-//! functions are one program that reads the arguments as symbols and writes whole results.
+//! A stage is a straight-line [`Program`], executed once or for every frame, a call of another
+//! routine, or a table of sums. Most functions are one program that reads the arguments as symbols
+//! and writes whole results.
 
 use abbe_core::function::Count;
 use abbe_core::{Description, Function};
 
 use super::{Operations, Program};
 
-/// A function, or a part that several functions call.
+/// A function, or a helper that several functions call.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Routine {
-    /// Which function it is; none if it only helps others.
+    /// The function; `None` for a helper.
     pub function: Option<Function>,
-    /// What it is called.
+    /// Name of the routine.
     pub name: &'static str,
-    /// What it computes.
+    /// Documentation of the routine.
     pub documentation: &'static str,
-    /// What it takes and fills, in the order of the function's signature, then the margin, then what it needs itself.
+    /// Arguments and results in the order of the function's signature, then the margin, then local
+    /// arrays.
     pub arrays: Vec<Array>,
-    /// One after the other.
+    /// Stages in order of execution.
     pub stages: Vec<Stage>,
-    /// What one call takes.
+    /// Operations of one call.
     pub operations: Operations,
 }
 
-/// An array of numbers that a routine uses.
+/// An array of numbers of a routine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Array {
-    /// Its name.
+    /// Name of the array.
     pub name: &'static str,
-    /// Its dimensions, the outermost first.
+    /// Dimensions, the outermost first.
     pub shape: Vec<Count>,
-    /// Where it comes from.
+    /// Role of the array.
     pub role: Role,
 }
 
-/// Where an array comes from.
+/// Role of an array in a routine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// It is given.
+    /// Argument.
     Argument,
-    /// It is filled.
+    /// Result.
     Result,
-    /// It is one number, returned: `cos ρ`.
+    /// One number, `cos ρ`, that is returned.
     Margin,
-    /// It begins as zeros, and is not seen from outside.
+    /// Local array, initialized with zeros.
     Zeros,
 }
 
 /// A part of a routine.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stage {
-    /// A program, once or many times.
+    /// A program, executed once or in a loop.
     Block(Block),
-    /// Another routine, and what it takes and fills, in the order of its arrays.
+    /// A call of another routine.
     Call {
-        /// Its name.
+        /// Name of the called routine.
         routine: &'static str,
-        /// Arguments, results, margin: indices of this routine's arrays.
+        /// Arguments, results and margin of the call: indices of this routine's arrays.
         arrays: Vec<usize>,
     },
     /// Entries of an array as sums of few terms.
@@ -70,77 +73,78 @@ pub enum Stage {
         /// Index of the array that is filled.
         entries: usize,
     },
-    /// Zeros for an array.
+    /// Fills an array with zeros.
     Clear(usize),
-    /// An array becomes what rows of another one are.
+    /// Copies rows of an array to another one.
     Copy {
-        /// What stays as it is.
-        from: Place,
+        /// The rows to copy.
+        from: ArrayRows,
         /// Index of the array that is filled.
         to: usize,
     },
 }
 
-/// A program that reads rows of arrays and writes rows of arrays: all is read before anything is written.
+/// A program that reads rows of arrays and writes rows of arrays. All reads precede all writes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// What the program's local symbols are, row after row.
-    pub reads: Vec<Place>,
-    /// What is computed.
+    /// Rows that give the program's local symbols, in order.
+    pub reads: Vec<ArrayRows>,
+    /// The program.
     pub program: Program,
-    /// Where its outputs go, row after row.
-    pub writes: Vec<Place>,
-    /// How often, and in which order; once if there is nothing.
+    /// Rows that take its outputs, in order.
+    pub writes: Vec<ArrayRows>,
+    /// The loop; `None` to execute once.
     pub repeated: Option<Repeated>,
 }
 
-/// For every row from the first to the last, or from the last to the first.
+/// A loop over rows, ascending or descending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Repeated {
-    /// How many rows there are.
+    /// Number of iterations.
     pub count: Count,
-    /// Whether the last comes first.
+    /// `true` to start with the last row.
     pub backwards: bool,
 }
 
 /// Rows of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct ArrayRows {
     /// Index of the array.
     pub array: usize,
-    /// Which of its rows.
+    /// Selection of its rows.
     pub row: Row,
 }
 
-/// Which row: a pose is one row, else the innermost dimension is.
+/// Selection of rows. A row of an array of poses is a pose; a row of any other array is its
+/// innermost dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Row {
-    /// All of them.
+    /// Every row.
     All,
-    /// The first one.
+    /// The first row.
     First,
-    /// The last one.
+    /// The last row.
     Last,
-    /// All that come after the first one.
+    /// Every row except the first.
     AllButFirst,
-    /// Of the loop's counter i, row `stride · i + offset`.
+    /// Row `stride · i + offset` for the loop counter i.
     Each {
-        /// How many rows belong to one i.
+        /// Number of rows per iteration.
         stride: usize,
-        /// Which of them.
+        /// Index within the iteration.
         offset: usize,
     },
-    /// The one that a table has in row i.
+    /// The row listed in row i of a table.
     Listed {
         /// Index of the table.
         table: usize,
-        /// Its first or second number.
+        /// Column of the table, 0 or 1.
         column: usize,
     },
 }
 
 impl Routine {
-    /// How many of its stages write an array.
+    /// Returns the number of stages that write an array.
     pub fn writes(&self, array: usize) -> usize {
         let writes = |stage: &&Stage| match stage {
             Stage::Block(block) => block.writes.iter().any(|place| place.array == array),
@@ -154,15 +158,15 @@ impl Routine {
 }
 
 impl Block {
-    /// Whether a place that is read holds the same in every turn of the loop.
-    pub fn is_constant(&self, place: &Place) -> bool {
+    /// Returns `true` if the rows are the same in every iteration of the loop.
+    pub fn is_constant(&self, place: &ArrayRows) -> bool {
         let is_written = self.writes.iter().any(|written| written.array == place.array);
         self.repeated.is_some() && matches!(place.row, Row::All | Row::First | Row::Last) && !is_written
     }
 }
 
-impl Place {
-    /// The whole array.
+impl ArrayRows {
+    /// Selects the whole array.
     pub const fn all(array: usize) -> Self {
         Self { array, row: Row::All }
     }
@@ -176,28 +180,29 @@ impl Row {
 }
 
 impl Array {
-    /// How many of its dimensions make up a row.
+    /// Returns the number of dimensions that make up a row.
     pub fn row_rank(&self) -> usize {
         let pose = [Count::Exactly(4), Count::Exactly(3)];
         if self.shape.ends_with(&pose) { 2 } else { 1 }
     }
 
-    /// How many numbers it holds.
+    /// Returns the number of elements.
     pub fn len(&self, description: &Description) -> usize {
         product(&self.shape, description)
     }
 
-    /// Whether it holds none.
+    /// Returns `true` if the array has no elements.
     pub fn is_empty(&self, description: &Description) -> bool {
         self.len(description) == 0
     }
 
-    /// How many numbers a row of it holds.
+    /// Returns the number of elements in a row.
     pub fn row_len(&self, description: &Description) -> usize {
         product(&self.shape[self.shape.len() - self.row_rank()..], description)
     }
 
-    /// How many numbers a place in it holds: a row of numbers by themselves is one.
+    /// Returns the number of elements that a selection has. In a one-dimensional array a single row
+    /// is one element.
     pub fn place_len(&self, row: Row, description: &Description) -> usize {
         match row {
             Row::All => self.len(description),
@@ -212,23 +217,23 @@ fn product(shape: &[Count], description: &Description) -> usize {
     shape.iter().map(|count| count.value(description)).product()
 }
 
-/// Constants, and to each of them its factors times terms.
+/// Sums: a constant for each entry plus factors times terms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sums {
-    /// What is summed.
+    /// Name of the sums.
     pub name: &'static str,
-    /// The constant of each entry.
+    /// Constant of each entry.
     pub constants: Vec<f64>,
-    /// Entry, term, and the factor with which the term is added.
+    /// Entry, term, and factor of the term.
     pub factors: Vec<(usize, usize, f64)>,
 }
 
-/// Pairs of rows that a loop goes over.
+/// Pairs of row indices for a loop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
-    /// What they are of.
+    /// Name of the table.
     pub name: &'static str,
-    /// What the two numbers are.
+    /// Documentation of the two numbers.
     pub documentation: &'static str,
     /// The pairs.
     pub rows: Vec<[usize; 2]>,

@@ -9,35 +9,35 @@ use abbe_spec::expr::Table as LookupTable;
 
 use super::description::description;
 use super::loops::Loops;
-use super::outputs::{Outputs, fewest, ways};
-use super::routine::{Array, Block, Place, Role, Routine, Row, Stage, Sums, Table};
+use super::outputs::{Outputs, alternatives, fewest};
+use super::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage, Sums, Table};
 use super::select::Selections;
 use super::{Operations, Program};
 use crate::chain::{EffectNode, Model, is_long};
 
-/// All functions of a manipulator, and what they share.
+/// The functions of a manipulator and their shared data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Routines {
-    /// What the manipulator says about itself; what arrays have as sizes.
+    /// Description of the manipulator, which also gives the sizes of arrays.
     pub description: Description,
-    /// The functions in the order of [`Function::ALL`], then what helps them.
+    /// The functions in the order of [`Function::ALL`], then the helpers.
     pub list: Vec<Routine>,
-    /// What loops go over.
+    /// Tables that loops use.
     pub tables: Vec<Table>,
-    /// What is summed.
+    /// Sums that loops use.
     pub sums: Vec<Sums>,
-    /// The functions given by points.
+    /// Lookup tables of the spec.
     pub lookup_tables: Vec<Arc<LookupTable>>,
 }
 
 impl Routines {
-    /// The routines of all functions: each as another one where that gives the same, as loops where the chain is long,
-    /// else as a straight-line program.
+    /// Builds the routines of all functions. A function that gives the same results as an earlier
+    /// one calls it; functions of long chains are loops; the others are straight-line programs.
     pub fn new(spec: &Spec, model: &Model) -> Self {
         Self::with(spec, model, is_long(spec).then(|| Loops::new(spec, model)))
     }
 
-    /// The same without loops, however long the chain is: what loops are checked against.
+    /// Builds the routines without loops for any length of the chain, for checks of the loops.
     pub fn without_loops(spec: &Spec, model: &Model) -> Self {
         Self::with(spec, model, None)
     }
@@ -55,12 +55,14 @@ impl Routines {
                     known.iter().find(|(other, its)| is_same(*other, its, signature, outputs))?;
                 Some(as_other(*other, &arrays, &description))
             };
-            let ways = ways(function, model);
-            // Where there is but one way, what is the same needs no program of its own.
-            let only = if let [only] = &ways[..] { same(only) } else { None };
+            let alternatives = alternatives(function, model);
+            // A function with a single form that equals another function needs no program of its
+            // own.
+            let only = if let [only] = &alternatives[..] { same(only) } else { None };
             let stages = if let (Function::CompensatorStep, Some(_), None) = (function, &only, &loops) {
-                // Where nothing is to be corrected, the pose has the bits of `pose`: the correction is 0.
-                let Outputs { results, .. } = &ways[0];
+                // If no errors are to be corrected, the pose has the same bits as `pose`, and the
+                // correction is 0.
+                let Outputs { results, .. } = &alternatives[0];
                 let graph = &model.graph;
                 let program = Program::after(graph, &results[0], &results.concat(), &mut selections);
                 vec![at_once(&arrays, program)]
@@ -69,7 +71,7 @@ impl Routines {
             } else if loops.is_none() && function == Function::CompensatorStep {
                 compensator_step(model, &arrays, &description)
             } else {
-                let (outputs, program) = fewest(ways, model, &mut selections);
+                let (outputs, program) = fewest(alternatives, model, &mut selections);
                 let stages = if let Some(call) = same(&outputs) {
                     vec![call]
                 } else {
@@ -94,17 +96,17 @@ impl Routines {
         routines
     }
 
-    /// The routine of that name.
+    /// Returns the routine with this name.
     pub fn named(&self, name: &str) -> &Routine {
         self.list.iter().find(|routine| routine.name == name).expect("what is called is there")
     }
 
-    /// The routine of a function.
+    /// Returns the routine of a function.
     pub fn function(&self, function: Function) -> &Routine {
         self.named(function.name())
     }
 
-    /// The tables that a loop goes over.
+    /// Iterates over the tables that loops use.
     pub fn used_tables(&self) -> impl Iterator<Item = &Table> {
         let lists = |stage: &Stage, index: usize| match stage {
             Stage::Block(block) => block
@@ -118,14 +120,14 @@ impl Routines {
         self.tables.iter().enumerate().filter(move |(index, _)| is_used(*index)).map(|(_, table)| table)
     }
 
-    /// The sums that a routine has.
+    /// Iterates over the sums that routines use.
     pub fn used_sums(&self) -> impl Iterator<Item = &Sums> {
         let is_used =
             |index| self.stages().any(|stage| matches!(stage, Stage::Sums { sums, .. } if *sums == index));
         self.sums.iter().enumerate().filter(move |(index, _)| is_used(*index)).map(|(_, sums)| sums)
     }
 
-    /// The programs of all routines.
+    /// Iterates over the programs of all routines.
     pub fn programs(&self) -> impl Iterator<Item = &Program> {
         self.stages().filter_map(|stage| match stage {
             Stage::Block(block) => Some(&block.program),
@@ -137,7 +139,7 @@ impl Routines {
         self.list.iter().flat_map(|routine| &routine.stages)
     }
 
-    /// What one call of a routine takes, that of others in it.
+    /// Returns the operations of one call of a routine, including the routines it calls.
     fn operations(&self, routine: &Routine) -> Operations {
         let stage = |stage: &Stage| match stage {
             Stage::Block(Block { program, repeated, .. }) => program
@@ -154,7 +156,7 @@ impl Routines {
     }
 }
 
-/// The arrays of a signature, in its order, and the margin.
+/// Returns the arrays of a signature, in its order, and the margin.
 fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec<Array> {
     let array = |role| {
         move |array: &abbe_core::function::Array| Array {
@@ -169,14 +171,16 @@ fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec
     arguments.chain(results).chain(signature.has_margin(orientation).then_some(margin)).collect()
 }
 
-/// A program that fills all results.
+/// Returns a stage with a program that fills all results.
 fn at_once(arrays: &[Array], program: Program) -> Stage {
     let filled = |(_, array): &(usize, &Array)| array.role != Role::Argument;
-    let writes = arrays.iter().enumerate().filter(filled).map(|(array, _)| Place { array, row: Row::All });
+    let writes =
+        arrays.iter().enumerate().filter(filled).map(|(array, _)| ArrayRows { array, row: Row::All });
     Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })
 }
 
-/// The real pose, and the nominal twists of the joints: they have hardly anything in common.
+/// Returns the stages for the real pose and for the nominal twists of the joints, which share
+/// almost no operations.
 fn compensator_step(model: &Model, arrays: &[Array], description: &Description) -> Vec<Stage> {
     let is_columns = |array: &Array| array.name == "columns";
     let (columns, others): (Vec<_>, Vec<_>) =
@@ -184,13 +188,14 @@ fn compensator_step(model: &Model, arrays: &[Array], description: &Description) 
     let mut stages = vec![Stage::Call { routine: Function::RealPose.name(), arrays: others }];
     for array in columns.into_iter().filter(|array| !arrays[*array].is_empty(description)) {
         let program = Program::new(&model.graph, &model.joint_twists.concat());
-        let writes = vec![Place { array, row: Row::All }];
+        let writes = vec![ArrayRows { array, row: Row::All }];
         stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
     }
     stages
 }
 
-/// Whether a function that came before gives the same, by more than chance, from no more than this one takes.
+/// Returns `true` if an earlier function takes no other arguments and returns the same nonempty
+/// results.
 fn is_same(other: Function, found: &Outputs, signature: &Signature, outputs: &Outputs) -> bool {
     let some = |signature: &Signature, outputs: &Outputs| -> Vec<_> {
         let results = signature.results.iter().zip(&outputs.results);
@@ -204,7 +209,7 @@ fn is_same(other: Function, found: &Outputs, signature: &Signature, outputs: &Ou
         && takes.iter().all(|array| signature.arguments.contains(array))
 }
 
-/// The call of that function.
+/// Returns a call of the other function.
 fn as_other(other: Function, arrays: &[Array], description: &Description) -> Stage {
     let signature = other.signature();
     let given = signature.arguments.iter().map(|wanted| {

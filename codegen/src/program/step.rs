@@ -1,11 +1,11 @@
-//! Straight-line programs: steps, each after those it uses.
+//! Straight-line programs: steps, each after its operands.
 
 use abbe_spec::expr::{Function, Lookup, Symbol};
 
-/// Where a value comes from.
+/// Source of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operand {
-    /// A number.
+    /// A constant.
     Constant(f64),
     /// A variable, parameter or input.
     Symbol(Symbol),
@@ -13,7 +13,7 @@ pub enum Operand {
     Register(usize),
 }
 
-/// What a step does.
+/// Operation of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     /// `-a`.
@@ -34,22 +34,22 @@ pub enum Action {
     Div(Operand, Operand),
     /// `a ^ b`.
     Pow(Operand, Operand),
-    /// The angle of the point (second, first).
+    /// The angle of the point (x, y); the operands are y, x.
     Atan2(Operand, Operand),
-    /// The smaller.
+    /// The smaller operand.
     Min(Operand, Operand),
-    /// The larger.
+    /// The larger operand.
     Max(Operand, Operand),
-    /// A function.
+    /// A function of one operand.
     Call(Function, Operand),
-    /// A table.
+    /// A table lookup.
     Lookup(Lookup, Operand),
     /// Sine, and in the next register cosine.
     SinCos(Operand),
 }
 
 impl Action {
-    /// The operands, one to three.
+    /// Returns the operands, one to three.
     pub fn operands(self) -> impl Iterator<Item = Operand> {
         let (first, second, third) = match self {
             Self::Neg(a) | Self::Call(_, a) | Self::Lookup(_, a) | Self::SinCos(a) => (a, None, None),
@@ -70,26 +70,26 @@ impl Action {
 /// One operation of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// The register it defines; [`Action::SinCos`] defines the next one too.
+    /// Register that the step defines. [`Action::SinCos`] defines the next one as well.
     pub register: usize,
-    /// What it does.
+    /// The operation.
     pub action: Action,
-    /// What generated code should call the result.
+    /// Name that generated code should give to the result.
     pub name: Option<String>,
 }
 
 /// A straight-line program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// Each after the steps it uses; every one is needed.
+    /// Steps, each after its operands; none is unused.
     pub steps: Vec<Step>,
-    /// The values it returns.
+    /// Values that the program returns.
     pub outputs: Vec<Operand>,
-    /// Numbers that recur, and what generated code should call them.
+    /// Recurring numbers and the names that generated code should give to them.
     pub numbers: Vec<(f64, String)>,
-    /// How many registers the steps define.
+    /// Number of registers that the steps define.
     pub registers: usize,
-    /// How often each register is used, as an operand or output.
+    /// Number of uses of each register, as an operand or output.
     pub uses: Vec<usize>,
 }
 

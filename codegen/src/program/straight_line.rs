@@ -1,4 +1,4 @@
-//! From the nodes of a result to the steps that compute it.
+//! Converts the nodes of a result to steps that compute it.
 
 use std::rc::Rc;
 
@@ -10,28 +10,29 @@ use super::write::Writer;
 use crate::graph::{Graph, Node};
 
 impl Program {
-    /// The steps that compute some nodes, and nothing else, in the order in which the nodes were made; of nodes that are
-    /// equal those that take the fewest operations.
+    /// Returns the steps that compute the nodes, in the order in which the nodes were made. Among
+    /// equal nodes those that take the fewest operations are computed.
     pub fn new(graph: &Graph, outputs: &[Node]) -> Self {
         Self::with(graph, outputs, &mut Selections::default())
     }
 
-    /// The same with what was selected for others.
+    /// Returns the steps that compute the nodes, reusing earlier selections.
     pub(super) fn with(graph: &Graph, outputs: &[Node], selections: &mut Selections) -> Self {
-        Self::of(graph, outputs, selections.of(graph, outputs))
+        Self::from_selection(graph, outputs, selections.select(graph, outputs))
     }
 
-    /// The same, where some of the outputs have the bits that they have alone.
+    /// Returns the steps that compute the nodes, where `others` among them have the same bits as if
+    /// computed alone.
     pub(super) fn after(
         graph: &Graph,
         others: &[Node],
         outputs: &[Node],
         selections: &mut Selections,
     ) -> Self {
-        Self::of(graph, outputs, selections.after(graph, others, outputs))
+        Self::from_selection(graph, outputs, selections.after(graph, others, outputs))
     }
 
-    fn of(graph: &Graph, outputs: &[Node], selection: Rc<Selection>) -> Self {
+    fn from_selection(graph: &Graph, outputs: &[Node], selection: Rc<Selection>) -> Self {
         let mut program = Self {
             steps: Vec::new(),
             outputs: Vec::new(),

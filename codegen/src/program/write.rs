@@ -1,4 +1,4 @@
-//! Nodes written as steps, each after those it uses.
+//! Writes nodes as steps, each after its operands.
 
 use std::rc::Rc;
 
@@ -8,7 +8,7 @@ use super::select::Selection;
 use super::{Action, Operand, Program, Step};
 use crate::graph::{Graph, Node, Op, Signed};
 
-/// A value, or its negative: sums and products take signs in.
+/// A value or its negative; sums and products absorb signs.
 #[derive(Clone, Copy)]
 struct Value {
     operand: Operand,
@@ -18,9 +18,10 @@ struct Value {
 pub(super) struct Writer<'w> {
     graph: &'w Graph,
     selection: Rc<Selection>,
-    /// Whether a node stands for one that is needed.
+    /// Representatives that are needed.
     needed: Vec<bool>,
-    /// Of a node that stands for results whether all of them are its negative; none if they are both, or it for none.
+    /// Sign of a representative's results: `Some(true)` if all are its negative; `None` if there
+    /// are both signs or no results.
     wanted: Vec<Option<bool>>,
     values: Vec<Option<Value>>,
     negatives: Vec<Option<Operand>>,
@@ -28,7 +29,7 @@ pub(super) struct Writer<'w> {
 }
 
 impl<'w> Writer<'w> {
-    /// Writes the steps that some nodes need.
+    /// Writes the steps for the given outputs.
     pub(super) fn new(
         graph: &'w Graph,
         outputs: &[Node],
@@ -39,11 +40,12 @@ impl<'w> Writer<'w> {
         let mut stack: Vec<Node> = outputs.iter().map(|node| graph.class(*node).node).collect();
         while let Some(first) = stack.pop() {
             if !std::mem::replace(&mut needed[first.index()], true) {
-                stack
-                    .extend(graph.op(selection.of(first).node).operands().map(|node| graph.class(node).node));
+                stack.extend(
+                    graph.op(selection.member(first).node).operands().map(|node| graph.class(node).node),
+                );
             }
         }
-        // Results as soon as they are known.
+        // Write results as soon as they are known.
         let mut order: Vec<(Node, bool)> =
             graph.nodes().filter(|node| needed[node.index()]).map(|node| (node, false)).collect();
         order.extend(outputs.iter().map(|node| (*node, true)));
@@ -69,12 +71,12 @@ impl<'w> Writer<'w> {
         writer
     }
 
-    /// The values of the nodes.
+    /// Returns the values of the nodes.
     pub(super) fn outputs(mut self, outputs: &[Node]) -> Vec<Operand> {
         outputs.iter().map(|node| self.whole(*node)).collect()
     }
 
-    /// The value of a node with its sign.
+    /// Returns the value of a node, with its sign applied.
     fn whole(&mut self, node: Node) -> Operand {
         let Value { operand, negative } = self.value(node);
         match operand {
@@ -99,7 +101,7 @@ impl<'w> Writer<'w> {
         let value = match self.values[class.node.index()] {
             Some(value) => value,
             None => {
-                let chosen = self.selection.of(class.node);
+                let chosen = self.selection.member(class.node);
                 let value = self.written(class.node, chosen.node).times(chosen.negative);
                 self.values[class.node.index()] = Some(value);
                 value
@@ -115,14 +117,14 @@ impl<'w> Writer<'w> {
         Operand::Register(register)
     }
 
-    /// The value of a node as its operation gives it.
+    /// Writes the operation of a node and returns its value.
     fn written(&mut self, first: Node, node: Node) -> Value {
         let op = self.graph.op(node);
         let mut negative = false;
         let action = match op {
             Op::Constant(bits) => return Value::plain(Operand::Constant(f64::from_bits(bits))),
             Op::Symbol(symbol) => return Value::plain(Operand::Symbol(symbol)),
-            // Not chosen: what stands for a node is no change of sign.
+            // Never selected: a representative is no negation.
             Op::Neg(a) => return self.value(a).times(true),
             Op::Add(a, b) => sum(self.value(a), self.value(b), &mut negative),
             Op::Sub(a, b) => sum(self.value(a), self.value(b).times(true), &mut negative),
@@ -150,9 +152,9 @@ impl<'w> Writer<'w> {
             }
         };
         let action = match action {
-            // Only its negative is a result.
+            // Only the negative is a result.
             Action::Sub(a, b)
-                if self.wanted[first.index()] == Some(negative == self.selection.of(first).negative) =>
+                if self.wanted[first.index()] == Some(negative == self.selection.member(first).negative) =>
             {
                 negative = !negative;
                 Action::Sub(b, a)
@@ -163,9 +165,10 @@ impl<'w> Writer<'w> {
         Value { operand: self.step(action, name, 1), negative }
     }
 
-    /// The name of the node, or else of any that is equal to it; of their negatives if it is negative.
+    /// Returns the name of the node, or of any node equal to it; with a negative sign, of their
+    /// negatives.
     fn name(&self, first: Node, node: Node, negative: bool) -> Option<String> {
-        let sign = self.selection.of(first).negative;
+        let sign = self.selection.member(first).negative;
         let own = Signed { node, negative: sign };
         let equal = std::iter::once(own).chain(self.graph.equal(first));
         let mut nodes = equal.filter_map(|other| match (other.negative != sign) == negative {
@@ -175,7 +178,7 @@ impl<'w> Writer<'w> {
         nodes.find_map(|node| self.graph.name_at(node.index())).map(str::to_owned)
     }
 
-    /// Sine and cosine of an angle in one step.
+    /// Writes the sine and cosine of an angle as one step.
     fn both(&mut self, function: Function, angle: Operand, [this, partner]: [Node; 2]) -> Value {
         let name = self.graph.name_at(this.index()).map(str::to_owned);
         let register = self.program.registers;
@@ -186,7 +189,7 @@ impl<'w> Writer<'w> {
         value
     }
 
-    /// The cosine that goes with a sine, or the other way round, if both are needed.
+    /// Returns the cosine that belongs to a sine, or the reverse, if both are needed.
     fn partner(&self, function: Function, angle: Node) -> Option<Node> {
         let other = match function {
             Function::Sin => Function::Cos,
@@ -199,7 +202,7 @@ impl<'w> Writer<'w> {
     }
 }
 
-/// `a + b`, or its negative.
+/// Returns `a + b`, or its negative with `negative` set.
 fn sum(a: Value, b: Value, negative: &mut bool) -> Action {
     match (a.negative, b.negative) {
         (false, false) => Action::Add(a.operand, b.operand),

@@ -1,4 +1,4 @@
-//! No input makes the reader panic or hang: random text, and specs with random damage.
+//! Fuzzes the reader: neither random text nor randomly damaged specs make it panic or hang.
 
 use abbe_spec::Spec;
 use proptest::prelude::*;
@@ -33,7 +33,7 @@ e_s = "load * 1e-6/kg"
 
 fn read(text: &str) {
     match Spec::parse("any.toml", text) {
-        // What is read can be generated.
+        // Every spec that is accepted can be generated.
         Ok(spec) => drop(abbe_codegen::print::rust(&spec)),
         Err(diagnostics) => assert!(diagnostics.to_string().starts_with("error")),
     }

@@ -1,4 +1,5 @@
-//! The laws of the graph: each a line, those that must not hold among them; then any expression at all.
+//! Laws of the graph, one per line, including relations that must not hold; then random
+//! expressions.
 
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::expr::{Function, Symbol};
@@ -13,7 +14,7 @@ fn value(symbol: Symbol) -> f64 {
     }
 }
 
-/// `name: left => right` holds if both are the same node, `name: left != right` if they are not.
+/// `name: left => right` requires both to be the same node, `name: left != right` different nodes.
 macro_rules! laws {
     ($($name:ident: |$g:ident, $x:ident, $y:ident| $left:expr, $relation:tt $right:expr;)+) => {$(
         #[test]
@@ -61,7 +62,7 @@ laws! {
     sums_are_not_reassociated: |g, x, y| { let s = g.add(x, x); g.add(s, y) }, != { let s = g.add(x, y); g.add(x, s) };
 }
 
-/// An expression, so that it can be built twice: simplified and as it stands.
+/// An expression that can be evaluated directly and built in a graph with simplification.
 #[derive(Clone, Debug)]
 enum Tree {
     Constant(f64),
@@ -149,13 +150,13 @@ impl Tree {
                     _ => a.atan2(b),
                 }
             }
-            Self::Call(function, a) => function.of(a.value(at)),
+            Self::Call(function, a) => function.evaluate(a.value(at)),
             Self::Power(a, exponent) => a.value(at).powf(*exponent),
         }
     }
 
-    /// The largest magnitude on the way, which is what rounding errors are relative to; infinite where a part
-    /// has no value, or one that jumps or is steep there.
+    /// Largest magnitude of all intermediate values, the scale of rounding errors. Infinite where a
+    /// part has no value, jumps or is steep.
     fn size(&self, at: &[f64; 3]) -> f64 {
         let own = self.value(at).abs();
         let parts = match self {
@@ -199,7 +200,8 @@ proptest! {
             at[variable] += offset;
             tree.value(&at)
         };
-        // Richardson: the error of the central difference is of second order in the step.
+        // Richardson extrapolation: the error of the central difference is of second order in the
+        // step.
         let step = 1e-4;
         let central = |step: f64| (at(step) - at(-step)) / (2.0 * step);
         let (coarse, fine) = (central(2.0 * step), central(step));

@@ -1,4 +1,4 @@
-//! The library as its users call it.
+//! Integration tests of the public interface.
 
 mod any_input;
 mod graph_laws;

@@ -1,27 +1,27 @@
-//! One cycle of a controller: commands in, corrected commands out. It allocates nothing, never panics, and takes the same number of
-//! steps every time.
+//! One cycle of a controller: takes commands and returns compensated commands. It never allocates
+//! or panics, and its number of steps is constant.
 #![no_std]
 
 include!(concat!(env!("OUT_DIR"), "/pps.rs"));
 
 use pps::{Inputs, Parameters, VARIABLES};
 
-/// Lengths of the slides in mm, angles in rad.
+/// Positions of the prismatic joints in mm, angles in rad.
 pub type Joints = [f64; VARIABLES];
 
-/// How far a drive may be sent from its command. What wants more has a wrong model, not a larger error.
+/// Largest correction of a command. A larger one indicates a wrong model.
 pub const LARGEST: Joints = [20.0, 20.0, 20.0, 0.02, 0.02, 0.02];
 
-/// Why the drives are held.
+/// Reason for holding the drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
-    /// The command, or what follows from it, is not finite.
+    /// The command or a result is not finite.
     Model(abbe::Error),
-    /// This variable would go further from its command than it may.
+    /// The correction of this variable exceeds its limit.
     TooFar(usize),
 }
 
-/// What is kept from cycle to cycle: what the machine is, and where its drives were sent last.
+/// State of the controller: the parameters of the machine, and the last commands of its drives.
 #[derive(Clone, Debug)]
 pub struct Controller {
     parameters: Parameters,
@@ -30,12 +30,13 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// Of a machine that stands at `drives`.
+    /// Creates the controller of a machine whose drives are at `drives`.
     pub const fn new(parameters: Parameters, inputs: Inputs, drives: Joints) -> Self {
         Self { parameters, inputs, drives }
     }
 
-    /// What the drives get for a command. After a fault they are held where they are.
+    /// Returns the commands of the drives for a command. After a fault the drives hold their
+    /// position.
     pub fn cycle(&mut self, command: &Joints) -> Result<Joints, Fault> {
         let corrected = pps::compensated(command, &self.parameters, &self.inputs).map_err(Fault::Model)?.q;
         for (variable, far) in LARGEST.iter().enumerate() {
@@ -47,7 +48,7 @@ impl Controller {
         Ok(corrected)
     }
 
-    /// Where the drives were sent last.
+    /// Returns the last commands of the drives.
     pub const fn drives(&self) -> &Joints {
         &self.drives
     }

@@ -1,4 +1,4 @@
-//! The controller on a host: two seconds at 1 kHz along a path, against the machine's model.
+//! Runs the controller on a host: two seconds at 1 kHz along a path, against the machine's model.
 
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
@@ -11,7 +11,8 @@ use firmware::{Controller, Fault, Joints};
 const PERIOD: Duration = Duration::from_millis(1);
 const CYCLES: u32 = 2000;
 
-/// Where the path is after a share of it: every variable swings through 60 % of its travel, each at a pace of its own.
+/// Returns the path at a share of its duration: every variable oscillates over 60 % of its travel,
+/// at its own frequency.
 fn command(share: f64) -> Joints {
     std::array::from_fn(|j| {
         let [lower, upper] = DESCRIPTION.variables[j].limits;
@@ -19,7 +20,7 @@ fn command(share: f64) -> Joints {
     })
 }
 
-/// How far the tool is from where it should be for a command, mm, if the drives are sent there.
+/// Returns the position error of the tool for a command, in mm, with the drives at `drives`.
 fn off(command: &Joints, drives: &Joints) -> Result<f64, abbe::Error> {
     let ideal = pps::pose(command, &Parameters::NOMINAL)?;
     let real = pps::real_pose(drives, &Parameters::NOMINAL, &Inputs::NOMINAL)?;
@@ -67,7 +68,7 @@ mod tests {
         let mut wrong = command(0.1);
         wrong[2] = f64::NAN;
         assert!(matches!(controller.cycle(&wrong), Err(Fault::Model(_))));
-        // A whole millimetre of sag for every newton: no such machine is built.
+        // An implausible deflection of one millimetre per newton.
         let soft = Parameters { arm_EI: Parameters::NOMINAL.arm_EI / 100.0, ..Parameters::NOMINAL };
         let mut soft = Controller::new(soft, Inputs::NOMINAL, drives);
         assert!(matches!(soft.cycle(&command(0.1)), Err(Fault::TooFar(_))));

@@ -1,5 +1,5 @@
-// Corrects every point of every trajectory on its way to the controller: ~/in to ~/out. A trajectory of which a point
-// cannot be corrected is not passed on.
+// Corrects every point of every trajectory on its way to the controller: ~/in to ~/out. Drops trajectories with a
+// point that cannot be corrected.
 #include <memory>
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-// The one place that knows which machine it is.
+// The only file that depends on the machine.
 #include "pps.h"
 
 namespace machine {

@@ -1,4 +1,4 @@
-// A machine's compensator behind names: C++ sees neither the prefix nor the counts of the generated header.
+// Interface of a machine's compensator, which hides the prefix and the counts of the generated header.
 #pragma once
 
 #include <string>
@@ -6,31 +6,31 @@
 
 namespace machine {
 
-/// What became of one command.
+/// Outcome of one command.
 enum class Status {
     corrected,
-    /// At a limit or near a singular pose: the best command so far.
+    /// Not converged, at a limit or near a singular pose: the best command so far.
     best_so_far,
-    /// Nothing that a drive may be given.
+    /// Invalid: must not be sent to the drives.
     failed,
 };
 
-/// How many joints the machine has.
+/// Returns the number of joints of the machine.
 int joints();
 
-/// Command `q` for the drives, in the spec's units and order: where the real tool is where the ideal one would be at `q`.
+/// Computes drive commands, in the spec's units and order, that put the real tool where the ideal one is at `q`.
 Status correct(const std::vector<double> &q, std::vector<double> &drives);
 
-/// Whether this compiler, its library and this processor compute what the generator did.
+/// Returns whether this compiler, its library and this processor reproduce the generator's results.
 bool self_test();
 
 /// Joints of messages, by name, in the order and the units of the spec.
 class Joints {
   public:
-    /// `names` as the messages call them, in the order of the spec; `scales`: one rad or metre in the spec's units.
+    /// `names` are the joint names in messages, in the order of the spec; `scales` are one rad or metre in the spec's units.
     Joints(std::vector<std::string> names, std::vector<double> scales);
 
-    /// Corrects one point of a trajectory whose joints are called `names`. Positions stay as they are unless it is
+    /// Corrects one point of a trajectory with the joints `names`. Positions are unchanged unless the outcome is
     /// `corrected` or `best_so_far`.
     Status correct(const std::vector<std::string> &names, std::vector<double> &positions) const;
 

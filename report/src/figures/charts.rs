@@ -1,16 +1,16 @@
-//! A machine that is watched: its charts over time.
+//! Figures of monitoring: control charts over time.
 
 use abbe_study::data::Calendar;
 use abbe_study::monitor::{Chart, Finding, Report};
 
-use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_room};
+use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_margin};
 
-/// The most charts that have a picture of their own.
+/// Maximum number of charts with a panel of their own.
 const DRAWN: usize = 9;
-/// The colour of what has changed.
+/// Colour of the error that changed.
 const CHANGED: Colour = Colour::XYZ[0];
 
-/// The figures of checks over time.
+/// Builds the figures of repeated checks.
 pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
     let mut scenes = Vec::new();
     if let Some(finding) = &report.finding {
@@ -33,11 +33,11 @@ pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
     scenes
 }
 
-/// A panel over time that holds its marks.
+/// Creates a panel over time whose axes contain all marks.
 fn panel(height: f64, name: &str, unit: &str, marks: Vec<Mark<[f64; 2]>>, report: &Report) -> Panel {
     let values = marks.iter().flat_map(|mark| mark.places()).map(|[_, value]| value);
-    let y = Axis::linear(name, unit, with_room(ends(values), 0.06));
-    let time = with_room(ends(report.times.iter().copied()), 0.02);
+    let y = Axis::linear(name, unit, with_margin(ends(values), 0.06));
+    let time = with_margin(ends(report.times.iter().copied()), 0.02);
     let x = match report.calendar {
         Calendar::Dates => Axis::linear("", "", time).scaled(Scale::Dates),
         Calendar::Days => Axis::linear("day", "", time),
@@ -46,7 +46,7 @@ fn panel(height: f64, name: &str, unit: &str, marks: Vec<Mark<[f64; 2]>>, report
     Panel::plane(height, x, y, marks)
 }
 
-/// A value of every check.
+/// Pairs the time of every check with a value.
 fn over_time(values: impl IntoIterator<Item = f64>, report: &Report) -> Vec<[f64; 2]> {
     report.times.iter().zip(values).map(|(time, value)| [*time, value]).collect()
 }
@@ -56,14 +56,14 @@ fn dots(values: &[f64], colour: Colour, report: &Report) -> Mark<[f64; 2]> {
     Mark::points(colour, radius, over_time(values.iter().copied(), report)).faded(0.8)
 }
 
-/// Rad as mrad.
-fn shown(unit: &str) -> (f64, &str) {
+/// Returns factor and unit of display: mrad for rad.
+fn display_unit(unit: &str) -> (f64, &str) {
     if unit == "rad" { (1e3, "mrad") } else { (1.0, unit) }
 }
 
-/// The error that has changed, and the change that explains it best.
+/// Shows the error that changed, and the change that explains it best.
 fn changed(finding: &Finding, report: &Report) -> Scene {
-    let (factor, unit) = shown(finding.unit);
+    let (factor, unit) = display_unit(finding.unit);
     let column = |i: usize| over_time(finding.series.iter().map(|values| values[i] * factor), report);
     let [first, last] = finding.between;
     let is_since = |[time, _]: &[f64; 2]| {
@@ -82,7 +82,7 @@ fn changed(finding: &Finding, report: &Report) -> Scene {
     Scene::new(title, 1, vec![panel(280.0, &finding.name, unit, marks, report)]).captioned(caption)
 }
 
-/// All moving averages, in their limits.
+/// Shows all moving averages relative to their limits.
 fn all(report: &Report) -> Scene {
     let charts = || report.charts.iter().chain([&report.left]);
     let named = |name: &str| {
@@ -107,9 +107,9 @@ fn all(report: &Report) -> Scene {
     Scene::new("All charts", 1, vec![panel]).captioned(caption)
 }
 
-/// The error of one chart, less its mean.
+/// Shows the error of one chart minus its mean.
 fn one(chart: &Chart, report: &Report) -> Panel {
-    let (factor, unit) = shown(chart.unit);
+    let (factor, unit) = display_unit(chart.unit);
     let mean = chart.values.iter().sum::<f64>() / chart.values.len().max(1) as f64;
     let values = chart.values.iter().map(|value| (value - mean) * factor).collect::<Vec<_>>();
     let colour = if chart.alarm.is_some() { CHANGED } else { Colour::INK };

@@ -1,16 +1,16 @@
-//! Errors in space: three views with the same scale, and circles about zero.
+//! Error cloud: three views with the same scale, and circles about zero.
 
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Points;
 use abbe_study::number::{short, trimmed};
 
-use super::{Named, Quantity};
+use super::{NamedFigure, Quantity};
 use crate::scene::{Axis, Colour, Mark, Panel, Scene};
 
-/// The views: which axis points to the right, and which up.
+/// Horizontal and vertical axis of each view.
 const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [2, 1]];
 
-/// Three views of marks in space along its axes.
+/// Creates the three views of marks in space.
 pub(super) fn views(axes: &[Axis; 3], marks: impl Fn([usize; 2]) -> Vec<Mark<[f64; 2]>>) -> Vec<Panel> {
     let view = |[across, up]: [usize; 2]| {
         Panel::equal_plane(244.0, axes[across].clone(), axes[up].clone(), marks([across, up]))
@@ -18,10 +18,10 @@ pub(super) fn views(axes: &[Axis; 3], marks: impl Fn([usize; 2]) -> Vec<Mark<[f6
     VIEWS.map(view).to_vec()
 }
 
-pub(super) fn scene(points: &Points, figure: &Named, report: &Report) -> Scene {
+pub(super) fn scene(points: &Points, figure: &NamedFigure, report: &Report) -> Scene {
     let errors = figure.errors(report);
     let radius = errors.show(points.worst.as_ref().map_or(0.0, |(norm, _)| *norm));
-    let tolerance = report.tolerance(figure.asked.measurand).map(|tolerance| errors.show(tolerance));
+    let tolerance = report.tolerance(figure.request.measurand).map(|tolerance| errors.show(tolerance));
     let reach = radius.max(tolerance.unwrap_or_default()) * 1.12;
     let reach = if reach > 0.0 { reach } else { 1.0 };
     let axes = figure.rows(report).map(|row| errors.named(format!("{row} error")).axis([-reach, reach]));
@@ -44,19 +44,19 @@ pub(super) fn scene(points: &Points, figure: &Named, report: &Report) -> Scene {
         }
         marks
     });
-    let subtitle = format!("{} of {} configurations", points.kept.len(), points.seen());
+    let subtitle = format!("{} of {} configurations", points.kept.len(), points.total());
     Scene { subtitle, ..Scene::new("", 3, panels) }
 }
 
-/// The circle around everything, with what random errors may add.
-fn around(radius: f64, errors: &Quantity, figure: &Named, report: &Report) -> String {
+/// Names the circle around all errors, including the random errors.
+fn around(radius: f64, errors: &Quantity, figure: &NamedFigure, report: &Report) -> String {
     let unit = &errors.unit;
-    let added = figure.asked.source.is_none() && !figure.bounds;
+    let added = figure.request.source.is_none() && !figure.bounds;
     let mut name = format!("radius {} {unit}", trimmed(radius, 3));
     if added {
         name += ", random errors added";
     }
-    if let Some(published) = figure.printed_radius(report) {
+    if let Some(published) = figure.published_total(report) {
         name += &format!(" ({}: {} {unit})", report.publisher(), short(errors.show(published)));
     }
     name

@@ -1,25 +1,25 @@
-//! Corrected commands: how far the tool point is from where it should be, without and with them.
+//! Figures of compensation: position errors of the tool point before and after.
 
 use abbe::VariableKind;
 use abbe_spec::Spec;
 use abbe_study::compensate::{Report, Row};
 use abbe_study::study_file::Over;
 
-use super::histogram::{Values, panel};
+use super::histogram::{NamedValues, panel};
 use super::{Quantity, step, thinned};
-use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_room};
+use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_margin};
 
-/// The most dots of a picture.
+/// Maximum number of dots per panel.
 const DOTS: usize = 3000;
-/// The height of a panel.
+/// Height of a panel, in pixels.
 const HEIGHT: f64 = 200.0;
-/// The least distance that is drawn, mm.
+/// Smallest distance on the logarithmic scale, in mm.
 const LEAST: f64 = 1e-5;
-/// The colours and names of both distances.
+/// Colours and names of both distances.
 const BEFORE: (Colour, &str) = (Colour::GREY, "as commanded");
 const AFTER: (Colour, &str) = (Colour::BAR, "corrected");
 
-/// The figures of corrected commands.
+/// Builds the figures of corrected commands.
 pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
     let to_mm = 1e3 * spec.length.in_metres();
     let every = step(report.rows.len(), DOTS);
@@ -35,13 +35,13 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
         let points: Vec<(f64, &Row)> = shown.iter().map(|(_, row)| (at(row), *row)).collect();
         let range = ends(points.iter().map(|(x, _)| *x));
         let moves = range[1] - range[0] > 1e-9;
-        moves.then(|| distances(&points, quantity.axis(with_room(range, 0.03)), to_mm))
+        moves.then(|| distances(&points, quantity.axis(with_margin(range, 0.03)), to_mm))
     };
     let over_joints = (0..spec.variables.len()).filter_map(over_joint).collect();
     let lengths = |length: fn(&Row) -> f64| report.rows.iter().map(|row| length(row) * to_mm).collect();
     let lists = [
-        Values { values: lengths(|row| row.before.length), colour: BEFORE.0, name: BEFORE.1 },
-        Values { values: lengths(|row| row.after.length), colour: AFTER.0, name: AFTER.1 },
+        NamedValues { values: lengths(|row| row.before.length), colour: BEFORE.0, name: BEFORE.1 },
+        NamedValues { values: lengths(|row| row.after.length), colour: AFTER.0, name: AFTER.1 },
     ];
     let histogram = panel("distance", "mm", &lists);
     let changes = spec.variables.iter().enumerate().filter_map(|(joint, variable)| {
@@ -52,7 +52,7 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
         let changes = report.rows.iter().filter_map(|row| Some(row.changes.get(joint)? * factor));
         let changes: Vec<f64> = changes.collect();
         let name = format!("change of {}", variable.name);
-        (!changes.is_empty()).then(|| panel(&name, unit, &[Values::new(changes, AFTER.0)]))
+        (!changes.is_empty()).then(|| panel(&name, unit, &[NamedValues::new(changes, AFTER.0)]))
     });
     let scenes = [
         over_rows.captioned(&caption),

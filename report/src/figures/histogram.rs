@@ -1,19 +1,19 @@
-//! How often which error occurs: along each axis, and of the norm.
+//! Histograms of errors: along each axis, and of the norm.
 
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Histogram;
 
-use super::Named;
-use super::reach::Reach;
-use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_room};
+use super::NamedFigure;
+use super::figure_range::FigureRange;
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_margin};
 
-/// The height of a panel.
+/// Height of a panel, in pixels.
 const HEIGHT: f64 = 190.0;
-/// The most bins of a list of values.
+/// Maximum number of bins of a list of values.
 const BINS: usize = 40;
 
-/// What was counted in an analysis.
-pub(super) fn scene(histogram: &Histogram, figure: &Named, report: &Report) -> Scene {
+/// Shows the histograms of an analysis.
+pub(super) fn scene(histogram: &Histogram, figure: &NamedFigure, report: &Report) -> Scene {
     let Histogram(all) = histogram;
     let errors = figure.errors(report);
     let counts = all.iter().flat_map(|bins| bins.iter().map(|(_, count)| count.0));
@@ -27,7 +27,7 @@ pub(super) fn scene(histogram: &Histogram, figure: &Named, report: &Report) -> S
             [[from, 0.0], [to, count.0 as f64]]
         };
         let bars = bins.iter().map(bar).collect::<Vec<_>>();
-        let range = with_room(ends(bars.iter().flatten().map(|corner| corner[0])), 0.04);
+        let range = with_margin(ends(bars.iter().flatten().map(|corner| corner[0])), 0.04);
         let y = Axis::linear("configurations", "", [0.0, 1.05 * most]);
         Panel::plane(HEIGHT, errors.named(name).axis(range), y, vec![Mark::bars(colour, bars).faded(0.8)])
     });
@@ -35,32 +35,33 @@ pub(super) fn scene(histogram: &Histogram, figure: &Named, report: &Report) -> S
     Scene { subtitle, ..Scene::new("", 2, panels.collect()) }
 }
 
-/// The colours of x, y, z and the norm.
+/// Colours of x, y, z and the norm.
 pub(super) const COLOURS: [Colour; 4] = [Colour::XYZ[0], Colour::XYZ[1], Colour::XYZ[2], Colour::INK];
 
-/// A list of values: their colour and what they are called; one list needs no name.
-pub(super) struct Values {
+/// List of values with its colour and its name in the legend, which may be empty.
+pub(super) struct NamedValues {
     pub(super) values: Vec<f64>,
     pub(super) colour: Colour,
     pub(super) name: &'static str,
 }
 
-impl Values {
+impl NamedValues {
     pub(super) fn new(values: Vec<f64>, colour: Colour) -> Self {
         Self { values, colour, name: "" }
     }
 }
 
-/// Lists of values over the same bins, without gross values.
-pub(super) fn panel(name: &str, unit: &str, lists: &[Values]) -> Panel {
-    // Each has gross values of its own.
-    let each: Vec<Reach> = lists.iter().map(|list| Reach::new(list.values.clone())).collect();
+/// Creates a panel of lists over the same bins, without outliers.
+pub(super) fn panel(name: &str, unit: &str, lists: &[NamedValues]) -> Panel {
+    // Outliers are found in each list separately.
+    let each: Vec<FigureRange> = lists.iter().map(|list| FigureRange::new(list.values.clone())).collect();
     let beyond = each.iter().map(|reach| reach.beyond).sum();
     let joined = each.iter().map(|reach| reach.ends).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    let reach = Reach { ends: joined.unwrap_or_default(), beyond };
+    let reach = FigureRange { ends: joined.unwrap_or_default(), beyond };
     let [least, most] = reach.ends;
     let largest = lists.iter().map(|list| list.values.len()).max().unwrap_or_default();
-    // As many as the square root of the values, so that twenty rows are no comb.
+    // Proportional to the square root of the number of values, so that twenty rows do not form a
+    // comb.
     let bins = ((largest as f64).sqrt() * 1.5).ceil().clamp(5.0, BINS as f64) as usize;
     let width = ((most - least) / bins as f64).max(1e-9);
     let edge = |i: usize| least + i as f64 * width;
@@ -76,6 +77,6 @@ pub(super) fn panel(name: &str, unit: &str, lists: &[Values]) -> Panel {
         Mark::bars(list.colour, bars).faded(if lists.len() > 1 { 0.65 } else { 0.8 }).named(list.name)
     });
     let marks = marks.collect();
-    let x = Axis::linear(reach.title(name), unit, with_room([least, edge(bins)], 0.02));
+    let x = Axis::linear(reach.title(name), unit, with_margin([least, edge(bins)], 0.02));
     Panel::plane(HEIGHT, x, Axis::linear("count", "", [0.0, 1.05 * highest as f64]), marks)
 }

@@ -1,30 +1,30 @@
-//! The manipulator as a stick figure with its frames, at home.
+//! Manipulator as a stick figure with its frames, at home.
 
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Stick;
 
 use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends};
 
-/// The length of the axes of a frame, and the least side of the box, as shares of the longest side.
+/// Length of the axes of a frame, and smallest side of the box, as fractions of its longest side.
 const AXIS: f64 = 0.11;
 const LEAST: f64 = 0.3;
 
 pub(super) fn scene(stick: &Stick, up: usize, report: &Report) -> Scene {
-    let Stick { places, size } = stick;
-    let links = places.iter().map(|place| place.origin).collect::<Vec<_>>();
+    let Stick { origins, size } = stick;
+    let links = origins.iter().map(|place| place.origin).collect::<Vec<_>>();
     let mut marks = vec![Mark::line(Colour::LINK, 7.0, links.clone())];
     let mut tips = Vec::new();
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let arrow = |place: &abbe_study::analyze::figures::Place| {
+        let arrow = |place: &abbe_study::analyze::figures::FrameOrigin| {
             let tip = std::array::from_fn(|i| place.origin[i] + AXIS * size * place.axes[axis][i]);
             vec![place.origin, tip]
         };
-        let arrows = places.iter().map(arrow).collect::<Vec<_>>();
+        let arrows = origins.iter().map(arrow).collect::<Vec<_>>();
         tips.extend(arrows.iter().flatten().copied());
         marks.push(Mark::lines(Colour::XYZ[axis], 2.2, arrows).named(format!("{name} axes of the frames")));
     }
     marks.push(Mark::points(Colour::INK, 4.0, links));
-    marks.push(Mark::texts(places.iter().map(|place| (place.origin, place.label.clone())).collect()));
+    marks.push(Mark::texts(origins.iter().map(|place| (place.origin, place.label.clone())).collect()));
     let axes = [0, 1, 2].map(|axis| {
         let [least, most] = ends(tips.iter().map(|tip| tip[axis]));
         let room = (0.06 * size).max((LEAST * size - (most - least)) / 2.0);

@@ -1,21 +1,21 @@
-//! Measured errors: in space, and how often which occurs, as in the paper's Figures 13 and 14.
+//! Figures of a measurement: error cloud and histograms, as in Figures 13 and 14 of the paper.
 
 use abbe_spec::Spec;
 use abbe_study::measure::Report;
 
 use super::cloud::views;
-use super::histogram::{COLOURS, Values, panel};
-use super::reach::Reach;
-use super::residuals::{self, Names, Residual};
+use super::figure_range::FigureRange;
+use super::histogram::{COLOURS, NamedValues, panel};
+use super::residuals::{self, ErrorNames, Residual};
 use super::{norm, step};
-use crate::scene::{Axis, Colour, Mark, Scene, ends, with_room};
+use crate::scene::{Axis, Colour, Mark, Scene, ends, with_margin};
 
-/// The most points that are drawn.
+/// Maximum number of points.
 const MOST: usize = 5000;
-/// Its machine is in Figures 13 and 14.
+/// Title of the paper with Figures 13 and 14, for specs that cite it.
 const PAPER: &str = "High Performance Medical Robot Requirements and Accuracy Analysis";
 
-/// The figures of a measurement: of points, or of what instruments read.
+/// Builds the figures of a measurement, of points or of instrument readings.
 pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
     if !report.instruments.is_empty() {
         return readings(report);
@@ -27,7 +27,7 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
         .iter()
         .map(|row| in_mm([row.error[0], row.error[1], row.error[2]]))
         .collect::<Vec<_>>();
-    // The paper shows the same of the same machine.
+    // Only the machine of the paper is compared with its figures.
     let cited = |scene: Scene, figure: u32| match spec.reference.contains(PAPER) {
         true => Scene { reference: format!("cf. Figure {figure} of the paper"), ..scene },
         false => scene,
@@ -47,18 +47,18 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
         before: None,
         after: [row.error[0], row.error[1], row.error[2]],
     });
-    let names = Names { before: "", after: "ΔX" };
+    let names = ErrorNames { before: "", after: "ΔX" };
     scenes.extend(residuals::scenes(&residuals.collect::<Vec<_>>(), &names, spec));
     scenes
 }
 
-/// Three views without gross errors.
+/// Shows three views of the error cloud, without outliers.
 fn cloud(errors: &[[f64; 3]]) -> Scene {
-    let reach = Reach::new(errors.iter().map(|error| norm(*error)).collect());
+    let reach = FigureRange::new(errors.iter().map(|error| norm(*error)).collect());
     let shown = errors.iter().filter(|error| reach.contains(norm(**error))).step_by(step(errors.len(), MOST));
     let shown = shown.collect::<Vec<_>>();
     let axes = [0, 1, 2].map(|axis| {
-        let range = with_room(ends(shown.iter().map(|error| error[axis])), 0.05);
+        let range = with_margin(ends(shown.iter().map(|error| error[axis])), 0.05);
         Axis::linear(["x error", "y error", "z error"][axis], "mm", range)
     });
     let radius = if shown.len() < 300 { 2.2 } else { 1.6 };
@@ -80,11 +80,11 @@ fn histograms(what: &str, errors: &[[f64; 3]]) -> Scene {
     let all = [along(0), along(1), along(2), norms].into_iter().zip(COLOURS);
     let names = ["x error", "y error", "z error", "norm of the error"];
     let panels =
-        all.zip(names).map(|((values, colour), name)| panel(name, "mm", &[Values::new(values, colour)]));
+        all.zip(names).map(|((values, colour), name)| panel(name, "mm", &[NamedValues::new(values, colour)]));
     Scene::new(format!("{what}: how often which error occurs"), 2, panels.collect())
 }
 
-/// How often which error of a reading occurs, number by number.
+/// Shows one histogram of residuals per observable.
 fn readings(report: &Report) -> Vec<Scene> {
     let of = |(i, name): (usize, &String)| {
         let left: Vec<f64> = report.row_readings.iter().filter_map(|row| row.left[i]).collect();
@@ -93,7 +93,7 @@ fn readings(report: &Report) -> Vec<Scene> {
         };
         let instrument = report.instruments.iter().find(|one| is_its(&one.name));
         let unit = instrument.map_or("", |one| &one.unit);
-        let panel = panel(name, unit, &[Values::new(left.clone(), Colour::INK)]);
+        let panel = panel(name, unit, &[NamedValues::new(left.clone(), Colour::INK)]);
         let scene = Scene::new(format!("{name}: how often which error occurs"), 1, vec![panel]);
         let caption = "Reading minus prediction with the repeatable sources of the spec.";
         (!left.is_empty()).then(|| scene.captioned(caption))

@@ -1,40 +1,40 @@
-//! A figure of an analysis: what was gathered, with its names.
+//! Figure of an analysis: its data with title and file name.
 
 use abbe::analysis::Measurand;
-use abbe_study::analyze::figures::{Figure, Gathered, Range};
+use abbe_study::analyze::figures::{Figure, FigureData, Range};
 use abbe_study::analyze::{Report, unit};
 use abbe_study::study_file::{self, CombinedFigure, Content, Metric};
 
 use super::Quantity;
 
-/// A figure, ready to be drawn.
-pub(crate) struct Named<'a> {
-    pub(crate) asked: &'a study_file::Figure,
-    /// The name of its file, without the ending; no two figures of a report have the same.
+/// Figure of an analysis with title and file name.
+pub(crate) struct NamedFigure<'a> {
+    pub(crate) request: &'a study_file::Figure,
+    /// File name without extension, unique in the report.
     pub(crate) name: String,
     pub(crate) title: String,
-    /// What is to be said of its own workspace, if it has one.
+    /// Sentence about a workspace of its own; empty if it has none.
     pub(crate) workspace_note: String,
-    /// Whether there are only bounds to show.
+    /// True if the figure shows only bounds of random errors.
     pub(crate) bounds: bool,
-    pub(crate) data: &'a Gathered,
+    pub(crate) data: &'a FigureData,
 }
 
-/// A published figure to draw: the least and the largest that it allows, and what it is called.
-pub(super) struct Printed {
+/// Published figure: its range, and its label.
+pub(super) struct PublishedRange {
     pub(super) range: Range,
-    /// Its name.
+    /// Label with the publisher.
     pub(super) label: String,
 }
 
-impl<'a> Named<'a> {
-    /// The figures of a report, in their order.
+impl<'a> NamedFigure<'a> {
+    /// Names the figures of a report, in their order.
     pub(crate) fn all(figures: &'a [Figure], report: &Report) -> Vec<Self> {
         let mut stems = Vec::new();
         let named = figures.iter().map(|figure| {
             let mut named = Self::new(figure, report);
             stems.push(named.name.clone());
-            // Names that differ in signs only would be the same file.
+            // Names that differ only in punctuation would have the same file name.
             let same = stems.iter().filter(|stem| **stem == named.name).count();
             if same > 1 {
                 named.name = format!("{}-{same}", named.name);
@@ -44,14 +44,14 @@ impl<'a> Named<'a> {
         named.collect()
     }
 
-    /// Its file is named by what it shows.
+    /// Derives title and file name from the content.
     fn new(figure: &'a Figure, report: &Report) -> Self {
-        let Figure { asked, bounds, own_workspace, data } = figure;
-        let of = asked.source.as_deref().unwrap_or("all sources");
+        let Figure { request, bounds, own_workspace, data } = figure;
+        let of = request.source.as_deref().unwrap_or("all sources");
         let kept = if *bounds { "all random sources" } else { "all repeatable sources" };
-        let kept = asked.source.as_deref().unwrap_or(kept);
+        let kept = request.source.as_deref().unwrap_or(kept);
         let over = |over| Quantity::over(over, &report.spec).name;
-        let (kind, overs, title) = match asked.content {
+        let (kind, overs, title) = match request.content {
             Content::Travel(first) => ("travel", vec![over(first)], format!("{of}, over {}", over(first))),
             Content::Surface([first, second]) => {
                 let [first, second] = [over(first), over(second)];
@@ -67,16 +67,16 @@ impl<'a> Named<'a> {
             Content::Pareto => ("pareto", Vec::new(), "Share of each source".to_owned()),
             Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
         };
-        let (rows, title) = match asked.measurand {
+        let (rows, title) = match request.measurand {
             Measurand::Position => (None, title),
             Measurand::Orientation => (Some("orientation".to_owned()), format!("orientation: {title}")),
         };
-        let words = [kind.to_owned()].into_iter().chain(rows).chain(asked.source.clone()).chain(overs);
+        let words = [kind.to_owned()].into_iter().chain(rows).chain(request.source.clone()).chain(overs);
         let workspace_note = own_workspace.map(|[reached, unreached]| {
             format!("{reached} configurations of its own, {unreached} unreachable.")
         });
         Self {
-            asked,
+            request,
             name: words.map(|word| slug(&word)).collect::<Vec<_>>().join("-"),
             title: capital(&title),
             workspace_note: workspace_note.unwrap_or_default(),
@@ -85,12 +85,19 @@ impl<'a> Named<'a> {
         }
     }
 
-    /// What is published on one axis of this figure's source, in the unit of the spec.
+    /// Returns the published range on one axis of this figure's source, in the unit of the spec.
     ///
-    /// `found` is what the axis spans here: half peak-to-peak is drawn about its middle.
-    pub(super) fn printed(&self, axis: usize, found: Range, report: &Report) -> Option<Printed> {
-        // Nobody prints orientations.
-        let name = self.asked.source.as_deref().filter(|_| self.asked.measurand == Measurand::Position)?;
+    /// `found` is the computed range on this axis: half peak-to-peak values are centered on its
+    /// middle.
+    pub(super) fn published_range(
+        &self,
+        axis: usize,
+        found: Range,
+        report: &Report,
+    ) -> Option<PublishedRange> {
+        // Published figures are positions.
+        let name =
+            self.request.source.as_deref().filter(|_| self.request.measurand == Measurand::Position)?;
         let published = report.study.published.iter().find_map(|published| match &published.subject {
             study_file::Subject::Source(of, metric) if of == name => {
                 Some((published.figures[axis]?, *metric))
@@ -101,41 +108,42 @@ impl<'a> Named<'a> {
         let (middle, about) = match metric {
             Metric::PlainMaximum => (0.0, ""),
             Metric::HalfPeakToPeak => (found.middle(), " about the middle"),
-            // It stands for differences, which this figure does not show.
+            // This metric is about differences from home, which the figure does not show.
             Metric::RelativeToHome => return None,
         };
         let errors = self.errors(report);
         let shown = abbe_study::number::short(errors.show(value));
-        Some(Printed {
+        Some(PublishedRange {
             range: Range { least: middle - value, largest: middle + value },
             label: format!("{}: ±{shown} {}{about}", report.publisher(), errors.unit),
         })
     }
 
-    /// The radius that is published for all sources together, if this figure shows them.
-    pub(super) fn printed_radius(&self, report: &Report) -> Option<f64> {
+    /// Returns the published total of all sources, if the figure shows all sources over the whole
+    /// workspace.
+    pub(super) fn published_total(&self, report: &Report) -> Option<f64> {
         let radius = study_file::Subject::Combined(CombinedFigure::Both);
         let published = report.study.published.iter().find(|published| published.subject == radius);
-        let all = self.asked.source.is_none() && self.asked.region.is_none();
-        published.filter(|_| all && self.asked.measurand == Measurand::Position)?.figures[3]
+        let all = self.request.source.is_none() && self.request.region.is_none();
+        published.filter(|_| all && self.request.measurand == Measurand::Position)?.figures[3]
     }
 
-    /// Its errors, in their unit.
+    /// Returns the unit of the errors.
     pub(super) fn errors(&self, report: &Report) -> Quantity {
-        Quantity::errors(self.asked.measurand, &report.spec)
+        Quantity::errors(self.request.measurand, &report.spec)
     }
 
-    /// The names of the three rows.
+    /// Returns the names of the three rows.
     pub(super) fn rows(&self, report: &Report) -> [&'static str; 3] {
-        unit::rows(report, self.asked.measurand)
+        unit::row_names(report, self.request.measurand)
     }
 
-    /// What is done about random errors, if that needs saying.
+    /// Returns the remark on random errors, if it is needed.
     pub(super) fn remark(&self) -> &'static str {
-        if self.asked.source.is_none() && !self.bounds { ", random errors added" } else { "" }
+        if self.request.source.is_none() && !self.bounds { ", random errors added" } else { "" }
     }
 
-    /// What the errors are called.
+    /// Returns "bound" for random sources, "error" otherwise.
     pub(super) fn what(&self) -> &'static str {
         if self.bounds { "bound" } else { "error" }
     }

@@ -1,15 +1,15 @@
-//! The share of each source, the largest first, and the shares added up.
+//! Pareto chart: the share of each source in descending order, and the cumulative share.
 
 use abbe_study::analyze::Report;
 use abbe_study::number::trimmed;
 
-use super::Named;
+use super::NamedFigure;
 use crate::scene::{Axis, Colour, Mark, Panel, Scene};
 
-/// The most sources that stand alone.
+/// Maximum number of bars.
 const MOST: usize = 12;
 
-pub(super) fn scene(figure: &Named, report: &Report) -> Scene {
+pub(super) fn scene(figure: &NamedFigure, report: &Report) -> Scene {
     let errors = largest_errors(figure, report);
     let sum = errors.iter().map(|(_, error)| error).sum::<f64>();
     let share = |error: f64| if sum > 0.0 { 100.0 * error / sum } else { 0.0 };
@@ -34,10 +34,11 @@ pub(super) fn scene(figure: &Named, report: &Report) -> Scene {
     Scene { subtitle, ..Scene::new("", 1, vec![panel]) }
 }
 
-/// The sources with their largest norms in the unit of the figure, the largest first; the smallest together, if there are many.
-fn largest_errors(figure: &Named, report: &Report) -> Vec<(String, f64)> {
+/// Returns the largest norm of each source in the unit of the figure, in descending order. Beyond
+/// the maximum number, the smallest are summed.
+fn largest_errors(figure: &NamedFigure, report: &Report) -> Vec<(String, f64)> {
     let unit = figure.errors(report);
-    let sources = report.budget.errors(figure.asked.measurand).0.iter();
+    let sources = report.budget.errors(figure.request.measurand).0.iter();
     let error =
         sources.map(|alone| (report.sources[alone.source].name.clone(), unit.show(alone.plain_max.norm)));
     let mut errors = error.collect::<Vec<_>>();

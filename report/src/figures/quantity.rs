@@ -1,4 +1,4 @@
-//! What is drawn along an axis: its name, its unit, and the factor into that unit.
+//! Quantity on an axis: its name, its unit, and the conversion to that unit.
 
 use abbe::VariableKind;
 use abbe::analysis::Measurand;
@@ -7,7 +7,7 @@ use abbe_study::study_file::Over;
 
 use crate::scene::Axis;
 
-/// A quantity in the unit in which it is shown.
+/// Quantity with its unit of display.
 #[derive(Clone, Debug)]
 pub(super) struct Quantity {
     pub(super) name: String,
@@ -16,7 +16,8 @@ pub(super) struct Quantity {
 }
 
 impl Quantity {
-    /// Errors: mm, whatever the spec's unit, because they are small; of the orientation mrad.
+    /// Returns the quantity of errors: mm for every spec, because errors are small; mrad for
+    /// orientations.
     pub(super) fn errors(measurand: Measurand, spec: &Spec) -> Self {
         let (unit, factor) = match measurand {
             Measurand::Position => ("mm", 1e3 * spec.length.in_metres()),
@@ -25,7 +26,7 @@ impl Quantity {
         Self { name: String::new(), unit: unit.to_owned(), factor }
     }
 
-    /// A variable, a parameter or an input; angles of joints in degrees.
+    /// Returns the quantity of a variable, a parameter or an input; degrees for revolute joints.
     pub(super) fn over(over: Over, spec: &Spec) -> Self {
         let (name, unit, factor) = match over {
             Over::Variable(i) => match spec.variables[i].kind {
@@ -38,17 +39,17 @@ impl Quantity {
         Self { name: name.to_owned(), unit: unit.to_owned(), factor }
     }
 
-    /// The quantity with another name.
+    /// Renames the quantity.
     pub(super) fn named(&self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self.clone() }
     }
 
-    /// A value in the unit in which it is shown.
+    /// Converts a value to the unit of display.
     pub(super) fn show(&self, value: f64) -> f64 {
         value * self.factor
     }
 
-    /// An axis from one value to another, both in the unit in which they are shown.
+    /// Creates an axis with this range, in the unit of display.
     pub(super) fn axis(&self, range: [f64; 2]) -> Axis {
         Axis::linear(&self.name, &self.unit, range)
     }

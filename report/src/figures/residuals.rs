@@ -1,25 +1,26 @@
-//! Errors of measured points: vectors in space, over the order of the rows, over each joint, and how often which occurs.
+//! Figures of residuals of measured points: vectors in space, over rows, over each joint, and
+//! histograms.
 
 use abbe_spec::Spec;
 use abbe_study::number::short;
 use abbe_study::study_file::Over;
 
-use super::histogram::{COLOURS, Values, panel};
-use super::reach::Reach;
+use super::figure_range::FigureRange;
+use super::histogram::{COLOURS, NamedValues, panel};
 use super::{Quantity, norm, step, thinned};
-use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_room};
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_margin};
 
-/// The most vectors that are drawn, the most dots over rows, and over a joint.
+/// Maximum number of vectors, of dots over rows, and of dots over a joint.
 const VECTORS: usize = 400;
 const DOTS: usize = 3000;
 const DOTS_OVER_JOINT: usize = 1200;
-/// The height of a panel with dots.
+/// Height of a panel with dots, in pixels.
 const HEIGHT: f64 = 180.0;
-/// The colours of errors before and after.
+/// Colours of errors before and after.
 const BEFORE: Colour = Colour::GREY;
 const AFTER: Colour = Colour::BAR;
 
-/// One point: where it is, and its error before and after. In the spec's length unit.
+/// Measured point with its error before and after, in the length unit of the spec.
 pub(crate) struct Residual<'r> {
     pub(crate) q: &'r [f64],
     pub(crate) point: [f64; 3],
@@ -27,23 +28,23 @@ pub(crate) struct Residual<'r> {
     pub(crate) after: [f64; 3],
 }
 
-/// What the two errors of every point are called; there may be no first one.
-pub(crate) struct Names {
+/// ErrorNames of both errors; `before` is empty if there is only one.
+pub(crate) struct ErrorNames {
     pub(crate) before: &'static str,
     pub(crate) after: &'static str,
 }
 
-/// Errors along x, y and z or their norms, in mm.
-struct Errors<'r> {
+/// Residuals to show in mm.
+struct Residuals<'r> {
     residuals: &'r [Residual<'r>],
-    names: &'r Names,
+    names: &'r ErrorNames,
     spec: &'r Spec,
     to_mm: f64,
 }
 
-/// All figures of a list of points.
-pub(crate) fn scenes(residuals: &[Residual], names: &Names, spec: &Spec) -> Vec<Scene> {
-    let errors = Errors { residuals, names, spec, to_mm: 1e3 * spec.length.in_metres() };
+/// Builds all figures of a list of points.
+pub(crate) fn scenes(residuals: &[Residual], names: &ErrorNames, spec: &Spec) -> Vec<Scene> {
+    let errors = Residuals { residuals, names, spec, to_mm: 1e3 * spec.length.in_metres() };
     let mut scenes = vec![errors.vectors(), errors.over_rows()];
     scenes.extend(errors.over_joints());
     if !names.before.is_empty() {
@@ -52,21 +53,21 @@ pub(crate) fn scenes(residuals: &[Residual], names: &Names, spec: &Spec) -> Vec<
     scenes
 }
 
-impl Errors<'_> {
-    /// Errors as lines that begin at the tool points, much longer than they are.
+impl Residuals<'_> {
+    /// Shows magnified errors as lines from the tool points.
     fn vectors(&self) -> Scene {
         let every = step(self.residuals.len(), VECTORS);
         let shown: Vec<&Residual> = self.residuals.iter().step_by(every).collect();
         let axes = [0, 1, 2].map(|axis| ends(shown.iter().map(|residual| residual.point[axis])));
         let diagonal = norm(axes.map(|[least, most]| (most - least).max(0.0)));
-        // The longest but for a few gross ones are a tenth of all that is drawn.
+        // The 95 % quantile of the lengths becomes a tenth of the diagonal.
         let scale = |error: &dyn Fn(&Residual) -> [f64; 3]| {
             let mut sizes: Vec<f64> = shown.iter().map(|residual| norm(error(residual))).collect();
             sizes.sort_by(f64::total_cmp);
             let long = sizes.get(sizes.len().saturating_sub(1) * 19 / 20).copied().unwrap_or_default();
             if long > 0.0 && diagonal > 0.0 { round_down(0.1 * diagonal / long) } else { 1.0 }
         };
-        let Names { before, after } = self.names;
+        let ErrorNames { before, after } = self.names;
         let own = scale(&|residual| residual.after);
         let title = |name: &str, scale: f64| format!("{name}, × {}", short(scale));
         let mut panels = Vec::new();
@@ -83,7 +84,7 @@ impl Errors<'_> {
             "Lines begin at the tool point, a dot, and are as many times longer than the errors as stands above.{}",
             thinned(self.residuals.len(), every)
         );
-        Scene::new("Errors in space", panels.len(), panels).captioned(caption)
+        Scene::new("Residuals in space", panels.len(), panels).captioned(caption)
     }
 
     fn arrows(
@@ -100,7 +101,8 @@ impl Errors<'_> {
         });
         let lines = drawn.collect::<Vec<Vec<[f64; 3]>>>();
         let unit = self.spec.length.symbol();
-        let spans = [0, 1, 2].map(|axis| with_room(ends(lines.iter().flatten().map(|end| end[axis])), 0.03));
+        let spans =
+            [0, 1, 2].map(|axis| with_margin(ends(lines.iter().flatten().map(|end| end[axis])), 0.03));
         let longest = spans.iter().map(|[least, most]| most - least).fold(0.0, f64::max);
         let axes = ["x", "y", "z"].map(|name| Axis::linear(name, unit, [0.0; 2]));
         let mut spans = spans.into_iter();
@@ -125,7 +127,7 @@ impl Errors<'_> {
         Scene::new("Over the order of the rows", 1, vec![self.dots(&shown, x)]).captioned(caption.trim())
     }
 
-    /// None if no joint moves.
+    /// Shows errors over each joint; none if no joint moves.
     fn over_joints(&self) -> Option<Scene> {
         let every = step(self.residuals.len(), DOTS_OVER_JOINT);
         let panel = |joint: usize| {
@@ -134,7 +136,7 @@ impl Errors<'_> {
             let range = ends(self.residuals.iter().map(at));
             let shown = self.residuals.iter().step_by(every).map(|residual| (at(residual), residual));
             let moves = range[1] - range[0] > 1e-9;
-            moves.then(|| self.dots(&shown.collect::<Vec<_>>(), quantity.axis(with_room(range, 0.03))))
+            moves.then(|| self.dots(&shown.collect::<Vec<_>>(), quantity.axis(with_margin(range, 0.03))))
         };
         let panels = (0..self.spec.variables.len()).filter_map(panel).collect::<Vec<_>>();
         let few = thinned(self.residuals.len(), every);
@@ -142,7 +144,7 @@ impl Errors<'_> {
         (!panels.is_empty()).then(|| Scene::new("Over each joint", 3, panels).captioned(caption))
     }
 
-    /// Norms as dots: before in grey below, after in blue.
+    /// Shows norms as dots: before in grey, after in blue on top.
     fn dots(&self, shown: &[(f64, &Residual)], x: Axis) -> Panel {
         let norms = |error: fn(&Residual) -> Option<[f64; 3]>| {
             let norm = |(x, residual): &(f64, &Residual)| Some([*x, norm(error(residual)?) * self.to_mm]);
@@ -154,7 +156,7 @@ impl Errors<'_> {
         ];
         let all =
             self.residuals.iter().flat_map(|residual| residual.before.into_iter().chain([residual.after]));
-        let reach = Reach::new(all.map(|error| norm(error) * self.to_mm).collect());
+        let reach = FigureRange::new(all.map(|error| norm(error) * self.to_mm).collect());
         let top = if reach.ends[1] > 0.0 { 1.05 * reach.ends[1] } else { 1.0 };
         let radius = match shown.len() {
             0..300 => 2.4,
@@ -171,17 +173,17 @@ impl Errors<'_> {
     }
 
     fn histograms(&self) -> Scene {
-        let Names { before, after } = self.names;
+        let ErrorNames { before, after } = self.names;
         let along = |axis: usize| {
             let values = self.residuals.iter().map(|residual| residual.after[axis] * self.to_mm);
             let name = ["x error", "y error", "z error"][axis];
-            panel(name, "mm", &[Values::new(values.collect(), COLOURS[axis])])
+            panel(name, "mm", &[NamedValues::new(values.collect(), COLOURS[axis])])
         };
         let norms = self.residuals.iter().map(|residual| norm(residual.after) * self.to_mm).collect();
         let first = self.residuals.iter().filter_map(|residual| Some(norm(residual.before?) * self.to_mm));
         let lists = [
-            Values { values: first.collect(), colour: BEFORE, name: before },
-            Values { values: norms, colour: AFTER, name: after },
+            NamedValues { values: first.collect(), colour: BEFORE, name: before },
+            NamedValues { values: norms, colour: AFTER, name: after },
         ];
         let lists = lists.into_iter().filter(|list| !list.values.is_empty()).collect::<Vec<_>>();
         let panels = [along(0), along(1), along(2), panel("norm of the error", "mm", &lists)];
@@ -190,7 +192,7 @@ impl Errors<'_> {
     }
 }
 
-/// 1, 2 or 5 times a power of ten.
+/// Rounds down to 1, 2 or 5 times a power of ten.
 fn round_down(value: f64) -> f64 {
     let power = 10f64.powf(value.log10().floor());
     let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= value * (1.0 + 1e-9));

@@ -1,35 +1,35 @@
-//! The largest norms: what was sampled, and between which two values the true maximum lies.
+//! Largest norms: sampled values, and the interval that contains the true maximum.
 
 use abbe::analysis::Measurand;
-use abbe_study::analyze::{Report, Sampled};
+use abbe_study::analyze::{NormComparison, Report};
 use abbe_study::number::{decimals, fixed, rounded_down, rounded_up};
 
 use super::Quantity;
 use crate::scene::{Axis, Colour, Mark, Panel, Scene};
 
-/// The height of a kind of sources, in pixels.
+/// Height per class of sources, in pixels.
 const ROW: f64 = 52.0;
 
-/// The figure; none if nothing is certified.
+/// Builds the figure; none if nothing is certified.
 pub(crate) fn scene(report: &Report) -> Option<Scene> {
-    let rows = report.sampled();
+    let rows = report.norm_comparisons();
     if rows.is_empty() {
         return None;
     }
     let errors = Quantity::errors(Measurand::Position, &report.spec);
     let tolerance = report.study.tolerance.map(|tolerance| errors.show(tolerance));
-    let ends = rows.iter().map(|row| errors.show(row.largest.certified.unwrap_or(row.largest.found)));
+    let ends = rows.iter().map(|row| errors.show(row.bound.certified.unwrap_or(row.bound.found)));
     let most = ends.chain(tolerance).fold(0.0, f64::max);
-    // What was found in a larger box says nothing of the workspace.
-    let contains_more = report.box_contains_more();
+    // The largest error found in an enclosing box is no lower bound over the workspace.
+    let contains_more = report.box_exceeds_workspace();
     let range = [0.0, if most > 0.0 { 1.04 * most } else { 1.0 }];
     let height = [0.5 - rows.len() as f64, 0.5];
     let (mut bars, mut lines, mut texts) = (Vec::new(), Vec::new(), Vec::new());
     for (i, row) in rows.iter().enumerate() {
         let (low, high) = (-(i as f64) - 0.36, -(i as f64) + 0.06);
         bars.push([[0.0, low], [errors.show(row.sampled), high]]);
-        let found = Some(errors.show(row.largest.found)).filter(|_| !contains_more);
-        let certified = row.largest.certified.map(|certified| errors.show(certified));
+        let found = Some(errors.show(row.bound.found)).filter(|_| !contains_more);
+        let certified = row.bound.certified.map(|certified| errors.show(certified));
         lines.extend(found.into_iter().chain(certified).map(|at| vec![[at, low], [at, high]]));
         texts.push(([0.0, high], label(row, &errors, contains_more)));
     }
@@ -47,9 +47,9 @@ pub(crate) fn scene(report: &Report) -> Option<Scene> {
     Some(Scene { manipulator: report.spec.title.clone(), ..scene })
 }
 
-/// What the bars and the lines are.
+/// Describes the bars and the lines.
 fn caption(report: &Report) -> String {
-    let lines = match report.box_contains_more() {
+    let lines = match report.box_exceeds_workspace() {
         true => {
             "The line: what nothing in the box that contains the workspace exceeds, to first order. The box holds more than the \
              workspace, whose own maximum may be smaller"
@@ -63,11 +63,11 @@ fn caption(report: &Report) -> String {
     format!("Bars: what was sampled, a lower bound. {lines}{tolerance}.")
 }
 
-fn label(row: &Sampled, errors: &Quantity, contains_more: bool) -> String {
+fn label(row: &NormComparison, errors: &Quantity, contains_more: bool) -> String {
     let unit = &errors.unit;
-    let found = errors.show(row.largest.found);
+    let found = errors.show(row.bound.found);
     let decimals = decimals(found, 4);
-    let certified = row.largest.certified.map(|certified| errors.show(certified));
+    let certified = row.bound.certified.map(|certified| errors.show(certified));
     let at_most = certified.map_or_else(|| "not known".to_owned(), |value| rounded_up(value, decimals));
     let at_least = match contains_more {
         true => String::new(),

@@ -1,14 +1,14 @@
-//! The error farthest from zero over two travels: one surface for each axis.
+//! Error with the largest magnitude over two variables: one surface per axis.
 
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::{Mesh, Range};
 use abbe_study::number::trimmed;
 use abbe_study::study_file::Over;
 
-use super::{Named, Quantity};
-use crate::scene::{Corner, Mark, Panel, Scene, View, ends, with_room};
+use super::{NamedFigure, Quantity};
+use crate::scene::{Corner, Mark, Panel, Scene, View, ends, with_margin};
 
-pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Report) -> Scene {
+pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &NamedFigure, report: &Report) -> Scene {
     let [first, second] = over.map(|over| Quantity::over(over, &report.spec));
     let errors = figure.errors(report);
     let panels = (0..3).map(|axis| {
@@ -21,10 +21,10 @@ pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Repor
         });
         let corners = lines.collect::<Vec<_>>();
         let values = corners.iter().flatten().flatten().map(|corner| corner.value);
-        let range = with_room(ends(values.chain([0.0])), 0.0);
+        let range = with_margin(ends(values.chain([0.0])), 0.0);
         let axes = [
-            first.axis(with_room(ends(mesh.first.iter().map(|value| first.show(*value))), 0.0)),
-            second.axis(with_room(ends(mesh.second.iter().map(|value| second.show(*value))), 0.0)),
+            first.axis(with_margin(ends(mesh.first.iter().map(|value| first.show(*value))), 0.0)),
+            second.axis(with_margin(ends(mesh.second.iter().map(|value| second.show(*value))), 0.0)),
             errors.axis(range),
         ];
         let view = View::Space { axes, up: 2, equal: false, marks: vec![Mark::surface(corners, range)] };
@@ -36,13 +36,13 @@ pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Repor
     Scene { subtitle, ..Scene::new("", 3, panels.collect()) }
 }
 
-/// The error farthest from zero on an axis, and what is published of it.
-fn published(axis: usize, mesh: &Mesh, figure: &Named, report: &Report) -> String {
+/// States the error with the largest magnitude on an axis, and the published one.
+fn published(axis: usize, mesh: &Mesh, figure: &NamedFigure, report: &Report) -> String {
     let mut span = Range::default();
     mesh.cells.iter().flatten().flatten().for_each(|cell| span.join(cell.errors[axis]));
     let errors = figure.errors(report);
     let here = format!("here: {} {}", trimmed(errors.show(span.farther()), 4), errors.unit);
-    match figure.printed(axis, span, report) {
+    match figure.published_range(axis, span, report) {
         Some(printed) => format!("{here} · {}", printed.label),
         None => here,
     }

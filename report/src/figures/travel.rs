@@ -1,13 +1,13 @@
-//! Errors along a travel: one panel for each axis, with the same scale.
+//! Errors over the travel of one variable: one panel per axis, with the same scale.
 
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::{Envelope, Range};
 use abbe_study::study_file::Over;
 
-use super::{Named, Quantity};
-use crate::scene::{Colour, Mark, Panel, Scene, with_room};
+use super::{NamedFigure, Quantity};
+use crate::scene::{Colour, Mark, Panel, Scene, with_margin};
 
-pub(super) fn scene(envelope: &Envelope, over: Over, figure: &Named, report: &Report) -> Scene {
+pub(super) fn scene(envelope: &Envelope, over: Over, figure: &NamedFigure, report: &Report) -> Scene {
     let travel = Quantity::over(over, &report.spec);
     let errors = figure.errors(report);
     let bins = envelope.0.iter().map(|(_, bin)| bin).collect::<Vec<_>>();
@@ -17,11 +17,11 @@ pub(super) fn scene(envelope: &Envelope, over: Over, figure: &Named, report: &Re
         travelled.join(bin.travel);
         spans.iter_mut().zip(bin.errors).for_each(|(span, errors)| span.join(errors));
     }
-    let printed: [_; 3] = std::array::from_fn(|axis| figure.printed(axis, spans[axis], report));
+    let printed: [_; 3] = std::array::from_fn(|axis| figure.published_range(axis, spans[axis], report));
     let mut all = Range { least: 0.0, largest: 0.0 };
     spans.into_iter().chain(printed.iter().flatten().map(|printed| printed.range)).for_each(|r| all.join(r));
-    let range = with_room([all.least, all.largest].map(|error| errors.show(error)), 0.12);
-    let across = with_room([travelled.least, travelled.largest].map(|value| travel.show(value)), 0.02);
+    let range = with_margin([all.least, all.largest].map(|error| errors.show(error)), 0.12);
+    let across = with_margin([travelled.least, travelled.largest].map(|value| travel.show(value)), 0.02);
 
     let panels = printed.iter().enumerate().map(|(axis, printed)| {
         let edge = |end: fn(Range) -> f64| {

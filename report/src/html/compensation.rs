@@ -1,58 +1,78 @@
-//! The page of corrected commands: where the tool is without and with them.
+//! Page of a compensation: position errors before and after.
 
+use abbe::Description;
 use abbe_spec::Spec;
-use abbe_study::compensate::{Report, Size};
+use abbe_study::compensate::{NormStatistics, Report};
 use abbe_study::data::Map;
-use abbe_study::number::{self, fixed};
+use abbe_study::number::{self, visible};
 
 use super::figure::figures;
 use super::provenance::Provenance;
-use super::{document, escaped, section};
+use super::table::{ledger, row_header};
+use super::{Card, cards, document, escaped, findings, folded, heading, section, verdict};
 use crate::figures::distances;
+use crate::text::{self, Detail};
 
-/// The most rows that are listed.
+/// Maximum number of listed rows.
 const LISTED: usize = 100;
 
-/// The page of corrected commands; `spec` is that of the machine.
-pub fn compensation(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
-    let heading = format!(
-        "<header>\n<p class=\"kind\">Corrected commands</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n</header>\n",
-        escaped(&spec.title),
-        escaped(&map.title)
-    );
+/// Builds the page of a compensation; `spec` and `map` are those of the job, and `machine` is the
+/// description of its manipulator.
+pub fn compensation(
+    spec: &Spec,
+    machine: &Description,
+    map: &Map,
+    report: &Report,
+    provenance: &Provenance,
+) -> String {
     let lines = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect::<String>();
     let drawn = figures(&distances::scenes(report, spec), 0);
-    let body = [
-        heading,
-        section("Distance of the tool point from where it should be", &sizes(spec, report)),
+    let line = format!("{} of {} commands corrected", report.compensated, report.total_rows());
+    let before = [
+        heading("Corrected commands", &spec.title, &map.title),
+        verdict(report.complete(), &line, &[]),
+        summary(spec, report),
+    ];
+    let after = [
         section("Figures", &format!("<p>Distances are in mm.</p>\n{drawn}")),
+        section("Position error of the tool point", &sizes(spec, report)),
         section("Rows that are not compensated", &failed(report)),
-        section("Rows", &format!("<p>{lines}</p>\n")),
+        folded("Rows", &format!("<p>{lines}</p>\n")),
         section("Input files", &provenance.table()),
     ];
-    document(&format!("{}: corrected commands", spec.title), &body.concat())
+    let (before, after) = (before.concat(), after.concat());
+    let findings = findings(&text::compensation(machine, report, Detail::Full), &format!("{before}{after}"));
+    document(&format!("{}: corrected commands", spec.title), &[before, findings, after].concat())
+}
+
+fn summary(spec: &Spec, report: &Report) -> String {
+    let decimals = number::error_decimals(spec.length);
+    let card = |name, size: &NormStatistics| Card {
+        name,
+        value: format!("{} {}", visible(size.mean, decimals), report.length),
+        note: format!("on average; largest {} {}", visible(size.max, decimals), report.length),
+    };
+    let tolerance = Card {
+        name: "Tolerance",
+        value: number::length(report.tolerance, spec.length),
+        note: "allowed at the tool point".to_owned(),
+    };
+    cards([card("As commanded", &report.before), card("Corrected", &report.after), tolerance])
 }
 
 fn sizes(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
-    let row = |(name, size): (&str, &Size)| {
+    let row = |(name, size): (&str, &NormStatistics)| {
         let cells =
-            [size.mean, size.rms, size.max].map(|v| format!("<td>{}</td>", fixed(v, decimals))).concat();
-        format!(
-            "<tr><td class=\"words\">{name}</td>{cells}<td>{}</td></tr>\n",
-            fixed(size.angle_max * 1e3, 4)
-        )
+            [size.mean, size.rms, size.max].map(|v| format!("<td>{}</td>", visible(v, decimals))).concat();
+        format!("<tr>{}{cells}<td>{}</td></tr>\n", row_header(name), visible(size.angle_max * 1e3, 4))
     };
     let rows = [("as commanded", &report.before), ("corrected", &report.after)].map(row).concat();
-    format!(
-        "<table class=\"ledger\"><thead><tr><th></th><th>mean ({unit})</th><th>rms ({unit})</th><th>largest ({unit})</th>\
-         <th>largest turn (mrad)</th></tr></thead>\n<tbody>{rows}</tbody></table>\n<p>{} of {} rows are compensated: no more than {} is left \
-         at the tool point.</p>\n",
-        report.compensated,
-        report.asked(),
-        number::length(report.tolerance, spec.length),
-        unit = report.length
-    )
+    let unit = report.length;
+    let columns = ["mean", "rms", "largest"].map(|name| format!("{name} ({unit})"));
+    let columns = [""].into_iter().chain(columns.iter().map(String::as_str)).chain(["largest turn (mrad)"]);
+    let body = format!("<tbody>{rows}</tbody>\n");
+    ledger("Position errors before and after", &columns.collect::<Vec<_>>(), &[0], &body)
 }
 
 fn failed(report: &Report) -> String {

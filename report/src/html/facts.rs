@@ -1,12 +1,14 @@
-//! Conventions, values, files: what a reader needs to use the numbers.
+//! Conventions, values and input files of an analysis.
 
 use abbe::{Orientation, VariableKind};
 
 use super::escaped;
+use super::provenance::files;
+use super::table;
 use abbe_study::analyze::Report;
 use abbe_study::number::{self, quantity};
 
-/// What the numbers mean.
+/// Formats the conventions.
 pub(super) fn conventions(report: &Report) -> String {
     let spec = &report.spec;
     let unit = spec.length.symbol();
@@ -27,11 +29,10 @@ pub(super) fn conventions(report: &Report) -> String {
         ("Units", format!("{unit}, rad, kg, s, K; in figures errors in mm or mrad, and joints in degrees")),
         ("Sources", "repeatable: summed with sign. Random: root sum of squares of bounds (normal: 3σ, all others: the value)".to_owned()),
     ];
-    let rows = facts.map(|(name, fact)| format!("<tr><th>{name}</th><td>{fact}</td></tr>\n")).concat();
-    format!("<table class=\"facts\"><tbody>{rows}</tbody></table>\n")
+    table::facts("Meaning of the numbers", facts)
 }
 
-/// The frames, parameters and inputs as they were in this analysis.
+/// Formats the frames, parameters and inputs of the analysis.
 pub(super) fn values(report: &Report) -> String {
     let spec = &report.spec;
     let unit = spec.length;
@@ -47,45 +48,26 @@ pub(super) fn values(report: &Report) -> String {
             format!("{} {kind}, {lower} … {upper}, home {}", variable.name, show(variable.home))
         });
         let variable = variable.unwrap_or_else(|| "fixed".to_owned());
-        format!(
-            "<tr><th>F<sub>{}</sub> {}</th><td>{}</td></tr>\n",
-            i + 1,
-            escaped(&frame.name),
-            escaped(&variable)
-        )
+        (format!("F<sub>{}</sub> {}", i + 1, escaped(&frame.name)), escaped(&variable))
     });
     let parameters = spec.parameters.iter().map(|p| (p.name.as_str(), quantity(p.value, &p.unit)));
     let list = |values: Vec<(&str, String)>| {
         let values = values.into_iter().map(|(name, value)| format!("{name} = {value}"));
         values.collect::<Vec<_>>().join(", ")
     };
-    let mut rows = frames.collect::<String>();
-    for (name, values) in [("Parameters", list(parameters.collect())), ("Inputs", report.inputs().join(", "))]
-    {
-        if !values.is_empty() {
-            rows += &format!("<tr><th>{name}</th><td>{}</td></tr>\n", escaped(&values));
-        }
-    }
     let off = spec.sources.iter().filter(|source| !source.enabled).map(|source| source.name.as_str());
-    let off = off.collect::<Vec<_>>().join(", ");
-    if !off.is_empty() {
-        rows += &format!("<tr><th>Sources switched off</th><td>{}</td></tr>\n", escaped(&off));
-    }
-    format!("<table class=\"facts\"><tbody>{rows}</tbody></table>\n")
+    let others = [
+        ("Parameters", list(parameters.collect())),
+        ("Inputs", report.inputs().join(", ")),
+        ("Sources switched off", off.collect::<Vec<_>>().join(", ")),
+    ];
+    let others = others.map(|(name, values)| (name.to_owned(), escaped(&values)));
+    table::facts("Frames, parameters and inputs", frames.chain(others))
 }
 
-/// What was read, so that it can be found again.
+/// Formats the names and SHA-256 of the input files.
 pub(super) fn inputs(report: &Report) -> String {
-    let spec = (report.spec.file.clone(), report.spec.hash.clone());
-    let files = [("spec", Some(&spec)), ("study", report.study.file.as_ref())];
-    let rows = files.into_iter().filter_map(|(kind, file)| {
-        let (name, hash) = file?;
-        Some(format!("<tr><th>{kind}</th><td>{}</td><td><code>{hash}</code></td></tr>\n", escaped(name)))
-    });
-    let rows = rows.collect::<String>();
-    let version = env!("CARGO_PKG_VERSION");
-    format!(
-        "<table class=\"facts\"><thead><tr><th></th><td>file</td><td>SHA-256</td></tr></thead><tbody>{rows}</tbody></table>\n\
-         <p>Written by abbe {version}. Same files, same bytes.</p>\n"
-    )
+    let spec = Some(("spec", &report.spec.file, &report.spec.hash));
+    let study = report.study.file.as_ref().map(|(name, hash)| ("study", name, hash));
+    files(spec.into_iter().chain(study))
 }

@@ -1,15 +1,15 @@
-//! Numbered figures: the SVG of a scene with its title and its caption.
+//! Numbered figures: the SVG of a scene with title and caption.
 
 use super::escaped;
 use crate::scene::Scene;
 use crate::svg;
 
-/// Figures one after another, numbered behind so many others.
+/// Formats figures in order, numbered after `before` others.
 pub(super) fn figures(scenes: &[Scene], before: usize) -> String {
     scenes.iter().enumerate().map(|(i, scene)| figure(before + i + 1, scene, "")).collect()
 }
 
-/// A figure; `more` stands behind its caption.
+/// Formats a figure; `more` is HTML appended to its caption.
 pub(super) fn figure(number: usize, scene: &Scene, more: &str) -> String {
     let heading = format!("{number}. {}", escaped(&scene.title));
     let reference = match scene.reference.as_str() {
@@ -19,7 +19,7 @@ pub(super) fn figure(number: usize, scene: &Scene, more: &str) -> String {
     unnumbered(&format!("<h3>{heading}{reference}</h3>\n"), scene, more)
 }
 
-/// A figure below a heading of its own.
+/// Formats a figure with a given heading.
 pub(super) fn unnumbered(heading: &str, scene: &Scene, more: &str) -> String {
     let subtitle = if scene.subtitle.is_empty() { String::new() } else { format!("{}.", scene.subtitle) };
     let caption = [escaped(&subtitle), escaped(&scene.caption), more.to_owned()].join(" ");

@@ -1,77 +1,72 @@
-//! The page of an identification: which errors the machine has, how well they are known, and what is left.
+//! Page of an identification: the errors of the machine, their uncertainties and the residuals.
 
 use abbe_spec::Spec;
-use abbe_study::Accepted;
+use abbe_study::AcceptanceVerdict;
 use abbe_study::data::Map;
 use abbe_study::identify::{Indistinguishable, Kind, Parameter, Report, Sizes, WeaklyDetermined};
 use abbe_study::number::{self, digits, fixed};
 
 use super::figure::figures;
 use super::provenance::{Provenance, instrument};
-use super::{document, escaped, section};
-use crate::figures::residuals::{Names, Residual, scenes};
+use super::table::{facts, ledger, row_header};
+use super::{Card, cards, document, escaped, findings, folded, heading, section, verdict};
+use crate::figures::residuals::{ErrorNames, Residual, scenes};
+use crate::text::{self, Detail};
 
-/// The page of an identification; `spec` and `map` are those of the job.
+/// Builds the page of an identification; `spec` and `map` are those of the job.
 pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
-    let heading = format!(
-        "<header>\n<p class=\"kind\">Errors from measurements</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n</header>\n",
-        escaped(&spec.title),
-        escaped(&report.title)
-    );
     let lines = report.files.iter().flat_map(|file| file.lines());
     let lines = lines.map(|line| format!("{}<br>\n", escaped(&line))).collect::<String>();
-    let notes = report.notes.iter().map(|note| format!("<p>{}</p>\n", escaped(note))).collect::<String>();
-    let body = [
-        heading,
-        verdict(spec, report.accepted.as_ref()),
+    let before = [
+        heading("Errors from measurements", &spec.title, &report.title),
+        accepted(spec, report.accepted.as_ref()),
         summary(spec, report),
-        section("How good it is", &(sizes(spec, report) + &notes)),
-        section("Errors of the machine", &machine(spec, report)),
+    ];
+    let after = [
+        section("Figures", &pictures(spec, report)),
+        section("How good it is", &sizes(spec, report)),
+        folded("Errors of the machine", &machine(spec, report)),
         placed(spec, report),
-        section("What cannot be told apart", &groups(report)),
+        folded("What cannot be told apart", &groups(report)),
         terms(spec, report),
-        section("What is left", &pictures(spec, report)),
         section("Instrument", &instrument(spec, map)),
-        section("Ranges", &ranges(spec, report)),
-        section("Rows", &format!("<p>{lines}</p>\n")),
+        folded("Ranges", &ranges(spec, report)),
+        folded("Rows", &format!("<p>{lines}</p>\n")),
         section("Input files", &provenance.table()),
     ];
-    document(&format!("{}: errors from measurements", spec.title), &body.concat())
+    let (before, after) = (before.concat(), after.concat());
+    let findings = findings(&text::identification(spec, report, Detail::Full), &format!("{before}{after}"));
+    document(&format!("{}: errors from measurements", spec.title), &[before, findings, after].concat())
 }
 
 fn summary(spec: &Spec, report: &Report) -> String {
     let unit = spec.length.symbol();
     let decimals = number::error_decimals(spec.length);
     let show = |value: f64| format!("{} {unit}", fixed(value, decimals));
-    let crossed = &report.cross_validation.after;
-    let mut cards = vec![
-        (
+    let card = |name, value, note: String| Card { name, value, note };
+    let mut all = vec![
+        card(
             "Base and tool fitted",
             show(report.fit.base_and_tool.mean),
             "mean position error of the rows that were used".to_owned(),
         ),
-        ("Identified", show(report.fit.after.mean), "the same rows".to_owned()),
-        ("Left out in turn", show(crossed.mean), format!("{} parts", report.cross_validation.folds)),
+        card("Identified", show(report.fit.after.mean), "the same rows".to_owned()),
+        card(
+            "Cross-validation",
+            show(report.cross_validation.after.mean),
+            format!("{}-fold", report.cross_validation.folds),
+        ),
     ];
     if let Some(test) = &report.test {
-        cards.push((
-            "Test rows",
-            show(test.after.mean),
-            match report.test_rows_of_the_fit {
-                0 => format!("{} rows, used for nothing else", test.rows),
-                known => format!("{} rows, {known} of them rows of the fit", test.rows),
-            },
-        ));
+        let note = match report.test_rows_of_the_fit {
+            0 => format!("{} rows, used for nothing else", test.rows),
+            known => format!("{} rows, {known} of them rows of the fit", test.rows),
+        };
+        all.push(card("Test rows", show(test.after.mean), note));
     }
-    cards.push((
-        "Known",
-        format!("{} of {}", report.rank, report.unknowns),
-        "combinations of unknowns".to_owned(),
-    ));
-    let cards = cards.into_iter().map(|(name, value, note)| {
-        format!("<div class=\"card\"><span>{name}</span><b>{value}</b><small>{note}</small></div>\n")
-    });
-    format!("<div class=\"cards\">\n{}</div>\n", cards.collect::<String>())
+    let known = format!("{} of {}", report.rank, report.unknowns);
+    all.push(card("Identifiable", known, "combinations of unknowns".to_owned()));
+    cards(all)
 }
 
 fn sizes(spec: &Spec, report: &Report) -> String {
@@ -81,7 +76,7 @@ fn sizes(spec: &Spec, report: &Report) -> String {
             [Some(sizes.mean), sizes.standard_error, Some(sizes.rms), Some(sizes.p95), Some(sizes.max)];
         let cells = sizes.map(|size| size.map_or("?".to_owned(), |size| fixed(size, decimals)));
         let cells = cells.map(|cell| format!("<td>{cell}</td>"));
-        format!("<tr><td class=\"words\">{name}</td><td>{rows}</td>{}</tr>\n", cells.concat())
+        format!("<tr>{}<td>{rows}</td>{}</tr>\n", row_header(name), cells.concat())
     };
     let mut rows = String::new();
     for (set, compared) in [("fit", Some(&report.fit)), ("test", report.test.as_ref())] {
@@ -90,25 +85,19 @@ fn sizes(spec: &Spec, report: &Report) -> String {
         rows += &row(&format!("{set}: base and tool fitted"), compared.rows, &compared.base_and_tool);
         rows += &row(&format!("{set}: identified"), compared.rows, &compared.after);
         if set == "fit" {
-            let name = format!("left out in turn, {} parts", report.cross_validation.folds);
+            let name = format!("{}-fold cross-validation", report.cross_validation.folds);
             rows += &row(&name, compared.rows, &report.cross_validation.after);
         }
     }
-    let what = if report.instruments.is_empty() { "position error" } else { "error of a reading" };
-    format!(
-        "<table class=\"ledger\"><thead><tr><th class=\"words\">{what}, {}</th><th>rows</th><th>mean</th><th>±</th><th>rms</th><th>95 %</th>\
-         <th>max</th></tr></thead>\n<tbody>{rows}</tbody></table>\n<p>±: one standard error of the mean. What is left is {} times what the instrument's uncertainty explains.</p>\n",
-        spec.length.symbol(),
-        digits(report.uncertainty_factor, 3)
-    )
+    let what = if report.instruments.is_empty() { "Position error" } else { "Error of a reading" };
+    let caption = format!("{what} ({}); ± is the standard error of the mean", spec.length.symbol());
+    let columns = ["rows of", "rows", "mean", "±", "rms", "95 %", "max"];
+    ledger(&caption, &columns, &[0], &format!("<tbody>{rows}</tbody>\n"))
 }
 
-/// Whether declared limits are met, if any were declared.
-pub(super) fn verdict(spec: &Spec, accepted: Option<&Accepted>) -> String {
-    let Some(accepted) = accepted else { return String::new() };
-    let class = if accepted.met { "met" } else { "missed" };
-    let sentence = escaped(&accepted.sentence(spec.length));
-    format!("<section class=\"verdict\">\n<h2 class=\"{class}\">{sentence}</h2>\n</section>\n")
+/// Formats the verdict on the acceptance limits, if there are any.
+pub(super) fn accepted(spec: &Spec, accepted: Option<&AcceptanceVerdict>) -> String {
+    accepted.map_or_else(String::new, |accepted| verdict(accepted.met, &accepted.sentence(spec.length), &[]))
 }
 
 fn machine(spec: &Spec, report: &Report) -> String {
@@ -119,7 +108,7 @@ fn machine(spec: &Spec, report: &Report) -> String {
             "<p>In numbers of the chain, each in place of the error in brackets:</p>\n<ul>\n{list}</ul>\n"
         ),
     };
-    let table = parameters(spec, report, |kind| kind == Kind::Machine);
+    let table = parameters("Errors of the machine", spec, report, |kind| kind == Kind::Machine);
     let pairs = report.correlations.iter().take(12);
     let pairs =
         pairs.map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)));
@@ -131,18 +120,18 @@ fn machine(spec: &Spec, report: &Report) -> String {
             format!("<p>Correlated by more than 0.9: {}{more}.</p>\n", escaped(&pairs.join(", ")))
         }
     };
-    format!("{meanings}{table}<p>All others are held at zero.</p>\n{correlated}{}", not_known(report))
+    format!("{meanings}{table}<p>All others are fixed at zero.</p>\n{correlated}{}", not_known(report))
 }
 
-/// What belongs to the station and to the tool.
+/// Formats the parameters of station and targets.
 fn placed(spec: &Spec, report: &Report) -> String {
     let is_placed = |kind: Kind| kind != Kind::Machine;
     if !report.parameters.iter().any(|parameter| is_placed(parameter.kind)) {
         return String::new();
     }
-    let table = parameters(spec, report, is_placed);
+    let table = parameters("Station and targets", spec, report, is_placed);
     let words = "<p>No errors of the machine: they do not go into the spec and are not compensated.</p>\n";
-    section("Where the machine stands, and what is mounted on its tool", &format!("{table}{words}"))
+    folded("Where the machine stands, and what is mounted on its tool", &format!("{table}{words}"))
 }
 
 fn not_known(report: &Report) -> String {
@@ -150,17 +139,18 @@ fn not_known(report: &Report) -> String {
         let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
         let [told, expected] = [not_known.told, not_known.expected].map(|value| digits(value * factor, 2));
         format!(
-            "<li>{}: these data alone tell it to ± {told} {unit}; ± {expected} {unit} is expected</li>\n",
+            "<li>{}: standard deviation {told} {unit} from these data alone, {expected} {unit} \
+             expected beforehand</li>\n",
             escaped(&not_known.name)
         )
     };
     match report.not_known.iter().map(one).collect::<String>() {
         list if list.is_empty() => list,
-        list => format!("<p>Not known from these data, and held at zero:</p>\n<ul>\n{list}</ul>\n"),
+        list => format!("<p>Poorly determined by these data; fixed at zero:</p>\n<ul>\n{list}</ul>\n"),
     }
 }
 
-fn parameters(spec: &Spec, report: &Report, is_shown: impl Fn(Kind) -> bool) -> String {
+fn parameters(caption: &str, spec: &Spec, report: &Report, is_shown: impl Fn(Kind) -> bool) -> String {
     let decimals = number::error_decimals(spec.length);
     let row = |parameter: &Parameter| {
         let (unit, factor) = if parameter.unit == "rad" { ("mrad", 1e3) } else { (parameter.unit, 1.0) };
@@ -172,9 +162,9 @@ fn parameters(spec: &Spec, report: &Report, is_shown: impl Fn(Kind) -> bool) -> 
         let sure = parameter.value.abs() / parameter.standard_deviation.max(1e-300);
         let remark = if parameter.hardly_known { "hardly known" } else { "" };
         format!(
-            "<tr><td class=\"words\">{}</td><td class=\"words\">{}</td><td>{}</td><td>{}</td><td class=\"words\">{unit}</td><td>{}</td>\
+            "<tr>{}<td class=\"words\">{}</td><td>{}</td><td>{}</td><td class=\"words\">{unit}</td><td>{}</td>\
              <td class=\"words\">{remark}</td></tr>\n",
-            escaped(&parameter.name),
+            row_header(&escaped(&parameter.name)),
             escaped(parameter.frame_name.as_deref().unwrap_or_default()),
             show(parameter.value),
             show(parameter.standard_deviation),
@@ -183,13 +173,11 @@ fn parameters(spec: &Spec, report: &Report, is_shown: impl Fn(Kind) -> bool) -> 
     };
     let shown = report.parameters.iter().filter(|parameter| is_shown(parameter.kind));
     let rows = shown.map(row).collect::<String>();
-    format!(
-        "<table class=\"ledger\"><thead><tr><th class=\"words\">error</th><th class=\"words\">of</th><th>value</th>\
-         <th>standard deviation σ</th><th></th><th>value/σ</th><th></th></tr></thead>\n<tbody>{rows}</tbody></table>\n"
-    )
+    let columns = ["error", "of", "value", "σ", "unit", "value/σ", ""];
+    ledger(caption, &columns, &[0, 1, 4, 6], &format!("<tbody>{rows}</tbody>\n"))
 }
 
-/// Groups with the same reason together.
+/// Groups consecutive sentences with the same reason.
 fn groups(report: &Report) -> String {
     let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
     for group in &report.groups {
@@ -202,14 +190,8 @@ fn groups(report: &Report) -> String {
     if reasons.is_empty() {
         return "<p>Everything that is unknown can be told apart.</p>\n".to_owned();
     }
-    let rows = reasons.into_iter().map(|(reason, sentences)| {
-        format!(
-            "<tr><th class=\"wrapped\">{}</th><td>{}</td></tr>\n",
-            escaped(reason),
-            sentences.join("<br>")
-        )
-    });
-    format!("<table class=\"facts\"><tbody>{}</tbody></table>\n", rows.collect::<String>())
+    let rows = reasons.into_iter().map(|(reason, sentences)| (escaped(reason), sentences.join("<br>")));
+    facts("Indistinguishable errors, by the reason", rows)
 }
 
 fn terms(spec: &Spec, report: &Report) -> String {
@@ -219,21 +201,20 @@ fn terms(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
     let rows = report.terms.iter().map(|term| {
         format!(
-            "<tr><td class=\"words\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            escaped(&term.name),
+            "<tr>{}<td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            row_header(&escaped(&term.name)),
             fixed(term.before, decimals),
             fixed(term.after, decimals),
             if term.p < 1e-12 { "below 1e-12".to_owned() } else { digits(term.p, 2) }
         )
     });
-    let table = format!(
-        "<p>Root mean square of a coordinate on rows left out in turn, before and after, {}.</p>\n<table class=\"ledger\"><thead><tr>\
-         <th class=\"words\">term, in the order of their gain</th><th>before</th><th>after</th><th>p of the F-test</th></tr></thead>\n\
-         <tbody>{}</tbody></table>\n",
-        spec.length.symbol(),
-        rows.collect::<String>()
+    let caption = format!(
+        "Terms in the order of their gain: root mean square of a coordinate in cross-validation before and after ({})",
+        spec.length.symbol()
     );
-    section("Richer terms", &table)
+    let columns = ["term", "before", "after", "p of the F-test"];
+    let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
+    section("Additional terms", &ledger(&caption, &columns, &[0], &body))
 }
 
 fn pictures(spec: &Spec, report: &Report) -> String {
@@ -247,7 +228,7 @@ fn pictures(spec: &Spec, report: &Report) -> String {
         });
         residuals.collect::<Vec<_>>()
     };
-    let names = Names { before: "base and tool fitted", after: "identified" };
+    let names = ErrorNames { before: "base and tool fitted", after: "identified" };
     let (used, test) = (scenes(&list(false), &names, spec), list(true));
     let mut text = format!("<p>Rows that were used; gross errors are left out.</p>\n{}", figures(&used, 0));
     if !test.is_empty() {
@@ -260,15 +241,10 @@ fn pictures(spec: &Spec, report: &Report) -> String {
 fn ranges(spec: &Spec, report: &Report) -> String {
     let row = |fitted: &abbe_spec::Fitted| {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
-        format!(
-            "<tr><th>{}</th><td>{} … {}</td></tr>\n",
-            escaped(spec.name_of(fitted.symbol)),
-            escaped(&lower),
-            escaped(&upper)
-        )
+        (escaped(spec.name_of(fitted.symbol)), escaped(&format!("{lower} … {upper}")))
     };
-    let rows = report.found.fitted.iter().map(row).collect::<String>();
-    format!(
-        "<p>What is said holds where the rows were; beyond, it is extrapolated.</p>\n<table class=\"facts\"><tbody>{rows}</tbody></table>\n"
+    facts(
+        "Ranges of the fitted rows; beyond them, the result is extrapolated",
+        report.found.fitted.iter().map(row),
     )
 }

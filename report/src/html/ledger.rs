@@ -1,4 +1,4 @@
-//! The tables of the report: every source alone, all together, and what is printed beside them.
+//! Tables of an analysis: every source alone, all sources together, and published figures.
 
 use abbe::analysis::Figures;
 use abbe::{Class, Distribution};
@@ -9,23 +9,28 @@ use abbe_study::number::{fixed, percent, short, unbroken};
 use abbe_study::study_file::{self, CombinedFigure, Metric};
 
 use super::escaped;
+use super::table::{ledger, row_header};
 
-/// Every source alone, the largest first.
+/// Formats every source alone, in descending order of its largest norm.
 pub(super) fn sources(report: &Report) -> String {
-    let unit = report.spec.length.symbol();
-    let share = report.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
-    let mut rows = String::new();
     let mut sources = report.sources.iter().collect::<Vec<_>>();
     sources.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
-    for (rank, one) in sources.into_iter().enumerate() {
-        rows += &source(rank + 1, one, report);
-    }
-    format!(
-        "<table class=\"ledger\"><thead><tr><th>rank</th><th class=\"words\">source</th>\
-         <th class=\"words\">metric</th><th>x ({unit})</th><th>y ({unit})</th><th>z ({unit})</th>\
-         <th>norm ({unit})</th>{share}{}</tr></thead>\n{rows}</table>\n",
-        head_of_verdicts(report)
-    )
+    let rows = sources.into_iter().enumerate().map(|(rank, one)| source(rank + 1, one, report));
+    let caption = "Largest errors of each source alone";
+    table(caption, &["rank", "source", "metric"], &[1, 2], &rows.collect::<String>(), report)
+}
+
+/// Formats a table of errors along the axes, with shares of the tolerance and verdicts if there are
+/// any.
+fn table(caption: &str, first: &[&str], words: &[usize], bodies: &str, report: &Report) -> String {
+    let unit = report.spec.length.symbol();
+    let errors = ["x", "y", "z", "norm"].map(|axis| format!("{axis} ({unit})"));
+    let share = report.study.tolerance.map(|_| "of tolerance");
+    let verdict = (!report.study.published.is_empty()).then_some("verdict");
+    let columns = first.iter().copied().chain(errors.iter().map(String::as_str)).chain(share).chain(verdict);
+    let columns = columns.collect::<Vec<_>>();
+    let verdict = verdict.map(|_| columns.len() - 1);
+    ledger(caption, &columns, &words.iter().copied().chain(verdict).collect::<Vec<_>>(), bodies)
 }
 
 fn source(rank: usize, source: &SourceReport, report: &Report) -> String {
@@ -47,8 +52,8 @@ fn source(rank: usize, source: &SourceReport, report: &Report) -> String {
                 worst.map(|worst| format!("<br>worst at {}", escaped(&unbroken(&report.label(worst)))));
             let worst = worst.unwrap_or_default();
             format!(
-                "<td rowspan=\"{lines}\">{rank}</td><td class=\"words\" rowspan=\"{lines}\"><b>{name}</b>\
-                 <small>{at}<br>{class}{worst}</small></td>"
+                "<td rowspan=\"{lines}\">{rank}</td><th scope=\"rowgroup\" class=\"words\" rowspan=\"{lines}\"><b>{name}</b>\
+                 <small>{at}<br>{class}{worst}</small></th>"
             )
         } else {
             String::new()
@@ -65,7 +70,7 @@ fn source(rank: usize, source: &SourceReport, report: &Report) -> String {
     format!("<tbody>{rows}</tbody>\n")
 }
 
-/// The row of a published figure.
+/// Formats the row of a published figure.
 fn comparison(published: &Comparison, report: &Report) -> String {
     let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
     let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
@@ -77,68 +82,60 @@ fn comparison(published: &Comparison, report: &Report) -> String {
     )
 }
 
-/// All sources together.
+/// Formats all sources together.
 pub(super) fn combined(report: &Report) -> String {
-    let unit = report.spec.length.symbol();
     let combined = &report.combined;
-    let share = report.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
     let mut rows = String::new();
     for (figure, name) in [
-        (CombinedFigure::Repeatable, "repeatable: sum, with signs"),
-        (CombinedFigure::Random, "random: root sum of squares of bounds"),
-        (CombinedFigure::Both, "radius: both norms, added"),
+        (CombinedFigure::Repeatable, "repeatable: signed sum"),
+        (CombinedFigure::Random, "random: root sum of squares of the bounds"),
+        (CombinedFigure::Both, "total: repeatable + random"),
     ] {
         let ([x, y, z], norm) = report.combined_figure(figure);
         let cell = |figure: Option<f64>| figure.map_or_else(String::new, |figure| error(figure, report));
         let cells = [x, y, z, Some(norm)].map(|figure| format!("<td>{}</td>", cell(figure))).concat();
         let of = report.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
         let of = of.unwrap_or_default();
-        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}{}</tr>\n", no_verdict(report));
+        rows += &format!("<tr>{}{cells}{of}{}</tr>\n", row_header(name), no_verdict(report));
         let published = report.published(&study_file::Subject::Combined(figure));
         rows += &published.map(|published| comparison(published, report)).unwrap_or_default();
     }
     for (name, axes, norm) in [
         ("random: standard deviation", combined.standard_deviation, combined.standard_radius),
-        ("worst case: absolute values, added", combined.worst_case, combined.worst_case_radius),
+        ("worst case: sum of absolute values", combined.worst_case, combined.worst_case_radius),
     ] {
         let [x, y, z] = axes;
         let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", error(figure, report))).concat();
         let of = report.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
         let of = of.unwrap_or_default();
-        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}{}</tr>\n", no_verdict(report));
+        rows += &format!("<tr>{}{cells}{of}{}</tr>\n", row_header(name), no_verdict(report));
     }
-    format!(
-        "<table class=\"ledger\"><thead><tr><th class=\"words\">all together</th><th>x ({unit})</th>\
-         <th>y ({unit})</th><th>z ({unit})</th><th>norm ({unit})</th>{share}{}\
-         </tr></thead>\n<tbody>{rows}</tbody></table>\n",
-        head_of_verdicts(report)
-    )
+    let body = format!("<tbody>{rows}</tbody>\n");
+    table("Errors of all sources together", &["sum"], &[0], &body, report)
 }
 
-/// Any listing as a table of HTML.
-pub fn listed(listing: &Listing) -> String {
-    let class = |column: usize| if listing.numbers.contains(&column) { "" } else { " class=\"words\"" };
-    let cells = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
-        let cells =
-            cells.enumerate().map(|(i, cell)| format!("<{tag}{}>{}</{tag}>", class(i), escaped(cell)));
+/// Formats a listing as an HTML table with a caption.
+pub fn listed(caption: &str, listing: &Listing) -> String {
+    let words = (0..listing.header.len()).filter(|column| !listing.numbers.contains(column));
+    let words = words.collect::<Vec<_>>();
+    let cell = |(column, cell): (usize, &String)| match column {
+        0 => row_header(&escaped(cell)),
+        _ if words.contains(&column) => format!("<td class=\"words\">{}</td>", escaped(cell)),
+        _ => format!("<td>{}</td>", escaped(cell)),
+    };
+    let row = |row: &Vec<String>| {
+        let cells = row.iter().enumerate().map(cell);
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
-    let head = cells("th", &mut listing.header.iter().copied());
-    let rows = listing.rows.iter().map(|row| cells("td", &mut row.iter().map(String::as_str)));
-    format!(
-        "<table class=\"ledger\"><thead>{head}</thead>\n<tbody>{}</tbody></table>\n",
-        rows.collect::<String>()
-    )
+    let rows = listing.rows.iter().map(row);
+    let columns = listing.header.iter().map(|name| escaped(name)).collect::<Vec<_>>();
+    let columns = columns.iter().map(String::as_str).collect::<Vec<_>>();
+    ledger(&escaped(caption), &columns, &words, &format!("<tbody>{}</tbody>\n", rows.collect::<String>()))
 }
 
 fn attributed(report: &Report, reference: &str) -> String {
     let publisher = escaped(report.publisher());
     if reference.is_empty() { publisher } else { format!("{publisher}, {}", escaped(reference)) }
-}
-
-/// Verdicts are on what is published: without that there is no column for them.
-fn head_of_verdicts(report: &Report) -> &'static str {
-    if report.study.published.is_empty() { "" } else { "<th class=\"words\">verdict</th>" }
 }
 
 fn no_verdict(report: &Report) -> &'static str {
@@ -150,7 +147,7 @@ fn verdict(agreement: Agreement, report: &Report) -> String {
     format!("<td class=\"words metric {class}\">{}</td>", escaped(&agreement.text(report)))
 }
 
-/// An error, with the decimals of the tables.
+/// Formats an error with the decimals of the tables.
 fn error(value: f64, report: &Report) -> String {
     fixed(value, report.decimals())
 }

@@ -1,71 +1,83 @@
-//! The page of a measurement: the sizes of its errors, and its figures.
+//! Page of a measurement: statistics of its errors, and figures.
 
 use abbe_spec::Spec;
 use abbe_study::data::Map;
-use abbe_study::measure::Report;
+use abbe_study::measure::{Report, Size};
 use abbe_study::number::{digits, fixed};
 
 use super::figure::figures;
+use super::identification::accepted;
 use super::provenance::{Provenance, instrument};
-use super::{document, escaped, section};
+use super::table::{ledger, row_header};
+use super::{Card, cards, document, escaped, findings, folded, heading, section};
 use crate::figures::measured;
-use crate::text::measurement::sentences;
+use crate::text::{self, Detail};
 
-/// The page of a measurement; `spec` and `map` are those of the job.
+/// Builds the page of a measurement; `spec` and `map` are those of the job.
 pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
-    let heading = format!(
-        "<header>\n<p class=\"kind\">Measured</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n</header>\n",
-        escaped(&spec.title),
-        escaped(&report.title)
-    );
-    let sentences = sentences(report);
-    let words: String = sentences.iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect();
     let lines: String = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect();
     let drawn = figures(&measured::scenes(report, spec), 0);
     let (errors, drawn) = match report.instruments.is_empty() {
-        true => (
-            section("ΔX = measured − ideal", &(table(report) + &words)),
-            section("Figures", &format!("<p>Errors are in mm.</p>\n{drawn}")),
-        ),
-        false => {
-            (section("Reading − prediction", &(instruments(report) + &words)), section("Figures", &drawn))
+        true => {
+            (section("ΔX = measured − ideal", &table(report)), format!("<p>Errors are in mm.</p>\n{drawn}"))
         }
+        false => (section("Reading − prediction", &instruments(report)), drawn),
     };
-    let body = [
-        heading,
-        section("Rows", &format!("<p>{lines}</p>\n")),
+    let before = [
+        heading("Measured", &spec.title, &report.title),
+        accepted(spec, report.accepted.as_ref()),
+        summary(report),
+    ];
+    let after = [
+        section("Figures", &drawn),
         errors,
-        drawn,
         section("Instrument", &instrument(spec, map)),
+        folded("Rows", &format!("<p>{lines}</p>\n")),
         section("Input files", &provenance.table()),
     ];
-    document(&format!("{}: measured", spec.title), &body.concat())
+    let (before, after) = (before.concat(), after.concat());
+    let findings = findings(&text::measurement(spec, report, Detail::Full), &format!("{before}{after}"));
+    document(&format!("{}: measured", spec.title), &[before, findings, after].concat())
+}
+
+/// Formats the norm of the error as cards, if points were measured.
+fn summary(report: &Report) -> String {
+    let decimals = if report.length == "m" { 7 } else { 4 };
+    let norm = report.errors.iter().find(|size| size.name == "norm");
+    let show = |value: f64| format!("{} {}", fixed(value, decimals), report.length);
+    let norms = norm.into_iter().flat_map(|norm| {
+        [("Mean error", norm.mean), ("Root mean square", norm.rms), ("Largest error", norm.max)]
+    });
+    let norms =
+        norms.map(|(name, value)| Card { name, value: show(value), note: "measured − ideal".to_owned() });
+    let rows = Card {
+        name: "Rows",
+        value: report.rows.to_string(),
+        note: format!("{} independent configurations", report.configurations),
+    };
+    cards(norms.chain([rows]))
 }
 
 fn table(report: &Report) -> String {
     let decimals = if report.length == "m" { 7 } else { 4 };
-    let rows: String = report
-        .errors
-        .iter()
-        .map(|size| {
-            let numbers = [size.mean, size.rms, size.max, size.three_sigma];
-            let decimals = if size.unit == "rad" { 6 } else { decimals };
-            let cells: String = numbers
-                .iter()
-                .map(|v| format!("<td class=\"number\">{}</td>", fixed(*v, decimals)))
-                .collect();
-            format!("<tr><td class=\"words\">{} ({})</td>{cells}</tr>\n", size.name, size.unit)
-        })
-        .collect();
-    format!(
-        "<table class=\"ledger\">\n<thead><tr><th></th><th>mean</th><th>rms</th><th>largest</th><th>3 σ about the mean</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n"
-    )
+    let row = |size: &Size| {
+        let (unit, factor, decimals) = match size.unit {
+            "rad" => ("mrad", 1e3, 4),
+            unit => (unit, 1.0, decimals),
+        };
+        let numbers = [size.mean, size.rms, size.max, size.three_sigma];
+        let cells = numbers.map(|number| format!("<td>{}</td>", fixed(number * factor, decimals))).concat();
+        format!("<tr>{}{cells}</tr>\n", row_header(&format!("{} ({unit})", size.name)))
+    };
+    let rows = report.errors.iter().map(row).collect::<String>();
+    let columns = ["", "mean", "rms", "largest", "3 σ about the mean"];
+    ledger("Errors of all rows", &columns, &[0], &format!("<tbody>{rows}</tbody>\n"))
 }
 
-/// What is left of every instrument's readings, each in its own unit.
+/// Formats the residuals of each instrument in its own unit.
 fn instruments(report: &Report) -> String {
     let rows = report.instruments.iter().map(|one| {
-        let cell = |text: String| format!("<td class=\"number\">{text}</td>");
+        let cell = |text: String| format!("<td>{text}</td>");
         let show = |value: f64| cell(digits(value, 4));
         let unknown = || cell(String::new());
         let cells = [
@@ -78,12 +90,9 @@ fn instruments(report: &Report) -> String {
             one.uncertainty.map_or_else(unknown, show),
         ];
         let (name, unit) = (escaped(&one.name), escaped(&one.unit));
-        format!("<tr><td class=\"words\">{name} ({unit})</td>{}</tr>\n", cells.concat())
+        format!("<tr>{}{}</tr>\n", row_header(&format!("{name} ({unit})")), cells.concat())
     });
-    let heads = ["", "read", "ideal: rms", "mean", "std. error", "rms", "largest", "stated σ"];
-    let heads: String = heads.iter().map(|head| format!("<th>{head}</th>")).collect();
-    format!(
-        "<table class=\"ledger\">\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
-        rows.collect::<String>()
-    )
+    let columns = ["", "read", "ideal: rms", "mean", "std. error", "rms", "largest", "stated σ"];
+    let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
+    ledger("Residuals of each instrument, in its unit", &columns, &[0], &body)
 }

@@ -1,27 +1,35 @@
-//! The report: one HTML file with everything in it, its figures too, without a script and without a link to anywhere else.
+//! HTML pages of reports: one self-contained file with its figures, without scripts and external
+//! links.
 //!
-//! `page` is that of an analysis, `measurement`, `identification`, `compensation` and `monitoring` those about measurements, with
-//! `figure` (numbered figures) and `provenance` (instrument, files, date); `ledger` its tables of errors, `covered` its verdict
-//! and uncertainty, `facts` what they rest on.
+//! `page` is the page of an analysis; `measurement`, `identification`, `compensation` and
+//! `monitoring` are the pages of the other jobs. All begin with the verdict, the most important
+//! numbers and the figures; long tables are folded, and the input files come last. `document` has
+//! the parts of every page, `findings` the sentences of the printed report, `figure` numbered
+//! figures, `table` tables, and `provenance` instrument, files and date. Of an analysis, `ledger`
+//! has the tables of errors, `covered` verdict and uncertainty, and `facts` conventions and values.
 
 mod compensation;
 mod covered;
+mod document;
 mod facts;
 mod figure;
+mod findings;
 mod identification;
 mod ledger;
 mod measurement;
 mod monitoring;
 mod page;
 mod provenance;
+mod table;
 
 pub use compensation::compensation;
+use document::{Card, cards, document, folded, heading, paragraphs, section, verdict};
+use findings::findings;
 pub use identification::identification;
 pub use ledger::listed;
 pub use measurement::measurement;
 pub use monitoring::monitoring;
 pub(super) use page::page;
-use page::{document, section};
 pub use provenance::Provenance;
 
 use crate::markup::escaped;

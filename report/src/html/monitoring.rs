@@ -1,4 +1,4 @@
-//! The page of a machine that is watched: its charts over time, and what has changed.
+//! Page of a monitored machine: its charts over time, and changes.
 
 use abbe_spec::Spec;
 use abbe_study::data::Map;
@@ -7,44 +7,34 @@ use abbe_study::number::{fixed, percent};
 
 use super::figure::figures;
 use super::provenance::{Provenance, instrument};
-use super::{document, escaped, section};
+use super::table::ledger;
+use super::{document, escaped, findings, folded, heading, section, verdict};
 use crate::figures::charts;
-use crate::text::monitoring::{findings, watched};
+use crate::text::{self, Detail};
 
-/// The page of a machine that is watched; `spec` and `map` are those of the job.
+/// Builds the page of a monitored machine; `spec` and `map` are those of the job.
 pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
-    let heading = format!(
-        "<header>\n<p class=\"kind\">Watched</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n</header>\n",
-        escaped(&spec.title),
-        escaped(&report.title)
-    );
-    let paragraphs = |sentences: Vec<String>| {
-        sentences.iter().map(|said| format!("<p>{}</p>\n", escaped(said))).collect::<String>()
-    };
-    let class = if report.alarm.is_some() { "missed" } else { "met" };
-    let mut findings = findings(report);
-    let first = if findings.is_empty() { String::new() } else { findings.remove(0) };
-    let verdict = format!(
-        "<section class=\"verdict\">\n<h2 class=\"{class}\">{}</h2>\n{}</section>\n",
-        escaped(&first),
-        paragraphs(findings)
-    );
     let unusable = report.files.iter().filter(|file| !file.unusable.is_empty()).flat_map(|file| file.lines());
     let unusable = unusable.map(|line| format!("{}<br>\n", escaped(&line))).collect::<String>();
-    let body = [
-        heading,
-        verdict,
-        section("What was watched", &paragraphs(watched(report))),
-        section("Charts", &(table(report) + &figures(&charts::scenes(report), 0))),
+    let line = match &report.alarm {
+        Some(_) => "Alarm: the machine has changed",
+        None => "No alarm",
+    };
+    let before =
+        [heading("Monitored", &spec.title, &report.title), verdict(report.alarm.is_none(), line, &[])];
+    let after = [
+        section("Figures", &figures(&charts::scenes(report), 0)),
+        section("Charts", &table(report)),
         section("Instrument", &instrument(spec, map)),
-        if unusable.is_empty() {
-            unusable
-        } else {
-            section("Rows that cannot be used", &format!("<p>{unusable}</p>\n"))
+        match unusable.as_str() {
+            "" => String::new(),
+            lines => folded("Rows that cannot be used", &format!("<p>{lines}</p>\n")),
         },
         section("Input files", &provenance.table()),
     ];
-    document(&format!("{}: watched", spec.title), &body.concat())
+    let (before, after) = (before.concat(), after.concat());
+    let findings = findings(&text::monitoring(spec, report, Detail::Full), &format!("{before}{after}"));
+    document(&format!("{}: monitored", spec.title), &[before, findings, after].concat())
 }
 
 fn last(values: &[f64]) -> f64 {
@@ -55,7 +45,8 @@ fn table(report: &Report) -> String {
     let row = |chart: &Chart| {
         let (factor, unit) = if chart.unit == "rad" { (1e3, "mrad") } else { (1.0, chart.unit) };
         format!(
-            "<tr><td class=\"words\">{}<small>{}</small></td><td>{}</td><td class=\"words\">{unit}</td><td>{}</td><td>{}</td></tr>\n",
+            "<tr><th scope=\"row\" class=\"words\">{}<small>{}</small></th><td>{}</td><td class=\"words\">{unit}</td><td>{}</td>\
+             <td>{}</td></tr>\n",
             escaped(&chart.name),
             escaped(&chart.alike.join(", ")),
             fixed(last(&chart.values) * factor, 4),
@@ -71,8 +62,8 @@ fn table(report: &Report) -> String {
             escaped(&report.unseen.join(", "))
         ),
     };
-    format!(
-        "<table class=\"ledger\"><thead><tr><th class=\"words\">error, and below it those that act alike</th><th>last value</th><th></th>\
-         <th>average, share of the limit</th><th>alarm</th></tr></thead>\n<tbody>{rows}</tbody></table>\n{unseen}"
-    )
+    let columns = ["error", "last value", "unit", "average, share of the limit", "alarm"];
+    let caption =
+        "Control charts, the nearest to its limit first; below each error those that cannot be told from it";
+    ledger(caption, &columns, &[0, 2], &format!("<tbody>{rows}</tbody>\n")) + &unseen
 }

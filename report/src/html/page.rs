@@ -1,54 +1,56 @@
-//! The whole page.
+//! Page of an analysis.
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{self, AfterCompensation, Report};
-
-use super::{covered, escaped, facts, figure, ledger};
-use crate::figures::Named;
-use crate::scene::Scene;
 use abbe_study::number::{percent, trimmed};
+use abbe_study::study_file::Content;
 
-const STYLE: &str = include_str!("style.css");
+use super::{Card, cards, document, escaped, findings, folded, heading, paragraphs, section};
+use super::{covered, facts, figure, ledger};
+use crate::figures::NamedFigure;
+use crate::scene::Scene;
+use crate::text::{self, Detail};
 
-/// The report with its figures; `left_out` are sources that are switched off and had one.
+/// Builds the page of an analysis with its figures, which begin with the Pareto chart and the
+/// cloud.
 ///
-/// `sampled` is the figure of what is certified, if anything is.
+/// `sampled` is the figure of certified bounds, if there are any. `left_out` are disabled sources
+/// whose figures are missing.
 pub(crate) fn page(
-    figures: &[(Named, Scene)],
+    figures: &[(NamedFigure, Scene)],
     sampled: Option<&Scene>,
     left_out: &[String],
     report: &Report,
 ) -> String {
-    let parts = [
-        heading(report),
+    let is_first = |(named, _): &&(NamedFigure, Scene)| {
+        matches!(named.request.content, Content::Pareto | Content::Cloud)
+    };
+    let (first, others) = figures.split_at(figures.iter().take_while(is_first).count());
+    let before = [
+        heading("Error analysis", &report.spec.title, &report.study.title),
+        description(report),
         covered::verdict(report),
         summary(report),
-        section("Every source alone", &format!("{METRICS}\n{}", ledger::sources(report))),
-        section("All together", &(ledger::combined(report) + &conclusions(report))),
+    ];
+    let after = [
+        drawn("Figures", first, 0),
+        section("All together", &(ledger::combined(report) + &paragraphs(&report.conclusions()))),
         certified(sampled, report),
-        section("Ledger", &format!("{LEDGER}\n{}", ledger::listed(&analyze::ledger(report)))),
-        covered::turns(report),
         allowed(report),
+        drawn("More figures", others, first.len()) + &not_drawn(left_out),
+        folded("Every source alone", &format!("{METRICS}\n{}", ledger::sources(report))),
+        folded("Ledger", &ledger::listed(LEDGER, &analyze::ledger(report))),
+        covered::turns(report),
         covered::uncertainty(report),
         covered::monte_carlo(report),
-        drawn(figures, left_out),
-        section("Conventions", &facts::conventions(report)),
-        section("Values", &facts::values(report)),
         notes(report),
+        folded("Conventions", &facts::conventions(report)),
+        folded("Values", &facts::values(report)),
         section("Input files", &facts::inputs(report)),
     ];
-    document(&format!("{}: error analysis", report.spec.title), &parts.concat())
-}
-
-/// A page with its style in it.
-pub(super) fn document(title: &str, body: &str) -> String {
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n\
-         </head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
-        escaped(title),
-    )
+    let (before, after) = (before.concat(), after.concat());
+    let findings = findings(&text::analysis(report, Detail::Full), &format!("{before}{after}"));
+    document(&format!("{}: error analysis", report.spec.title), &[before, findings, after].concat())
 }
 
 const METRICS: &str = "<p>Largest errors of the tool point over the workspace, along the axes of F<sub>0</sub>. \
@@ -57,25 +59,14 @@ const METRICS: &str = "<p>Largest errors of the tool point over the workspace, a
     minus. Sources in order of their largest norm.</p>";
 
 const LEDGER: &str =
-    "<p>Norms of the errors of the tool point: the largest and the root mean square over the workspace.</p>";
+    "Norms of the errors of the tool point: the largest and the root mean square over the workspace";
 
-/// A part of a page.
-pub(super) fn section(title: &str, body: &str) -> String {
-    format!("<section>\n<h2>{title}</h2>\n{body}</section>\n")
+fn description(report: &Report) -> String {
+    let words = report.spec.description.split_whitespace().collect::<Vec<_>>().join(" ");
+    if words.is_empty() { words } else { paragraphs(&[words]) }
 }
 
-fn heading(report: &Report) -> String {
-    let description = report.spec.description.trim();
-    let text = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    format!(
-        "<header>\n<p class=\"kind\">Error analysis</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n<p>{}</p>\n</header>\n",
-        escaped(&report.spec.title),
-        escaped(&report.study.title),
-        escaped(&text(description)),
-    )
-}
-
-/// The few figures that matter most.
+/// Formats the most important figures as cards.
 fn summary(report: &Report) -> String {
     let unit = report.spec.length.symbol();
     let radii = &report.combined.radii;
@@ -84,77 +75,68 @@ fn summary(report: &Report) -> String {
     let of = |value| {
         report.study.tolerance.map(|tolerance| format!("{} of the tolerance", percent(value, tolerance)))
     };
-    let mut cards = vec![
-        ("Radius of all errors".to_owned(), show(radii.radius), of(radii.radius)),
-        (
-            "Random errors alone".to_owned(),
-            format!("± {}", show(radii.random_radius)),
-            of(radii.random_radius),
-        ),
+    let card = |name, value, note: Option<String>| Card { name, value, note: note.unwrap_or_default() };
+    let mut all = vec![
+        card("Radius of all errors", show(radii.radius), of(radii.radius)),
+        card("Random errors alone", format!("± {}", show(radii.random_radius)), of(radii.random_radius)),
     ];
     if let Some(AfterCompensation { total, .. }) = report.after_compensation {
-        cards.push(("After compensation".to_owned(), format!("± {}", show(total)), of(total)));
+        all.push(card("After compensation", format!("± {}", show(total)), of(total)));
     }
     if let Some(tolerance) = report.study.tolerance {
-        cards.push(("Tolerance".to_owned(), format!("± {}", show(tolerance)), None));
+        all.push(card("Tolerance", format!("± {}", show(tolerance)), None));
     }
     let unreachable = &report.budget.unreachable;
-    let unreached = if unreachable.count == 0 {
-        "all reached".to_owned()
-    } else {
-        format!("{} unreachable: {}", unreachable.count, analyze::summary(unreachable, &report.spec))
+    let unreached = match unreachable.count {
+        0 => "all reached".to_owned(),
+        count => format!("{count} unreachable: {}", analyze::unreachable_summary(unreachable, &report.spec)),
     };
-    cards.push(("Configurations".to_owned(), report.configurations.to_string(), Some(unreached)));
-    let cards = cards.into_iter().map(|(name, value, note)| {
-        let note = escaped(&note.unwrap_or_default());
-        format!("<div class=\"card\"><span>{name}</span><b>{value}</b><small>{note}</small></div>\n")
-    });
-    let region = escaped(&report.workspace);
-    format!(
-        "<div class=\"cards\">\n{}</div>\n<p><b>Workspace.</b> {region}.</p>\n",
-        cards.collect::<String>()
-    )
+    all.push(card("Configurations", report.configurations.to_string(), Some(unreached)));
+    format!("{}<p><b>Workspace.</b> {}.</p>\n", cards(all), escaped(&report.workspace))
 }
 
-/// The results in sentences.
-fn conclusions(report: &Report) -> String {
-    report.conclusions().iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect()
-}
-
-/// What was sampled, and what is certified.
+/// Formats sampled errors and certified bounds.
 fn certified(sampled: Option<&Scene>, report: &Report) -> String {
-    let (Some(scene), Some(listing)) = (sampled, analyze::at_most(report)) else { return String::new() };
+    let (Some(scene), Some(listing)) = (sampled, analyze::norm_comparison_table(report)) else {
+        return String::new();
+    };
     let unit = report.spec.length.symbol();
     let figure = figure::unnumbered("", scene, "");
-    section("At most", &format!("{figure}<p>In {unit}.</p>\n{}", ledger::listed(&listing)))
+    let caption = format!("Largest norms, sampled and certified ({unit})");
+    section("At most", &(figure + &ledger::listed(&caption, &listing)))
 }
 
-/// The budget backwards.
+/// Formats the allowed sizes of the sources.
 fn allowed(report: &Report) -> String {
     let about = "<p><i>Alone at most</i>: how much larger a source may be if it is the only one. <i>Equal shares</i>: how \
         much larger it may be if each takes the same share of the tolerance. <i>Gain</i>: by how much the radius shrinks \
         per percent that the source becomes smaller; the first is the one to tighten first.</p>\n";
     let tables = Measurand::ALL.into_iter().filter_map(|measurand| {
-        let (_, unit) = analyze::unit::of(report, measurand);
-        let table = ledger::listed(&analyze::allowed(report, measurand)?);
-        Some(format!("<p>Gain in {unit}.</p>\n{table}"))
+        let (_, unit) = analyze::unit::display_unit(report, measurand);
+        let caption = format!("Factors by which each source may grow, and gain per percent ({unit})");
+        Some(ledger::listed(&caption, &analyze::allowance_table(report, measurand)?))
     });
     let tables = tables.collect::<String>();
     if tables.is_empty() { tables } else { section("What the tolerance allows", &format!("{about}{tables}")) }
 }
 
-fn drawn(figures: &[(Named, Scene)], left_out: &[String]) -> String {
-    let mut text = String::new();
-    for (i, (named, scene)) in figures.iter().enumerate() {
-        let file = format!("{}.svg", named.name);
-        let note = escaped(&named.workspace_note);
-        text += &figure::figure(i + 1, scene, &format!("{note} <a href=\"{file}\">{file}</a>"));
+/// Formats figures, numbered after `before` others.
+fn drawn(title: &str, figures: &[(NamedFigure, Scene)], before: usize) -> String {
+    let figures = figures.iter().enumerate().map(|(i, (named, scene))| {
+        let (file, note) = (format!("{}.svg", named.name), escaped(&named.workspace_note));
+        figure::figure(before + i + 1, scene, &format!("{note} <a href=\"{file}\">{file}</a>"))
+    });
+    match figures.collect::<String>() {
+        none if none.is_empty() => none,
+        figures => {
+            section(title, &format!("<p>Errors are in mm, those of the orientation in mrad.</p>\n{figures}"))
+        }
     }
-    for source in left_out {
-        text += &format!("<p>Not drawn: the source “{}” is switched off.</p>\n", escaped(source));
-    }
-    let units = "<p>Errors are in mm, those of the orientation in mrad.</p>\n";
-    section("Figures", &format!("{units}{text}"))
+}
+
+fn not_drawn(sources: &[String]) -> String {
+    let sentence = |source: &String| format!("Not drawn: the source “{source}” is switched off.");
+    paragraphs(&sources.iter().map(sentence).collect::<Vec<_>>())
 }
 
 fn notes(report: &Report) -> String {

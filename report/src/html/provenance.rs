@@ -1,4 +1,4 @@
-//! What a page of measurements rests on: the instrument, the files, the date that was given.
+//! Provenance of a page about measurements: instrument, files and date.
 
 use std::path::Path;
 
@@ -8,18 +8,23 @@ use abbe_study::data::{Base, Layout, Map, Source};
 use abbe_study::number::{self, short};
 
 use super::escaped;
+use super::table::{facts, ledger, row_header};
 
-/// What cannot be known from a report: which files it came from, and when.
+/// Input files and date of a report, which the report itself does not contain.
 #[derive(Clone, Debug, Default)]
 pub struct Provenance {
-    /// The date as the user gave it; pages know no clock.
+    /// Date given by the user; pages do not read the clock.
     pub date: Option<String>,
-    /// What a file or table is, its name, and the SHA-256 of what is in it.
+    /// Kind, name and SHA-256 of each file or table.
     pub files: Vec<(&'static str, String, String)>,
 }
 
 impl Provenance {
-    /// The spec, the map if there is one, and files or tables by what they are.
+    /// Collects the spec, the map if there is one, and the files or tables of the job.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be read.
     pub fn new<'f>(
         spec: &Spec,
         map: Option<&Map>,
@@ -37,23 +42,31 @@ impl Provenance {
         Ok(Self { date: date.cloned(), files: all })
     }
 
-    /// As a table.
+    /// Formats the files and the date.
     pub(super) fn table(&self) -> String {
-        let row = |(kind, name, hash): &(&str, String, String)| {
-            format!("<tr><th>{kind}</th><td>{}</td><td><code>{hash}</code></td></tr>\n", escaped(name))
-        };
-        let rows = self.files.iter().map(row).collect::<String>();
         let date = self.date.as_ref().map(|date| format!("<p>Date as given: {}.</p>\n", escaped(date)));
-        format!(
-            "<table class=\"facts\"><thead><tr><th></th><td>file</td><td>SHA-256</td></tr></thead><tbody>{rows}</tbody></table>\n{}\
-             <p>Written by abbe {}. Same files and options, same bytes.</p>\n",
-            date.unwrap_or_default(),
-            env!("CARGO_PKG_VERSION")
-        )
+        files(self.files.iter().map(|(kind, name, hash)| (*kind, name, hash))) + &date.unwrap_or_default()
     }
 }
 
-/// The instrument, and what it measured.
+/// Formats the kind, the name and the SHA-256 of input files, and the version of abbe.
+pub(super) fn files<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>) -> String {
+    let rows = files.map(|(kind, name, hash)| {
+        let name = escaped(name);
+        format!(
+            "<tr>{}<td class=\"words\">{name}</td><td class=\"words\"><code>{hash}</code></td></tr>\n",
+            row_header(kind)
+        )
+    });
+    let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
+    format!(
+        "{}<p>Written by abbe {}. The same files and options give the same bytes.</p>\n",
+        ledger("Files that this report was computed from", &["input", "file", "SHA-256"], &[0, 1, 2], &body),
+        env!("CARGO_PKG_VERSION")
+    )
+}
+
+/// Formats the instrument and its observables.
 pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
     let angle = format!(" and {} mrad", short(map.uncertainty.angle * 1e3));
     let uncertainty = match &map.layout {
@@ -79,15 +92,12 @@ pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
             names.join(", ")
         }
     };
-    let facts = [
+    let all = [
         ("Instrument", escaped(&map.title)),
         ("Uncertainty", uncertainty),
         ("Measured", measured),
         ("Stands", base.to_owned()),
         ("Map", escaped(map.path())),
     ];
-    let shown = facts.iter().filter(|(_, fact)| !fact.is_empty());
-    let rows =
-        shown.map(|(name, fact)| format!("<tr><th>{name}</th><td>{fact}</td></tr>\n")).collect::<String>();
-    format!("<table class=\"facts\"><tbody>{rows}</tbody></table>\n")
+    facts("Instrument and what it measured", all)
 }

@@ -1,71 +1,71 @@
-//! An axis of a panel.
+//! Axis of a panel.
 
 use abbe_study::number;
 use serde::Serialize;
 
-/// An axis: its name, its unit, and where it begins and ends.
+/// Axis with its name, unit, range and scale.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
-    /// The name; empty if none is needed.
+    /// Name; may be empty.
     pub name: String,
-    /// The unit; empty if there is none.
+    /// Unit; empty for numbers without one.
     pub unit: String,
-    /// The values at both ends, in the unit.
+    /// Values at both ends, in the unit.
     pub range: [f64; 2],
-    /// How values are placed on it.
+    /// Scale.
     pub scale: Scale,
-    /// Numbers stand at it; if not, the axis of a panel below has them.
+    /// True if tick labels are shown; otherwise the panel below has them.
     pub numbered: bool,
 }
 
-/// How values are placed on an axis.
+/// Scale of an axis.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scale {
-    /// Evenly.
+    /// Linear.
     Linear,
-    /// By their logarithms.
+    /// Logarithmic.
     Logarithmic,
-    /// Evenly: days since 1970-01-01.
+    /// Linear in days since 1970-01-01.
     Dates,
-    /// Evenly: names at 0, 1, 2, …, none if the axis has nothing to tell.
+    /// Linear, with names at 0, 1, 2, …; an axis without names has no labels.
     Names(Vec<String>),
 }
 
 impl Axis {
-    /// An axis of numbers.
+    /// Creates an axis of numbers.
     pub(crate) fn linear(name: impl Into<String>, unit: impl Into<String>, range: [f64; 2]) -> Self {
         Self { name: name.into(), unit: unit.into(), range, scale: Scale::Linear, numbered: true }
     }
 
-    /// An axis of names at 0, 1, 2, ….
+    /// Creates an axis of names at 0, 1, 2, ….
     pub(crate) fn names(names: Vec<String>, range: [f64; 2]) -> Self {
         Self { scale: Scale::Names(names), ..Self::linear("", "", range) }
     }
 
-    /// The axis on another scale.
+    /// Changes the scale.
     pub(crate) fn scaled(self, scale: Scale) -> Self {
         Self { scale, ..self }
     }
 
-    /// The axis without numbers.
+    /// Hides the tick labels.
     pub(crate) fn without_numbers(self) -> Self {
         Self { numbered: false, ..self }
     }
 
-    /// `d1 (mm)`.
+    /// Formats name and unit: `d1 (mm)`.
     pub(crate) fn title(&self) -> String {
         if self.unit.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, self.unit) }
     }
 
-    /// Where a value is: 0 at the begin, 1 at the end.
+    /// Returns the relative position of a value: 0 at the start, 1 at the end.
     pub(crate) fn share(&self, value: f64) -> f64 {
         let place = |value: f64| if self.scale == Scale::Logarithmic { value.log10() } else { value };
         let [from, to] = self.range.map(place);
         (place(value) - from) / (to - from)
     }
 
-    /// The axis in words: `x error from -0.1 to 0.3 mm`.
+    /// Describes the axis: `x error from -0.1 to 0.3 mm`.
     pub(crate) fn text(&self) -> String {
         let Self { name, unit, range, scale, .. } = self;
         match scale {
@@ -82,8 +82,8 @@ impl Axis {
     }
 }
 
-/// A range with some room on both sides; never empty.
-pub(crate) fn with_room([least, largest]: [f64; 2], share: f64) -> [f64; 2] {
+/// Extends a range on both sides by a fraction of its width. The result is never empty.
+pub(crate) fn with_margin([least, largest]: [f64; 2], share: f64) -> [f64; 2] {
     if !(least.is_finite() && largest.is_finite() && least <= largest) {
         return [-1.0, 1.0];
     }
@@ -100,7 +100,7 @@ pub(crate) fn with_room([least, largest]: [f64; 2], share: f64) -> [f64; 2] {
     [least - room, largest + room]
 }
 
-/// The least and the largest of some values.
+/// Returns the smallest and the largest value.
 pub(crate) fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
     values.into_iter().fold(ends, |[least, largest], value| [least.min(value), largest.max(value)])

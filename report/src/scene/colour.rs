@@ -1,12 +1,13 @@
-//! The colours of figures.
+//! Colours of figures.
 
 use serde::{Serialize, Serializer};
 
-/// A colour: red, green and blue. Serialized as CSS has it, `#d55e00`.
+/// Colour as red, green and blue. Serialized in CSS notation, `#d55e00`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
-/// Nine of the colours of viridis, dark to light: the lightness grows evenly, in print as well.
+/// Nine colours of the viridis map, from dark to light with uniform steps of lightness, also in
+/// print.
 const VIRIDIS: [Colour; 9] = [
     Colour(68, 1, 84),
     Colour(71, 44, 122),
@@ -20,24 +21,24 @@ const VIRIDIS: [Colour; 9] = [
 ];
 
 impl Colour {
-    /// Colours of x, y and z that those who confuse red and green can tell apart (Okabe and Ito).
+    /// Colours of x, y and z, distinguishable with red-green colour blindness (Okabe and Ito).
     pub(crate) const XYZ: [Self; 3] = [Self(213, 94, 0), Self(0, 158, 115), Self(0, 114, 178)];
     /// Text, norms, and all sources together.
     pub(crate) const INK: Self = Self(40, 44, 52);
-    /// What is published.
+    /// Published figures.
     pub(crate) const PUBLISHED: Self = Self(160, 70, 130);
-    /// Bars, and what is left after a correction.
+    /// Bars, and errors after a correction.
     pub(crate) const BAR: Self = Self(66, 122, 178);
-    /// Axes, their numbers, and what was before a correction.
+    /// Axes, tick labels, and errors before a correction.
     pub(crate) const GREY: Self = Self(110, 114, 122);
-    /// The lines of a grid.
+    /// Grid lines.
     pub(crate) const FAINT: Self = Self(226, 228, 232);
-    /// The links of a manipulator.
+    /// Links of a manipulator.
     pub(crate) const LINK: Self = Self(176, 182, 192);
     /// Tolerances and limits.
     pub(crate) const TOLERANCE: Self = Self(120, 120, 120);
 
-    /// A colour of the scale from 0 to 1, in 32 steps.
+    /// Returns the colour at `share` of the viridis map, from 0 to 1, in 32 steps.
     pub(crate) fn graded(share: f64) -> Self {
         let share = (share.clamp(0.0, 1.0) * 31.0).round() / 31.0;
         let at = share * (VIRIDIS.len() - 1) as f64;
@@ -47,7 +48,7 @@ impl Colour {
         Self(between(low.0, high.0), between(low.1, high.1), between(low.2, high.2))
     }
 
-    /// As CSS has it.
+    /// Formats the colour in CSS notation.
     pub(crate) fn css(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
     }

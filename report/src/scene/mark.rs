@@ -1,80 +1,80 @@
-//! What is drawn in a panel.
+//! Marks of a panel.
 
 use serde::Serialize;
 
 use super::Colour;
 
-/// Shapes of one colour, at places `P`: two coordinates in a plane, three in space.
+/// Shapes of one colour at positions `P`, with two coordinates in a plane or three in space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mark<P> {
-    /// What it shows; a legend tells named marks apart.
+    /// Name in the legend; empty for marks without an entry.
     pub name: String,
-    /// The colour.
+    /// Colour.
     pub colour: Colour,
-    /// From 0, invisible, to 1.
+    /// Opacity, from 0 (invisible) to 1.
     pub opacity: f64,
-    /// The shapes.
+    /// Shapes.
     #[serde(flatten)]
     pub shape: Shape<P>,
 }
 
-/// The shapes of a mark.
+/// Shapes of a mark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "shape", rename_all = "lowercase")]
 pub enum Shape<P> {
-    /// Lines through points.
+    /// Polylines.
     Lines {
-        /// The points of each line.
+        /// Points of each line.
         lines: Vec<Vec<P>>,
-        /// In pixels.
+        /// Line width in pixels.
         width: f64,
-        /// Dashed lines are limits and what is published.
+        /// True for limits and published figures, which are dashed.
         dashed: bool,
     },
     /// Dots.
     Points {
-        /// Their places.
+        /// Their positions.
         points: Vec<P>,
-        /// In pixels.
+        /// Radius in pixels.
         radius: f64,
     },
     /// Crosses.
     Crosses {
-        /// Their places.
+        /// Their positions.
         points: Vec<P>,
     },
-    /// The area between two lines.
+    /// Area between two lines.
     Band {
-        /// The lower line.
+        /// Lower line.
         lower: Vec<P>,
-        /// The upper line.
+        /// Upper line.
         upper: Vec<P>,
     },
-    /// Rectangles along the axes.
+    /// Rectangles parallel to the axes.
     Bars {
         /// Two opposite corners of each.
         bars: Vec<[P; 2]>,
     },
-    /// A grid of patches, coloured by their values.
+    /// Grid of patches, coloured by their values.
     Surface {
-        /// The corners of the patches, line by line, those in the back first; none where nothing is known.
+        /// Corners of the patches, row by row from back to front; none where there is no value.
         corners: Vec<Vec<Option<Corner<P>>>>,
-        /// The values of the darkest and of the lightest colour.
+        /// Values of the darkest and of the lightest colour.
         range: [f64; 2],
     },
-    /// Words.
+    /// Labels.
     Texts {
-        /// Each right above its place.
+        /// Position and text of each; the text is to the upper right.
         texts: Vec<(P, String)>,
     },
 }
 
-/// A corner of a patch.
+/// Corner of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Corner<P> {
-    /// Its place.
+    /// Position.
     pub at: P,
-    /// What its colour shows.
+    /// Value shown by the colour.
     pub value: f64,
 }
 
@@ -83,62 +83,62 @@ impl<P: Copy> Mark<P> {
         Self { name: String::new(), colour, opacity: 1.0, shape }
     }
 
-    /// One line.
+    /// Creates one line.
     pub(crate) fn line(colour: Colour, width: f64, points: Vec<P>) -> Self {
         Self::lines(colour, width, vec![points])
     }
 
-    /// Several lines.
+    /// Creates several lines.
     pub(crate) fn lines(colour: Colour, width: f64, lines: Vec<Vec<P>>) -> Self {
         Self::new(colour, Shape::Lines { lines, width, dashed: false })
     }
 
-    /// Several dashed lines.
+    /// Creates several dashed lines.
     pub(crate) fn dashed(colour: Colour, lines: Vec<Vec<P>>) -> Self {
         Self::new(colour, Shape::Lines { lines, width: 1.3, dashed: true })
     }
 
-    /// Dots.
+    /// Creates dots.
     pub(crate) fn points(colour: Colour, radius: f64, points: Vec<P>) -> Self {
         Self::new(colour, Shape::Points { points, radius })
     }
 
-    /// Crosses.
+    /// Creates crosses.
     pub(crate) fn crosses(colour: Colour, points: Vec<P>) -> Self {
         Self::new(colour, Shape::Crosses { points })
     }
 
-    /// The area between two lines.
+    /// Creates the area between two lines.
     pub(crate) fn band(colour: Colour, lower: Vec<P>, upper: Vec<P>) -> Self {
         Self::new(colour, Shape::Band { lower, upper })
     }
 
-    /// Rectangles.
+    /// Creates rectangles.
     pub(crate) fn bars(colour: Colour, bars: Vec<[P; 2]>) -> Self {
         Self::new(colour, Shape::Bars { bars })
     }
 
-    /// A surface.
+    /// Creates a surface.
     pub(crate) fn surface(corners: Vec<Vec<Option<Corner<P>>>>, range: [f64; 2]) -> Self {
         Self::new(Colour::INK, Shape::Surface { corners, range })
     }
 
-    /// Words.
+    /// Creates labels.
     pub(crate) fn texts(texts: Vec<(P, String)>) -> Self {
         Self::new(Colour::INK, Shape::Texts { texts })
     }
 
-    /// The mark with a name.
+    /// Sets the name.
     pub(crate) fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
 
-    /// The mark, through which others are seen.
+    /// Sets the opacity.
     pub(crate) fn faded(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 
-    /// All places.
+    /// Returns the positions of all shapes.
     pub(crate) fn places(&self) -> Vec<P> {
         match &self.shape {
             Shape::Lines { lines, .. } => lines.iter().flatten().copied().collect(),
@@ -152,7 +152,7 @@ impl<P: Copy> Mark<P> {
         }
     }
 
-    /// The mark at other places.
+    /// Transforms all positions.
     pub(crate) fn map<Q>(&self, place: impl Fn(P) -> Q) -> Mark<Q> {
         let all = |points: &[P]| points.iter().map(|point| place(*point)).collect::<Vec<_>>();
         let shape = match &self.shape {

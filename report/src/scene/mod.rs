@@ -1,6 +1,6 @@
-//! A figure as plain data: panels with axes, and marks on them, in the units that a reader sees.
+//! Figures as plain data: panels with axes and marks, in the units of display.
 //!
-//! `figures` builds scenes from reports, `svg` draws them, and Python gets them as dicts.
+//! `figures` builds scenes from reports, `svg` renders them, and Python returns them as dicts.
 
 mod axis;
 mod colour;
@@ -9,96 +9,96 @@ mod mark;
 use serde::Serialize;
 
 pub use axis::{Axis, Scale};
-pub(crate) use axis::{ends, with_room};
+pub(crate) use axis::{ends, with_margin};
 pub use colour::Colour;
 pub use mark::{Corner, Mark, Shape};
 
-/// A figure: what it is called, and its panels.
+/// Figure with its title, caption and panels.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scene {
-    /// The title.
+    /// Title.
     pub title: String,
-    /// The manipulator, for those who see the figure by itself.
+    /// Title of the manipulator, for a figure outside its report.
     pub manipulator: String,
-    /// What is drawn, in a few words.
+    /// Short description of the content.
     pub subtitle: String,
-    /// The published figure that shows the same, with its publisher.
+    /// Reference to the corresponding published figure; may be empty.
     pub reference: String,
-    /// What a reader should know about it.
+    /// Caption.
     pub caption: String,
-    /// The number of panels in a row.
+    /// Number of panels per row.
     pub columns: usize,
-    /// The panels, row by row.
+    /// Panels, row by row.
     pub panels: Vec<Panel>,
 }
 
-/// One coordinate system with what is drawn in it.
+/// Coordinate system with its marks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Panel {
-    /// Stands above it.
+    /// Title above the panel.
     pub title: String,
-    /// What is published about it.
+    /// Published value for comparison; may be empty.
     pub published: String,
-    /// The height of what the axes enclose, in pixels.
+    /// Height between the axes, in pixels.
     pub height: f64,
-    /// The axes and the marks.
+    /// Axes and marks.
     #[serde(flatten)]
     pub view: View,
 }
 
-/// A plane, or a space that is seen from a corner.
+/// Plane, or space in a parallel projection.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "view", rename_all = "lowercase")]
 pub enum View {
     /// Two axes.
     Plane {
-        /// To the right.
+        /// Horizontal axis.
         x: Axis,
-        /// Upwards.
+        /// Vertical axis.
         y: Axis,
-        /// The same scale on both axes.
+        /// True if both axes have the same scale.
         equal: bool,
-        /// In the order in which they are drawn.
+        /// Marks from back to front.
         marks: Vec<Mark<[f64; 2]>>,
     },
     /// Three axes.
     Space {
-        /// x, y and z.
+        /// Axes x, y and z.
         axes: [Axis; 3],
-        /// The axis that points up.
+        /// Index of the vertical axis.
         up: usize,
-        /// The same scale on all axes.
+        /// True if all axes have the same scale.
         equal: bool,
-        /// In the order in which they are drawn.
+        /// Marks from back to front.
         marks: Vec<Mark<[f64; 3]>>,
     },
 }
 
 impl Panel {
-    /// A panel with two axes.
+    /// Creates a panel with two axes.
     pub(crate) fn plane(height: f64, x: Axis, y: Axis, marks: Vec<Mark<[f64; 2]>>) -> Self {
         let view = View::Plane { x, y, equal: false, marks };
         Self { title: String::new(), published: String::new(), height, view }
     }
 
-    /// A panel with two axes of the same scale.
+    /// Creates a panel with two axes of the same scale.
     pub(crate) fn equal_plane(height: f64, x: Axis, y: Axis, marks: Vec<Mark<[f64; 2]>>) -> Self {
         let view = View::Plane { x, y, equal: true, marks };
         Self { title: String::new(), published: String::new(), height, view }
     }
 
-    /// A panel with three axes of the same scale.
+    /// Creates a panel with three axes of the same scale.
     pub(crate) fn equal_space(height: f64, axes: [Axis; 3], up: usize, marks: Vec<Mark<[f64; 3]>>) -> Self {
         let view = View::Space { axes, up, equal: true, marks };
         Self { title: String::new(), published: String::new(), height, view }
     }
 
-    /// The panel with a title above it.
+    /// Sets the title.
     pub(crate) fn titled(self, title: String) -> Self {
         Self { title, ..self }
     }
 
-    /// The axes in words.
+    /// Describes the axes.
     fn text(&self) -> String {
         match &self.view {
             View::Plane { x, y, .. } => [y, x].map(Axis::text).join(" over "),
@@ -108,23 +108,23 @@ impl Panel {
 }
 
 impl Scene {
-    /// A figure whose panels stand in rows of so many.
+    /// Creates a figure with `columns` panels per row.
     pub(crate) fn new(title: impl Into<String>, columns: usize, panels: Vec<Panel>) -> Self {
         Self { title: title.into(), columns, panels, ..Self::default() }
     }
 
-    /// The figure with a caption.
+    /// Sets the caption.
     pub(crate) fn captioned(self, caption: impl Into<String>) -> Self {
         Self { caption: caption.into(), ..self }
     }
 
-    /// The second line of the heading.
+    /// Returns the second line of the heading: manipulator, subtitle and reference.
     pub(crate) fn heading(&self) -> String {
         let parts = [&self.manipulator, &self.subtitle, &self.reference].map(String::as_str);
         parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
     }
 
-    /// The figure in words, for those who cannot see it.
+    /// Returns the text alternative: caption and axes.
     pub(crate) fn alternative(&self) -> String {
         let panels = self.panels.iter().map(Panel::text).collect::<Vec<_>>();
         format!("{} {}.", self.caption, panels.join(". ")).trim_start().to_owned()

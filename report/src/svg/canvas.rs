@@ -1,14 +1,17 @@
-//! SVG elements one after another, in pixels.
+//! Writer of SVG elements, in pixels.
 
 use std::fmt::Write as _;
 
 use crate::markup::escaped;
 use crate::scene::Colour;
 
-/// A place: pixels to the right and downwards.
+/// Position in pixels, to the right and down.
 pub(super) type Pixel = [f64; 2];
 
-/// A part of the sheet.
+/// Width of every figure, in pixels.
+pub(super) const WIDTH: f64 = 960.0;
+
+/// Rectangle of the sheet, in pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Area {
     pub(super) left: f64,
@@ -27,7 +30,7 @@ impl Area {
     }
 }
 
-/// The side of a text that stands at its place.
+/// Alignment of a text relative to its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -35,7 +38,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// The size and the colour of a text.
+/// Size and colour of a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Font {
     pub(super) size: f64,
@@ -44,75 +47,75 @@ pub(super) struct Font {
 }
 
 impl Font {
-    /// The title of a figure.
+    /// Title of a figure.
     pub(super) const TITLE: Self = Self { size: 17.0, colour: Colour::INK, bold: true };
-    /// The title of a panel.
+    /// Title of a panel.
     pub(super) const HEAD: Self = Self { size: 13.0, colour: Colour::INK, bold: true };
-    /// The name of an axis, and words in a figure.
+    /// Title of an axis, legend and labels.
     pub(super) const WORDS: Self = Self { size: 12.5, colour: Colour::INK, bold: false };
-    /// What is said beside the title.
+    /// Second line of the heading.
     pub(super) const ASIDE: Self = Self { size: 12.5, colour: Colour::GREY, bold: false };
-    /// The numbers of an axis.
+    /// Tick labels.
     pub(super) const TICK: Self = Self { size: 11.5, colour: Colour::GREY, bold: false };
-    /// What is published.
+    /// Published values.
     pub(super) const PUBLISHED: Self = Self { size: 12.5, colour: Colour::PUBLISHED, bold: false };
 
-    /// About how wide a text is: SVG does not tell.
+    /// Estimates the width of a text, which SVG does not provide.
     pub(super) fn width(&self, text: &str) -> f64 {
         let wide = if self.bold { 0.6 } else { 0.55 };
         wide * self.size * text.chars().count() as f64
     }
 }
 
-/// What is drawn so far.
+/// SVG elements written so far.
 #[derive(Default)]
 pub(super) struct Canvas {
     elements: String,
 }
 
-/// A number of pixels, to a tenth.
+/// Formats a number of pixels to a tenth.
 pub(super) fn px(pixels: f64) -> String {
     let text = format!("{pixels:.1}");
     let text = text.strip_suffix(".0").unwrap_or(&text);
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// `M` and `L` through places.
+/// Formats the path of a polyline.
 pub(super) fn path(points: &[Pixel]) -> String {
     let mut text = String::new();
     for (i, [x, y]) in points.iter().enumerate() {
         text += &format!("{}{} {}", if i == 0 { "M" } else { "L" }, px(*x), px(*y));
     }
-    // A single point is seen as a dot.
+    // A round cap makes a single point visible as a dot.
     if points.len() == 1 { text + "h0" } else { text }
 }
 
 impl Canvas {
-    /// A path with attributes, and what it shows, if that has a name.
+    /// Adds a path; a name becomes its `<title>`.
     pub(super) fn path(&mut self, d: &str, attributes: &str, name: &str) {
         let name = if name.is_empty() { String::new() } else { format!("<title>{}</title>", escaped(name)) };
         let end = if name.is_empty() { "/>".to_owned() } else { format!(">{name}</path>") };
         writeln!(self.elements, "<path d=\"{d}\" {attributes}{end}").expect("a text takes all");
     }
 
-    /// A straight line.
+    /// Adds a straight line.
     pub(super) fn line(&mut self, ends: [Pixel; 2], colour: Colour, width: f64) {
         let attributes = format!("stroke=\"{}\" stroke-width=\"{width}\"", colour.css());
         self.path(&path(&ends), &attributes, "");
     }
 
-    /// A text whose baseline is at a place.
+    /// Adds a text with its baseline at a position.
     pub(super) fn text(&mut self, at: Pixel, text: &str, font: Font, anchor: Anchor) {
         self.word(at, text, font, anchor, "");
     }
 
-    /// A text that is read upwards.
+    /// Adds a text rotated by 90° to read upwards.
     pub(super) fn upward_text(&mut self, at: Pixel, text: &str, font: Font) {
         let turn = format!(" transform=\"rotate(-90 {} {})\"", px(at[0]), px(at[1]));
         self.word(at, text, font, Anchor::Middle, &turn);
     }
 
-    /// A text that can be read where a line passes behind it.
+    /// Adds a text with a white halo, legible on top of lines.
     pub(super) fn haloed_text(&mut self, at: Pixel, text: &str, font: Font, anchor: Anchor) {
         let halo = " stroke=\"#fff\" stroke-width=\"3.5\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
         self.word(at, text, font, anchor, halo);

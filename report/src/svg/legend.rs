@@ -1,19 +1,18 @@
-//! The legend below a figure: what its colours and shapes show.
+//! Legend below a figure.
 
-use super::canvas::{Anchor, Canvas, Font};
+use super::canvas::{Anchor, Area, Canvas, Font, WIDTH};
 use super::shapes;
-use super::{Area, WIDTH};
 use crate::scene::{Mark, Panel, Shape, View};
 
-/// The height of a row.
+/// Height of a row.
 const ROW: f64 = 20.0;
-/// The width of a sample, and of the room behind it and behind each name.
+/// Width of a sample, gap after it, gap after each name, and left margin.
 const SAMPLE: f64 = 18.0;
 const GAP: f64 = 6.0;
-const ROOM: f64 = 22.0;
+const NAME_GAP: f64 = 22.0;
 const LEFT: f64 = 18.0;
 
-/// The marks that have names, each name once, as samples one pixel apart.
+/// Returns one sample per name, in the unit square.
 fn named(panels: &[Panel]) -> Vec<Mark<[f64; 2]>> {
     fn add<P: Copy>(found: &mut Vec<Mark<[f64; 2]>>, marks: &[Mark<P>]) {
         for mark in marks.iter().filter(|mark| !mark.name.is_empty()) {
@@ -32,7 +31,7 @@ fn named(panels: &[Panel]) -> Vec<Mark<[f64; 2]>> {
     found
 }
 
-/// The same mark between (0, 0) and (1, 1).
+/// Returns a sample of a mark between (0, 0) and (1, 1).
 fn sample<P: Copy>(mark: &Mark<P>) -> Mark<[f64; 2]> {
     let (middle, ends) = ([0.5, 0.5], [[0.0, 0.5], [1.0, 0.5]]);
     let shape = match &mark.shape {
@@ -46,7 +45,7 @@ fn sample<P: Copy>(mark: &Mark<P>) -> Mark<[f64; 2]> {
     Mark { name: mark.name.clone(), colour: mark.colour, opacity: mark.opacity, shape }
 }
 
-/// The left end and the row of every entry, and the number of rows.
+/// Returns the position of every entry, and the number of rows.
 fn places(marks: &[Mark<[f64; 2]>]) -> (Vec<[f64; 2]>, usize) {
     let (mut left, mut row) = (LEFT, 0);
     let place = |mark: &Mark<[f64; 2]>| {
@@ -55,13 +54,13 @@ fn places(marks: &[Mark<[f64; 2]>]) -> (Vec<[f64; 2]>, usize) {
             (left, row) = (LEFT, row + 1);
         }
         let place = [left, ROW * f64::from(row)];
-        left += width + ROOM;
+        left += width + NAME_GAP;
         place
     };
     (marks.iter().map(place).collect(), if marks.is_empty() { 0 } else { row as usize + 1 })
 }
 
-/// The height of the legend; a figure without names has none.
+/// Returns the height of the legend; 0 for a figure without names.
 pub(super) fn height(panels: &[Panel]) -> f64 {
     match places(&named(panels)).1 {
         0 => 0.0,
@@ -69,7 +68,7 @@ pub(super) fn height(panels: &[Panel]) -> f64 {
     }
 }
 
-/// Draws it from there on.
+/// Draws the legend below `top`.
 pub(super) fn draw(canvas: &mut Canvas, panels: &[Panel], top: f64) {
     let marks = named(panels);
     for (mark, [left, down]) in marks.iter().zip(places(&marks).0) {

@@ -1,7 +1,8 @@
-//! The one renderer: a scene as SVG.
+//! Renderer of scenes as SVG.
 //!
-//! A sheet has a heading, panels in rows, and a legend. `plane` and `space` draw a panel's axes and take its marks to pixels,
-//! `shapes` draws them, `ticks` finds the numbers of an axis, `legend` says what is what.
+//! A sheet has a heading, rows of panels and a legend. `plane` and `space` draw the axes of a panel
+//! and project its marks to pixels, `shapes` draws marks, `ticks` chooses tick positions, and
+//! `legend` draws the legend.
 
 mod canvas;
 mod legend;
@@ -10,22 +11,20 @@ mod shapes;
 mod space;
 mod ticks;
 
-use canvas::{Anchor, Area, Canvas, Font, px};
+use canvas::{Anchor, Area, Canvas, Font, WIDTH, px};
 use plane::Plane;
 use space::Space;
 
 use crate::markup::escaped;
 use crate::scene::{Panel, Scene, View};
 
-/// The width of every figure, in pixels.
-const WIDTH: f64 = 960.0;
-/// The height of the heading.
+/// Height of the heading.
 const HEAD: f64 = 56.0;
-/// Room between panels, and right of each.
+/// Gap between panels, and margin to the right of each.
 const GAP: f64 = 10.0;
 const RIGHT: f64 = 14.0;
 
-/// A figure as a file: with its heading.
+/// Renders a figure as a file with a heading.
 pub(crate) fn file(scene: &Scene) -> String {
     let mut canvas = Canvas::default();
     canvas.text([18.0, 26.0], &scene.title, Font::TITLE, Anchor::Start);
@@ -33,7 +32,7 @@ pub(crate) fn file(scene: &Scene) -> String {
     sheet(canvas, scene, HEAD, " xmlns=\"http://www.w3.org/2000/svg\"")
 }
 
-/// A figure as a part of a page, which has the heading.
+/// Renders a figure for a page that has the heading itself.
 pub(crate) fn embedded(scene: &Scene) -> String {
     sheet(Canvas::default(), scene, 4.0, "")
 }
@@ -57,7 +56,7 @@ fn sheet(mut canvas: Canvas, scene: &Scene, top: f64, namespace: &str) -> String
     )
 }
 
-/// Draws panels side by side, and returns where they end.
+/// Draws a row of panels and returns its lower end.
 fn panels(canvas: &mut Canvas, row: &[Panel], columns: usize, top: f64) -> f64 {
     let width = (WIDTH - GAP) / columns as f64;
     let any = |has: fn(&Panel) -> bool| if row.iter().any(has) { 19.0 } else { 0.0 };
@@ -102,7 +101,7 @@ mod tests {
         Axis::linear(name, "mm", range)
     }
 
-    /// The coordinates of the first path of a colour.
+    /// Parses the coordinates of the first path of a colour.
     fn places(svg: &str, colour: Colour) -> Vec<[f64; 2]> {
         let is_its = |line: &&str| line.contains(&format!("stroke=\"{}\"", colour.css()));
         let line = svg.lines().find(is_its).expect("a path");
@@ -138,7 +137,7 @@ mod tests {
         assert!((b[0] - a[0] - 90.0).abs() < 0.2 && (b[1] - c[1] - 90.0).abs() < 0.2, "{a:?} {b:?} {c:?}");
     }
 
-    /// Seen from a corner, right-handed: x to the lower left, y to the lower right, z up.
+    /// The projection is right-handed: x to the lower left, y to the lower right, z up.
     #[test]
     fn axes_in_space_are_right_handed() {
         let axes = ["x", "y", "z"].map(|name| axis(name, [0.0, 1.0]));

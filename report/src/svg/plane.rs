@@ -1,14 +1,14 @@
-//! A panel with two axes.
+//! Panel with two axes.
 
 use super::canvas::{Anchor, Area, Canvas, Font, Pixel};
 use super::shapes;
 use super::ticks::{Tick, ticks};
 use crate::scene::{Axis, Colour, Mark, Scale};
 
-/// The height of a line of names below an axis.
+/// Height of a line of names below an axis.
 const LINE: f64 = 14.0;
 
-/// A panel that is to be drawn.
+/// Panel to draw.
 pub(super) struct Plane<'a> {
     pub(super) x: &'a Axis,
     pub(super) y: &'a Axis,
@@ -26,14 +26,14 @@ impl Plane<'_> {
         ticks(x, ((width / each) as usize).clamp(2, 10))
     }
 
-    /// How wide the numbers and the name left of the panel are.
+    /// Returns the width of tick labels and title left of the panel.
     pub(super) fn left(&self, height: f64) -> f64 {
         let labels = Self::y_ticks(self.y, height);
         let widest = labels.iter().map(|tick| Font::TICK.width(&tick.label)).fold(0.0, f64::max);
         if widest > 0.0 { widest + 34.0 } else { 12.0 }
     }
 
-    /// How high the numbers and the name below the panel are, if it is so wide.
+    /// Returns the height of tick labels and title below a panel of this width.
     pub(super) fn foot(&self, width: f64) -> f64 {
         match &self.x.scale {
             _ if !self.x.numbered => 10.0,
@@ -45,14 +45,14 @@ impl Plane<'_> {
         }
     }
 
-    /// The names of the axis, in lines that are no wider than their bars.
+    /// Wraps the names of the axis to the width of their bars.
     fn name_lines<'n>(&self, names: &'n [String], width: f64) -> impl Iterator<Item = Vec<String>> + use<'n> {
         let [from, to] = self.x.range;
         let letters = (width / (to - from) / Font::TICK.width("n")).max(8.0) as usize;
         names.iter().map(move |name| wrapped(name, letters))
     }
 
-    /// Draws it with its axes around the area.
+    /// Draws the panel with its axes around the area.
     pub(super) fn draw(&self, canvas: &mut Canvas, area: &Area) {
         let (x, y) = if self.equal { equal(self.x, self.y, area) } else { (self.x.clone(), self.y.clone()) };
         let across = |value: f64| area.left + area.width * x.share(value);
@@ -91,7 +91,7 @@ impl Plane<'_> {
         }
     }
 
-    /// The numbers or names below the panel, and the name of the axis.
+    /// Draws the tick labels or names below the panel, and the title of the axis.
     fn numbers(&self, canvas: &mut Canvas, area: &Area, x: &Axis, ticks: &[Tick]) {
         let across = |value: f64| area.left + area.width * x.share(value);
         if let Scale::Names(names) = &x.scale {
@@ -113,7 +113,7 @@ impl Plane<'_> {
     }
 }
 
-/// The axes, one of them longer, so that both have the same scale.
+/// Extends one of the axes so that both have the same scale.
 fn equal(x: &Axis, y: &Axis, area: &Area) -> (Axis, Axis) {
     let span = |axis: &Axis| axis.range[1] - axis.range[0];
     let scale = (span(x) / area.width).max(span(y) / area.height);
@@ -124,7 +124,8 @@ fn equal(x: &Axis, y: &Axis, area: &Area) -> (Axis, Axis) {
     (longer(x, area.width), longer(y, area.height))
 }
 
-/// Words in lines of at most so many letters, longer words aside; lines that end stay apart.
+/// Wraps a text to lines of at most `letters` letters. Line breaks are kept; longer words are not
+/// split.
 fn wrapped(name: &str, letters: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for part in name.lines() {

@@ -1,11 +1,11 @@
-//! Marks at pixels.
+//! Drawing of marks at pixel positions.
 
 use std::collections::BTreeSet;
 
 use super::canvas::{Anchor, Area, Canvas, Font, Pixel, path, px};
 use crate::scene::{Colour, Corner, Mark, Shape};
 
-/// Draws a mark; its words stay within the area.
+/// Draws a mark. Labels stay within the area.
 pub(super) fn draw(canvas: &mut Canvas, mark: &Mark<Pixel>, area: &Area) {
     let colour = mark.colour.css();
     let opacity = |kind: &str| match mark.opacity {
@@ -48,7 +48,7 @@ pub(super) fn draw(canvas: &mut Canvas, mark: &Mark<Pixel>, area: &Area) {
     }
 }
 
-/// Dots, each place once: those at the same half pixel hide each other.
+/// Returns the path of dots, one per half pixel: others would be hidden.
 fn dots(points: &[Pixel]) -> String {
     let places = points.iter().map(|[x, y]| [*y, *x].map(|pixels| (2.0 * pixels).round() as i64));
     let places = places.collect::<BTreeSet<_>>();
@@ -56,7 +56,7 @@ fn dots(points: &[Pixel]) -> String {
     places.into_iter().map(dot).collect()
 }
 
-/// Patches between four neighbours that are known, each in the colour of its mean.
+/// Draws the patches whose four corners are known, each in the colour of its mean.
 fn surface(canvas: &mut Canvas, corners: &[Vec<Option<Corner<Pixel>>>], [least, most]: [f64; 2]) {
     for lines in corners.windows(2) {
         for (one, other) in lines[0].windows(2).zip(lines[1].windows(2)) {
@@ -71,7 +71,7 @@ fn surface(canvas: &mut Canvas, corners: &[Vec<Option<Corner<Pixel>>>], [least, 
     }
 }
 
-/// Words beside their places, those of neighbours one below the other.
+/// Draws labels at their positions, shifted down where they would overlap.
 fn words(canvas: &mut Canvas, texts: &[(Pixel, String)], area: &Area) {
     const LINE: f64 = 15.0;
     let font = Font::WORDS;

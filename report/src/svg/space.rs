@@ -1,19 +1,20 @@
-//! A panel with three axes, in parallel projection from a corner.
+//! Panel with three axes, in parallel projection.
 
 use super::canvas::{Anchor, Area, Canvas, Font, Pixel};
 use super::shapes;
 use super::ticks::{Tick, ticks};
 use crate::scene::{Axis, Colour, Mark};
 
-/// The direction to the eye: from the first horizontal axis to the second, and above both. Degrees.
+/// Direction to the viewer in degrees: azimuth from the first horizontal axis to the second, and
+/// elevation.
 const AZIMUTH: f64 = 38.0;
 const ELEVATION: f64 = 24.0;
-/// Room for the numbers on the left, right, top and bottom.
-const ROOM: [f64; 4] = [62.0, 46.0, 22.0, 46.0];
-/// The height of a box whose axes have scales of their own, in its width.
+/// Margins for tick labels: left, right, top and bottom.
+const MARGINS: [f64; 4] = [62.0, 46.0, 22.0, 46.0];
+/// Height of a box with independent scales, relative to its width.
 const HEIGHT: f64 = 0.8;
 
-/// A panel that is to be drawn.
+/// Panel to draw.
 pub(super) struct Space<'a> {
     pub(super) axes: &'a [Axis; 3],
     pub(super) up: usize,
@@ -21,9 +22,9 @@ pub(super) struct Space<'a> {
     pub(super) marks: &'a [Mark<[f64; 3]>],
 }
 
-/// Places of the box, from 0 to 1 along each axis, as they are seen.
+/// Projection of the box, whose coordinates are from 0 to 1 along each axis.
 struct Camera {
-    /// Pixels to the right and downwards along each axis.
+    /// Pixels to the right and down along each axis.
     axes: [Pixel; 3],
     origin: Pixel,
 }
@@ -40,12 +41,12 @@ impl Camera {
 }
 
 impl Space<'_> {
-    /// The two horizontal axes: with the one that points up right-handed.
+    /// Returns the two horizontal axes, right-handed with the vertical axis.
     fn ground(&self) -> [usize; 2] {
         [(self.up + 1) % 3, (self.up + 2) % 3]
     }
 
-    /// The largest view that fits into the area.
+    /// Computes the largest projection that fits the area.
     fn camera(&self, area: &Area) -> Camera {
         let [a, b] = self.ground();
         let (sin, cos) = AZIMUTH.to_radians().sin_cos();
@@ -60,18 +61,18 @@ impl Space<'_> {
         axes[b] = [cos, sin * rise].map(|unit| unit * size(b));
         axes[self.up] = [0.0, -flat * size(self.up)];
         let spans = [0, 1].map(|i| axes.iter().map(|axis| axis[i].abs()).sum::<f64>());
-        let [left, right, top, bottom] = ROOM;
+        let [left, right, top, bottom] = MARGINS;
         let room = [area.width - left - right, area.height - top - bottom];
         let scale = (room[0] / spans[0]).min(room[1] / spans[1]);
         let axes = axes.map(|axis| axis.map(|unit| unit * scale));
-        // The corner that is seen farthest to the left and up, in the middle of the room.
+        // Upper left corner of the projected box, centered in the available area.
         let least = [0, 1].map(|i| axes.iter().map(|axis| axis[i].min(0.0)).sum::<f64>());
         let corner = [area.left + left, area.top + top];
         let origin = [0, 1].map(|i| corner[i] + (room[i] - scale * spans[i]) / 2.0 - least[i]);
         Camera { axes, origin }
     }
 
-    /// Draws it within the area.
+    /// Draws the panel within the area.
     pub(super) fn draw(&self, canvas: &mut Canvas, area: &Area) {
         let camera = self.camera(area);
         let all: [Vec<Tick>; 3] = std::array::from_fn(|axis| {
@@ -87,11 +88,11 @@ impl Space<'_> {
         }
     }
 
-    /// The floor and the two walls in the back, with their grids.
+    /// Draws the floor and the two back walls with their grids.
     fn walls(&self, canvas: &mut Canvas, camera: &Camera, all: &[Vec<Tick>; 3]) {
         let mut line = |axis: usize, share: f64, colour: Colour| {
             for wall in [(axis + 1) % 3, (axis + 2) % 3] {
-                // On the other of the two walls that this axis spans.
+                // Each axis spans two walls; the line is drawn on both.
                 let end = |to: f64| {
                     let mut place = [0.0; 3];
                     place[axis] = share;
@@ -110,10 +111,11 @@ impl Space<'_> {
         }
     }
 
-    /// The three edges in front with their numbers and names.
+    /// Draws the three front edges with tick labels and titles.
     fn numbers(&self, canvas: &mut Canvas, camera: &Camera, all: &[Vec<Tick>; 3], area: &Area) {
         let [a, b] = self.ground();
-        // The edges: of a on the lower right, of b on the lower left, of the third on the left.
+        // Edges: the first horizontal axis at the lower right, the second at the lower left, the
+        // vertical axis at the left.
         for (axis, beside, [dx, dy], anchor) in [
             (a, b, [7.0, 13.0], Anchor::Start),
             (b, a, [-7.0, 13.0], Anchor::End),

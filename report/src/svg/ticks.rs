@@ -1,18 +1,18 @@
-//! Where an axis has numbers.
+//! Tick positions of an axis.
 
 use abbe_study::data::Calendar;
 use abbe_study::number;
 
 use crate::scene::{Axis, Scale};
 
-/// A place of an axis, and what stands there.
+/// Tick with its position and label.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tick {
     pub(super) at: f64,
     pub(super) label: String,
 }
 
-/// Round values within the range of an axis, at most about so many.
+/// Returns round values within the range of an axis, at most about `about`.
 pub(super) fn ticks(axis: &Axis, about: usize) -> Vec<Tick> {
     match &axis.scale {
         Scale::Linear => linear(axis.range, &axis.unit, about),
@@ -44,7 +44,7 @@ fn linear([least, largest]: [f64; 2], unit: &str, about: usize) -> Vec<Tick> {
     values.map(|at| Tick { at, label: label(at) }).collect()
 }
 
-/// Powers of ten.
+/// Returns powers of ten.
 fn decades([least, largest]: [f64; 2], about: usize) -> Vec<Tick> {
     let (first, last) = ((least.log10() - 1e-9).ceil() as i32, (largest.log10() + 1e-9).floor() as i32);
     let every = usize::try_from(last - first).unwrap_or(0) / about.max(1) + 1;
@@ -52,7 +52,7 @@ fn decades([least, largest]: [f64; 2], about: usize) -> Vec<Tick> {
     powers.map(|at| Tick { at, label: number::short(at) }).collect()
 }
 
-/// Days, or the first days of months or years.
+/// Returns days, or the first days of months or years.
 fn dates([first, last]: [f64; 2], about: usize) -> Vec<Tick> {
     let days = (last - first) / about.max(1) as f64;
     let all = (first.ceil() as i64..=last.floor() as i64).map(|day| {

@@ -1,11 +1,11 @@
-//! What became of a robot in a spec, as text.
+//! Text of an import.
 
 use std::fmt::Write;
 
 use abbe_study::import::{ImportedFrame, Report};
 use abbe_study::number::counted;
 
-/// What `abbe import` prints when it has written a spec.
+/// Prints the summary of an imported robot.
 pub fn imported(report: &Report) -> String {
     let Report { manipulator, base, tip, frames, loads, largest_difference, configurations, length, .. } =
         report;
@@ -29,7 +29,8 @@ pub fn imported(report: &Report) -> String {
     }
     let _ = writeln!(
         text,
-        "\nThe poses of the spec are those of the file: at {configurations} configurations they differ by {largest_difference:.1e} {length} or rad at most."
+        "\nThe poses of the spec agree with the file: at {configurations} configurations they \
+         differ by at most {largest_difference:.1e} {length} or rad."
     );
     text
 }

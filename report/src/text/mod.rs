@@ -1,34 +1,95 @@
-//! Reports as plain text, at most 100 wide: what a terminal and an interpreter of Python print.
+//! Reports as plain text of at most [`WIDTH`] columns, for terminals and for `print` in Python.
 //!
-//! One file for each job, and one function from its report to text; `table` is what they are set with.
+//! `answer` has the first screen of each job, at most 25 lines; `full` has every table.
 
-mod alike;
-mod analysis;
-mod bound;
-mod check;
-mod compensation;
-mod doctor;
-mod exported;
-mod identification;
+mod answer;
+mod full;
 mod imported;
 mod jacobian;
 mod list;
-pub(crate) mod measurement;
-pub(crate) mod monitoring;
-mod plan;
 mod table;
 
-pub use analysis::analysis;
-pub use bound::bound;
-pub use check::check;
-pub use compensation::compensation;
-pub use doctor::doctor;
-pub use exported::exported;
-pub use identification::{full_identification, identification};
+use abbe::Description;
+use abbe_spec::Spec;
+use abbe_study::data::Map;
+use abbe_study::{analyze, bound, check, compensate, doctor, export, identify, measure, monitor, plan};
+
+pub use answer::next;
 pub use imported::imported;
 pub use jacobian::jacobian;
 pub use list::list;
-pub use measurement::measurement;
-pub use monitoring::monitoring;
-pub use plan::plan;
 pub use table::{Table, WIDTH, listed, wrapped};
+
+/// Amount of a report to print.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Detail {
+    /// The answer on one screen: at most 25 lines.
+    #[default]
+    Answer,
+    /// Every table and every sentence.
+    Full,
+}
+
+impl Detail {
+    /// Returns [`Full`](Self::Full) if everything is wanted.
+    pub fn new(full: bool) -> Self {
+        if full { Self::Full } else { Self::Answer }
+    }
+
+    fn choose<T>(self, answer: T, full: T) -> T {
+        match self {
+            Self::Answer => answer,
+            Self::Full => full,
+        }
+    }
+}
+
+/// Prints an error budget over a workspace.
+pub fn analysis(report: &analyze::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_) -> _>(answer::analysis, full::analysis)(report)
+}
+
+/// Prints the check of a spec.
+pub fn check(report: &check::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_) -> _>(answer::check, full::check)(report)
+}
+
+/// Prints certified bounds of errors.
+pub fn bound(report: &bound::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_) -> _>(answer::bound, full::bound)(report)
+}
+
+/// Prints an identification, without the files that it wrote.
+pub fn identification(spec: &Spec, report: &identify::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_, &_) -> _>(answer::identification, full::identification)(spec, report)
+}
+
+/// Prints the errors of a measured machine.
+pub fn measurement(spec: &Spec, report: &measure::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_, &_) -> _>(answer::measurement, full::measurement)(spec, report)
+}
+
+/// Prints what compensation reaches.
+pub fn compensation(machine: &Description, report: &compensate::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_, &_) -> _>(answer::compensation, full::compensation)(machine, report)
+}
+
+/// Prints a plan of measurements, without the file that it wrote.
+pub fn plan(spec: &Spec, map: &Map, report: &plan::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_, &_, &_) -> _>(answer::plan, full::plan)(spec, map, report)
+}
+
+/// Prints control charts and the alarm they raise.
+pub fn monitoring(spec: &Spec, report: &monitor::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_, &_) -> _>(answer::monitoring, full::monitoring)(spec, report)
+}
+
+/// Prints the conventions in which rows of joints and poses fit the manipulator.
+pub fn doctor(report: &doctor::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_) -> _>(answer::doctor, full::doctor)(report)
+}
+
+/// Prints the quality of exported files, without their names.
+pub fn exported(report: &export::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_) -> _>(answer::exported, full::exported)(report)
+}

@@ -6,10 +6,11 @@ use abbe_study::Listing;
 use abbe_study::number::NO_BREAK;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle};
 
-/// The width that everything is set to, so that the same input gives the same text on every terminal.
+/// Width of all text in columns. It is fixed, so that the same input gives the same text on every
+/// terminal.
 pub const WIDTH: usize = 100;
 
-/// How many letters of a word stand in a table.
+/// Number of characters of a word that a table shows.
 const LONGEST: usize = 2 * WIDTH;
 
 const STYLE: TableStyle =
@@ -35,8 +36,8 @@ impl Table {
         Self(table)
     }
 
-    /// Adds a row. Lines of a cell stand beside the same lines of the others; of words that are longer than two lines of the
-    /// widest table stands the beginning.
+    /// Adds a row. The lines of a cell stand beside those of the other cells; longer words than two
+    /// lines of the widest table are cut.
     pub fn row<T: Into<String>>(&mut self, cells: impl IntoIterator<Item = T>) {
         self.0.add_row(cells.into_iter().map(|cell| cut(cell.into())));
     }
@@ -63,7 +64,7 @@ impl Table {
     }
 }
 
-/// A text whose words are no longer than [`LONGEST`]: to set one takes time with the square of its length.
+/// Cuts words to [`LONGEST`] characters: the layout time grows with the square of their length.
 fn cut(text: String) -> String {
     let blank = |letter: char| letter == ' ' || letter == '\n';
     if text.split(blank).all(|word| word.len() <= LONGEST) {

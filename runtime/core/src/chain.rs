@@ -1,18 +1,18 @@
 //! The exact chain: equations (2) and (6) with true rotations, frame by frame.
 //!
-//! Generated code never uses it; it is what generated code is checked against.
+//! Generated code never calls it; it verifies generated code.
 
 use crate::{Component, Orientation, Pose, Scalar};
 
-/// `A_1 A_2 … A_n · T`: the pose of the tool in `F_0`. `transforms` holds `A_1 … A_n` and `T`.
+/// Returns `A_1 A_2 … A_n · T`, the tool pose in `F_0`. `transforms` holds `A_1 … A_n` and `T`.
 pub fn chain(transforms: &[Pose]) -> Pose {
     transforms.iter().fold(Pose::IDENTITY, |product, transform| product.then(transform))
 }
 
-/// `A_1 E_1 A_2 E_2 … A_n E_n · T`, equation (6), with exact rotations.
+/// Returns `A_1 E_1 A_2 E_2 … A_n E_n · T`, equation (6), with exact rotations.
 ///
-/// `transforms` holds `A_1 … A_n` and `T`; `errors` the six generalized errors of each frame. Frames beyond
-/// the end of `errors` have none.
+/// `transforms` holds `A_1 … A_n` and `T`. `errors` holds the six generalized errors of each frame;
+/// frames beyond its end have none.
 pub fn real_pose(transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
     let mut product = Pose::IDENTITY;
     for (i, transform) in transforms.iter().enumerate() {
@@ -24,7 +24,7 @@ pub fn real_pose(transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
     product
 }
 
-/// `E_i`: translation `(e_x, e_y, e_z)` and `R = R_y(e_s) R_z(e_r) R_x(e_p)`.
+/// Returns `E_i`: translation `(e_x, e_y, e_z)` and rotation `R = R_y(e_s) R_z(e_r) R_x(e_p)`.
 pub fn displacement(e: &[f64; 6]) -> Pose {
     let (ss, cs) = Scalar::sin_cos(e[Component::Spin.index()]);
     let (sr, cr) = Scalar::sin_cos(e[Component::Roll.index()]);
@@ -35,20 +35,23 @@ pub fn displacement(e: &[f64; 6]) -> Pose {
     spin.then(&roll).then(&pitch)
 }
 
-/// The six errors of a frame from those at another place on its link, exactly: `E_i = L E_M L⁻¹` (Figure 5).
+/// Converts the six errors at another point of a frame's link to those of the frame, exactly:
+/// `E_i = L E_M L⁻¹` (Figure 5).
 ///
-/// `place` is `L`, the pose of that place as seen from the frame; `errors` are those at the place, in its axes.
-/// The effects of a located source are this to first order; the real pose of generated code is exact.
+/// `place` is `L`, the pose of that point relative to the frame; `errors` are the errors there, in
+/// its axes. The effects of a located source are the first-order approximation; the real pose of
+/// generated code is exact.
 pub fn located(place: &Pose, errors: &[f64; 6]) -> [f64; 6] {
     let displaced = place.then(&displacement(errors)).then(&place.inverse());
     let ([x, y, z], [spin, roll, pitch]) = (displaced.position(), euler_yzx(&displaced));
     [x, y, z, spin, roll, pitch]
 }
 
-/// `ΔX = X_real − X_ideal`, equation (5): the rows that `J_e ε` approximates.
+/// Returns `ΔX = X_real − X_ideal`, equation (5), which `J_e ε` approximates.
 ///
-/// Rows 1–3 in the length of the poses, rows 4–6 in rad as `orientation` says. Euler differences are taken to
-/// (−π, π]; they mean nothing where the Euler angles of either pose are singular.
+/// Rows 1–3 are in the length unit of the poses, rows 4–6 in rad as `orientation` says. Euler
+/// differences are wrapped to (−π, π]; they are meaningless where the Euler angles of either pose
+/// are singular.
 pub fn deviation(orientation: Orientation, ideal: &Pose, real: &Pose) -> [f64; 6] {
     let turn = match orientation {
         Orientation::RotationVector => {
@@ -65,17 +68,18 @@ pub fn deviation(orientation: Orientation, ideal: &Pose, real: &Pose) -> [f64; 6
     [to[0] - from[0], to[1] - from[1], to[2] - from[2], turn[0], turn[1], turn[2]]
 }
 
-/// Spin, roll and pitch of `R = R_y(σ) R_z(ρ) R_x(π)`.
+/// Returns spin, roll and pitch of `R = R_y(σ) R_z(ρ) R_x(π)`.
 fn euler_yzx(pose: &Pose) -> [f64; 3] {
     let [x, y, z, _] = pose.0;
     let cosine = Scalar::sqrt(x[0] * x[0] + x[2] * x[2]);
     [Scalar::atan2(-x[2], x[0]), Scalar::atan2(x[1], cosine), Scalar::atan2(-z[1], y[1])]
 }
 
-/// Below it twice the sine of an angle has no square; the angle is then half of it.
+/// Limit on twice the sine of an angle below which its square underflows; the rotation vector is
+/// then half the antisymmetric part.
 pub const LEAST_SINE: f64 = 1e-150;
 
-/// The rotation vector of a rotation: its axis times its angle.
+/// Returns the rotation vector of a rotation: its axis times its angle.
 pub fn rotation_vector(pose: &Pose) -> [f64; 3] {
     let [x, y, z, _] = pose.0;
     let v = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
@@ -121,7 +125,7 @@ mod tests {
         for i in 0..6 {
             assert!((euler[i] - e[i]).abs() < 1e-15);
         }
-        // About x, y, z: pitch, spin, roll.
+        // Rotations about x, y, z: pitch, spin, roll.
         for (i, expected) in [(3, e[5]), (4, e[3]), (5, e[4])] {
             assert!((vector[i] - expected).abs() < 1e-8);
         }

@@ -1,14 +1,15 @@
-//! The checked face of a generated module: the same for every manipulator, so it stands here once.
+//! The checked functions of a generated module, which are the same for every manipulator.
 //!
-//! A checked function is made of each entry of the table of functions; `checked` has the part that it
-//! shares with the method of [`Manipulator`](crate::Manipulator).
+//! Each entry of the table of functions yields one checked function. `checked` contains the code
+//! that it shares with the method of [`Manipulator`](crate::Manipulator).
 
-/// Puts checked functions, and the [`Manipulator`](crate::Manipulator) they come from, before the raw functions
-/// of a generated module.
+/// Defines the checked functions of a generated module, and the type that implements
+/// [`Manipulator`](crate::Manipulator) by its raw functions.
 ///
-/// Generated code calls it where `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`, `EFFECTS`,
-/// `SOURCES`, `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. Arrays have the right size by their types;
-/// numbers that are not finite, inputs outside their range and Euler singularities are [`Error`](crate::Error)s.
+/// Generated code invokes it where `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`,
+/// `EFFECTS`, `SOURCES`, `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. The types of
+/// arrays fix their sizes. Numbers that are not finite, inputs outside their range and Euler
+/// singularities are [`Error`](crate::Error)s.
 #[macro_export]
 macro_rules! checked_functions {
     ($(#[$documentation:meta])* $name:ident) => {
@@ -18,16 +19,18 @@ macro_rules! checked_functions {
 
         $crate::for_each_function!($crate::checked_function);
 
-        /// Functions that fill arrays, and check what they filled.
+        /// Functions that fill arrays and check the results.
         mod checked {
             use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES, raw};
             $crate::for_each_function!($crate::checked_arrays);
         }
 
-        /// Joint commands that put the real tool where the ideal one is at `q`, within the limits of the variables.
+        /// Computes joint commands that put the real tool where the ideal one is at `q`, within the
+        /// limits of the variables.
         ///
-        /// The commands, and ΔX at `q` and at them; see [`compensate`](::abbe::compensator::compensate). An error if an input
-        /// is outside its range or a number is not finite.
+        /// Returns the commands, with ΔX at `q` and at the commands; see
+        /// [`compensate`](::abbe::compensator::compensate). Fails if an input is outside its range
+        /// or a number is not finite.
         pub fn compensated(
             q: &[f64; VARIABLES],
             s: &Parameters,
@@ -36,10 +39,12 @@ macro_rules! checked_functions {
             compensated_to(&pose(q, s)?, q, s, u)
         }
 
-        /// The same for a pose of the tool in `F_0`, which the commands are sought for from `q` on.
+        /// Computes joint commands that put the real tool at `target`, a pose in `F_0`, starting
+        /// from `q`.
         ///
-        /// `q` must be close: where the ideal tool is at `target`, or in the cycle before. Errors as before, and if the target
-        /// is not finite.
+        /// `q` must be near the solution: a configuration where the ideal tool is at `target`, or
+        /// the commands of the previous cycle. Fails as [`compensated`] does, and if the target is
+        /// not finite.
         pub fn compensated_to(
             target: &$crate::Pose,
             q: &[f64; VARIABLES],
@@ -149,7 +154,7 @@ macro_rules! checked_functions {
     };
 }
 
-/// The checked function of each entry of the table.
+/// Defines the checked function of each entry of the table.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! checked_function {
@@ -171,17 +176,17 @@ macro_rules! checked_function {
                 $crate::checks::given(
                     &DESCRIPTION,
                     $crate::function_array!($argument: $crate::array_quantity),
-                    $crate::checks::Numbers::numbers($argument),
+                    $crate::checks::FlatArray::as_flat($argument),
                 )?;
             )+
-            $(let mut $result: $crate::function_array!($result: $crate::array_type) = $crate::checks::Numbers::ZERO;)+
+            $(let mut $result: $crate::function_array!($result: $crate::array_type) = $crate::checks::FlatArray::ZERO;)+
             checked::$name($($argument,)+ $(&mut $result),+)?;
             Ok(($($crate::as_result!($result: $result)),+))
         }
     )+};
 }
 
-/// The same with its results as arguments; what it is given has been checked.
+/// Defines the functions that take their results as arguments. Their arguments have been checked.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! checked_arrays {
@@ -194,14 +199,14 @@ macro_rules! checked_arrays {
             $crate::checks::margin(raw::$name($($argument,)+ $($result),+))?;
             $($crate::checks::finite(
                 $crate::function_array!($result: $crate::array_quantity),
-                $crate::checks::Numbers::numbers($result),
+                $crate::checks::FlatArray::as_flat($result),
             )?;)+
             Ok(())
         }
     )+};
 }
 
-/// What an array of the table holds.
+/// Expands to the [`Quantity`](crate::Quantity) of an array of the table.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! array_quantity {
@@ -210,7 +215,7 @@ macro_rules! array_quantity {
     };
 }
 
-/// Its type.
+/// Expands to the type of an array.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! array_type {
@@ -219,7 +224,7 @@ macro_rules! array_type {
     };
 }
 
-/// Its type as an argument: parameters and inputs have names.
+/// Expands to the type of an array as an argument: parameters and inputs have named fields.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! argument_type {
@@ -234,7 +239,7 @@ macro_rules! argument_type {
     };
 }
 
-/// Its type as a result: poses are [`Pose`](crate::Pose)s.
+/// Expands to the type of an array as a result: poses are [`Pose`](crate::Pose)s.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! result_type {
@@ -249,7 +254,7 @@ macro_rules! result_type {
     };
 }
 
-/// An argument as the array that it is.
+/// Converts an argument to its array.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! as_array {
@@ -264,7 +269,7 @@ macro_rules! as_array {
     };
 }
 
-/// An array as the result that it is.
+/// Converts an array to its result.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! as_result {

@@ -1,8 +1,9 @@
-//! What every manipulator checks, generated or interpreted, before and after its arithmetic.
+//! Checks of arguments and results that every manipulator makes, generated or interpreted.
 
 use crate::{Description, Error, Input, MINIMUM_MARGIN, Quantity, Scalar};
 
-/// The values of an argument as an array, if there are exactly `N` and a function can be given them.
+/// Returns the values of an argument as an array. Fails unless there are exactly `N`, all finite,
+/// and inputs within their ranges.
 pub fn argument<'v, const N: usize>(
     description: &Description,
     quantity: Quantity,
@@ -13,54 +14,54 @@ pub fn argument<'v, const N: usize>(
     Ok(array)
 }
 
-/// A result slice as an array to be filled, if it holds exactly `N`.
+/// Returns a result slice as an array. Fails unless it holds exactly `N` values.
 pub fn result<T, const N: usize>(quantity: Quantity, values: &mut [T]) -> Result<&mut [T; N], Error> {
     let found = values.len();
     values.try_into().map_err(|_| count(quantity, N, found))
 }
 
-/// Whether the numbers of an argument are finite, and, if they are inputs, within their ranges.
+/// Checks that the values of an argument are finite, and inputs within their ranges.
 pub fn given(description: &Description, quantity: Quantity, values: &[f64]) -> Result<(), Error> {
     finite(quantity, values)?;
     if quantity == Quantity::Inputs { inputs(&description.inputs, values) } else { Ok(()) }
 }
 
-/// An array that a function takes or fills.
-pub trait Numbers {
-    /// Zeros.
+/// Array that a function takes or fills.
+pub trait FlatArray {
+    /// Array of zeros.
     const ZERO: Self;
 
-    /// Its numbers, one after the other.
-    fn numbers(&self) -> &[f64];
+    /// Returns its numbers in memory order.
+    fn as_flat(&self) -> &[f64];
 }
 
-impl<const N: usize> Numbers for [f64; N] {
+impl<const N: usize> FlatArray for [f64; N] {
     const ZERO: Self = [0.0; N];
 
-    fn numbers(&self) -> &[f64] {
+    fn as_flat(&self) -> &[f64] {
         self
     }
 }
 
-impl<const M: usize, const N: usize> Numbers for [[f64; M]; N] {
+impl<const M: usize, const N: usize> FlatArray for [[f64; M]; N] {
     const ZERO: Self = [[0.0; M]; N];
 
-    fn numbers(&self) -> &[f64] {
+    fn as_flat(&self) -> &[f64] {
         self.as_flattened()
     }
 }
 
-impl<const L: usize, const M: usize, const N: usize> Numbers for [[[f64; L]; M]; N] {
+impl<const L: usize, const M: usize, const N: usize> FlatArray for [[[f64; L]; M]; N] {
     const ZERO: Self = [[[0.0; L]; M]; N];
 
-    fn numbers(&self) -> &[f64] {
+    fn as_flat(&self) -> &[f64] {
         self.as_flattened().as_flattened()
     }
 }
 
-/// Whether all values are finite; if not, which is the first that is not.
+/// Checks that all values are finite. The error names the first that is not.
 pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
-    // Without branches; taken apart only where something is wrong.
+    // Branch-free; the search runs only on failure.
     if values.iter().fold(true, |all, value| all & value.is_finite()) {
         return Ok(());
     }
@@ -68,7 +69,7 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
     Err(Error::NotFinite { quantity, index })
 }
 
-/// Whether Euler rows exist at the margin `cos ρ` that a generated function returned.
+/// Checks that Euler rows exist at the margin `cos ρ` that a generated function returned.
 pub fn margin(margin: impl Margin<f64>) -> Result<(), Error> {
     match margin.cosine() {
         None => Ok(()),
@@ -77,9 +78,10 @@ pub fn margin(margin: impl Margin<f64>) -> Result<(), Error> {
     }
 }
 
-/// How far rows 4–6 are from a singularity: generated functions return `cos ρ`, or nothing where there is none.
+/// Distance of rows 4–6 from a singularity: generated functions return `cos ρ`, or `()` if they
+/// have no singularity.
 pub trait Margin<T> {
-    /// `cos ρ`, where there is one.
+    /// Returns `cos ρ`, or `None` without a singularity.
     fn cosine(self) -> Option<T>;
 }
 
@@ -97,7 +99,7 @@ impl<T> Margin<T> for () {
     }
 }
 
-/// Whether every input is within its range.
+/// Checks that every input is within its range.
 pub fn inputs(description: &[Input], u: &[f64]) -> Result<(), Error> {
     for (input, (declared, &value)) in description.iter().zip(u).enumerate() {
         let [lower, upper] = declared.range;
@@ -108,7 +110,8 @@ pub fn inputs(description: &[Input], u: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether every joint variable, structural parameter and input is finite, and every input within its range.
+/// Checks that every joint variable, structural parameter and input is finite, and every input
+/// within its range.
 pub fn use_case(description: &Description, q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
     finite(Quantity::Variables, q)?;
     finite(Quantity::Parameters, s)?;

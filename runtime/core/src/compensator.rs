@@ -1,64 +1,74 @@
-//! Joint commands that put the real tool where the ideal one should be: `A_1 E_1(q′) … A_n E_n(q′) · T = X*` for q′.
+//! Compensated joint commands: the `q′` that solves `A_1 E_1(q′) … A_n E_n(q′) · T = X*`.
 //!
-//! With `d = q′ − q` every iteration solves `min ‖X_real(q′) ⊖ X*‖² + λ ‖d‖²` on the nominal `J_q`,
-//! `d ← (JᵀJ + λ)⁻¹ Jᵀ (r + J d)`, `r = X* ⊖ X_real(q′)`. The one formula gives the exact solution where there are six joints
-//! that move the tool in six ways, the one nearest to `q` where there are more, least squares where there are fewer, and
-//! a bounded step where `J` loses rank. As the real Jacobian differs from `J` by what the errors turn, what is missing
-//! shrinks each time to a share of about the errors' angles over the least singular value of `J` (in metres and rad).
+//! With `d = q′ − q`, every iteration solves `min ‖X_real(q′) ⊖ X*‖² + λ ‖d‖²` on the nominal
+//! `J_q`: `d ← (JᵀJ + λ)⁻¹ Jᵀ (r + J d)`, `r = X* ⊖ X_real(q′)`. This yields the exact solution for
+//! six independent joints, the solution nearest to `q` for redundant arms, the least-squares
+//! solution for fewer joints, and a bounded step where `J` loses rank. The real Jacobian differs
+//! from `J` by rotations of the size of the errors, so each iteration reduces the residual by about
+//! the ratio of the errors' angles to the smallest singular value of `J` (in metres and rad).
 //!
-//! What is left after [`ITERATIONS`], on the exact chain, as the tests hold it: less than 0.001 mm and 1 µrad within the
-//! limits, for errors of millimetres and milliradians, where that singular value is above 0.1; of the paper's positioner
-//! over its treatment volume, 5.4 mm become less than 10⁻⁵ mm, and a turn is left only where a joint is at its limit. The cost is
-//! fixed, and nothing is allocated; at limits and near singularities more steps may be needed, and [`Compensated::converged`]
-//! says so.
+//! Residuals on the exact chain after [`ITERATIONS`], as tested: less than 0.001 mm and 1 µrad
+//! within the limits, for errors of millimetres and milliradians, where that singular value is
+//! above 0.1. For the paper's positioner over its treatment volume, 5.4 mm become less than 10⁻⁵
+//! mm, and a rotation remains only where a joint is at its limit. The cost is fixed, and nothing is
+//! allocated. At limits and near singularities more iterations may be needed;
+//! [`Compensated::converged`] tells.
 
 use crate::{Description, Error, Orientation, Pose, Scalar, Variable, VariableKind, deviation};
 
-/// How many times the real chain is improved on; it is evaluated once more to know what is left.
+/// Number of iterations. The real chain is evaluated once more, for the remaining error.
 pub const ITERATIONS: usize = 6;
 
-/// A step below this is rest, in rad and metres.
+/// Largest step of a converged iteration, in rad and metres.
 pub const REST: f64 = 1e-7;
 
-/// λ, in rad and metres: `√λ ‖d‖` bounds what it leaves, a nanometre where the correction is a millimetre.
+/// λ, in rad² and m². It leaves an error of at most `√λ ‖d‖`: a nanometre for a correction of 10
+/// mm.
 pub const DAMPING: f64 = 1e-14;
 
-/// What a rad counts as, in metres: so little that the tool point comes first where not all can be had.
+/// Metres that weigh as much as one rad. The small value gives the position of the tool point
+/// priority.
 pub const LEVER: f64 = 1e-3;
 
 pub use crate::chain::LEAST_SINE;
 
-/// Corrected joint commands, and what they gain.
+/// Compensated joint commands, with the errors before and after.
 ///
-/// Errors are ΔX, real minus wanted: three lengths in `F_0`, then the rotation vector in rad.
+/// Errors are ΔX, real minus target: three lengths in `F_0`, then the rotation vector in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compensated<Q> {
-    /// The commands, within the limits.
+    /// Commands within the limits.
     pub q: Q,
-    /// ΔX at the commands that were given.
+    /// ΔX at the original commands.
     pub before: [f64; 6],
     /// ΔX at `q`.
     pub after: [f64; 6],
-    /// Whether the steps came to rest: the last one moved no variable by more than [`REST`]. If not, more of them were needed
-    /// than there are.
+    /// `true` if the last iteration moved no variable by more than [`REST`]. If `false`, more than
+    /// [`ITERATIONS`] are needed.
     pub converged: bool,
 }
 
-/// The norms of the position and of the rotation of a ΔX: in the manipulator's length unit, and in rad.
+/// Returns the norms of the position and of the rotation of a ΔX, in the manipulator's length unit
+/// and in rad.
 pub fn norms(rows: &[f64; 6]) -> (f64, f64) {
     let norm = |v: &[f64]| Scalar::sqrt(dot(v, v));
     (norm(&rows[..3]), norm(&rows[3..]))
 }
 
-/// Commands that bring the real tool to `target`, close to `start` and within the limits of the variables.
+/// Computes commands that bring the real tool to `target`, near `start` and within the limits of
+/// the variables.
 ///
-/// `step` gives the real pose at a configuration and fills in the nominal `J_q` with rotation-vector rows, one column
-/// for each variable: what a generated `compensator_step` computes; `columns` is room for them. It is asked
-/// `ITERATIONS + 1` times. The best configuration that was seen is returned: it is never worse than `start`, if that
-/// is within the limits. Where not all can be had the tool point comes first (1 rad counts as 1 mm). Whether the
-/// target is reached is what [`Compensated::after`] says: it is not where a limit, too few joints, or a singularity
-/// forbid it, or where more steps were needed, which [`Compensated::converged`] says; `abbe::analysis::compensated` takes as
-/// many as it needs. An error is what `step` returns as such.
+/// `step` returns the real pose at a configuration and fills in the nominal `J_q` with
+/// rotation-vector rows, one column per variable, as a generated `compensator_step` does. It is
+/// called `ITERATIONS + 1` times, with `columns` as scratch space. The result is the best
+/// configuration evaluated; it is never worse than `start` if `start` is within the limits. Where
+/// position and rotation cannot both be reached, position has priority (1 rad weighs as much as 1
+/// mm).
+///
+/// [`Compensated::after`] is the remaining error. It is not zero where a limit, too few joints or a
+/// singularity prevents reaching the target, or where more iterations are needed
+/// ([`Compensated::converged`] is `false`). `abbe::analysis::compensated` iterates as often as
+/// necessary. Returns an error only if `step` does.
 pub fn compensate<Q, C>(
     description: &Description,
     target: &Pose,
@@ -93,10 +103,10 @@ where
     Ok(Compensated { converged: moved <= REST, ..best })
 }
 
-/// What lengths and angles count: all in metres and rad.
+/// Least-squares problem, with lengths in metres and angles in rad.
 struct Problem<'a> {
     variables: &'a [Variable],
-    /// A metre in the manipulator's unit.
+    /// One metre in the manipulator's unit.
     metre: f64,
 }
 
@@ -106,7 +116,7 @@ impl Problem<'_> {
         [x * length, y * length, z * length, a * angle, b * angle, c * angle]
     }
 
-    /// One metre or one rad, in the unit of the variable.
+    /// Returns one metre or one rad in the unit of the variable.
     fn unit(&self, j: usize) -> f64 {
         match self.variables[j].kind {
             VariableKind::Revolute => 1.0,
@@ -114,7 +124,7 @@ impl Problem<'_> {
         }
     }
 
-    /// In metres and rad.
+    /// Returns the largest change of a variable, in metres and rad.
     fn largest_step(&self, from: &[f64], to: &[f64]) -> f64 {
         let steps = from.iter().zip(to).enumerate();
         steps.map(|(j, (from, to))| Scalar::abs(to - from) / self.unit(j)).fold(0.0, f64::max)
@@ -124,8 +134,8 @@ impl Problem<'_> {
         self.variables.iter().zip(q).all(|(variable, value)| clamped(variable, *value) == *value)
     }
 
-    /// `q` becomes `start + d`. A variable that would go beyond a limit is held there, the one furthest beyond it
-    /// first, and the others solved for again. Consumes the columns.
+    /// Sets `q` to `start + d`. Clamps the variable furthest beyond a limit, then solves again for
+    /// the others, until all are within their limits. Consumes the columns.
     fn depart(&self, start: &[f64], q: &mut [f64], columns: &mut [[f64; 6]], after: &[f64; 6]) {
         // r + J d
         let mut wanted = self.weighted(*after).map(|row| -row);
@@ -137,7 +147,7 @@ impl Problem<'_> {
             let d = Departure::shortest(columns, &wanted);
             let mut furthest = (0.0, 0);
             for (j, column) in columns.iter().enumerate() {
-                // Held, or of no use to the tool.
+                // Clamped, or without effect on the tool.
                 if *column == [0.0; 6] {
                     continue;
                 }
@@ -161,11 +171,11 @@ impl Problem<'_> {
     }
 }
 
-/// `(JᵀJ + λ)⁻¹ Jᵀ b = Jᵀ (J Jᵀ + λ)⁻¹ b`: by the smaller of the two matrices.
+/// Solution of `(JᵀJ + λ)⁻¹ Jᵀ b = Jᵀ (J Jᵀ + λ)⁻¹ b`, from the smaller of the two matrices.
 enum Departure {
-    /// d itself, of six joints or fewer.
+    /// `d` itself, for six joints or fewer.
     Primal([f64; 6]),
-    /// `(J Jᵀ + λ)⁻¹ b`.
+    /// `(J Jᵀ + λ)⁻¹ b`, for more than six joints.
     Dual([f64; 6]),
 }
 
@@ -198,12 +208,13 @@ impl Departure {
     }
 }
 
-/// `(M + λ)⁻¹ b` by Cholesky's `L Lᵀ`, for M positive semidefinite; its lower triangle is read.
+/// Returns `(M + λ)⁻¹ b` by the Cholesky decomposition `L Lᵀ`, for M positive semidefinite. Reads
+/// only its lower triangle.
 fn solve(mut m: [[f64; 6]; 6], mut b: [f64; 6]) -> [f64; 6] {
     for i in 0..6 {
         for j in 0..=i {
             let rest = m[i][j] - dot(&m[i][..j], &m[j][..j]);
-            // Rounding must not make a pivot smaller than it can be.
+            // Rounding must not make a pivot smaller than λ.
             m[i][j] = if i == j { Scalar::sqrt(rest.max(0.0) + DAMPING) } else { rest / m[j][j] };
         }
         b[i] = (b[i] - dot(&m[i][..i], &b[..i])) / m[i][i];
@@ -233,7 +244,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::{Departure, dot, solve};
 
-    /// Columns that nobody chose.
+    /// Returns arbitrary columns of full rank.
     fn columns<const N: usize>() -> [[f64; 6]; N] {
         core::array::from_fn(|j| core::array::from_fn(|i| (1.0 + i as f64 * 1.7 + j as f64 * 2.3).sin()))
     }
@@ -252,7 +263,7 @@ mod tests {
         matrix.iter().zip(b).for_each(|(row, b)| assert!((dot(row, &x) - b).abs() < 1e-9));
     }
 
-    /// Fewer joints: what is left is orthogonal to all that they can do.
+    /// Fewer joints: the residual is orthogonal to all columns.
     #[test]
     fn fewer_than_six_are_least_squares() {
         let (columns, b) = (columns::<4>(), [1.0, -2.0, 3.0, 0.5, 0.0, 7.0]);
@@ -262,7 +273,7 @@ mod tests {
         columns.iter().for_each(|column| assert!(dot(column, &left).abs() < 1e-6));
     }
 
-    /// More joints: the shortest departure that does it is orthogonal to all that leave the tool where it is.
+    /// More joints: the shortest solution is orthogonal to the null space.
     #[test]
     fn lost_rank_stays_bounded() {
         let [a, b, ..] = columns::<2>();

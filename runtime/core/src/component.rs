@@ -1,8 +1,9 @@
 //! The six generalized errors of a frame.
 
-/// One of a frame's six generalized errors, in the order in which ε holds them.
+/// Generalized error of a frame, one of six in the order of ε.
 ///
-/// **Spin turns about Y, roll about Z, pitch about X**: the order of the rotations is not that of the axes.
+/// **Spin turns about Y, roll about Z, pitch about X**: the order of the rotations is not that of
+/// the axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Component {
     /// `e_x`: translation along x.
@@ -20,15 +21,15 @@ pub enum Component {
 }
 
 impl Component {
-    /// All six, in the order of ε.
+    /// The six components, in the order of ε.
     pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Spin, Self::Roll, Self::Pitch];
 
-    /// Place within a frame's six, 0 to 5.
+    /// Returns the index within a frame's six errors, 0 to 5.
     pub const fn index(self) -> usize {
         self as usize
     }
 
-    /// The axis (0 = x, 1 = y, 2 = z) along or about which the error acts.
+    /// Returns the axis (0 = x, 1 = y, 2 = z) along or about which the error acts.
     pub const fn axis(self) -> usize {
         match self {
             Self::X | Self::Pitch => 0,
@@ -37,12 +38,12 @@ impl Component {
         }
     }
 
-    /// Whether this is one of the three rotations.
+    /// Returns whether the component is a rotation.
     pub const fn is_rotation(self) -> bool {
         matches!(self, Self::Spin | Self::Roll | Self::Pitch)
     }
 
-    /// Its name in a spec file: `e_x` … `e_p`.
+    /// Returns the name in a spec file: `e_x` … `e_p`.
     pub const fn name(self) -> &'static str {
         ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p"][self as usize]
     }

@@ -1,8 +1,9 @@
-//! Manipulators that do what another does.
+//! Manipulators that forward to another one.
 
 use crate::{Description, Error, Manipulator, Pose};
 
-/// A [`Manipulator`] that passes everything on to another one; what it describes and how it does batches it may say itself.
+/// [`Manipulator`] that forwards to another one, with a description of its own if it overrides
+/// [`described`](Self::described).
 ///
 /// ```
 /// use abbe::{Delegate, Description, Manipulator};
@@ -21,13 +22,13 @@ use crate::{Description, Error, Manipulator, Pose};
 /// }
 /// ```
 pub trait Delegate: Sync {
-    /// What everything is passed on to.
+    /// Type of the original.
     type Original: Manipulator + ?Sized;
 
-    /// What everything is passed on to.
+    /// Returns the manipulator that everything is forwarded to.
     fn original(&self) -> &Self::Original;
 
-    /// Names, units, limits, sources: those of the original, as provided.
+    /// Returns the description; by default, that of the wrapped manipulator.
     fn described(&self) -> &Description {
         self.original().description()
     }

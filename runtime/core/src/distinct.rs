@@ -1,7 +1,8 @@
-//! The columns of `J_e` from the numbers that are neither zero nor repeated: the same map for every manipulator.
+//! The columns of `J_e` from their distinct numbers: those that are neither zero nor repeated. The
+//! layout is the same for every manipulator.
 //!
-//! A frame with axes `x y z` has six columns, and of their 36 numbers 18 say everything where rows 4–6 are the small
-//! rotation, 27 where they are Euler angles (blank: zero):
+//! The six columns of a frame with axes `x y z` have 36 numbers. Of these, 18 are distinct if rows
+//! 4–6 are the small rotation, 27 if they are Euler angles (blank: zero):
 //!
 //! ```text
 //!            e_x  e_y  e_z  e_s        e_r        e_p             numbers of a frame, three each
@@ -12,7 +13,7 @@
 
 use crate::{Component, Orientation, Scalar};
 
-/// How many vectors of three distinct numbers the six columns of a frame have.
+/// Returns the number of vectors of three distinct numbers in the six columns of a frame.
 pub const fn vectors(orientation: Orientation) -> usize {
     match orientation {
         Orientation::RotationVector => 6,
@@ -20,7 +21,8 @@ pub const fn vectors(orientation: Orientation) -> usize {
     }
 }
 
-/// Which of a frame's distinct numbers stands in a row (0 to 5) of the column of an error; none if it is zero.
+/// Returns the index, among the distinct numbers, of the entry of `J_e` in a row (0 to 5) and the
+/// column of an error; `None` if the entry is zero.
 ///
 /// ```
 /// use abbe::{Component, Orientation, distinct};
@@ -41,9 +43,10 @@ pub const fn number(orientation: Orientation, component: Component, row: usize) 
     }
 }
 
-/// The columns of `J_e`, six per frame, from the distinct vectors of each frame: `D` is 6 or 9.
+/// Computes the columns of `J_e`, six per frame, from the distinct vectors of each frame. `D` is 6
+/// or 9.
 ///
-/// Frames beyond the end of either are left as they are.
+/// Frames beyond the end of either slice are left unchanged.
 pub fn columns<T: Scalar, const D: usize>(distinct: &[[[T; 3]; D]], columns: &mut [[T; 6]]) {
     let orientation = const {
         match D {
@@ -62,15 +65,16 @@ pub fn columns<T: Scalar, const D: usize>(distinct: &[[[T; 3]; D]], columns: &mu
     }
 }
 
-/// What takes the columns of `J_e` one by one: all of their numbers, or those that are distinct.
+/// Receiver of the columns of `J_e`, one by one: stores all of their numbers, or only the distinct
+/// ones.
 ///
-/// Generated code gives every column once, in any order.
+/// Generated code passes every column once, in any order.
 pub trait ErrorColumns<T> {
-    /// Column `index` is that of a translation along an axis of its frame.
+    /// Sets column `index`, the column of a translation along an axis of its frame.
     fn along(&mut self, index: usize, axis: [T; 3]);
-    /// Column `index` is that of a rotation: this is how the tool point moves.
+    /// Sets rows 1–3 of column `index`, the column of a rotation: the velocity of the tool point.
     fn moment(&mut self, index: usize, moment: [T; 3]);
-    /// And these are rows 4–6.
+    /// Sets rows 4–6 of column `index`, the column of a rotation.
     fn turn(&mut self, index: usize, rows: [T; 3]);
 }
 
@@ -103,7 +107,7 @@ impl<T: Scalar, const DISTINCT: usize, const FRAMES: usize> ErrorColumns<T> for 
         self[index / 6][index % 6] = moment;
     }
 
-    /// Of rotation vectors rows 4–6 are an axis again.
+    /// Stores Euler rows only: for rotation vectors rows 4–6 repeat an axis.
     #[inline(always)]
     fn turn(&mut self, index: usize, rows: [T; 3]) {
         if DISTINCT == 9 {

@@ -5,11 +5,13 @@ use std::vec::Vec;
 
 use crate::{Class, Description, Error, Manipulator, Pose, Quantity, checks, real_pose};
 
-/// The pose of the tool point with the errors of every source times its magnitude, exactly, equation (6).
+/// Returns the exact pose of the tool point with the errors of every source times its magnitude,
+/// equation (6).
 ///
-/// One magnitude for each source: 1 of a repeatable one, of a random one what was drawn, 0 where it takes no part. Numbers of
-/// `A_i` that are off come first, `A_i(q + δq, s + δs)`, then errors elsewhere on its link in the order of the file, `L E_M L⁻¹`,
-/// then the sum of those of the frame itself. Errors as for [`Manipulator::effects`].
+/// `magnitudes` has one entry per source: 1 for a repeatable source, the drawn value for a random
+/// one, 0 to leave a source out. Errors of parameters of `A_i` apply first, `A_i(q + δq, s + δs)`;
+/// then errors at other points of its link in the order of the spec, `L E_M L⁻¹`; then the sum of
+/// the errors of the frame itself. Errors as for [`Manipulator::effects`].
 pub fn drawn_pose<M: Manipulator + ?Sized>(
     manipulator: &M,
     q: &[f64],
@@ -38,7 +40,8 @@ pub fn drawn_pose<M: Manipulator + ?Sized>(
     Ok(pose)
 }
 
-/// The magnitudes of the repeatable sources alone: 1 of each, 0 of random ones.
+/// Returns the magnitudes that select the repeatable sources: 1 for each repeatable source, 0 for
+/// each random one.
 pub fn repeatable_magnitudes(description: &Description) -> Vec<f64> {
     let one = |class| if class == Class::Repeatable { 1.0 } else { 0.0 };
     description.sources.iter().map(|source| one(source.class)).collect()

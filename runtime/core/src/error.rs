@@ -1,13 +1,13 @@
-//! Why a configuration could not be evaluated.
+//! Errors of evaluating a configuration.
 
 use core::fmt;
 
-/// The smallest margin `cos ρ` at which Euler rows are still given.
+/// Smallest margin `cos ρ` at which Euler rows are returned.
 ///
-/// Below it the rows would be amplified a million times or more: an answer nobody should act on.
+/// Below it the rows would be amplified a million times or more.
 pub const MINIMUM_MARGIN: f64 = 1e-6;
 
-/// Which argument or result an [`Error`] is about.
+/// Argument or result that an [`Error`] is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
@@ -17,25 +17,25 @@ pub enum Quantity {
     Parameters,
     /// The inputs `u`.
     Inputs,
-    /// A pose or the transforms it is made of.
+    /// A pose, or the transforms of a pose.
     Pose,
     /// A Jacobian.
     Jacobian,
-    /// What the sources cause: one value per [`Effect`](crate::Effect).
+    /// Generalized errors that the sources cause: one value per [`Effect`](crate::Effect).
     Effects,
     /// Generalized errors, six per frame, or their variances.
     Errors,
-    /// What the errors of sources are multiplied with: one value per source.
+    /// Magnitudes of the sources: one value per source.
     Magnitudes,
-    /// The rows of arguments of a batch.
+    /// Rows of arguments of a batch.
     Arguments,
-    /// The rows of results of a batch.
+    /// Rows of results of a batch.
     Results,
-    /// The configurations of a batch.
+    /// Configurations of a batch.
     Configurations,
-    /// The lanes of a batch.
+    /// Lanes of a batch.
     Lanes,
-    /// The displacement of the tool point, its covariance, or variances that were given for it.
+    /// Displacement of the tool point, its covariance, or given variances.
     Displacement,
 }
 
@@ -59,36 +59,36 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// Why a configuration could not be evaluated. Indices count from 0.
+/// Failure to evaluate a configuration. Indices count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Error {
     /// A slice has the wrong length.
     Count {
-        /// What it holds.
+        /// Content of the slice.
         quantity: Quantity,
-        /// How many the manipulator has.
+        /// Number of values that the manipulator has.
         expected: usize,
-        /// How many were given.
+        /// Number of values given.
         found: usize,
     },
-    /// A value that came in, or would have gone out, is NaN or infinite.
+    /// An argument or a result is NaN or infinite.
     NotFinite {
-        /// What it is.
+        /// Content of the array.
         quantity: Quantity,
-        /// Which of them.
+        /// Index of the value.
         index: usize,
     },
-    /// An input is outside the range that the spec gives it.
+    /// An input is outside the range that the spec declares.
     OutOfRange {
-        /// Which input.
+        /// Index of the input.
         input: usize,
-        /// Its value.
+        /// Value of the input.
         value: f64,
-        /// The range.
+        /// Declared range.
         range: [f64; 2],
     },
-    /// Roll is at ±90°: the Euler rows do not exist here.
+    /// Roll is at ±90°, where the Euler rows are singular.
     EulerSingularity {
         /// `cos ρ`, less than [`MINIMUM_MARGIN`].
         margin: f64,

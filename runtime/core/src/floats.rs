@@ -1,4 +1,4 @@
-//! `f64` and `f32` as scalars.
+//! [`Scalar`] for `f64` and `f32`.
 
 use crate::sin_cos;
 #[cfg(not(target_arch = "x86_64"))]

@@ -1,4 +1,5 @@
-//! What holds for every correct [`Manipulator`](crate::Manipulator), as functions and as tests for your own.
+//! Laws that every correct [`Manipulator`](crate::Manipulator) obeys, as functions and as a test
+//! macro.
 //!
 //! ```
 //! struct Slide;
@@ -66,16 +67,16 @@ pub use remainder::{Slope, remainder_slope};
 
 use crate::lanes::Sweepable;
 
-/// How many configurations [`test_manipulator!`](crate::test_manipulator) looks at.
+/// Number of configurations that [`test_manipulator!`](crate::test_manipulator) samples.
 pub const SAMPLES: usize = 200;
-/// The largest relative discrepancy between a Jacobian and central differences.
+/// Largest accepted relative discrepancy between a Jacobian and central differences.
 pub const DERIVATIVE_TOLERANCE: f64 = 1e-8;
-/// The largest relative discrepancy between two ways to compute the same.
+/// Largest accepted relative discrepancy between two ways to compute the same values.
 pub const ROUNDING_TOLERANCE: f64 = 1e-11;
-/// How far from 2 the slope of the first-order remainder may be.
+/// Largest accepted distance of the slope of the first-order remainder from 2.
 pub const SLOPE_TOLERANCE: f64 = 0.05;
 
-/// All laws, each to its tolerance; of batches those that sweeps need.
+/// Checks all laws, each to its tolerance. Batches are checked for the functions that sweeps need.
 pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
     contract(manipulator, samples)?.within("outputs", ROUNDING_TOLERANCE)?;
     sweeps(manipulator, samples)?.within("batches", ROUNDING_TOLERANCE)?;
@@ -87,13 +88,15 @@ pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
     remainder_slope(manipulator, samples)?.within(SLOPE_TOLERANCE)
 }
 
-/// Tests of all [`laws`](crate::laws) for one manipulator, at 200 configurations within its limits.
+/// Generates tests of all [`laws`](crate::laws) for one manipulator, at 200 configurations within
+/// its limits.
 ///
-/// All its functions are compiled for lanes and held against single configurations; a manipulator without lanes is tested as
-/// [`OneByOne`](crate::lanes::OneByOne).
+/// The tests compile all functions for lanes and compare them with single configurations. Wrap a
+/// manipulator without code for lanes in [`OneByOne`](crate::lanes::OneByOne).
 ///
-/// `test_manipulator!(EXPR)` makes a module `manipulator_laws` of tests; `test_manipulator!(name: EXPR)` names
-/// the module, so that there can be several. The expression sees what is in scope outside.
+/// `test_manipulator!(EXPR)` generates a module `manipulator_laws` of tests.
+/// `test_manipulator!(name: EXPR)` names the module, so that a crate can have several. The
+/// expression may use everything in scope at the macro call.
 #[macro_export]
 macro_rules! test_manipulator {
     ($name:ident: $manipulator:expr) => {

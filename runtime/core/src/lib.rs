@@ -1,7 +1,9 @@
-//! The vocabulary of `abbe`: scalars, poses, generalized errors, the exact chain, the compensator, batches in lanes, and laws.
+//! Core types of `abbe`: scalars, poses, generalized errors, the exact chain, the compensator,
+//! batches in lanes, and laws.
 //!
-//! Generated code and its users name the crate `abbe`, which re-exports everything here and documents the conventions:
-//! units, frames, order of rows and columns. Without features this crate is `no_std` and never allocates.
+//! Generated code and its users name the crate `abbe`, which re-exports everything here and
+//! documents the conventions: units, frames, and the order of rows and columns. Without features
+//! this crate is `no_std` and never allocates.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod chain;
@@ -22,6 +24,7 @@ mod manipulator;
 #[cfg(feature = "nalgebra")]
 mod nalgebra_views;
 mod pose;
+mod remedy;
 mod scalar;
 mod shared;
 mod sin_cos;
@@ -65,6 +68,7 @@ pub use manipulator::Manipulator;
 #[cfg(feature = "nalgebra")]
 pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
 pub use pose::Pose;
+pub use remedy::Remedy;
 pub use scalar::Scalar;
 pub use shared::{List, Text};
 #[cfg(feature = "lanes")]

@@ -1,4 +1,4 @@
-//! nalgebra faces of the plain arrays: Jacobians as views without copying, poses as isometries.
+//! Plain arrays as nalgebra types: Jacobians as views without copying, poses as isometries.
 
 use nalgebra::{
     Const, Dyn, Isometry3, Matrix3, MatrixView, Rotation3, SMatrixView, Translation3, U6, UnitQuaternion,
@@ -6,7 +6,7 @@ use nalgebra::{
 
 use crate::Pose;
 
-/// A Jacobian with a known number of columns as a 6 × N nalgebra view; nothing is copied.
+/// Returns a Jacobian with a constant number of columns as a 6 × N nalgebra view, without copying.
 ///
 /// ```
 /// // A 6 × 12 error Jacobian: two frames, six columns each.
@@ -23,7 +23,7 @@ pub fn jacobian_view<const N: usize>(columns: &[[f64; 6]; N]) -> SMatrixView<'_,
     MatrixView::from_slice_generic(columns.as_flattened(), Const::<6>, Const::<N>)
 }
 
-/// A Jacobian as a 6 × columns nalgebra view; nothing is copied.
+/// Returns a Jacobian as a 6 × columns nalgebra view, without copying.
 ///
 /// ```
 /// let columns = vec![[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]; 36];
@@ -36,7 +36,7 @@ pub fn jacobian_view_dynamic(columns: &[[f64; 6]]) -> MatrixView<'_, f64, U6, Dy
 }
 
 impl Pose {
-    /// The same motion as an nalgebra isometry, in the same length unit.
+    /// Returns the pose as an nalgebra isometry, in the same length unit.
     ///
     /// ```
     /// let quarter = abbe::Pose([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [5.0, 0.0, 0.0]]);

@@ -1,22 +1,23 @@
 //! A rigid motion as the columns of its matrix.
 
-/// The upper three rows of a homogeneous matrix, column-major: x, y, z axes and position.
+/// Rigid motion: the upper three rows of a homogeneous matrix, column-major (x, y, z axes and
+/// position).
 ///
-/// Lengths are in the manipulator's unit; what it maps from and to is said where it is returned.
+/// Lengths are in the manipulator's unit. The function that returns a pose documents its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<T = f64>(pub [[T; 3]; 4]);
 
 impl Pose {
-    /// No motion.
+    /// Identity.
     pub const IDENTITY: Self = Self([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
 
-    /// The product `self · other`.
+    /// Returns the product `self · other`.
     pub fn then(&self, other: &Self) -> Self {
         let [x, y, z, position] = other.0.map(|column| self.turn(column));
         Self([x, y, z, add(position, self.position())])
     }
 
-    /// The inverse motion.
+    /// Returns the inverse motion.
     pub fn inverse(&self) -> Self {
         let transposed = core::array::from_fn(|i| core::array::from_fn(|j| self.0[j][i]));
         let [x, y, z]: [[f64; 3]; 3] = transposed;
@@ -24,17 +25,17 @@ impl Pose {
         Self([x, y, z, turned.map(|v| -v)])
     }
 
-    /// The vector `R v`.
+    /// Returns the vector `R v`.
     pub fn turn(&self, v: [f64; 3]) -> [f64; 3] {
         core::array::from_fn(|i| self.0[0][i] * v[0] + self.0[1][i] * v[1] + self.0[2][i] * v[2])
     }
 
-    /// The point `R v + p`.
+    /// Returns the point `R v + p`.
     pub fn apply(&self, point: [f64; 3]) -> [f64; 3] {
         add(self.turn(point), self.position())
     }
 
-    /// The four rows of the homogeneous matrix.
+    /// Returns the four rows of the homogeneous matrix.
     pub fn rows(&self) -> [[f64; 4]; 4] {
         core::array::from_fn(|i| {
             if i == 3 { [0.0, 0.0, 0.0, 1.0] } else { core::array::from_fn(|j| self.0[j][i]) }
@@ -43,7 +44,7 @@ impl Pose {
 }
 
 impl<T: Copy> Pose<T> {
-    /// The position: where the origin goes.
+    /// Returns the position: the image of the origin.
     pub fn position(&self) -> [T; 3] {
         self.0[3]
     }

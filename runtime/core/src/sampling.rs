@@ -1,4 +1,4 @@
-//! Deterministic points to evaluate a manipulator at: the same on every run and every machine.
+//! Deterministic sample points: the same on every run and every machine.
 
 use core::f64::consts::PI;
 use std::sync::LazyLock;
@@ -7,8 +7,8 @@ use std::vec::Vec;
 
 use crate::{Description, Error, Manipulator, Variable, VariableKind};
 
-/// Number `index` of the Halton sequence in a dimension, in `[0, 1)`: the radical inverse of `index` in the
-/// dimension's prime.
+/// Returns term `index` of the Halton sequence in a dimension, in `[0, 1)`: the radical inverse of
+/// `index` in the dimension's prime base.
 ///
 /// ```
 /// use abbe::analysis::sampling::halton;
@@ -20,7 +20,7 @@ pub fn halton(index: usize, dimension: usize) -> f64 {
     radical_inverse(index, prime(dimension))
 }
 
-/// The digits of `index` in a base, mirrored at the point: `0.d_0 d_1 d_2 …`.
+/// Returns the digits of `index` in a base, mirrored at the radix point: `0.d_0 d_1 d_2 …`.
 pub fn radical_inverse(index: usize, base: usize) -> f64 {
     let (mut digits, mut value, mut weight) = (index, 0.0, 1.0);
     while digits > 0 {
@@ -31,9 +31,9 @@ pub fn radical_inverse(index: usize, base: usize) -> f64 {
     value
 }
 
-/// Prime number `index`: 2, 3, 5, …
+/// Returns prime number `index`: 2, 3, 5, …
 pub fn prime(index: usize) -> usize {
-    /// More than chains have variables: they are asked for again and again.
+    /// Covers the variables of all practical chains; cached because every sample needs them.
     static FIRST: LazyLock<Vec<usize>> = LazyLock::new(|| sieved(1 << 17));
     let is_prime = |n: usize| (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d));
     match FIRST.get(index) {
@@ -42,7 +42,7 @@ pub fn prime(index: usize) -> usize {
     }
 }
 
-/// The primes below an end, by the sieve of Eratosthenes.
+/// Returns the primes below `end`, by the sieve of Eratosthenes.
 fn sieved(end: usize) -> Vec<usize> {
     let mut is_multiple = vec![false; end];
     let mut primes = Vec::new();
@@ -55,7 +55,8 @@ fn sieved(end: usize) -> Vec<usize> {
     primes
 }
 
-/// `count` equally spaced values from one end of a range to the other; a single one is the middle.
+/// Returns `count` equidistant values from one end of a range to the other. A single value is the
+/// center.
 ///
 /// ```
 /// use abbe::analysis::sampling::grid;
@@ -67,22 +68,23 @@ pub fn grid([first, last]: [f64; 2], count: usize) -> Vec<f64> {
     (0..count).map(|i| first * (1.0 - fraction(i)) + last * fraction(i)).collect()
 }
 
-/// The home configuration.
+/// Returns the home configuration.
 pub fn home(description: &Description) -> Vec<f64> {
     description.variables.iter().map(|variable| variable.home).collect()
 }
 
-/// The nominal structural parameters.
+/// Returns the nominal structural parameters.
 pub fn nominal_parameters(description: &Description) -> Vec<f64> {
     description.parameters.iter().map(|parameter| parameter.nominal).collect()
 }
 
-/// The default inputs.
+/// Returns the default inputs.
 pub fn nominal_inputs(description: &Description) -> Vec<f64> {
     description.inputs.iter().map(|input| input.nominal).collect()
 }
 
-/// The sum of the lengths of the chain's transforms at home: what a length is compared with. 1 if it is zero.
+/// Returns the sum of the lengths of the chain's transforms at home, which scales lengths. Returns
+/// 1 if the sum is zero.
 ///
 /// Errors as for [`Manipulator::transforms`].
 pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64, Error> {
@@ -93,8 +95,9 @@ pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64, Error
     Ok(if length > 0.0 { length } else { 1.0 })
 }
 
-/// The range from which a variable is sampled: its limits; where there is none, half a turn or one arm
-/// length to either side.
+/// Returns the range from which a variable is sampled: its limits. If both are infinite, the range
+/// is half a turn or one arm length to either side of zero. If one is infinite, the range has the
+/// same width and begins at the other.
 pub fn joint_range(variable: &Variable, arm: f64) -> [f64; 2] {
     let span = match variable.kind {
         VariableKind::Revolute => PI,
@@ -109,7 +112,8 @@ pub fn joint_range(variable: &Variable, arm: f64) -> [f64; 2] {
     }
 }
 
-/// Sample `index` of the joint variables; those not in `moved` stay at home. Samples start at index 0.
+/// Returns sample `index` of the joint variables, counted from 0. Variables that are not in `moved`
+/// stay at home.
 pub fn joint_sample(description: &Description, arm: f64, moved: &[usize], index: usize) -> Vec<f64> {
     let mut q = home(description);
     for (dimension, &i) in moved.iter().enumerate() {
@@ -121,7 +125,7 @@ pub fn joint_sample(description: &Description, arm: f64, moved: &[usize], index:
     q
 }
 
-/// The Euclidean norm of a vector.
+/// Returns the Euclidean norm of a vector.
 pub fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|component| component * component).sum::<f64>().sqrt()
 }
@@ -134,7 +138,7 @@ mod tests {
     fn primes_are_those_of_trial_division() {
         let is_prime = |n: &usize| (2..).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
         assert!(sieved(1 << 17).into_iter().eq((2..1 << 17).filter(is_prime)));
-        // The last that is kept and the first that is not.
+        // The last cached prime and the first computed one.
         assert_eq!([prime(0), prime(12_250), prime(12_251), prime(12_252)], [2, 131_071, 131_101, 131_111]);
     }
 }

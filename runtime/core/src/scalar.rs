@@ -1,79 +1,82 @@
-//! The numbers that generated code computes with.
+//! The number type that generated code is generic over.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::LookupTable;
 
-/// A number type for generated code: `f64` and `f32` here, dual numbers or lanes where you need them.
+/// Number type of generated code: `f64` and `f32` here, dual numbers or lanes elsewhere.
 ///
-/// Angles are radians. `sin_cos` is what generated code calls wherever both are needed.
+/// Angles are in radians. Generated code calls `sin_cos` where it needs both.
 pub trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// The nearest value to a constant of the spec.
+    /// Returns the value nearest to a constant of the spec.
     fn constant(value: f64) -> Self;
-    /// `self · b + c`, rounded once where the type has an instruction for it, twice otherwise.
+    /// Returns `self · b + c`, rounded once where the type has a fused instruction, otherwise
+    /// twice.
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         self * b + c
     }
-    /// `self · b − c`, rounded as [`mul_add`](Self::mul_add).
+    /// Returns `self · b − c`, rounded as [`mul_add`](Self::mul_add).
     #[inline(always)]
     fn mul_sub(self, b: Self, c: Self) -> Self {
         self * b - c
     }
-    /// `c − self · b`, rounded as [`mul_add`](Self::mul_add).
+    /// Returns `c − self · b`, rounded as [`mul_add`](Self::mul_add).
     #[inline(always)]
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
         c - self * b
     }
-    /// Sine and cosine.
+    /// Returns sine and cosine.
     fn sin_cos(self) -> (Self, Self);
-    /// Sine and cosine of several angles: for some types quicker than one by one, and the same.
+    /// Returns sine and cosine of several angles: the same results as one by one, faster for some
+    /// types.
     #[inline(always)]
     fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         angles.map(Self::sin_cos)
     }
-    /// Sine.
+    /// Returns the sine.
     #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
-    /// Cosine.
+    /// Returns the cosine.
     #[inline(always)]
     fn cos(self) -> Self {
         self.sin_cos().1
     }
-    /// Tangent.
+    /// Returns the tangent.
     fn tan(self) -> Self;
-    /// Inverse sine, in `[-π/2, π/2]`.
+    /// Returns the inverse sine, in `[-π/2, π/2]`.
     fn asin(self) -> Self;
-    /// Inverse cosine, in `[0, π]`.
+    /// Returns the inverse cosine, in `[0, π]`.
     fn acos(self) -> Self;
-    /// Inverse tangent, in `(-π/2, π/2)`.
+    /// Returns the inverse tangent, in `(-π/2, π/2)`.
     fn atan(self) -> Self;
-    /// The angle of the point `(x, self)`, in `(-π, π]`.
+    /// Returns the angle of the point `(x, self)`, in `(-π, π]`.
     fn atan2(self, x: Self) -> Self;
-    /// Square root.
+    /// Returns the square root.
     fn sqrt(self) -> Self;
-    /// Absolute value.
+    /// Returns the absolute value.
     fn abs(self) -> Self;
-    /// Exponential function.
+    /// Returns the exponential.
     fn exp(self) -> Self;
-    /// Natural logarithm.
+    /// Returns the natural logarithm.
     fn ln(self) -> Self;
-    /// −1, 0 or 1.
+    /// Returns the sign: −1, 0 or 1.
     fn sign(self) -> Self;
-    /// −1 below 0, else 1: the derivative of the absolute value, at 0 that to the right.
+    /// Returns −1 below 0, otherwise 1: the derivative of the absolute value, right-sided at 0.
     fn side(self) -> Self;
-    /// The smaller of two numbers; not a number if one of them is not.
+    /// Returns the smaller of two numbers, or NaN if one is NaN.
     fn min(self, other: Self) -> Self;
-    /// The larger of two numbers; not a number if one of them is not.
+    /// Returns the larger of two numbers, or NaN if one is NaN.
     fn max(self, other: Self) -> Self;
-    /// A power with any exponent.
+    /// Returns a power with any exponent.
     fn powf(self, exponent: Self) -> Self;
-    /// Of the polynomial that a table is at this x: its argument t, and its coefficients, the lowest power first.
+    /// Returns the piece of a table at this x: the argument t of its polynomial, and the
+    /// coefficients, lowest power first.
     ///
-    /// A type with derivatives gives t its own: `dt/dx` is [`LookupTable::unit`].
+    /// A type with derivatives scales those of t by `dt/dx`, which is [`LookupTable::unit`].
     fn piece(self, table: &LookupTable<'_>) -> (Self, [Self; 4]);
 }

@@ -1,26 +1,27 @@
-//! Texts and lists of a description: constants of generated code, or shared by whatever was read from a spec.
+//! Texts and lists of a description: constants of generated code, or shared data read from a spec
+//! at run time.
 
 use core::fmt;
 use core::ops::Deref;
 #[cfg(feature = "std")]
 use std::sync::Arc;
 
-/// A text that is cheap to clone.
+/// Text that is cheap to clone.
 #[derive(Clone)]
 pub enum Text {
-    /// Part of the program.
+    /// Constant of the program.
     Constant(&'static str),
-    /// Read at run time.
+    /// Text read at run time.
     #[cfg(feature = "std")]
     Shared(Arc<str>),
 }
 
-/// A list that is cheap to clone.
+/// List that is cheap to clone.
 #[derive(Clone)]
 pub enum List<T: 'static> {
-    /// Part of the program.
+    /// Constant of the program.
     Constant(&'static [T]),
-    /// Made at run time.
+    /// List created at run time.
     #[cfg(feature = "std")]
     Shared(Arc<[T]>),
 }

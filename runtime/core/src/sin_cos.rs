@@ -1,33 +1,35 @@
-//! Sine and cosine without a branch or a table: the same for a number and for lanes of them.
+//! Sine and cosine without branches or tables: the same code for a number and for lanes.
 //!
-//! `x = n π/2 + r` with `|r| ≤ π/4` (Cody and Waite), then `sin r = r + r³ S(r²)` and
-//! `cos r = 1 + r² (−1/2 + r² C(r²))` with the minimax polynomials of fdlibm (below 2⁻⁵⁸), then the quadrant `n`.
-//! Below 1.7 ulp for `|x| ≤` [`REACH`].
+//! Argument reduction `x = n π/2 + r` with `|r| ≤ π/4` (Cody and Waite), then
+//! `sin r = r + r³ S(r²)` and `cos r = 1 + r² (−1/2 + r² C(r²))` with the minimax polynomials of
+//! fdlibm (error below 2⁻⁵⁸), then the quadrant `n`. The error is below 1.7 ulp for `|x| ≤`
+//! [`REACH`].
 
 #[cfg(any(test, not(target_arch = "x86_64")))]
 pub(crate) mod array;
 
 use core::ops::{Add, Mul, Sub};
 
-/// How far from zero [`near`] holds: beyond it `n` has more bits than its products with π/2 leave free.
+/// Largest `|x|` for which [`near`] holds: beyond it the products of `n` with the parts of π/2 are
+/// not exact.
 pub(crate) const REACH: f64 = 1e5;
 
 const FRAC_2_PI: f64 = core::f64::consts::FRAC_2_PI;
-/// π/2 down to 2⁻³⁶, 2⁻⁵³, 2⁻⁹⁰ and the rest: with an `n` of 16 bits the first three products are exact, and so are
-/// the first two differences. All are positive: thus −0 stays −0.
+/// π/2 to 2⁻³⁶, 2⁻⁵³, 2⁻⁹⁰, and the rest. For an `n` of 16 bits the first three products and the
+/// first two differences are exact. All parts are positive, so that −0 stays −0.
 const EXACT_PARTS: [f64; 4] = [
     1.570_796_326_792_333_3,
     2.563_282_919_254_561_4e-12,
     6.123_233_995_707_727e-17,
     2.903_855_973_979_360_5e-28,
 ];
-/// π/2 in three parts of 53 bits, whose products are exact where they are fused.
+/// π/2 in three parts of 53 bits, whose products are exact with fused multiply-add.
 const FUSED_PARTS: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_765e-17, 1.082_856_673_921_914e-32];
-/// `1.5 · 2⁵²`: adding it rounds to the nearest integer, which then stands in the low bits.
+/// `1.5 · 2⁵²`. Adding it rounds to the nearest integer, which the low bits then hold.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
-/// `S`, lowest power first.
+/// Coefficients of `S`, lowest power first.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_49,
@@ -36,7 +38,7 @@ const SINE: [f64; 6] = [
     -2.505_076_025_340_686_3e-8,
     1.589_690_995_211_55e-10,
 ];
-/// `C`, lowest power first, after `−1/2`.
+/// Coefficients of `C`, lowest power first, after `−1/2`.
 const COSINE: [f64; 7] = [
     -0.5,
     0.041_666_666_666_666_6,
@@ -47,31 +49,31 @@ const COSINE: [f64; 7] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// What can be computed with as numbers and as bits.
+/// Number type with access to its bits.
 pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    /// Whether `a · b + c` is rounded once.
+    /// `true` if `a · b + c` is rounded once.
     const FUSED: bool;
-    /// A number.
-    fn number(value: f64) -> Self;
-    /// `self · b + c`.
+    /// Returns a constant.
+    fn splat(value: f64) -> Self;
+    /// Returns `self · b + c`.
     fn times_plus(self, b: Self, c: Self) -> Self;
-    /// `c − self · b`.
+    /// Returns `c − self · b`.
     fn times_from(self, b: Self, c: Self) -> Self;
-    /// Exclusive or of the bits.
+    /// Returns the bitwise exclusive or.
     fn xor(self, other: Self) -> Self;
-    /// And of the bits.
+    /// Returns the bitwise and.
     fn and(self, other: Self) -> Self;
-    /// All bits where the lowest bit is set, none elsewhere.
+    /// Returns all bits set if the lowest bit is set, otherwise none.
     fn odd(self) -> Self;
-    /// The bits moved up by so many places.
+    /// Returns the bits shifted left.
     fn shifted<const PLACES: u32>(self) -> Self;
 }
 
-/// Two numbers that are computed with side by side.
+/// Two numbers in one register.
 pub(crate) trait Pair: Real {
-    /// Both of them.
+    /// Combines two numbers.
     fn new(numbers: [f64; 2]) -> Self;
-    /// The numbers.
+    /// Returns the two numbers.
     fn numbers(self) -> [f64; 2];
 }
 
@@ -79,7 +81,7 @@ impl Real for f64 {
     const FUSED: bool = false;
 
     #[inline(always)]
-    fn number(value: f64) -> f64 {
+    fn splat(value: f64) -> f64 {
         value
     }
 
@@ -114,24 +116,25 @@ impl Real for f64 {
     }
 }
 
-/// Sine and cosine for `|x| ≤` [`REACH`]: signed zeros keep their sign; beyond the reach the values mean nothing,
-/// and a caller takes [`beyond`] there.
+/// Returns sine and cosine for `|x| ≤` [`REACH`], with the sign of signed zeros. Callers use
+/// [`beyond`] for larger angles, where the result is meaningless.
 #[inline(always)]
 pub(crate) fn near<T: Real>(x: T) -> (T, T) {
     let (r, n) = reduce(x);
     let (z, r) = (r * r, turn(r, n));
     let (sine, cosine) = polynomials(r, z);
     // −0 + 0 is 0.
-    let (sign, zero) = (T::number(-0.0), sine.and(r).and(T::number(-0.0)));
+    let (sign, zero) = (T::splat(-0.0), sine.and(r).and(T::splat(-0.0)));
     let sine = sine.xor(r.and(sign)).xor(zero);
     swap(sine, cosine, n)
 }
 
-/// Sine and cosine of any `f64`: the same bits as [`near`] where that holds, so that they do not depend on the
-/// machine.
+/// Returns sine and cosine of any `f64`, with the same bits as [`near`] within its range, so that
+/// results do not depend on the machine.
 #[inline]
 pub(crate) fn scalar(x: f64) -> (f64, f64) {
-    // One comparison for zeros, whose sign the polynomials lose, and for what is beyond the reach or not finite.
+    // One comparison detects zeros, whose sign the polynomials lose, large angles, and non-finite
+    // ones.
     if (x.to_bits() << 1).wrapping_sub(1) < REACH.to_bits() << 1 {
         let (r, n) = reduce(x);
         let (sine, cosine) = polynomials(turn(r, n), r * r);
@@ -141,7 +144,8 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
     }
 }
 
-/// Sine and cosine of several `f64`, with the bits of [`scalar`]: pairs of angles share instructions.
+/// Returns sine and cosine of several `f64`, with the bits of [`scalar`]. Pairs of angles share
+/// instructions.
 #[inline(always)]
 pub(crate) fn each<P: Pair, const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
     let mut all = true;
@@ -153,7 +157,7 @@ pub(crate) fn each<P: Pair, const N: usize>(angles: [f64; N]) -> [(f64, f64); N]
     }
     let mut results = [(0.0, 0.0); N];
     for i in (0..N).step_by(2) {
-        // Two at a time, the last one twice if their number is odd.
+        // Two at a time; the last angle twice if the count is odd.
         let j = (i + 1).min(N - 1);
         let (sines, cosines) = near(P::new([angles[i], angles[j]]));
         let (sines, cosines) = (sines.numbers(), cosines.numbers());
@@ -163,7 +167,7 @@ pub(crate) fn each<P: Pair, const N: usize>(angles: [f64; N]) -> [(f64, f64); N]
     results
 }
 
-/// Sine and cosine of any `f64` by the library: the platform's, or `libm` without `std`.
+/// Returns sine and cosine of any `f64` from the platform's library, or from `libm` without `std`.
 #[cold]
 #[inline(never)]
 pub(crate) fn beyond(x: f64) -> (f64, f64) {
@@ -177,43 +181,45 @@ pub(crate) fn beyond(x: f64) -> (f64, f64) {
     }
 }
 
-/// `r = x − n π/2`, rounded once (a second rounding matters below 2⁻²⁰ only, where that of the sine is next to none),
-/// and what has `n` in its lowest bits.
+/// Returns `r = x − n π/2`, rounded once, and a number with `n` in its lowest bits. (A second
+/// rounding would matter only below 2⁻²⁰, where the sine adds almost none.)
 #[inline(always)]
 fn reduce<T: Real>(x: T) -> (T, T) {
-    let round = T::number(ROUND);
-    let rounded = x.times_plus(T::number(FRAC_2_PI), round);
+    let round = T::splat(ROUND);
+    let rounded = x.times_plus(T::splat(FRAC_2_PI), round);
     let n = rounded - round;
     let parts: &[f64] = if T::FUSED { &FUSED_PARTS } else { &EXACT_PARTS };
     let mut r = x;
     for part in parts {
-        r = n.times_from(T::number(*part), r);
+        r = n.times_from(T::splat(*part), r);
     }
     (r, rounded)
 }
 
-/// `−r` in odd quadrants: there the cosine is `−sin r`, and `cos r` does not mind.
+/// Returns `−r` in odd quadrants: there the cosine is `−sin r`, and `cos r` is even.
 #[inline(always)]
 fn turn<T: Real>(r: T, n: T) -> T {
     r.xor(n.shifted::<63>())
 }
 
-/// `sin r` and `cos r` for `|r| ≤ π/4`, `z = r²`, step by step together: in scalar code they are one SSE2 vector.
+/// Returns `sin r` and `cos r` for `|r| ≤ π/4`, `z = r²`. The two polynomials are interleaved, so
+/// that scalar code uses SSE2 vectors.
 #[inline(always)]
 fn polynomials<T: Real>(r: T, z: T) -> (T, T) {
-    let mut s = T::number(SINE[5]);
-    let mut c = z.times_plus(T::number(COSINE[6]), T::number(COSINE[5]));
+    let mut s = T::splat(SINE[5]);
+    let mut c = z.times_plus(T::splat(COSINE[6]), T::splat(COSINE[5]));
     for i in (0..5).rev() {
-        s = z.times_plus(s, T::number(SINE[i]));
-        c = z.times_plus(c, T::number(COSINE[i]));
+        s = z.times_plus(s, T::splat(SINE[i]));
+        c = z.times_plus(c, T::splat(COSINE[i]));
     }
-    ((r * z).times_plus(s, r), z.times_plus(c, T::number(1.0)))
+    ((r * z).times_plus(s, r), z.times_plus(c, T::splat(1.0)))
 }
 
-/// In odd quadrants sine and cosine change places; in the second and third both change sign ([`turn`] did the rest).
+/// Swaps sine and cosine in odd quadrants, and negates both in the second and third ([`turn`] has
+/// negated the rest).
 #[inline(always)]
 fn swap<T: Real>(sine: T, cosine: T, n: T) -> (T, T) {
-    let sign = n.shifted::<62>().and(T::number(-0.0));
+    let sign = n.shifted::<62>().and(T::splat(-0.0));
     let change = sine.xor(cosine).and(n.odd()).xor(sign);
     (sine.xor(change), cosine.xor(change))
 }

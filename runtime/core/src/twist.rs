@@ -1,10 +1,11 @@
-//! Jacobian columns as twists, whatever rows 4–6 of a manipulator's Jacobians are.
+//! Jacobian columns as twists, for either orientation of rows 4–6.
 
 use crate::{Orientation, Pose};
 
-/// A column with its rows 4–6 as the small rotation in `F_0` axes. The pose is that of the tool.
+/// Returns a column with rows 4–6 converted to the small rotation in `F_0` axes. `pose` is the tool
+/// pose.
 ///
-/// For Euler rows: `ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂`, which exists where they do.
+/// For Euler rows `ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂`, which is defined where the rows are.
 pub fn twist(orientation: Orientation, pose: &Pose, column: &[f64; 6]) -> [f64; 6] {
     match orientation {
         Orientation::RotationVector => *column,
@@ -19,7 +20,7 @@ pub fn twist(orientation: Orientation, pose: &Pose, column: &[f64; 6]) -> [f64; 
     }
 }
 
-/// `cos ρ = √(r11² + r31²)`: the margin of Euler rows.
+/// Returns `cos ρ = √(r11² + r31²)`, the margin of Euler rows.
 pub fn roll_cosine(pose: &Pose) -> f64 {
     let [r11, _, r31] = pose.0[0];
     r11.hypot(r31)

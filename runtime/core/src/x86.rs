@@ -1,9 +1,10 @@
-//! The registers of SSE2, AVX2 and AVX-512: the only `unsafe` of the project.
+//! SSE2, AVX2 and AVX-512 registers: the only `unsafe` code of the project.
 //!
-//! An instruction may be used where the machine has it. All have SSE2, in which sines and cosines go two by two. The other
-//! two types are named nowhere but in `lanes::InstructionSet::run`, which has asked the machine; a kernel gets them as a
-//! type parameter and cannot exist without them. Values come and go in registers; memory is only read, and only the rows that
-//! [`Register::columns`] is given, which are borrowed arrays of four: no address is computed from an index.
+//! An instruction may execute only on a CPU that has it. Every x86-64 CPU has SSE2, which evaluates
+//! sines and cosines in pairs. The other two types are named only in `lanes::InstructionSet::run`,
+//! which has detected the CPU's features; a kernel receives them as a type parameter and cannot
+//! exist without them. Values pass in registers. Memory is only read, and only the rows passed to
+//! [`Register::columns`], which are borrowed arrays of four: no address is computed from an index.
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;
@@ -39,7 +40,7 @@ macro_rules! instructions {
     ($($name:ident($($argument:ident),+) $instruction:expr;)+) => {$(
         #[inline(always)]
         fn $name($(Self($argument): Self),+) -> Self {
-            // SAFETY: the machine has the instruction, see above.
+            // SAFETY: the CPU has the instruction, see the module documentation.
             Self(unsafe { $instruction })
         }
     )+};
@@ -52,7 +53,7 @@ macro_rules! operator {
 
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
-                // SAFETY: the machine has the instruction, see above.
+                // SAFETY: the CPU has the instruction, see the module documentation.
                 Self(unsafe { $instruction(self.0, other.0) })
             }
         }
@@ -67,7 +68,7 @@ impl Real for Sse2 {
     const FUSED: bool = false;
 
     #[inline(always)]
-    fn number(value: f64) -> Self {
+    fn splat(value: f64) -> Self {
         Self::new([value; 2])
     }
 
@@ -83,19 +84,19 @@ impl Real for Sse2 {
 
     #[inline(always)]
     fn xor(self, other: Self) -> Self {
-        // SAFETY: the machine has the instruction, see above.
+        // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe { _mm_xor_pd(self.0, other.0) })
     }
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        // SAFETY: the machine has the instruction, see above.
+        // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe { _mm_and_pd(self.0, other.0) })
     }
 
     #[inline(always)]
     fn odd(self) -> Self {
-        // SAFETY: the machine has the instructions, see above.
+        // SAFETY: the CPU has the instructions, see the module documentation.
         Self(unsafe {
             let lowest = _mm_and_si128(_mm_castpd_si128(self.0), _mm_set1_epi64x(1));
             _mm_castsi128_pd(_mm_sub_epi64(_mm_setzero_si128(), lowest))
@@ -104,7 +105,7 @@ impl Real for Sse2 {
 
     #[inline(always)]
     fn shifted<const PLACES: u32>(self) -> Self {
-        // SAFETY: the machine has the instruction, see above.
+        // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe {
             let places = _mm_cvtsi32_si128(PLACES as i32);
             _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(self.0), places))
@@ -115,13 +116,13 @@ impl Real for Sse2 {
 impl Pair for Sse2 {
     #[inline(always)]
     fn new([first, second]: [f64; 2]) -> Self {
-        // SAFETY: the machine has the instruction, see above.
+        // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe { _mm_set_pd(second, first) })
     }
 
     #[inline(always)]
     fn numbers(self) -> [f64; 2] {
-        // SAFETY: the machine has the instructions, see above.
+        // SAFETY: the CPU has the instructions, see the module documentation.
         unsafe { [_mm_cvtsd_f64(self.0), _mm_cvtsd_f64(_mm_unpackhi_pd(self.0, self.0))] }
     }
 }
@@ -187,7 +188,7 @@ impl Register for Avx2 {
 
     #[inline(always)]
     fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
-        // SAFETY: the machine has the instruction, see above.
+        // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe {
             let places = _mm_cvtsi64_si128(PLACES as i64);
             _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(a), places))
@@ -198,7 +199,7 @@ impl Register for Avx2 {
     fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
         let [a, b, c, d] = rows(row);
         let [even, odd] = [pairs(a, c), pairs(b, d)];
-        // SAFETY: the machine has the instructions, see above.
+        // SAFETY: the CPU has the instructions, see the module documentation.
         unsafe {
             [
                 Self(_mm256_unpacklo_pd(even[0], odd[0])),
@@ -238,18 +239,18 @@ impl Register for Avx512 {
 
     #[inline(always)]
     fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
-        // SAFETY: the machine has the instruction, see above.
+        // SAFETY: the CPU has the instruction, see the module documentation.
         Self(unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<PLACES>(_mm512_castpd_si512(a))) })
     }
 
     #[inline(always)]
     fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
         let [a, b, c, d, e, f, g, h] = rows(row);
-        // Of four lanes each.
+        // Two rows of four lanes per register.
         let [first, second] = [[two(a, c), two(b, d)], [two(e, g), two(f, h)]];
-        // SAFETY: the machine has the instructions, see above.
+        // SAFETY: the CPU has the instructions, see the module documentation.
         unsafe {
-            // Columns 0 and 2 in turn, and columns 1 and 3.
+            // Columns 0 and 2 interleaved, and columns 1 and 3.
             let even = [_mm512_unpacklo_pd(first[0], first[1]), _mm512_unpacklo_pd(second[0], second[1])];
             let odd = [_mm512_unpackhi_pd(first[0], first[1]), _mm512_unpackhi_pd(second[0], second[1])];
             [
@@ -262,7 +263,8 @@ impl Register for Avx512 {
     }
 }
 
-/// The row of each lane. Functions and a loop, no closures: those could stay without the instruction set.
+/// Returns the row of each lane. Uses functions and a loop instead of closures, which could be
+/// compiled without the instruction set.
 #[cfg(feature = "lanes")]
 #[inline(always)]
 fn rows<'r, const LANES: usize>(row: impl Fn(usize) -> &'r [f64; 4]) -> [&'r [f64; 4]; LANES] {
@@ -273,11 +275,12 @@ fn rows<'r, const LANES: usize>(row: impl Fn(usize) -> &'r [f64; 4]) -> [&'r [f6
     rows
 }
 
-/// The first halves of two rows in one register, and the second halves.
+/// Returns the first halves of two rows in one register, and the second halves in another.
 #[cfg(feature = "lanes")]
 #[inline(always)]
 fn pairs(low: &[f64; 4], high: &[f64; 4]) -> [__m256d; 2] {
-    // SAFETY: the machine has the instructions, see above; read are numbers 0 and 1, then 2 and 3, of a row of four.
+    // SAFETY: the CPU has the instructions, see the module documentation; the loads read numbers 0
+    // and 1, then 2 and 3, of a row of four.
     unsafe {
         let [a, b] = [_mm_loadu_pd(low.as_ptr()), _mm_loadu_pd(high.as_ptr())];
         let [c, d] = [_mm_loadu_pd(low.as_ptr().add(2)), _mm_loadu_pd(high.as_ptr().add(2))];
@@ -288,11 +291,12 @@ fn pairs(low: &[f64; 4], high: &[f64; 4]) -> [__m256d; 2] {
     }
 }
 
-/// Two rows in one register.
+/// Returns two rows in one register.
 #[cfg(feature = "lanes")]
 #[inline(always)]
 fn two(low: &[f64; 4], high: &[f64; 4]) -> __m512d {
-    // SAFETY: the machine has the instructions, see above; read are the four numbers of each row.
+    // SAFETY: the CPU has the instructions, see the module documentation; the loads read the four
+    // numbers of each row.
     unsafe {
         let [low, high] = [_mm256_loadu_pd(low.as_ptr()), _mm256_loadu_pd(high.as_ptr())];
         _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low), high)

@@ -1,4 +1,5 @@
-//! Makes the terms of an expression: names and dimensions are checked and constants folded as each is made.
+//! Builds the terms of an expression. Names and dimensions are checked and constants folded for
+//! each term.
 
 use super::function::FUNCTION_NAMES;
 use super::reach::reaches_beyond;
@@ -7,7 +8,7 @@ use super::unit::LARGEST;
 use super::{Binary, Dimension, Entry, Expression, Function, Kind, Lookup, Scope, Term, UNIT_NAMES, Unit};
 use crate::diagnostic::{Diagnostic, Span, first, nearest_after};
 
-/// Terms under construction. Mistakes of meaning go to `found` and do not stop the construction.
+/// Terms under construction. Semantic errors are recorded in `found` and do not stop construction.
 pub(super) struct Builder<'b> {
     scope: &'b Scope,
     found: &'b mut Vec<Diagnostic>,
@@ -24,23 +25,23 @@ impl<'b> Builder<'b> {
         self.scope
     }
 
-    /// How many mistakes there are so far.
+    /// Returns the number of mistakes so far.
     pub(super) fn mistakes(&self) -> usize {
         self.found.len()
     }
 
-    /// How many terms there are.
+    /// Returns the number of terms.
     pub(super) fn len(&self) -> usize {
         self.terms.len()
     }
 
-    /// Begins an entry that may use the given names.
+    /// Starts an entry that may use the given names.
     pub(super) fn begin(&mut self, allowed: Allowed) {
         self.terms.clear();
         self.allowed = allowed;
     }
 
-    /// Ends the entry whose last term is `whole`, and checks its dimension.
+    /// Finishes the entry whose last term is `whole`, and checks its dimension.
     pub(super) fn finish(&mut self, whole: usize, entry: Entry<'_>) -> Expression {
         debug_assert_eq!(whole + 1, self.terms.len(), "the whole is made last");
         let whole = &mut self.terms[whole];
@@ -48,16 +49,18 @@ impl<'b> Builder<'b> {
             && expected != found
         {
             if whole.bare && whole.value.is_some_and(|value| expected.takes_bare(value)) {
-                // A bare number that is a whole entry takes the entry's unit.
+                // A bare number takes the unit of the entry.
                 whole.dimension = Some(expected);
             } else {
                 let unit = expected.unit(self.scope.length.symbol());
                 let message = format!("{} must be {expected}, not {found}", entry.what);
                 let mistake = Diagnostic::new(whole.span.clone(), message).label(format!("this is {found}"));
-                let help = if expected == Dimension::NONE {
+                let help = if Dimension::NONE.over(expected) == Some(found) {
+                    "this is the reciprocal, as a stiffness is of a compliance: write `1/(…)`".to_owned()
+                } else if expected == Dimension::NONE {
                     "angles and slopes are pure numbers: `0.1`, `5 deg`, `d1/(1600 mm)`".to_owned()
                 } else {
-                    format!("give it in {unit} or a unit that converts to it")
+                    format!("use {unit} or a compatible unit")
                 };
                 self.found.push(mistake.help(help));
             }
@@ -88,14 +91,15 @@ impl<'b> Builder<'b> {
                 Diagnostic::new(span, format!("the function `{name}` needs its argument in parentheses"))
                     .help(format!("write `{name}(…)`"))
             } else if self.allowed == Allowed::Nothing {
-                Diagnostic::new(span, format!("`{name}` is not a number")).help("only numbers may stand here")
+                Diagnostic::new(span, format!("expected a number, found `{name}`"))
+                    .help("names cannot be used here")
             } else {
                 unknown(name, span, self.scope, self.mistakes())
             };
             return Err(mistake);
         };
         if let Err(reason) = self.allowed.check(declared.symbol) {
-            return Err(Diagnostic::new(span, format!("`{name}` may not be used here"))
+            return Err(Diagnostic::new(span, format!("`{name}` cannot be used here"))
                 .context(declared.span.clone(), "declared here")
                 .help(reason));
         }
@@ -126,35 +130,35 @@ impl<'b> Builder<'b> {
             }),
             _ if found == Dimension::NONE => Some(found),
             _ => {
-                let message = format!("`{}` takes a pure number, not {found}", function.name());
+                let message = format!("`{}` expects a pure number, found {found}", function.name());
                 self.mistake(operand, message, "divide by a length, such as `d1/(1600 mm)`");
                 None
             }
         });
-        let value = self.terms[operand].value.map(|value| function.of(value));
+        let value = self.terms[operand].value.map(|value| function.evaluate(value));
         self.push_folded(Kind::Call(function, operand), dimension, value, span)
     }
 
-    /// `atan2`, `min` or `max`.
+    /// Builds `atan2`, `min` or `max`.
     pub(super) fn function_of_two(&mut self, operator: Binary, a: usize, b: usize, span: Span) -> usize {
         let dimension = match operator {
-            Binary::Atan2 => {
-                self.equal(a, b, "the two arguments of `atan2` must be of one kind").map(|_| Dimension::NONE)
-            }
-            Binary::Min => self.equal(a, b, "the arguments of `min` must be of one kind"),
-            _ => self.equal(a, b, "the arguments of `max` must be of one kind"),
+            Binary::Atan2 => self
+                .equal(a, b, "the arguments of `atan2` must have the same dimension")
+                .map(|_| Dimension::NONE),
+            Binary::Min => self.equal(a, b, "the arguments of `min` must have the same dimension"),
+            _ => self.equal(a, b, "the arguments of `max` must have the same dimension"),
         };
-        let value = self.both(a, b).map(|(a, b)| operator.of(a, b));
+        let value = self.both(a, b).map(|(a, b)| operator.evaluate(a, b));
         self.push_folded(Kind::Binary(operator, a, b), dimension, value, span)
     }
 
-    /// The same term, which reaches as far as its closing parenthesis.
+    /// Sets the span of a term, extended to its closing parenthesis.
     pub(super) fn respan(&mut self, term: usize, span: Span) -> usize {
         self.terms[term].span = span;
         term
     }
 
-    /// The value of a table, whose argument are the terms from `begin` on.
+    /// Builds a table lookup whose argument consists of the terms from `begin` on.
     pub(super) fn look_up(&mut self, name: &str, begin: usize, span: Span) -> usize {
         let argument = self.terms.len() - 1;
         let (index, table) = self.scope.table(name).expect("the parser has found it");
@@ -165,8 +169,9 @@ impl<'b> Builder<'b> {
             .collect();
         let found = self.terms[argument].dimension;
         if let Some(found) = found.filter(|found| *found != expected) {
-            let message = format!("`{name}` takes {expected}, not {found}");
-            let help = "the unit of its x says what it takes; divide or multiply to get there";
+            let message = format!("`{name}` expects {expected}, found {found}");
+            let help =
+                "the argument must have the dimension of the table's x; divide or multiply by a reference";
             self.mistake(argument, message, help);
         }
         let beyond = reaches_beyond(&own, table, self.scope);
@@ -182,20 +187,16 @@ impl<'b> Builder<'b> {
         let (l, r) = (self.terms[left].dimension, self.terms[right].dimension);
         let both = l.zip(r);
         let dimension = match operator {
-            Binary::Add => self.equal(left, right, "only quantities of one kind can be added"),
-            Binary::Sub => self.equal(left, right, "only quantities of one kind can be subtracted"),
+            Binary::Add => self.equal(left, right, "cannot add quantities of different dimensions"),
+            Binary::Sub => self.equal(left, right, "cannot subtract quantities of different dimensions"),
             Binary::Mul => both.and_then(|(l, r)| self.or_absurd(l.times(r), &span)),
             Binary::Div => both.and_then(|(l, r)| self.or_absurd(l.over(r), &span)),
             Binary::Pow => self.power(left, right),
             Binary::Atan2 | Binary::Min | Binary::Max => l,
         };
-        let value = self.both(left, right).map(|(l, r)| operator.of(l, r));
+        let value = self.both(left, right).map(|(l, r)| operator.evaluate(l, r));
         if operator == Binary::Div && self.terms[right].value == Some(0.0) {
-            self.mistake(
-                right,
-                "division by zero".to_owned(),
-                "divide by something else, or leave the division out",
-            );
+            self.mistake(right, "division by zero".to_owned(), "divide by a nonzero value");
             return self.push(Term {
                 kind: Kind::Binary(operator, left, right),
                 dimension: None,
@@ -212,12 +213,12 @@ impl<'b> Builder<'b> {
             self.mistake(
                 exponent,
                 "an exponent must be a number".to_owned(),
-                "names may stand in the base only",
+                "names can only be used in the base",
             );
             return None;
         };
         if self.terms[exponent].dimension? != Dimension::NONE {
-            self.mistake(exponent, "an exponent must be a pure number".to_owned(), "leave its unit out");
+            self.mistake(exponent, "an exponent must be a pure number".to_owned(), "remove its unit");
             return None;
         }
         let dimension = self.terms[base].dimension?;
@@ -228,7 +229,7 @@ impl<'b> Builder<'b> {
         })
     }
 
-    /// The dimension of two terms that must have the same.
+    /// Returns the common dimension of two terms, or records that they differ.
     fn equal(&mut self, left: usize, right: usize, message: &str) -> Option<Dimension> {
         let (l, r) = (self.terms[left].dimension?, self.terms[right].dimension?);
         if l == r {
@@ -237,9 +238,9 @@ impl<'b> Builder<'b> {
         let unit = self.scope.length.symbol();
         let bare = |term: &Term| matches!(term.kind, Kind::Number(_)) && term.bare;
         let help = match (bare(&self.terms[left]), bare(&self.terms[right])) {
-            (true, _) => format!("give the number its unit, such as `{}`", r.unit(unit)),
-            (_, true) => format!("give the number its unit, such as `{}`", l.unit(unit)),
-            _ => "both sides must have the same unit, up to its prefix".to_owned(),
+            (true, _) => format!("add a unit to the number, such as `{}`", r.unit(unit)),
+            (_, true) => format!("add a unit to the number, such as `{}`", l.unit(unit)),
+            _ => "both sides must have compatible units".to_owned(),
         };
         let mistake = Diagnostic::new(self.terms[right].span.clone(), message)
             .label(format!("this is {r}"))
@@ -252,8 +253,8 @@ impl<'b> Builder<'b> {
     fn or_absurd(&mut self, dimension: Option<Dimension>, span: &Span) -> Option<Dimension> {
         if dimension.is_none() {
             self.found.push(
-                Diagnostic::new(span.clone(), "the unit of this product is absurd")
-                    .help("check the units: no exponent goes beyond 50"),
+                Diagnostic::new(span.clone(), "an exponent of the unit of this product is too large")
+                    .help("check the units: exponents of units are limited to 50"),
             );
         }
         dimension
@@ -267,7 +268,7 @@ impl<'b> Builder<'b> {
         self.found.push(Diagnostic::new(self.terms[term].span.clone(), message).help(help));
     }
 
-    /// Pushes a term, unless its constant value is not a number one can compute with.
+    /// Appends a term, or records that its constant value is NaN or too large.
     fn push_folded(
         &mut self,
         kind: Kind,
@@ -281,10 +282,10 @@ impl<'b> Builder<'b> {
                     ("has no real value", "the argument must be between -1 and 1")
                 }
                 (_, Kind::Call(Function::Log, _)) => {
-                    ("has no real value", "a logarithm needs more than zero")
+                    ("has no real value", "the argument of a logarithm must be positive")
                 }
-                (true, _) => ("has no real value", "roots and powers need a base that is not negative"),
-                (false, _) => ("is too large to compute with", "numbers go up to 1e150; is the unit right?"),
+                (true, _) => ("has no real value", "the base of a root or power must not be negative"),
+                (false, _) => ("is too large to compute with", "the maximum is 1e150; check the unit"),
             };
             self.found.push(Diagnostic::new(span.clone(), format!("this {what}")).help(help));
             return self.push(Term { kind, dimension: None, value: None, span, bare: false });
@@ -298,15 +299,15 @@ impl<'b> Builder<'b> {
     }
 }
 
-/// A name that nothing has, as the mistake that comes after `found` others.
+/// Returns the diagnostic of an unknown name, after `found` others.
 fn unknown(name: &str, span: Span, scope: &Scope, found: usize) -> Diagnostic {
     let names: Vec<&str> = scope.names.keys().map(String::as_str).collect();
-    let mistake = Diagnostic::new(span, format!("there is no variable, parameter or input `{name}`"));
+    let mistake = Diagnostic::new(span, format!("unknown name `{name}`"));
     let tables = scope.tables.iter().map(|table| table.name.as_str());
     let candidates = names.iter().copied().chain(tables).chain(FUNCTION_NAMES).chain(UNIT_NAMES);
     match nearest_after(found, name, candidates) {
         Some(near) => mistake.help(format!("did you mean `{near}`?")),
-        None if names.is_empty() => mistake.help("this spec declares no names"),
+        None if names.is_empty() => mistake.help("this spec declares no variables, parameters or inputs"),
         None => mistake.help(format!("declared names: {}", first(&names))),
     }
 }

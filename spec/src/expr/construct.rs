@@ -1,4 +1,4 @@
-//! Expressions that stand in no file: made of others, not of text.
+//! Expressions constructed from other expressions instead of text.
 //!
 //! ```
 //! # use abbe_spec::expr::{Dimension, Expression, Function, Symbol};
@@ -13,24 +13,24 @@ use std::ops::{Add, Div, Mul};
 use super::{Binary, Dimension, Expression, Function, Kind, Symbol, Term};
 
 impl Expression {
-    /// A number in the coherent system.
+    /// Creates a number in coherent units.
     pub fn from_number(value: f64, dimension: Dimension) -> Self {
         Self::number(value, dimension, 0..0)
     }
 
-    /// A variable, parameter or input, and its dimension.
+    /// Creates a variable, parameter or input with its dimension.
     pub fn from_symbol(symbol: Symbol, dimension: Dimension) -> Self {
         Self::symbol(symbol, Some(dimension), 0..0)
     }
 
-    /// A function of it, which is a pure number.
+    /// Applies a function whose result is a pure number.
     pub fn call(self, function: Function) -> Self {
-        let value = self.constant().map(|value| function.of(value));
+        let value = self.constant().map(|value| function.evaluate(value));
         let operand = self.terms().len() - 1;
         self.with(Kind::Call(function, operand), Some(Dimension::NONE), value)
     }
 
-    /// A power of it.
+    /// Raises to a power.
     pub fn power(self, exponent: f64) -> Self {
         let dimension = self.whole().dimension.and_then(|dimension| dimension.power(exponent));
         let value = self.constant().map(|value| value.powf(exponent));
@@ -66,7 +66,7 @@ impl Expression {
 impl Add for Expression {
     type Output = Self;
 
-    /// Of two of the same dimension.
+    /// Adds an expression of the same dimension.
     fn add(self, right: Self) -> Self {
         let dimension = self.whole().dimension;
         let value = self.constant().zip(right.constant()).map(|(l, r)| l + r);

@@ -1,14 +1,18 @@
-//! The slopes of cubics through points that never leave the range between two neighbours.
+//! Slopes of monotone cubic interpolation, which never leaves the range between two neighbouring
+//! points.
 //!
-//! Those of Fritsch and Butland, *A method for constructing local monotone piecewise cubic interpolants*, SIAM J. Sci. Stat.
-//! Comput. 5 (1984) 300–304, with the ends of Moler, *Numerical computing with MATLAB*, section 3.6: what MATLAB and SciPy
-//! call pchip. A natural spline is smoother, but it overshoots between measured points, and one wrong point bends
-//! all of it; here a point changes the two intervals on each side of it, and a table never says more than was measured.
+//! The method is that of Fritsch and Butland, *A method for constructing local monotone piecewise
+//! cubic interpolants*, SIAM J. Sci. Stat. Comput. 5 (1984) 300–304, with the ends of Moler,
+//! *Numerical computing with MATLAB*, section 3.6. MATLAB and SciPy call it pchip. A natural spline
+//! is smoother, but it overshoots between measured points, and one outlier affects all of it. Here
+//! a point affects two intervals on each side.
 
-/// The slope at each of n + 1 points, from the widths of the n intervals between them and the slopes of their secants.
+/// Returns the slope at each of n + 1 points, from the widths of the n intervals and the slopes of
+/// their secants.
 ///
-/// Where the secants `d` of two neighbours differ in sign it is 0, else their weighted harmonic mean:
-/// `m = (w₁ + w₂) / (w₁/d₁ + w₂/d₂)` with `w₁ = 2h₂ + h₁` and `w₂ = h₂ + 2h₁`.
+/// If the secants `d` of two neighbouring intervals differ in sign, the slope is 0. Otherwise it is
+/// their weighted harmonic mean: `m = (w₁ + w₂) / (w₁/d₁ + w₂/d₂)` with `w₁ = 2h₂ + h₁` and `w₂ =
+/// h₂ + 2h₁`.
 pub(super) fn slopes(widths: &[f64], secants: &[f64]) -> Vec<f64> {
     let count = widths.len();
     if count == 1 {
@@ -27,8 +31,8 @@ pub(super) fn slopes(widths: &[f64], secants: &[f64]) -> Vec<f64> {
     [first].into_iter().chain((1..count).map(inner)).chain([last]).collect()
 }
 
-/// The slope at an end: of the parabola through three points, `((2h₁ + h₂) d₁ − h₁ d₂) / (h₁ + h₂)`, but of the sign of
-/// `d₁`, and no more than `3 d₁` where the secants differ in sign.
+/// Returns the slope at an end: that of the parabola through three points, `((2h₁ + h₂) d₁ − h₁ d₂)
+/// / (h₁ + h₂)`, limited to the sign of `d₁`, and to `3 d₁` if the secants differ in sign.
 fn end([h1, h2]: [f64; 2], [d1, d2]: [f64; 2]) -> f64 {
     let slope = ((2.0 * h1 + h2) * d1 - h1 * d2) / (h1 + h2);
     if slope * d1 <= 0.0 {

@@ -1,11 +1,12 @@
-//! Physical dimensions: what may be added to what.
+//! Physical dimensions.
 
 use std::fmt;
 
-/// A physical dimension as exponents of length, mass, time and temperature. Angles are pure numbers.
+/// A physical dimension as exponents of length, mass, time and temperature. Angles are pure
+/// numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dimension {
-    /// Twice the exponents, so that square roots stay exact.
+    /// Exponents times two, so that square roots stay exact.
     halves: [i8; 4],
 }
 
@@ -33,24 +34,25 @@ impl Dimension {
     /// A pressure.
     pub const PRESSURE: Self = Self { halves: [-2, 2, -4, 0] };
 
-    /// Whether a bare number that is a whole entry of this dimension says what it means.
+    /// Returns `true` if a bare number is unambiguous as a whole entry of this dimension.
     ///
-    /// Lengths are in the spec's unit and angles in rad; for a force, say, the coherent unit is nobody's guess.
+    /// Lengths are in the spec's unit and angles in radians. The coherent unit of a force, for
+    /// example, is not obvious, so it must be given.
     pub(crate) fn takes_bare(self, number: f64) -> bool {
         number == 0.0 || self == Self::NONE || self == Self::LENGTH
     }
 
-    /// The dimension of a product; none if an exponent is absurd.
+    /// Returns the dimension of a product, or `None` if an exponent overflows.
     pub fn times(self, other: Self) -> Option<Self> {
         self.combine(other, i8::checked_add)
     }
 
-    /// The dimension of a quotient; none if an exponent is absurd.
+    /// Returns the dimension of a quotient, or `None` if an exponent overflows.
     pub fn over(self, other: Self) -> Option<Self> {
         self.combine(other, i8::checked_sub)
     }
 
-    /// The dimension of a power; none if it has no whole or half exponents.
+    /// Returns the dimension of a power, or `None` if an exponent is no multiple of 1/2.
     pub fn power(self, exponent: f64) -> Option<Self> {
         let mut halves = [0; 4];
         for (power, half) in halves.iter_mut().zip(self.halves) {
@@ -63,18 +65,20 @@ impl Dimension {
         Some(Self { halves })
     }
 
-    /// The exponent of length.
+    /// Returns the exponent of length.
     pub fn length_exponent(self) -> i32 {
         i32::from(self.halves[0]) / 2
     }
 
-    /// The exponents of length, mass, time and temperature, if they are whole.
+    /// Returns the exponents of length, mass, time and temperature, or `None` if one is not an
+    /// integer.
     pub fn whole_exponents(self) -> Option<[i32; 4]> {
         let whole = self.halves.iter().all(|half| half % 2 == 0);
         whole.then(|| self.halves.map(|half| i32::from(half) / 2))
     }
 
-    /// The coherent unit in a system whose length unit is `length`: empty for a pure number.
+    /// Returns the coherent unit in a system whose length unit is `length`; empty for a pure
+    /// number.
     pub fn unit(self, length: &str) -> String {
         let names = [length, "kg", "s", "K"];
         let power = |halves: i8, name: &str| match halves {
@@ -102,7 +106,7 @@ impl Dimension {
     }
 }
 
-/// Names the dimension in words: `a length`, `a pure number`, `mm^2/s`.
+/// Displays the dimension in words: `a length`, `a pure number`, `mm^2/s`.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match *self {

@@ -7,7 +7,7 @@ use abbe_core::Scalar;
 use super::{Dimension, Function, Symbol, Table};
 use crate::diagnostic::Span;
 
-/// An operator of two operands.
+/// An operator with two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Binary {
     /// Sum.
@@ -22,15 +22,15 @@ pub enum Binary {
     Pow,
     /// `atan2(y, x)`.
     Atan2,
-    /// The smaller.
+    /// The smaller operand.
     Min,
-    /// The larger.
+    /// The larger operand.
     Max,
 }
 
 impl Binary {
-    /// Its value.
-    pub fn of(self, left: f64, right: f64) -> f64 {
+    /// Returns the value for two operands.
+    pub fn evaluate(self, left: f64, right: f64) -> f64 {
         match self {
             Self::Add => left + right,
             Self::Sub => left - right,
@@ -44,34 +44,34 @@ impl Binary {
     }
 }
 
-/// A table, or a derivative of it.
+/// A table or one of its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Lookup {
-    /// Which of the spec's tables.
+    /// Index of the table in the spec.
     pub table: u16,
-    /// The order of the derivative, 0 for the table itself.
+    /// Order of the derivative; 0 for the table itself.
     pub order: u16,
 }
 
-/// What a term is. Operands are indices of earlier terms.
+/// Operation of a term. Operands are indices of earlier terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// A number in the coherent system.
+    /// A number in coherent units.
     Number(f64),
     /// A name.
     Symbol(Symbol),
-    /// A change of sign.
+    /// A negation.
     Neg(usize),
-    /// An operator.
+    /// An operator with two operands.
     Binary(Binary, usize, usize),
-    /// A function.
+    /// A function of one argument.
     Call(Function, usize),
-    /// A table.
+    /// A table lookup.
     Lookup(Lookup, usize),
 }
 
 impl Kind {
-    /// The same with other operands.
+    /// Applies `f` to every operand.
     pub(super) fn map(self, f: impl Fn(usize) -> usize) -> Self {
         match self {
             Self::Number(_) | Self::Symbol(_) => self,
@@ -86,46 +86,47 @@ impl Kind {
 /// A term of an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// What it is.
+    /// Operation of the term.
     pub kind: Kind,
-    /// Its dimension; none after a mistake, so that one mistake is told once.
+    /// Dimension; `None` after a mistake, so that it is not reported twice.
     pub dimension: Option<Dimension>,
-    /// Its value if it is constant.
+    /// Value if the term is constant.
     pub value: Option<f64>,
-    /// Its place in the file.
+    /// Location in the file.
     pub span: Span,
-    /// Whether it is a number, with its sign, to which no unit was given.
+    /// `true` for a number, with or without a sign, that has no unit.
     pub bare: bool,
 }
 
-/// A checked expression: its terms in an order in which each comes after its operands, the last being the whole.
+/// A checked expression: terms in an order in which each comes after its operands; the last one is
+/// the whole expression.
 ///
-/// A list and not a tree, so that no depth of nesting can exhaust the stack.
+/// It is a list instead of a tree, so that deep nesting cannot overflow the stack.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     terms: Vec<Term>,
 }
 
 impl Expression {
-    /// Takes terms of which the last is the whole.
+    /// Creates an expression from terms whose last one is the whole.
     pub(crate) fn new(terms: Vec<Term>) -> Self {
         debug_assert!(!terms.is_empty());
         Self { terms }
     }
 
-    /// A constant that stands nowhere in the file.
+    /// Creates a constant.
     pub(crate) fn number(value: f64, dimension: Dimension, span: Span) -> Self {
         let kind = Kind::Number(value);
         Self::new(vec![Term { kind, dimension: Some(dimension), value: Some(value), span, bare: false }])
     }
 
-    /// The variable, parameter or input itself.
+    /// Creates a variable, parameter or input.
     pub(crate) fn symbol(symbol: Symbol, dimension: Option<Dimension>, span: Span) -> Self {
         let kind = Kind::Symbol(symbol);
         Self::new(vec![Term { kind, dimension, value: None, span, bare: false }])
     }
 
-    /// The same with the other sign.
+    /// Negates the expression.
     pub(crate) fn negated(mut self) -> Self {
         let whole = self.whole().clone();
         let kind = Kind::Neg(self.terms.len() - 1);
@@ -133,7 +134,7 @@ impl Expression {
         self
     }
 
-    /// Operands first, the whole last.
+    /// Returns the terms, operands first, the whole last.
     pub fn terms(&self) -> &[Term] {
         &self.terms
     }
@@ -142,27 +143,27 @@ impl Expression {
         self.terms
     }
 
-    /// The term that is the whole.
+    /// Returns the last term, which is the whole expression.
     pub fn whole(&self) -> &Term {
         &self.terms[self.terms.len() - 1]
     }
 
-    /// Its value if it is constant.
+    /// Returns the value if the expression is constant.
     pub fn constant(&self) -> Option<f64> {
         self.whole().value
     }
 
-    /// Its place in the file.
+    /// Returns the location in the file.
     pub fn span(&self) -> Span {
         self.whole().span.clone()
     }
 
-    /// Its value at values of its names.
+    /// Returns the value for given values of the symbols.
     pub fn value(&self, tables: &[Arc<Table>], symbol: impl Fn(Symbol) -> f64) -> f64 {
         values(&self.terms, tables, symbol)[self.terms.len() - 1]
     }
 
-    /// Every name it uses.
+    /// Iterates over the symbols, with repetitions.
     pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
         self.terms.iter().filter_map(|term| match term.kind {
             Kind::Symbol(symbol) => Some(symbol),
@@ -171,7 +172,7 @@ impl Expression {
     }
 }
 
-/// The value of each term.
+/// Returns the value of each term.
 pub(super) fn values(terms: &[Term], tables: &[Arc<Table>], symbol: impl Fn(Symbol) -> f64) -> Vec<f64> {
     let mut values: Vec<f64> = Vec::with_capacity(terms.len());
     for term in terms {
@@ -179,8 +180,8 @@ pub(super) fn values(terms: &[Term], tables: &[Arc<Table>], symbol: impl Fn(Symb
             Kind::Number(value) => value,
             Kind::Symbol(name) => symbol(name),
             Kind::Neg(a) => -values[a],
-            Kind::Binary(operator, a, b) => operator.of(values[a], values[b]),
-            Kind::Call(function, a) => function.of(values[a]),
+            Kind::Binary(operator, a, b) => operator.evaluate(values[a], values[b]),
+            Kind::Call(function, a) => function.evaluate(values[a]),
             Kind::Lookup(lookup, a) => {
                 tables[usize::from(lookup.table)].derivative(u32::from(lookup.order), values[a])
             }

@@ -1,4 +1,4 @@
-//! The functions that an expression may call.
+//! Functions that an expression may call.
 
 use abbe_core::Scalar;
 
@@ -25,18 +25,19 @@ pub enum Function {
     Exp,
     /// Natural logarithm.
     Log,
-    /// −1, 0 or 1.
+    /// Sign: −1, 0 or 1.
     Sign,
-    /// −1 below 0, else 1: the derivative of the absolute value. Not for spec files.
+    /// −1 for negative numbers, else 1: the derivative of the absolute value. Not available in spec
+    /// files.
     Side,
 }
 
-/// The functions a spec may name, those of several arguments among them.
+/// Names of the functions in a spec, including those of several arguments.
 pub const FUNCTION_NAMES: [&str; 14] =
     ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "abs", "min", "max", "sign", "exp", "log"];
 
 impl Function {
-    /// The function of that name in a spec file.
+    /// Returns the function with this name in a spec file.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "sin" => Self::Sin,
@@ -54,7 +55,7 @@ impl Function {
         })
     }
 
-    /// Its name in spec files.
+    /// Returns the name in spec files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sin => "sin",
@@ -72,8 +73,8 @@ impl Function {
         }
     }
 
-    /// Its value.
-    pub fn of(self, x: f64) -> f64 {
+    /// Returns the value of the function.
+    pub fn evaluate(self, x: f64) -> f64 {
         match self {
             Self::Sin => x.sin(),
             Self::Cos => x.cos(),

@@ -1,8 +1,9 @@
-//! Expressions: text to checked terms. Every mistake has its place; every term its dimension.
+//! Expressions: text is parsed to checked terms. Every mistake has a location, and every term a
+//! dimension.
 //!
-//! `+ - * / ^`, functions, `pi`, numbers with an optional unit, names. `tokens` cuts the text, `parse`
-//! finds its structure, `build` checks names and dimensions and folds constants as the terms are made; `construct` makes
-//! expressions without text.
+//! Expressions consist of `+ - * / ^`, functions, `pi`, numbers with an optional unit, and names.
+//! `tokens` splits the text, `parse` finds its structure, `build` checks names and dimensions and
+//! folds constants, and `construct` creates expressions without text.
 
 mod build;
 mod construct;
@@ -27,5 +28,5 @@ pub use transform::{Elementary, Motion, motion};
 pub use unit::{LARGEST, UNIT_NAMES, Unit};
 
 pub(crate) use parse::{parse_expression, parse_unit};
-pub(crate) use tokens::{Place, Token, tokens};
+pub(crate) use tokens::{TextLocation, Token, tokens};
 pub(crate) use transform::parse_transform;

@@ -12,16 +12,17 @@
 use super::build::Builder;
 use super::function::FUNCTION_NAMES;
 use super::tokens::{Token, tokens};
-use super::{Binary, Entry, Expression, Function, Place, Scope, Unit};
+use super::{Binary, Entry, Expression, Function, Scope, TextLocation, Unit};
 use crate::diagnostic::{Diagnostic, Span, nearest, suggestion};
 
-/// How deep parentheses, functions, signs and powers may nest.
+/// Maximum nesting depth of parentheses, functions, signs and powers.
 const DEPTH: usize = 100;
 
-/// Parses and checks a text that is a whole entry. Mistakes go to `found`; any mistake gives none.
+/// Parses and checks a text that is a whole entry. Mistakes are recorded in `found`, and the result
+/// is then `None`.
 pub(crate) fn parse_expression(
     text: &str,
-    place: &Place,
+    place: &TextLocation,
     scope: &Scope,
     entry: Entry<'_>,
     found: &mut Vec<Diagnostic>,
@@ -41,10 +42,11 @@ pub(crate) fn parse_expression(
     }
 }
 
-/// Parses a text that is a unit, or nothing for none. A mistake goes to `found` and gives none.
+/// Parses a unit; an empty text is no unit. A mistake is recorded in `found`, and the result is
+/// then `None`.
 pub(crate) fn parse_unit(
     text: &str,
-    place: &Place,
+    place: &TextLocation,
     scope: &Scope,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Unit> {
@@ -60,12 +62,12 @@ pub(crate) fn parse_unit(
     unit.map_err(|mistake| found.push(mistake)).ok()
 }
 
-/// A place in the tokens of a text, and the terms of the expression being read.
+/// Position in the tokens of a text, and the terms of the expression being parsed.
 pub(crate) struct Parser<'p> {
     tokens: Vec<(Token<'p>, Span)>,
     at: usize,
     depth: usize,
-    place: &'p Place,
+    place: &'p TextLocation,
     builder: Builder<'p>,
 }
 
@@ -74,7 +76,7 @@ type Parsed<T> = Result<T, Diagnostic>;
 impl<'p> Parser<'p> {
     pub(crate) fn new(
         text: &'p str,
-        place: &'p Place,
+        place: &'p TextLocation,
         scope: &'p Scope,
         found: &'p mut Vec<Diagnostic>,
     ) -> Parsed<Self> {
@@ -82,7 +84,7 @@ impl<'p> Parser<'p> {
         Ok(Self { tokens, at: 0, depth: 0, place, builder: Builder::new(scope, found) })
     }
 
-    /// A sum that is a whole entry; the parser can then read another.
+    /// Parses a sum that is a whole entry. The parser can then parse another one.
     pub(crate) fn entry(&mut self, entry: Entry<'_>) -> Parsed<Expression> {
         self.builder.begin(entry.names);
         let whole = self.sum()?;
@@ -93,7 +95,7 @@ impl<'p> Parser<'p> {
         self.tokens[self.at].0
     }
 
-    /// The place of the next token in the file.
+    /// Returns the location of the next token in the file.
     pub(crate) fn here(&self) -> Span {
         self.place.span(self.tokens[self.at].1.clone())
     }
@@ -122,7 +124,7 @@ impl<'p> Parser<'p> {
             Token::End => Ok(()),
             Token::Word(name) if Unit::named(name).is_some() => {
                 Err(Diagnostic::new(self.here(), format!("the unit `{name}` must follow a number"))
-                    .help("units convert numbers only; a name or a product has its unit already"))
+                    .help("only numbers take a unit; names already have theirs"))
             }
             _ => Err(self.unexpected("an operator or the end")),
         }
@@ -140,12 +142,12 @@ impl<'p> Parser<'p> {
             .help("an expression is written as `0.5*d1 + 3 mm * sin(q2)`")
     }
 
-    /// Runs one level of nesting deeper.
+    /// Parses one level of nesting deeper.
     fn nested<T>(&mut self, inner: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
         if self.depth == DEPTH {
             return Err(Diagnostic::new(self.here(), "this expression nests too deeply")
                 .label(format!("more than {DEPTH} levels"))
-                .help("name parts of it as frames or sources of their own"));
+                .help("split it into several frames or sources"));
         }
         self.depth += 1;
         let result = inner(self);
@@ -245,7 +247,7 @@ impl<'p> Parser<'p> {
             let tables = self.builder.scope().tables.iter().map(|table| table.name.as_str());
             let known: Vec<&str> = FUNCTION_NAMES.into_iter().chain(tables).collect();
             let help = suggestion(self.builder.mistakes(), word, &known, "functions");
-            return Err(Diagnostic::new(start, format!("there is no function `{word}`")).help(help));
+            return Err(Diagnostic::new(start, format!("unknown function `{word}`")).help(help));
         }
         self.expect('(')?;
         let begin = self.builder.len();
@@ -257,7 +259,7 @@ impl<'p> Parser<'p> {
                 self.expect(',')?;
                 let next = self.nested(Self::sum)?;
                 whole = self.builder.function_of_two(operator, whole, next, start.start..self.here().end);
-                // Of several numbers one is the smallest, but a point has two coordinates.
+                // `min` and `max` take any number of arguments, `atan2` takes two.
                 more = operator != Binary::Atan2 && self.peek() == Token::Sign(',');
             }
         }
@@ -270,14 +272,14 @@ impl<'p> Parser<'p> {
         })
     }
 
-    /// Whether a word after a number is known, so that what is missing is an operator.
+    /// Returns `true` if a word after a number is known, so that an operator is missing.
     fn is_known(&self, word: &str) -> bool {
         let scope = self.builder.scope();
         let is_name = scope.names.contains_key(word) || scope.table(word).is_some() || word == "pi";
         is_name || FUNCTION_NAMES.contains(&word) || Unit::named(word).is_some()
     }
 
-    /// The unit that follows a number, if one does; `span` grows over it.
+    /// Parses the unit that follows a number, if there is one; `span` is extended over it.
     fn unit(&mut self, span: &mut Span) -> Parsed<Option<Unit>> {
         let starts =
             self.unit_factor_ahead(0) || (self.peek() == Token::Sign('/') && self.unit_factor_ahead(1));
@@ -290,11 +292,11 @@ impl<'p> Parser<'p> {
         Ok(Some(unit))
     }
 
-    /// Whether a unit name, possibly in parentheses, stands `ahead` tokens from here.
+    /// Returns `true` if a unit name, possibly in parentheses, is `ahead` tokens away.
     fn unit_factor_ahead(&self, ahead: usize) -> bool {
         let mut tokens = self.tokens[self.at..].iter().skip(ahead).map(|token| token.0);
         let first = tokens.find(|token| *token != Token::Sign('(') || ahead == 0);
-        // `min(` is the function.
+        // `min(` is the function, not minutes.
         let mut is_function =
             |name: &str| FUNCTION_NAMES.contains(&name) && tokens.next() == Some(Token::Sign('('));
         matches!(first, Some(Token::Word(name)) if Unit::named(name).is_some() && !is_function(name))
@@ -317,7 +319,7 @@ impl<'p> Parser<'p> {
         Ok(unit)
     }
 
-    /// Multiplies `unit` by the next factor, to the `sign`.
+    /// Multiplies `unit` by the next factor, raised to `sign`.
     fn unit_factor(&mut self, unit: Unit, sign: i32) -> Parsed<Unit> {
         let start = self.here();
         let factor = if self.accept('(') {
@@ -334,8 +336,8 @@ impl<'p> Parser<'p> {
         };
         let power = if self.accept('^') { self.unit_power()? } else { 1 };
         unit.times(factor, sign * power).ok_or_else(|| {
-            Diagnostic::new(start, "this power of a unit is absurd")
-                .help("write a small whole power, as in `mm^2`")
+            Diagnostic::new(start, "this exponent of a unit is too large")
+                .help("write a small integer exponent, as in `mm^2`")
         })
     }
 
@@ -345,7 +347,7 @@ impl<'p> Parser<'p> {
             (Token::Number(power), _) if power.fract() == 0.0 && power.abs() <= 12.0 => {
                 Ok(if negative { -(power as i32) } else { power as i32 })
             }
-            (_, span) => Err(Diagnostic::new(span, "the power of a unit must be a small whole number")
+            (_, span) => Err(Diagnostic::new(span, "the exponent of a unit must be a small integer")
                 .help("write `mm^2` or `s^-1`; for a power of a whole quantity use parentheses: `(2 mm)^x`")),
         }
     }
@@ -357,7 +359,7 @@ fn unit_help() -> String {
 
 fn unknown_unit(word: &str, span: Span) -> Diagnostic {
     let mistake =
-        Diagnostic::new(span, format!("`{}` is no unit", word.escape_debug())).label("unknown unit");
+        Diagnostic::new(span, format!("unknown unit `{}`", word.escape_debug())).label("not a unit");
     mistake.help(match nearest(word, super::UNIT_NAMES) {
         Some(near) => format!("did you mean `{near}`?"),
         None => unit_help(),

@@ -1,19 +1,21 @@
-//! Whether what is asked of a table can lie beyond its ends.
+//! Checks whether the argument of a table can leave its range.
 
 use super::expression::values;
 use super::{Kind, Outside, Scope, Symbol, Table, Term};
 use crate::diagnostic::Diagnostic;
 
-/// How many configurations are tried besides the corners of the ranges.
+/// Number of configurations that are tried in addition to the corners of the ranges.
 const SAMPLES: usize = 256;
 
-/// How many names may be at their ends in all combinations.
+/// Number of names for which all combinations of ends are tried.
 const CORNERS: usize = 6;
 
-/// A mistake if an argument, the last of some terms, leaves a table that does not hold.
+/// Returns a diagnostic if an argument, the last of some terms, leaves a table that does not hold
+/// its end values.
 ///
-/// An argument that is a variable or input itself is judged by its limits. Of anything else the corners of the ranges and
-/// points between them are tried: what they miss is not a number when it is evaluated.
+/// An argument that is a variable or input is checked by its limits. For any other argument the
+/// corners of the ranges and points between them are tried. A violation that this misses gives NaN
+/// at evaluation.
 pub(super) fn reaches_beyond(terms: &[Term], table: &Table, scope: &Scope) -> Option<Diagnostic> {
     let argument = terms.last()?;
     if table.outside == Outside::Hold || argument.dimension != Some(table.dimensions[0]) {
@@ -37,11 +39,11 @@ pub(super) fn reaches_beyond(terms: &[Term], table: &Table, scope: &Scope) -> Op
     }
     let unit = table.dimensions[0].unit(scope.length.symbol());
     let shown = |value: f64| format!("{value} {unit}").trim_end().to_owned();
-    let message = format!("`{}` is not known everywhere it is asked for", table.name);
+    let message = format!("the argument of `{}` can leave the range of the table", table.name);
     let label = match argument.value {
         Some(value) => format!("this is {}", shown(value)),
-        None if low == f64::NEG_INFINITY || high == f64::INFINITY => "this has no limits".to_owned(),
-        None => format!("this goes from {} to {}", shown(low), shown(high)),
+        None if low == f64::NEG_INFINITY || high == f64::INFINITY => "the argument has no limits".to_owned(),
+        None => format!("the argument goes from {} to {}", shown(low), shown(high)),
     };
     let help = format!(
         "its points go from {} to {}; limit the argument, or write `outside = \"hold\"` in [tables.{}]",
@@ -59,9 +61,9 @@ fn symbol_of(term: &Term) -> Option<Symbol> {
     }
 }
 
-/// The least and the largest value found.
+/// Returns the least and the largest value found.
 fn extremes(terms: &[Term], scope: &Scope, symbols: &[Symbol], ranges: &[[f64; 2]]) -> [f64; 2] {
-    // Without limits nothing is known but that 0 is likely.
+    // Without limits, only 0 is tried.
     let finite = |[low, high]: [f64; 2]| match (low.is_finite(), high.is_finite()) {
         (true, true) => [low, high],
         (true, false) => [low; 2],
@@ -74,7 +76,7 @@ fn extremes(terms: &[Term], scope: &Scope, symbols: &[Symbol], ranges: &[[f64; 2
         let symbol = |symbol: Symbol| {
             let index = symbols.iter().position(|known| *known == symbol).unwrap_or(0);
             let [low, high] = ranges[index];
-            // The ends themselves, not what rounding makes of them.
+            // Use the ends themselves, not their rounded interpolation.
             match share(index) {
                 0.0 => low,
                 1.0 => high,
@@ -89,11 +91,11 @@ fn extremes(terms: &[Term], scope: &Scope, symbols: &[Symbol], ranges: &[[f64; 2
         try_at(&|index| f64::from(corner >> index.min(CORNERS) & 1));
     }
     for sample in 1..=SAMPLES {
-        // Multiples of the fractional parts of √2, √3, √5 …: evenly spread in every dimension.
+        // Multiples of the fractional parts of √2, √3, √5, …: evenly spread in every dimension.
         try_at(&|index| (sample as f64 * ROOTS[index % ROOTS.len()].sqrt()).fract());
     }
     found
 }
 
-/// Numbers whose roots are not rational, nor are quotients of these.
+/// Numbers with irrational roots and irrational ratios of roots.
 const ROOTS: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];

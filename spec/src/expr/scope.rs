@@ -1,4 +1,4 @@
-//! What a name in an expression can be.
+//! Names that an expression may use.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use indexmap::IndexMap;
 use super::{Dimension, Table};
 use crate::diagnostic::Span;
 
-/// What a name stands for, with its index among its kind.
+/// Kind of a name, with its index within the kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Symbol {
     /// A joint variable `q`.
@@ -17,80 +17,80 @@ pub enum Symbol {
     Parameter(usize),
     /// An input `u`.
     Input(usize),
-    /// A generalized error ε: never in a spec, but in the proof that `J_e` is its derivative.
+    /// A generalized error ε. Not in specs, but in the test that `J_e` is the derivative by it.
     Error(usize),
-    /// What the errors of a source are multiplied with: never in a spec, but in the exact chain.
+    /// The magnitude that multiplies the errors of a source. Not in specs, but in the exact chain.
     Magnitude(usize),
-    /// One of the numbers that the body of a loop reads: never in a spec.
+    /// One of the numbers that the body of a loop reads. Not in specs.
     Local(usize),
 }
 
 /// A declared name.
 #[derive(Clone, Debug)]
 pub struct Name {
-    /// What it stands for.
+    /// The symbol.
     pub symbol: Symbol,
-    /// Its dimension; none if its declaration is itself mistaken, so that it causes no further mistakes.
+    /// Dimension; `None` if its declaration has a mistake, so that no further ones are reported.
     pub dimension: Option<Dimension>,
-    /// Where it is declared.
+    /// Location of the declaration.
     pub span: Span,
-    /// Its least and its largest value, infinite without limits.
+    /// Least and largest value; infinite without limits.
     pub range: [f64; 2],
 }
 
-/// Every declared name of a spec, and its length unit.
+/// Declared names of a spec, and its length unit.
 #[derive(Clone, Debug)]
 pub struct Scope {
-    /// What a bare number of length is in.
+    /// Unit of a bare length.
     pub length: LengthUnit,
-    /// The names, in the order of their declaration.
+    /// Names in the order of their declaration.
     pub names: IndexMap<String, Name>,
-    /// The functions that are given by points.
+    /// Tables of the spec.
     pub tables: Vec<Arc<Table>>,
 }
 
 impl Scope {
-    /// No names yet.
+    /// Creates a scope without names.
     pub fn new(length: LengthUnit) -> Self {
         Self { length, names: IndexMap::new(), tables: Vec::new() }
     }
 
-    /// The table of that name, and which it is.
+    /// Returns the table with this name, and its index.
     pub(super) fn table(&self, name: &str) -> Option<(u16, &Arc<Table>)> {
         let index = self.tables.iter().position(|table| table.name == name)?;
         Some((u16::try_from(index).ok()?, &self.tables[index]))
     }
 }
 
-/// What is expected of an expression that is a whole entry of a spec.
+/// Requirements on an expression that is a whole entry of a spec.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry<'a> {
-    /// The dimension it must have; none if any will do.
+    /// Required dimension; `None` for any.
     pub dimension: Option<Dimension>,
-    /// What it is, with its article: `the translation along x`.
+    /// Name of the entry with its article: `the translation along x`.
     pub what: &'a str,
-    /// Which names it may use.
+    /// Names that it may use.
     pub names: Allowed,
 }
 
-/// Which names an entry may use.
+/// Names that an entry may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Allowed {
-    /// None: the entry is a number.
+    /// No names: the entry is a constant.
     Nothing,
-    /// Variables and parameters: the entry is part of a nominal matrix.
+    /// Variables and parameters: the entry is part of a nominal transform.
     Geometry,
-    /// Inputs too: the entry is a physical error.
+    /// Variables, parameters and inputs: the entry is a physical error.
     Everything,
 }
 
 impl Allowed {
-    /// Whether the entry may use `symbol`, or else why not.
+    /// Checks whether the entry may use `symbol`; the error is the reason.
     pub(crate) fn check(self, symbol: Symbol) -> Result<(), &'static str> {
         match (self, symbol) {
-            (Self::Nothing, _) => Err("only numbers may stand here"),
+            (Self::Nothing, _) => Err("expected a constant"),
             (Self::Geometry, Symbol::Input(_)) => {
-                Err("a nominal matrix may not depend on an input: say what the input changes in a [[source]]")
+                Err("a nominal transform cannot depend on an input: use the input in a [[source]]")
             }
             _ => Ok(()),
         }

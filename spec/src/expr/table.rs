@@ -1,42 +1,42 @@
-//! Functions that a spec gives by points.
+//! Tables: functions that a spec defines by points.
 
 use abbe_core::LookupTable;
 
 use super::Dimension;
 use super::cubic::slopes;
 
-/// What is between two points.
+/// Interpolation between two points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Straight lines.
+    /// Piecewise linear.
     Linear,
-    /// Cubics with continuous slopes that stay between their points, see `cubic.rs`.
+    /// Monotone cubics with continuous slopes; see `cubic.rs`.
     Cubic,
 }
 
-/// What is beyond the first and the last point.
+/// Values beyond the first and the last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outside {
-    /// Nothing: the value there is not a number.
+    /// No value: evaluation gives NaN.
     Nothing,
-    /// The value of the end.
+    /// The value at the end.
     Hold,
 }
 
-/// A function given by points, and how generated code finds its values.
+/// A function defined by points, with the data that generated code needs for lookups.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// What expressions call it.
+    /// Name in expressions.
     pub name: String,
-    /// What it is.
+    /// Description.
     pub description: String,
-    /// The dimensions of its argument and of its value.
+    /// Dimensions of the argument and of the value.
     pub dimensions: [Dimension; 2],
-    /// The points: x ascending, and y.
+    /// Points (x, y), with x ascending.
     pub points: Vec<[f64; 2]>,
-    /// What is between them.
+    /// Interpolation between the points.
     pub interpolation: Interpolation,
-    /// What is beyond them.
+    /// Values beyond the points.
     pub outside: Outside,
     scale: f64,
     starts: Vec<u32>,
@@ -46,7 +46,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// At least two points, whose x ascend.
+    /// Creates a table from at least two points with ascending x.
     pub(crate) fn new(
         name: String,
         description: String,
@@ -82,7 +82,7 @@ impl Table {
         table
     }
 
-    /// How generated code has it.
+    /// Returns the data of generated code.
     pub fn lookup(&self) -> LookupTable<'_> {
         LookupTable {
             first: self.points[0][0],
@@ -94,7 +94,7 @@ impl Table {
         }
     }
 
-    /// The value of a derivative, the function itself if of order 0.
+    /// Returns a derivative; order 0 is the function itself.
     pub fn derivative(&self, order: u32, x: f64) -> f64 {
         match order {
             0 => self.lookup().value(x),
@@ -102,33 +102,36 @@ impl Table {
         }
     }
 
-    /// What generated code calls it.
+    /// Returns the name of the constant in generated code.
     pub fn constant_name(&self) -> String {
         format!("{}_TABLE", self.name.to_ascii_uppercase())
     }
 
-    /// What generated code says of it, with its description as it can stand in a comment.
+    /// Returns the documentation in generated code; `description` must be escaped for a comment.
     pub fn documentation(&self, description: &str) -> String {
         let kind = match self.interpolation {
-            Interpolation::Linear => "straight lines",
-            Interpolation::Cubic => "monotone cubics",
+            Interpolation::Linear => "piecewise linear",
+            Interpolation::Cubic => "monotone cubic",
         };
         let beyond = match self.outside {
-            Outside::Nothing => "no number beyond",
-            Outside::Hold => "held beyond",
+            Outside::Nothing => "NaN outside",
+            Outside::Hold => "end value held outside",
         };
         let ([first, last], count) = (self.ends(), self.points.len());
         let description = description.trim_end_matches('.');
         let before = if description.is_empty() { String::new() } else { format!("{description}. ") };
-        format!("{before}`{}`: {kind} through {count} points from {first} to {last}, {beyond}.", self.name)
+        format!(
+            "{before}`{}`: {kind} interpolation of {count} points from {first} to {last}, {beyond}.",
+            self.name
+        )
     }
 
-    /// Its first and last x.
+    /// Returns the first and last x.
     pub fn ends(&self) -> [f64; 2] {
         [self.points[0][0], self.points[self.points.len() - 1][0]]
     }
 
-    /// The highest derivative that is not zero everywhere.
+    /// Returns the order of the highest derivative that is not zero everywhere.
     pub fn degree(&self) -> u32 {
         match self.interpolation {
             Interpolation::Linear => 1,
@@ -136,13 +139,13 @@ impl Table {
         }
     }
 
-    /// Whether every value between its ends is a number.
+    /// Returns `true` if all values between the ends are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let inner = &self.pieces[1..self.pieces.len() - 1];
         self.scale.is_finite() && inner.iter().flatten().all(|number| number.is_finite())
     }
 
-    /// Whether the points are at equal distances, but for the rounding of their numbers.
+    /// Returns `true` if the points are equally spaced, up to rounding.
     fn is_even(&self) -> bool {
         let [first, last] = self.ends();
         let step = (last - first) / (self.points.len() - 1) as f64;
@@ -151,10 +154,11 @@ impl Table {
         self.points.iter().enumerate().all(even)
     }
 
-    /// The coefficients of every piece, for a t that goes from 0 to `length`, and of what is beyond the ends.
+    /// Returns the coefficients of every piece, for t from 0 to `length`, and of the constants
+    /// beyond the ends.
     ///
-    /// With `τ = t/length`, `Δ = y₁ − y₀` and slopes `d = h m` by τ:
-    /// `y₀ + d₀ τ + (3Δ − 2d₀ − d₁) τ² + (d₀ + d₁ − 2Δ) τ³`.
+    /// With `τ = t/length`, `Δ = y₁ − y₀` and slopes `d = h m` by τ: `y₀ + d₀ τ + (3Δ − 2d₀ − d₁)
+    /// τ² + (d₀ + d₁ − 2Δ) τ³`.
     fn pieces_of(&self, width: impl Fn(usize) -> f64, length: impl Fn(usize) -> f64) -> Vec<[f64; 4]> {
         let intervals = self.points.len() - 1;
         let widths: Vec<f64> = (0..intervals).map(width).collect();
@@ -184,14 +188,15 @@ impl Table {
         [end(0)].into_iter().chain((0..intervals).map(piece)).chain([end(intervals)]).collect()
     }
 
-    /// Chooses as many buckets as leave one point in each, if up to eight times as many as there are points do.
+    /// Chooses the number of buckets so that each contains one point, if that takes at most eight
+    /// times as many buckets as there are intervals.
     fn fill_buckets(&mut self) {
         let [first, last] = self.ends();
         let intervals = self.points.len() - 1;
         for factor in [1, 2, 4, 8] {
             let buckets = factor * intervals;
             self.scale = scale(first, last, buckets);
-            // Before the first bucket and behind the last there is one more.
+            // There is one more bucket before the first and one after the last.
             self.starts = vec![0; buckets + 2];
             let of_knot: Vec<usize> = self.knots.iter().map(|knot| self.lookup().bucket(*knot)).collect();
             let mut piece = 0;
@@ -211,7 +216,7 @@ impl Table {
     }
 }
 
-/// Buckets per unit of x, with the last x still within the last bucket.
+/// Returns the number of buckets per unit of x, such that the last x lies within the last bucket.
 fn scale(first: f64, last: f64, buckets: usize) -> f64 {
     let mut scale = buckets as f64 / (last - first);
     while (last - first) * scale >= buckets as f64 {

@@ -1,21 +1,21 @@
-//! Cuts the text of an expression into tokens.
+//! Splits the text of an expression into tokens.
 
 use crate::diagnostic::{Diagnostic, Span};
 
-/// The most names, numbers and signs of an expression: a sum of as many names as a spec may declare.
+/// Maximum number of tokens: enough for a sum of as many names as a spec may declare.
 pub(super) const LONGEST: usize = 20_000;
 
-/// Where a text stands in its file.
+/// Location of a text in its file.
 #[derive(Clone, Debug)]
-pub(crate) enum Place {
+pub(crate) enum TextLocation {
     /// Byte for byte from this offset on.
     Exact(usize),
-    /// Somewhere within this span: the text has escapes.
+    /// Somewhere within this span, because the text has escapes.
     Within(Span),
 }
 
-impl Place {
-    /// The span in the file of a range of the text.
+impl TextLocation {
+    /// Converts a range of the text to a span of the file.
     pub(crate) fn span(&self, range: Span) -> Span {
         match self {
             Self::Exact(start) => start + range.start..start + range.end,
@@ -24,7 +24,7 @@ impl Place {
     }
 }
 
-/// What a token is.
+/// A token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Token<'t> {
     Number(f64),
@@ -33,8 +33,8 @@ pub(crate) enum Token<'t> {
     End,
 }
 
-/// The tokens of a text with their places in it, the last being [`Token::End`].
-pub(crate) fn tokens<'t>(text: &'t str, place: &Place) -> Result<Vec<(Token<'t>, Span)>, Diagnostic> {
+/// Returns the tokens of a text with their ranges in it; the last is [`Token::End`].
+pub(crate) fn tokens<'t>(text: &'t str, place: &TextLocation) -> Result<Vec<(Token<'t>, Span)>, Diagnostic> {
     let mut tokens = Vec::new();
     let mut at = 0;
     while let Some(character) = text[at..].chars().next() {
@@ -62,17 +62,17 @@ pub(crate) fn tokens<'t>(text: &'t str, place: &Place) -> Result<Vec<(Token<'t>,
                     '·' | '×' => "write a product as `*`",
                     '°' => "write degrees as `deg`",
                     '²' | '³' => "write a power as `^2`",
-                    '=' => "an entry is an expression, not an equation",
-                    _ => "an expression has names, numbers, + - * / ^ , and parentheses",
+                    '=' => "write an expression, not an equation",
+                    _ => "expressions consist of names, numbers, + - * / ^ , and parentheses",
                 };
-                let message = format!("`{}` has no place in an expression", other.escape_debug());
+                let message = format!("unexpected `{}` in an expression", other.escape_debug());
                 return Err(Diagnostic::new(place.span(range), message).help(help));
             }
         };
         if tokens.len() == LONGEST {
-            let message = format!("this expression has more than {LONGEST} names, numbers and signs");
+            let message = format!("this expression has more than {LONGEST} names, numbers and operators");
             let help =
-                "a function that was measured is a table, `[tables.NAME]`; a sum can be several sources";
+                "write a measured function as a table, `[tables.NAME]`, and split a sum into several sources";
             return Err(Diagnostic::new(place.span(range), message)
                 .label("too many from here on")
                 .help(help));
@@ -84,7 +84,7 @@ pub(crate) fn tokens<'t>(text: &'t str, place: &Place) -> Result<Vec<(Token<'t>,
     Ok(tokens)
 }
 
-/// The length of the number at the beginning of `text`: digits, a point, an exponent.
+/// Returns the length of the number at the beginning of `text`: digits, a point, an exponent.
 fn number_length(text: &str) -> usize {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let mut end = digits(0);

@@ -5,19 +5,19 @@ use abbe_core::Component;
 use super::parse::Parser;
 use super::scope::Allowed;
 use super::tokens::Token;
-use super::{Dimension, Entry, Expression, Place, Scope};
+use super::{Dimension, Entry, Expression, Scope, TextLocation};
 use crate::diagnostic::{Diagnostic, suggestion};
 
-/// What an elementary motion does along or about its axis.
+/// Kind of an elementary motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// Moves along it.
+    /// Translation along its axis.
     Translation,
-    /// Turns about it.
+    /// Rotation about its axis.
     Rotation,
 }
 
-/// What a generalized error does, and along or about which axis: 0 = x, 1 = y, 2 = z.
+/// Returns the motion of a generalized error and its axis: 0 = x, 1 = y, 2 = z.
 pub fn motion(component: Component) -> (Motion, usize) {
     let motion = if component.is_rotation() { Motion::Rotation } else { Motion::Translation };
     (motion, component.axis())
@@ -28,18 +28,19 @@ pub fn motion(component: Component) -> (Motion, usize) {
 pub struct Elementary {
     /// Translation or rotation.
     pub motion: Motion,
-    /// 0 = x, 1 = y, 2 = z.
+    /// Axis: 0 = x, 1 = y, 2 = z.
     pub axis: usize,
-    /// How far, in the spec's length unit or rad.
+    /// Distance in the spec's length unit, or angle in rad.
     pub amount: Expression,
 }
 
 const NAMES: [&str; 6] = ["Tx", "Ty", "Tz", "Rx", "Ry", "Rz"];
 
-/// Parses and checks a product of elementary motions. Mistakes go to `found`; any mistake gives none.
+/// Parses and checks a product of elementary motions. Mistakes are recorded in `found`, and the
+/// result is then `None`.
 pub(crate) fn parse_transform(
     text: &str,
-    place: &Place,
+    place: &TextLocation,
     scope: &Scope,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Vec<Elementary>> {
@@ -67,7 +68,7 @@ fn factor(parser: &mut Parser<'_>) -> Result<Elementary, Diagnostic> {
         return Err(parser.unexpected(expected));
     };
     let Some(index) = NAMES.iter().position(|known| *known == name) else {
-        return Err(Diagnostic::new(parser.here(), format!("there is no motion `{name}`"))
+        return Err(Diagnostic::new(parser.here(), format!("unknown motion `{name}`"))
             .label(format!("expected {expected}"))
             .help(suggestion(0, name, &NAMES, "motions")));
     };

@@ -1,38 +1,39 @@
-//! Unit names and their conversion into the coherent system of a spec.
+//! Units and their conversion to the coherent units of a spec.
 
 use abbe_core::LengthUnit;
 
 use super::Dimension;
 
-/// The largest number that is computed with: its square is a number, too.
+/// Largest magnitude that is accepted: its square is finite.
 pub const LARGEST: f64 = 1e150;
 
-/// A product of unit names.
+/// A product of powers of units.
 ///
-/// Against SI it is a quotient of whole numbers, times powers of ten and of π/180: so conversions are exact where they can be.
+/// The factor to SI is a ratio of integers times powers of ten and of π/180, so that conversions
+/// are exact where possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
-    /// What it measures.
+    /// Dimension of the unit.
     pub dimension: Dimension,
-    /// Whole numbers, above and below.
+    /// Integer numerator and denominator.
     ratio: [f64; 2],
-    /// Powers of ten.
+    /// Exponent of ten.
     decades: i32,
-    /// Powers of π/180.
+    /// Exponent of π/180.
     degrees: i32,
 }
 
-/// Every unit name, which no other name may be.
+/// Names of the units; no other name may be one of these.
 pub const UNIT_NAMES: [&str; 29] = [
     "m", "cm", "mm", "um", "nm", "inch", "rad", "mrad", "urad", "deg", "arcmin", "arcsec", "%", "ppm", "kg",
     "g", "t", "lb", "N", "kN", "mN", "Pa", "kPa", "MPa", "GPa", "K", "s", "min", "h",
 ];
 
 impl Unit {
-    /// No unit.
+    /// The unit 1.
     pub const NONE: Self = Self { dimension: Dimension::NONE, ratio: [1.0; 2], decades: 0, degrees: 0 };
 
-    /// The unit of that name.
+    /// Returns the unit with this name. `µ` is accepted for `u`, as U+00B5 and as the Greek letter.
     pub fn named(name: &str) -> Option<Self> {
         let degrees = |parts: f64| Some(Self { degrees: 1, ratio: [1.0, parts], ..Self::NONE });
         let times = |number: f64, dimension, decades| {
@@ -42,7 +43,7 @@ impl Unit {
             "m" => (Dimension::LENGTH, 0),
             "cm" => (Dimension::LENGTH, -2),
             "mm" => (Dimension::LENGTH, -3),
-            "um" => (Dimension::LENGTH, -6),
+            "um" | "µm" | "μm" => (Dimension::LENGTH, -6),
             "nm" => (Dimension::LENGTH, -9),
             "inch" => return times(254.0, Dimension::LENGTH, -4),
             "kg" => (Dimension::MASS, 0),
@@ -62,7 +63,7 @@ impl Unit {
             "GPa" => (Dimension::PRESSURE, 9),
             "rad" => (Dimension::NONE, 0),
             "mrad" => (Dimension::NONE, -3),
-            "urad" | "ppm" => (Dimension::NONE, -6),
+            "urad" | "µrad" | "μrad" | "ppm" => (Dimension::NONE, -6),
             "%" => (Dimension::NONE, -2),
             "deg" => return degrees(1.0),
             "arcmin" => return degrees(60.0),
@@ -72,7 +73,7 @@ impl Unit {
         Some(Self { dimension, decades, ..Self::NONE })
     }
 
-    /// The product of this unit and a power of another; none if an exponent is absurd.
+    /// Returns the product of this unit and a power of another, or `None` if an exponent overflows.
     pub fn times(self, other: Self, power: i32) -> Option<Self> {
         let [above, below] = other.ratio.map(|number| number.powi(power.abs()));
         let [above, below] = if power < 0 { [below, above] } else { [above, below] };
@@ -86,7 +87,8 @@ impl Unit {
         })
     }
 
-    /// A number in this unit, in the coherent system of a spec: rounded once, and exact where nothing changes.
+    /// Converts a number in this unit to coherent units: rounded once, and exact if nothing
+    /// changes.
     pub fn convert(self, number: f64, length: LengthUnit) -> f64 {
         let decades = self.decades + decades_per_metre(length) * self.dimension.length_exponent();
         // Dividing first keeps 90 deg exactly π/2.
@@ -102,7 +104,7 @@ impl Unit {
     }
 }
 
-/// How many powers of ten a number grows by when a metre is written in this unit.
+/// Returns the power of ten by which a number in metres is multiplied.
 fn decades_per_metre(length: LengthUnit) -> i32 {
     match length {
         LengthUnit::Metre => 0,
@@ -113,6 +115,13 @@ fn decades_per_metre(length: LengthUnit) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn micro_sign_is_accepted() {
+        for (sign, letter) in [("µm", "um"), ("μm", "um"), ("µrad", "urad"), ("μrad", "urad")] {
+            assert_eq!(Unit::named(sign), Unit::named(letter));
+        }
+    }
 
     #[test]
     fn conversions_are_exact_where_they_can_be() {

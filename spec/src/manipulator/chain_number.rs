@@ -1,19 +1,20 @@
-//! The numbers of the nominal chain: joints, structural parameters, and those of Denavit and Hartenberg.
+//! Numbers of the nominal chain: joint variables, structural parameters and Denavit-Hartenberg
+//! numbers.
 
 use crate::expr::Motion;
 
 /// A number of the nominal chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ChainNumber {
-    /// A joint variable, wherever a transform depends on it.
+    /// A joint variable, in every transform that depends on it.
     Joint(usize),
-    /// A structural parameter, wherever a transform depends on it.
+    /// A structural parameter, in every transform that depends on it.
     Parameter(usize),
-    /// One of the four numbers of a frame that is given by them.
+    /// One of the four Denavit-Hartenberg numbers of a frame.
     DenavitHartenberg {
-        /// The frame, from 0.
+        /// Index of the frame, from 0.
         frame: usize,
-        /// Which of the four.
+        /// The number.
         number: DhNumber,
     },
 }
@@ -21,21 +22,21 @@ pub enum ChainNumber {
 /// One of the four Denavit-Hartenberg numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DhNumber {
-    /// The turn about z.
+    /// Rotation about z.
     Theta,
-    /// The shift along z.
+    /// Translation along z.
     D,
-    /// The shift along x.
+    /// Translation along x.
     A,
-    /// The turn about x.
+    /// Rotation about x.
     Alpha,
 }
 
 impl DhNumber {
-    /// All four.
+    /// The four numbers.
     pub const ALL: [Self; 4] = [Self::Theta, Self::D, Self::A, Self::Alpha];
 
-    /// Its key in a spec.
+    /// Returns its key in a spec.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Theta => "theta",
@@ -45,7 +46,7 @@ impl DhNumber {
         }
     }
 
-    /// What it does, and along or about which axis: 0 = x, 1 = y, 2 = z.
+    /// Returns its motion and axis: 0 = x, 1 = y, 2 = z.
     pub const fn motion(self) -> (Motion, usize) {
         match self {
             Self::Theta => (Motion::Rotation, 2),
@@ -56,7 +57,7 @@ impl DhNumber {
     }
 }
 
-/// Which product of its four numbers a Denavit-Hartenberg frame is.
+/// Convention of a Denavit-Hartenberg frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DhConvention {
     /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
@@ -66,7 +67,7 @@ pub enum DhConvention {
 }
 
 impl DhConvention {
-    /// Returns its name, as options and tables have it.
+    /// Returns its name in options and tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Standard => "standard",
@@ -74,7 +75,7 @@ impl DhConvention {
         }
     }
 
-    /// The numbers in the order of the frame's factors, one factor each.
+    /// Returns the numbers in the order of the frame's factors.
     pub const fn order(self) -> [DhNumber; 4] {
         match self {
             Self::Standard => [DhNumber::Theta, DhNumber::D, DhNumber::A, DhNumber::Alpha],

@@ -1,4 +1,4 @@
-//! What a spec declares by name: parameters, inputs and joint variables.
+//! Names that a spec declares: parameters, inputs and joint variables.
 
 use abbe_core::VariableKind;
 
@@ -7,48 +7,48 @@ use crate::expr::Dimension;
 /// A structural parameter.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
-    /// Its nominal value.
+    /// Nominal value in coherent units.
     pub value: f64,
-    /// Its dimension.
+    /// Dimension of the value.
     pub dimension: Dimension,
-    /// Its coherent unit, empty for a pure number or an angle.
+    /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,
-    /// What it is.
+    /// Description.
     pub description: String,
 }
 
 /// An input.
 #[derive(Clone, Debug)]
 pub struct Input {
-    /// Its name.
+    /// Name of the input.
     pub name: String,
-    /// Its default value.
+    /// Default value in coherent units.
     pub value: f64,
-    /// Its dimension.
+    /// Dimension of the value.
     pub dimension: Dimension,
-    /// Its coherent unit, empty for a pure number or an angle.
+    /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,
-    /// Lower and upper end of its range, infinite if it has none.
+    /// Lower and upper end of the range; infinite without one.
     pub range: [f64; 2],
-    /// What it is.
+    /// Description.
     pub description: String,
 }
 
 /// A joint variable.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    /// Its name.
+    /// Name of the variable.
     pub name: String,
     /// Revolute or prismatic.
     pub kind: VariableKind,
-    /// Lower and upper limit, infinite if it has none.
+    /// Lower and upper limit; infinite without one.
     pub limits: [f64; 2],
-    /// Its value at home.
+    /// Value at home.
     pub home: f64,
-    /// What it is.
+    /// Description.
     pub description: String,
-    /// The frame that declares it, from 0.
+    /// Index of the frame that declares the variable, from 0.
     pub frame: usize,
 }

@@ -1,18 +1,18 @@
-//! The ranges of joints and inputs on which the errors of an identified machine were fitted.
+//! Ranges of joints and inputs over which the errors of an identified machine were fitted.
 
 use crate::expr::Symbol;
 
-/// A joint variable or an input, and the range on which errors were fitted.
+/// A joint variable or an input, and the range over which errors were fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitted {
-    /// Which variable or input.
+    /// The variable or input.
     pub symbol: Symbol,
     /// Lower and upper end.
     pub range: [f64; 2],
 }
 
 impl Fitted {
-    /// Whether its value is outside the range by more than the last digit to which that is written.
+    /// Returns `true` if the value in `q` or `u` is outside the range.
     pub fn is_outside(&self, q: &[f64], u: &[f64]) -> bool {
         let value = match self.symbol {
             Symbol::Variable(i) => q.get(i),
@@ -22,7 +22,7 @@ impl Fitted {
         value.is_some_and(|value| !self.contains(*value))
     }
 
-    /// Whether a value is within the range, or beyond it by no more than its last written digit.
+    /// Returns `true` if a value is within the range, up to the rounding of written numbers.
     pub fn contains(&self, value: f64) -> bool {
         let [lower, upper] = self.range;
         let digit = 1e-6 * lower.abs().max(upper.abs());

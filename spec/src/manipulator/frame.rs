@@ -1,21 +1,21 @@
-//! Frames and the rigid motions that their transforms are products of.
+//! Frames, and the rigid motions whose product is their transform.
 
 use super::chain_number::DhConvention;
 use crate::diagnostic::Span;
 use crate::expr::{Elementary, Expression, Motion};
 
-/// A frame `F_i` and the way to it from `F_{i-1}`.
+/// A frame `F_i` and its transform from `F_{i-1}`.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Its name.
+    /// Name of the frame.
     pub name: String,
-    /// What it is.
+    /// Description.
     pub description: String,
-    /// The variable that it declares.
+    /// Index of the variable that it declares.
     pub variable: Option<usize>,
-    /// `A_i` as a product.
+    /// Factors of `A_i`, in order.
     pub factors: Vec<Factor>,
-    /// Which product, if it is given by Denavit-Hartenberg numbers.
+    /// Denavit-Hartenberg convention, if the frame is given that way.
     pub convention: Option<DhConvention>,
 }
 
@@ -28,9 +28,9 @@ pub enum Factor {
     About {
         /// Translation or rotation.
         motion: Motion,
-        /// The axis, of length 1.
+        /// Unit vector of the axis.
         axis: [f64; 3],
-        /// How far.
+        /// Distance or angle.
         amount: Expression,
     },
     /// Any rigid motion.
@@ -42,12 +42,12 @@ pub enum Factor {
 pub struct Matrix {
     /// Three rows of four.
     pub rows: [[Expression; 4]; 3],
-    /// Where it stands.
+    /// Location in the file.
     pub span: Span,
 }
 
 impl Factor {
-    /// Every expression in it.
+    /// Returns all expressions of the factor.
     pub fn expressions(&self) -> Vec<&Expression> {
         match self {
             Self::Elementary(factor) => vec![&factor.amount],

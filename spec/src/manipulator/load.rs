@@ -1,38 +1,38 @@
-//! Loads: what acts on beams and compliances.
+//! Loads on beams and compliances.
 
 use crate::expr::Expression;
 
-/// What acts on the structure: the weight of a mass, a force, a moment.
+/// A load on the structure: the weight of a mass, a force, a moment.
 #[derive(Clone, Debug)]
 pub struct Load {
-    /// What weighs under gravity.
+    /// Mass, whose weight acts under gravity.
     pub mass: Option<Expression>,
-    /// A force, along x, y and z.
+    /// Force along x, y and z.
     pub force: Option<[Expression; 3]>,
-    /// A moment, about x, y and z.
+    /// Moment about x, y and z.
     pub moment: Option<[Expression; 3]>,
-    /// Whose axes force and moment are in.
+    /// Axes in which force and moment are given.
     pub axes: Axes,
-    /// The frame it moves with, from 0.
+    /// Index of the frame that the load is fixed to, from 0.
     pub frame: usize,
-    /// Where it acts.
+    /// Point of application.
     pub point: Point,
 }
 
 /// The axes of a force or moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {
-    /// Those of its load's frame: it turns with that.
+    /// Axes of the load's frame: the force rotates with it.
     Frame,
-    /// Those of `F_0`.
+    /// Axes of `F_0`.
     Base,
 }
 
-/// Where a load acts.
+/// Point of application of a load.
 #[derive(Clone, Debug)]
 pub enum Point {
-    /// Here, as seen from its frame.
+    /// Position relative to the frame.
     Here([Expression; 3]),
-    /// At the tool point; its frame is the last one.
+    /// The tool point; the frame is the last one.
     Tool,
 }

@@ -1,6 +1,6 @@
-//! A manipulator as its spec file describes it, read and checked.
+//! A manipulator as described by its spec file, read and checked.
 //!
-//! [`Spec`] is what a file says once nothing is wrong with it; `read` makes it of the file's text.
+//! [`Spec`] is the contents of a valid file; `read` creates it from the text.
 
 mod chain_number;
 mod covariance;

@@ -1,10 +1,10 @@
-//! What may be a name.
+//! Rules for names.
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item};
 use crate::expr::{FUNCTION_NAMES, UNIT_NAMES};
 
-/// Words that Rust keeps for itself.
+/// Reserved words of Rust.
 const KEYWORDS: [&str; 53] = [
     "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do",
     "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
@@ -13,18 +13,18 @@ const KEYWORDS: [&str; 53] = [
     "where", "while", "yield", "_",
 ];
 
-/// The longest name.
+/// Maximum length of a name.
 const LONGEST: usize = 60;
 
-/// Whether `name` can be a name in expressions and in generated code; if not, a mistake at the item's key or
-/// value says why.
+/// Returns `true` if `name` is valid in expressions and in generated code. Otherwise the reason is
+/// recorded at `at`.
 pub(super) fn check_identifier(name: &str, at: crate::diagnostic::Span, document: &mut Document) -> bool {
     let Some((message, help)) = fault(name) else { return true };
-    document.mistake(Diagnostic::new(at, message).label("this cannot be a name").help(help));
+    document.mistake(Diagnostic::new(at, message).label("not a valid name").help(help));
     false
 }
 
-/// The name that is nearest to a text of another format: in lower case, `_` for what names cannot have.
+/// Converts a text of another format to a valid name: lower case, with `_` for invalid characters.
 pub fn as_identifier(text: &str) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     let name: String = text.chars().map(letter).take(LONGEST - 10).collect();
@@ -32,50 +32,48 @@ pub fn as_identifier(text: &str) -> String {
     if fault(&name).is_none() { name } else { name + "_" }
 }
 
-/// Why a text cannot be a name, and a way out.
+/// Returns the reason why a text is no valid name, and a remedy.
 fn fault(name: &str) -> Option<(String, String)> {
     let shown = name.escape_debug();
     let mut letters = name.chars();
     let starts = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
     let fault = if name.is_empty() {
-        ("a name is empty".to_owned(), "give it a name of letters, digits and `_`".to_owned())
+        ("a name is empty".to_owned(), "use letters, digits and `_`".to_owned())
     } else if !starts || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
-        let help = "names have letters a to z, digits and `_`, and begin with a letter";
-        (format!("`{shown}` is not a name"), help.to_owned())
+        let help = "names consist of letters a to z, digits and `_`, and begin with a letter";
+        (format!("`{shown}` is not a valid name"), help.to_owned())
     } else if name.len() > LONGEST {
         ("this name is too long".to_owned(), format!("names have at most {LONGEST} letters"))
     } else if KEYWORDS.contains(&name) {
-        let help = format!("write `{name}_`, or say more");
-        (format!("`{shown}` is a word of the Rust language"), help)
+        let help = format!("write `{name}_`, or a longer name");
+        (format!("`{shown}` is a keyword of Rust"), help)
     } else if UNIT_NAMES.contains(&name) {
-        let help =
-            format!("unit names are reserved, so that `5 mm` can only be read in one way: write `{name}_`");
+        let help = format!("unit names are reserved: write `{name}_`");
         (format!("`{shown}` is a unit"), help)
     } else if FUNCTION_NAMES.contains(&name) || name == "pi" {
-        (format!("`{shown}` is a function or constant"), format!("write `{name}_`, or say more"))
+        (format!("`{shown}` is a function or constant"), format!("write `{name}_`, or a longer name"))
     } else {
         return None;
     };
     Some(fault)
 }
 
-/// The longest free text that is a name, in bytes.
+/// Maximum length of a free-text name, in bytes.
 const LONGEST_TITLE: usize = 200;
 
-/// A free text that is a name: not empty, in one line, and no page.
+/// Reads a free-text name: not empty, on one line, of limited length.
 pub(super) fn title_of(item: &Item<'_>, document: &mut Document) -> Option<String> {
     let name = document.string(item)?;
     if name.trim().is_empty() || name.contains(char::is_control) {
         document.mistake(
-            Diagnostic::new(item.span(), "a name must be text in one line")
-                .help("give it a short, clear name"),
+            Diagnostic::new(item.span(), "expected a name on one line").help("use a short, descriptive name"),
         );
         return None;
     }
     if name.len() > LONGEST_TITLE {
         document.mistake(
             Diagnostic::new(item.span(), format!("this name is longer than {LONGEST_TITLE} letters"))
-                .help("give it a short, clear name; what else there is to say is its `description`"),
+                .help("use a short name, and `description` for the rest"),
         );
         return None;
     }

@@ -1,4 +1,4 @@
-//! Sources: physical errors, and what each does to the chain.
+//! Sources: physical errors and their effects on the chain.
 
 use abbe_core::{Class, Component};
 
@@ -10,97 +10,99 @@ use crate::expr::Expression;
 /// A physical error.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// Its name.
+    /// Name of the source.
     pub name: String,
     /// Repeatable or random.
     pub class: Class,
-    /// Of the standard deviation of a normal error that was estimated from few measurements; infinite if it is known.
+    /// Degrees of freedom of the standard deviation of a normal error; infinite if it is known
+    /// exactly.
     pub degrees_of_freedom: f64,
-    /// Whether it takes part; a named alternative does not.
+    /// `false` for a named alternative that is not used.
     pub enabled: bool,
-    /// What it is.
+    /// Description.
     pub description: String,
-    /// Where its numbers come from.
+    /// Reference for its numbers.
     pub reference: String,
-    /// What its errors are multiplied by, if that is to be found.
+    /// Factor of its errors, if that can be identified.
     pub magnitude: Option<Magnitude>,
-    /// The input that they are multiplied by instead, if that is given at run time.
+    /// Input that multiplies its errors instead, if the factor is given at run time.
     pub tuned_by: Option<usize>,
-    /// What it does to which frame, in the order of the file.
+    /// Effects on frames, in the order of the file.
     pub effects: Vec<Effect>,
-    /// Which numbers of the chain it changes, in the order of the file; at least one if there are no effects.
+    /// Deviations of numbers of the chain, in the order of the file; not empty if there are no
+    /// effects.
     pub deviations: Vec<Deviation>,
 }
 
-/// What a source does to a frame, or to a place on the link behind it.
+/// Effect of a source on a frame, or on a place on its link.
 #[derive(Clone, Debug)]
 pub struct Effect {
-    /// The frame, from 0.
+    /// Index of the frame, from 0.
     pub frame: usize,
-    /// Where on the link, as seen from the frame: `L`; no factors if at the frame itself.
+    /// Pose `L` of the place relative to the frame; empty for the frame itself.
     pub at: Vec<Factor>,
-    /// The error there.
+    /// Cause of the error there.
     pub cause: Cause,
-    /// Where in the file it stands.
+    /// Location in the file.
     pub span: Span,
 }
 
-/// How a place on a link moves against where it should be.
+/// Cause of the displacement of a place on a link.
 #[derive(Clone, Debug)]
 pub enum Cause {
-    /// By so much: some of the six errors, lengths or rad.
+    /// Given errors: some of the six, lengths or rad.
     Errors(Vec<(Component, Expression)>),
-    /// As the tip of a beam under the loads beyond it.
+    /// Deflection of the tip of a beam under the loads beyond it.
     Beam(Beam),
-    /// By a compliance times the wrench of the loads beyond it.
+    /// A compliance times the wrench of the loads beyond it.
     Compliance(Box<Compliance>),
 }
 
 impl Cause {
-    /// Whether it gives way under loads.
+    /// Returns `true` if the displacement is caused by loads.
     pub fn is_elastic(&self) -> bool {
         !matches!(self, Self::Errors(_))
     }
 }
 
-/// A straight beam that ends where its effect is, clamped at its other end.
+/// A straight beam whose tip is at the place of its effect; the other end is clamped.
 #[derive(Clone, Debug)]
 pub struct Beam {
-    /// The axis along which it comes, 0 = x, 1 = y, 2 = z.
+    /// Axis of the beam: 0 = x, 1 = y, 2 = z.
     pub axis: usize,
-    /// Its length.
+    /// Length of the beam.
     pub length: Expression,
     /// Bending stiffnesses about the two axes that follow its own in cyclic order.
     pub bending: [Expression; 2],
-    /// Torsional stiffness; rigid if there is none.
+    /// Torsional stiffness; rigid if `None`.
     pub torsion: Option<Expression>,
-    /// Stiffness against extension; rigid if there is none.
+    /// Axial stiffness; rigid if `None`.
     pub extension: Option<Expression>,
-    /// Its own mass per length; it weighs nothing if there is none.
+    /// Mass per length; weightless if `None`.
     pub mass_per_length: Option<Expression>,
 }
 
-/// Six errors per unit of six forces and moments, both in the order of ε; none where zero.
+/// Six errors per unit of six forces and moments, both in the order of ε; `None` for 0.
 pub type Compliance = [[Option<Expression>; 6]; 6];
 
-/// A number of the nominal chain that is not what the chain says: `A_i(q + δq)` where `A_i(q)` is meant.
+/// Deviation of a number of the nominal chain: `A_i(q + δq)` instead of `A_i(q)`.
 #[derive(Clone, Debug)]
 pub struct Deviation {
-    /// Which number.
+    /// The number.
     pub number: ChainNumber,
-    /// How much more it really is, in the number's own dimension.
+    /// Actual minus nominal value, in the number's own dimension.
     pub error: Expression,
-    /// Where in the file it stands.
+    /// Location in the file.
     pub span: Span,
 }
 
-/// What a source is multiplied by: a number that measurements may tell.
+/// Factor of a source's errors, which measurements may determine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Magnitude {
-    /// The number as far as it is known.
+    /// Best known value.
     pub value: f64,
-    /// How well: its standard deviation; none if nothing is known.
+    /// Standard deviation of the value; `None` if unknown.
     pub standard_deviation: Option<f64>,
-    /// Of that standard deviation; infinite if it is known.
+    /// Degrees of freedom of the standard deviation; infinite if it is known exactly.
     pub degrees_of_freedom: f64,
 }

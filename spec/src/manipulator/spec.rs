@@ -1,4 +1,4 @@
-//! What a checked spec holds. Numbers are in its coherent system: its length unit, kg, s, rad, K.
+//! Contents of a valid spec, in coherent units: its length unit, kg, s, rad, K.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,53 +15,53 @@ use super::load::Load;
 use super::source::{Deviation, Source};
 use crate::expr::{Expression, Symbol, Table};
 
-/// A manipulator as its file describes it.
+/// A manipulator as described by its file.
 #[derive(Clone, Debug)]
 pub struct Spec {
-    /// Its name: a lower snake case identifier.
+    /// Name: an identifier in lower snake case.
     pub name: String,
-    /// Its name for people.
+    /// Title for readers.
     pub title: String,
-    /// What it is.
+    /// Description.
     pub description: String,
-    /// Where its numbers come from.
+    /// Reference for its numbers.
     pub reference: String,
-    /// The unit of every length.
+    /// Unit of every length.
     pub length: LengthUnit,
-    /// What rows 4–6 of the Jacobians are.
+    /// Representation of rows 4–6 of the Jacobians.
     pub orientation: Orientation,
-    /// The structural parameters `s`.
+    /// Structural parameters `s`.
     pub parameters: Vec<Parameter>,
-    /// The inputs `u`.
+    /// Inputs `u`.
     pub inputs: Vec<Input>,
-    /// The joint variables `q`, in the order of the frames that declare them.
+    /// Joint variables `q`, in the order of the frames that declare them.
     pub variables: Vec<Variable>,
-    /// `A_1 … A_n`, base to tip.
+    /// `A_1 … A_n`, from base to tip.
     pub frames: Vec<Frame>,
-    /// `T`, from `F_n` to the tool point; no factors if there is none.
+    /// `T`, from `F_n` to the tool point; empty without a tool.
     pub tool: Vec<Factor>,
-    /// The physical errors, those that are switched off among them.
+    /// Physical errors, including disabled ones.
     pub sources: Vec<Source>,
-    /// What weighs on the structure.
+    /// Loads on the structure.
     pub loads: Vec<Load>,
-    /// The acceleration of gravity in `F_0`.
+    /// Acceleration of gravity in `F_0`.
     pub gravity: Option<[Expression; 3]>,
-    /// Where the errors of an identified machine were fitted; nothing if they were not.
+    /// Ranges over which the errors of an identified machine were fitted; empty for others.
     pub fitted: Vec<Fitted>,
-    /// How well these errors are known; of nothing if they were not identified.
+    /// Covariance of these errors; empty if they were not identified.
     pub covariance: Covariance,
-    /// Functions that are given by points.
+    /// Functions defined by points.
     pub tables: Vec<Arc<Table>>,
-    /// The file's name, without its folder.
+    /// File name without its folder.
     pub file: String,
-    /// Further files that were read: those of tables.
+    /// Files of tables that were read.
     pub beside: Vec<PathBuf>,
-    /// SHA-256 of the file's text and of what is in the files of its tables, in hexadecimal.
+    /// SHA-256 of the text of the file and of the files of its tables, in hexadecimal.
     pub hash: String,
 }
 
 impl Spec {
-    /// The joint variables on which each of `A_1 … A_n` and `T` depends.
+    /// Returns the joint variables on which each of `A_1 … A_n` and `T` depends.
     pub fn variables_of_transforms(&self) -> Vec<Vec<usize>> {
         let variables = |factors: &Vec<Factor>| {
             let symbols = factors.iter().flat_map(Factor::expressions).flat_map(Expression::symbols);
@@ -74,23 +74,25 @@ impl Spec {
         self.frames.iter().map(|frame| &frame.factors).chain([&self.tool]).map(variables).collect()
     }
 
-    /// Whether any source that is switched on is repeatable.
+    /// Returns `true` if any enabled source is repeatable.
     pub fn has_repeatable_source(&self) -> bool {
         self.enabled_sources().any(|source| source.class == Class::Repeatable)
     }
 
-    /// The sources that are switched on, in the order of the file.
+    /// Iterates over the enabled sources, in the order of the file.
     pub fn enabled_sources(&self) -> impl Iterator<Item = &Source> {
         self.sources.iter().filter(|source| source.enabled)
     }
 
-    /// The same source by its index among those that take part, if it does.
+    /// Converts the index of a source to its index among the enabled ones; `None` if it is
+    /// disabled.
     pub fn enabled_index(&self, source: usize) -> Option<usize> {
         let before = self.sources.get(..source)?.iter().filter(|source| source.enabled).count();
         self.sources.get(source)?.enabled.then_some(before)
     }
 
-    /// The name of a joint variable, parameter or input; empty for symbols that no spec declares.
+    /// Returns the name of a joint variable, parameter or input; empty for symbols that no spec
+    /// declares.
     pub fn name_of(&self, symbol: Symbol) -> &str {
         match symbol {
             Symbol::Variable(i) => &self.variables[i].name,
@@ -100,7 +102,8 @@ impl Spec {
         }
     }
 
-    /// What a source is an error of: `joint q2`, `parameter a2`, `dh of elbow`, `frame elbow`, or several of these.
+    /// Returns the location of a source's errors: `joint q2`, `parameter a2`, `dh of elbow`, `frame
+    /// elbow`, or several of these.
     pub fn place(&self, source: &Source) -> String {
         let frame = |frame: usize| self.frames[frame].name.clone();
         let of_chain = |deviation: &Deviation| match deviation.number {

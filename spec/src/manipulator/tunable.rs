@@ -1,4 +1,4 @@
-//! Magnitudes of sources that are given at run time.
+//! Magnitudes of sources as inputs at run time.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,13 +10,13 @@ use super::source::Source;
 use super::spec::Spec;
 use crate::expr::Dimension;
 
-/// How the name of an input begins that is the magnitude of a source.
+/// Prefix of the input that is the magnitude of a source.
 pub const MAGNITUDE: &str = "magnitude_";
 
 impl Spec {
-    /// The same with one input more for each enabled repeatable source, in their order: what the source is multiplied by. It is
-    /// mostly the magnitude that the source has, or 1; its name is [`MAGNITUDE`] and what identifier the source's name becomes,
-    /// with a number behind it if that is taken.
+    /// Adds an input for each enabled repeatable source, in their order, which multiplies the
+    /// errors of the source. Its default is the source's magnitude, or 1. Its name is [`MAGNITUDE`]
+    /// followed by the source's name as an identifier, and a number if that is taken.
     #[must_use]
     pub fn with_magnitudes_as_inputs(&self) -> Self {
         let mut spec = self.clone();

@@ -1,4 +1,4 @@
-//! What is too much is refused where it stands, with the limit and the way around; what is not is read.
+//! Excessive input is rejected with the limit and a remedy; input at the limit is accepted.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
@@ -14,7 +14,7 @@ fn refused(text: &str) -> Diagnostics {
     }
 }
 
-/// So many lines or tables, each with its number.
+/// Concatenates numbered lines or tables.
 fn many(count: usize, one: impl Fn(usize) -> String) -> String {
     (0..count).map(one).collect()
 }
@@ -23,10 +23,10 @@ fn source(name: usize, error: &str) -> String {
     format!("[[source]]\nname = \"{name}\"\nclass = \"repeatable\"\nframe = \"f\"\ne_s = \"{error}\"\n")
 }
 
-/// A spec with so many of something.
+/// Returns a spec with the given number of items.
 type Text<'a> = &'a dyn Fn(usize) -> String;
 
-/// The reference has these figures.
+/// Checks the limits that the reference states.
 #[test]
 fn counts_have_limits() {
     let frames =
@@ -47,7 +47,7 @@ fn counts_have_limits() {
     for (what, most, text) in kinds {
         assert!(Spec::parse("arm.toml", &(HEAD.to_owned() + &text(most))).is_ok(), "{most} {what}");
         let said = refused(&(HEAD.to_owned() + &text(most + 1))).to_string();
-        let expected = format!("there are {} {what}; {most} can be worked with", most + 1);
+        let expected = format!("too many {what}: found {}, the maximum is {most}", most + 1);
         assert!(
             said.contains(&expected) && said.contains("--> arm.toml:") && said.contains("help: "),
             "{said}"
@@ -63,12 +63,12 @@ fn a_sum_has_as_many_terms_as_a_spec_has_parameters() {
     for count in [10_001, 200_000] {
         let diagnostics = refused(&sum(count));
         let [only] = &diagnostics.list[..] else { panic!("{} mistakes", diagnostics.list.len()) };
-        assert_eq!(only.message, "this expression has more than 20000 names, numbers and signs");
+        assert_eq!(only.message, "this expression has more than 20000 names, numbers and operators");
         assert!(only.help.as_ref().is_some_and(|help| help.contains("[tables.NAME]")));
     }
 }
 
-/// What has thousands of names is not searched for thousands of mistakes, and not listed for any.
+/// Thousands of names are neither all listed nor all compared with each mistake.
 #[test]
 fn thousands_of_mistakes_are_told_soon() {
     let parameters = many(2000, |i| format!("reach{i} = 1\n"));
@@ -83,7 +83,7 @@ fn thousands_of_mistakes_are_told_soon() {
         "{}",
         help(200)
     );
-    // Keys, of each of which it is told once that it is not known.
+    // Every unknown key is reported once.
     let keys = many(3000, |i| format!("[sourc{i}]\n"));
     let diagnostics = refused(&format!("{HEAD}{FRAME}{keys}"));
     assert_eq!(diagnostics.list.len(), 3000);

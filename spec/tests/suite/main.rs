@@ -1,3 +1,3 @@
-//! The reader of specs as its users call it.
+//! Integration tests of the reader of specs.
 
 mod bounds;

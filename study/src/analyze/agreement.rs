@@ -1,10 +1,10 @@
-//! The agreement with a published figure, in words.
+//! Agreement with a published figure, in words.
 
 use super::report::{Agreement, Report};
 use crate::number;
 
 impl Agreement {
-    /// `met`, or `misses by 4 %`.
+    /// Returns `met`, or `misses by 4 %`.
     pub fn text(self, report: &Report) -> String {
         match self {
             Self::Met => "met".to_owned(),

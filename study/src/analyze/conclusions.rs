@@ -1,23 +1,24 @@
-//! The results in sentences: tolerance, spheres, compensation, first order.
+//! Results in sentences: tolerance, enclosing sphere, compensation, first-order error.
 
 use abbe::analysis::{Measurand, RemainingErrors};
 
-use super::at_most;
+use super::norm_comparison;
 use super::report::{AfterCompensation, Report};
 use super::unit;
 use crate::number::{self, percent, short};
 
 impl Report {
-    /// The results in sentences: tolerance, spheres, compensation, first order.
+    /// Returns the results in sentences: tolerance, enclosing sphere, compensation, first-order
+    /// error.
     pub fn conclusions(&self) -> Vec<String> {
         let sentences = [
-            allowed(self, Measurand::Position),
-            allowed(self, Measurand::Orientation),
+            allowance(self, Measurand::Position),
+            allowance(self, Measurand::Orientation),
             Some(spheres(self)),
             ellipsoid(self),
             published_residual(self),
             self.compensation.as_ref().map(|compensation| residual(self, compensation)),
-            at_most::sentence(self),
+            norm_comparison::sentence(self),
             Some(first_order(self)),
         ];
         sentences.into_iter().flatten().collect()
@@ -27,8 +28,9 @@ impl Report {
         format!("{} {}", number::trimmed(value, self.decimals()), self.spec.length.symbol())
     }
 
-    /// `at most 0.0123 mm`; what cannot be seen in print is less than its last digit.
-    fn at_most(&self, value: f64) -> String {
+    /// Formats an upper bound as `at most 0.0123 mm`, or `less than 0.001 mm` if the value is below
+    /// the last printed digit.
+    fn upper_bound(&self, value: f64) -> String {
         let smallest = 10f64.powi(-(self.decimals() as i32));
         match value < smallest / 2.0 {
             true => format!("less than {}", self.show(smallest)),
@@ -36,23 +38,24 @@ impl Report {
         }
     }
 
-    fn of_tolerance(&self, value: f64) -> String {
+    fn share_of_tolerance(&self, value: f64) -> String {
         let share = self.study.tolerance.map(|tolerance| percent(value, tolerance));
         share.map(|share| format!(", {share} of the tolerance")).unwrap_or_default()
     }
 }
 
-fn allowed(report: &Report, measurand: Measurand) -> Option<String> {
+fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
     let allowance = report.allowance(measurand)?;
     let how = match allowance.equal_share_probability {
         1.0 => "for certain".to_owned(),
         probability => format!("with a probability of at least {}", number::at_least(probability)),
     };
     Some(format!(
-        "With all sources × {} the largest error is {}, the tolerance; with each at an equal share of {} it is met {how}.",
+        "With all sources × {}, the largest error equals the tolerance of {}; with an equal share \
+         of {} for each source, the tolerance is met {how}.",
         number::digits(allowance.together?, 3),
-        unit::shown(report, measurand, report.tolerance(measurand)?),
-        unit::shown(report, measurand, allowance.equal_share?)
+        unit::with_symbol(report, measurand, report.tolerance(measurand)?),
+        unit::with_symbol(report, measurand, allowance.equal_share?)
     ))
 }
 
@@ -61,14 +64,14 @@ fn spheres(report: &Report) -> String {
     let sphere = &combined.enclosing;
     let [x, y, z] = sphere.centre.map(|value| number::trimmed(value, report.decimals()));
     let mut text = format!(
-        "Repeatable errors lie within {} of zero; the smallest sphere around them has the radius {} and the centre \
-         ({x}, {y}, {z})",
+        "Repeatable errors lie within {} of zero; their smallest enclosing sphere has the radius \
+         {} and the centre ({x}, {y}, {z})",
         report.show(combined.repeatable_radius.value),
         report.show(sphere.radius),
     );
-    // What cannot be seen in print is rounding.
+    // A smaller excess is rounding.
     if sphere.excess > 1e-9 * sphere.radius {
-        text += &format!(", or is smaller by {} at most", report.show(sphere.excess));
+        text += &format!(" (at most {} too large)", report.show(sphere.excess));
     }
     text + "."
 }
@@ -80,9 +83,15 @@ fn ellipsoid(report: &Report) -> Option<String> {
     let unit = report.spec.length.symbol();
     let lie = "Random errors, if normal, lie with 95 % probability";
     Some(match ellipsoid.rank() {
-        1 => format!("{lie} within ± {a} {unit} on a line, where that is longest."),
-        2 => format!("{lie} in an ellipse with the semi-axes {a}, {b} {unit}, where it is longest."),
-        _ => format!("{lie} in an ellipsoid with the semi-axes {a}, {b}, {c} {unit}, where it is longest."),
+        1 => format!("{lie} within ± {a} {unit} on a line, at the configuration where it is longest."),
+        2 => format!(
+            "{lie} in an ellipse with semi-axes {a}, {b} {unit}, at the configuration where it is \
+         longest."
+        ),
+        _ => format!(
+            "{lie} in an ellipsoid with semi-axes {a}, {b}, {c} {unit}, at the configuration where it \
+         is longest."
+        ),
     })
 }
 
@@ -94,7 +103,7 @@ fn published_residual(report: &Report) -> Option<String> {
         report.show(residual),
         report.show(random),
         report.show(total),
-        report.of_tolerance(total),
+        report.share_of_tolerance(total),
         report.publisher(),
         short(published.residual),
         short(published.random),
@@ -105,12 +114,12 @@ fn published_residual(report: &Report) -> Option<String> {
 
 fn residual(report: &Report, compensation: &RemainingErrors) -> String {
     format!(
-        "Compensated as the study says: {} remain of the repeatable sources (root sum of squares; {} if all added), \
-         and with the random ones the total absolute accuracy is {}{}.",
+        "With the compensation of the study, {} of the repeatable errors remain (root sum of \
+         squares; {} as a sum), and the total accuracy with random errors is {}{}.",
         report.show(compensation.residual.value),
         report.show(compensation.residual_sum.value),
         report.show(compensation.total.value),
-        report.of_tolerance(compensation.total.value),
+        report.share_of_tolerance(compensation.total.value),
     )
 }
 
@@ -121,12 +130,12 @@ fn first_order(report: &Report) -> String {
         false => "random sources at their bounds",
     };
     let spread = match first_order.checked < report.configurations {
-        true => ", spread evenly over all",
+        true => ", evenly spaced",
         false => "",
     };
     let (differs, by) = match first_order.largest {
         0.0 => ("does not differ", String::new()),
-        largest => ("differs", format!(" by {}", report.at_most(largest))),
+        largest => ("differs", format!(" by {}", report.upper_bound(largest))),
     };
     format!(
         "First order: J_e ε of the {which} {differs} from the exact chain A_1 E_1 … A_n E_n T{by}, at {} \

@@ -1,29 +1,33 @@
-//! What `ΔX ≈ J_e ε` neglects: first order against the exact chain.
+//! First-order error: the distance between `ΔX ≈ J_e ε` and the exact chain.
 
 use abbe::analysis::{Configuration, Row, Subset, Sweepable, Unevaluated, Workspace, sweep};
 use abbe::{Class, Error, deviation, drawn_pose};
 use serde::Serialize;
 
-/// The most configurations at which the exact chain is run.
+/// Largest number of configurations at which the exact chain is evaluated.
 const CHECKED: usize = 2000;
 
-/// The largest distance between first order and the exact chain, over 2000 configurations of a larger workspace,
-/// spread evenly over it.
+/// Largest distance between first order and the exact chain, over at most 2000 configurations
+/// spread evenly over the workspace.
 ///
-/// Compared are the repeatable sources; if there are none, the random ones at their bounds, all with the same sign.
+/// Compares the repeatable sources; if there are none, the random sources at their bounds, all with
+/// a positive sign.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FirstOrder {
-    /// At how many configurations it was compared.
+    /// Number of configurations that were compared.
     #[serde(rename = "configurations")]
     pub checked: usize,
-    /// The largest difference of the tool point, in the length unit.
+    /// Largest difference in the tool point's position, in the length unit.
     #[serde(rename = "largest_difference")]
     pub largest: f64,
 }
 
 impl FirstOrder {
-    /// Compares over a workspace. Where the exact chain cannot be had there is nothing to compare.
-    pub(super) fn over(manipulator: &dyn Sweepable, workspace: &dyn Workspace) -> Result<Self, Unevaluated> {
+    /// Compares over a workspace. Skips configurations where the exact chain cannot be evaluated.
+    pub(super) fn compare(
+        manipulator: &dyn Sweepable,
+        workspace: &dyn Workspace,
+    ) -> Result<Self, Unevaluated> {
         let comparison = Comparison::new(manipulator);
         let mut compared = Self { checked: 0, largest: 0.0 };
         sweep(manipulator, &Subset { workspace, count: CHECKED }, &mut |row| {
@@ -36,11 +40,11 @@ impl FirstOrder {
     }
 }
 
-/// The exact chain, evaluated one configuration after the other.
+/// Comparison of first order with the exact chain, one configuration at a time.
 struct Comparison<'a> {
     manipulator: &'a dyn Sweepable,
     repeatable: bool,
-    /// What the errors of every source are multiplied with.
+    /// Factor of each source's errors in the exact chain.
     magnitudes: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! The question, and how it is answered.
+//! The job: options, and how the report is computed.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -16,18 +16,19 @@ use crate::notes::Notes;
 use crate::reads::Reads;
 use crate::study_file::Study;
 
-/// What does every source do?
+/// Job of `abbe analyze`: evaluates each error source over the workspace of a study.
 #[derive(Clone)]
 pub struct Analyze {
     machine: Machine,
     study: Study,
-    /// How often all errors are drawn at the worst configuration and at home, if they are to be drawn.
+    /// Number of Monte Carlo draws at the worst configuration and at home; `None` skips them.
     pub monte_carlo: Option<usize>,
-    /// The seed of everything random: the draws, and the study's random samples. That of the study if not given.
+    /// Seed of the Monte Carlo draws and of the study's random samples; `None` uses the study's.
     pub seed: Option<u64>,
-    /// Whether the spec is run even where there is generated code: the same, slower.
+    /// Interprets the spec even if generated code is available. The result is the same, computed
+    /// more slowly.
     pub interpret: bool,
-    /// Whether to gather what the figures of the study show.
+    /// Gathers the data of the study's figures.
     pub figures: bool,
 }
 
@@ -38,8 +39,9 @@ impl Reads for Analyze {
 }
 
 impl Analyze {
-    /// Asks that study of a manipulator, with the changes that the study makes to it. What is not known of the magnitudes of
-    /// repeatable sources becomes random sources behind the others.
+    /// Creates the job for a machine and a study, and applies the study's changes to the machine.
+    /// The uncertainty of each repeatable source's magnitude becomes a random source, after all
+    /// others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
         machine.change(&study.changes);
         machine.add_magnitude_errors();
@@ -47,43 +49,47 @@ impl Analyze {
         Self { machine, study, monte_carlo: None, seed: None, interpret: false, figures: false }
     }
 
-    /// Makes further changes. Published figures are of another machine then, and are left out.
+    /// Makes further changes. Published figures belong to the unchanged machine and are dropped.
     pub fn change(&mut self, changes: &Changes, notes: &mut dyn Notes) {
-        if !changes.is_empty() && self.study.forget_published() {
-            notes.note("published figures are left out: --set, --enable and --disable make another machine");
+        if !changes.is_empty() && self.study.remove_published() {
+            notes.note(
+                "published figures are left out: --set, --enable and --disable define a different \
+             machine",
+            );
         }
         self.machine.change(changes);
         self.machine.add_magnitude_errors();
         self.study.fix(self.machine.fixed_inputs());
     }
 
-    /// The study, but for inputs that are set.
+    /// Returns the study, without the inputs that changes have fixed.
     pub fn study(&self) -> &Study {
         &self.study
     }
 
-    /// The manipulator, with all changes.
+    /// Returns the machine, with all changes.
     pub fn machine(&self) -> &Machine {
         &self.machine
     }
 
-    /// Indices of the parameters that the workspace moves.
+    /// Returns the indices of the parameters that vary over the workspace.
     pub fn varying(&self) -> Vec<usize> {
         self.study.region.varying(&self.machine.spec)
     }
 
-    /// Indices of the inputs that the workspace moves.
+    /// Returns the indices of the inputs that vary over the workspace.
     pub fn moving_inputs(&self) -> Vec<usize> {
         self.study.region.moving_inputs()
     }
 
-    /// Sweeps the workspace.
+    /// Sweeps the workspace and returns the report.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        self.run_showing(None, notes)
+        self.run_with_rows(None, notes)
     }
 
-    /// As [`run`](Self::run), and shows every configuration that is reached to `rows`, in order.
-    pub fn run_showing(
+    /// Like [`run`](Self::run), and passes each reached configuration to `rows`, in workspace
+    /// order.
+    pub fn run_with_rows(
         &self,
         rows: Option<&mut dyn FnMut(&Row)>,
         notes: &mut dyn Notes,
@@ -94,8 +100,9 @@ impl Analyze {
         })
     }
 
-    /// Sweeps some of the chunks of the workspace, of which there are as many as `chunks` is told.
-    pub(super) fn gather(
+    /// Sweeps part of the workspace. `chunks` receives the number of chunks and returns the range
+    /// to sweep.
+    pub(super) fn sweep_chunks(
         &self,
         chunks: impl FnOnce(usize) -> Range<usize>,
         notes: &mut dyn Notes,
@@ -103,8 +110,8 @@ impl Analyze {
         self.with_sweep(notes, |sweep, notes| sweep.run(chunks(sweep.budget.chunks()), None, notes))
     }
 
-    /// The report of what was gathered, shard after shard.
-    pub(super) fn finish(
+    /// Returns the report from the data of all shards, in shard order.
+    pub(super) fn report_on_parts(
         &self,
         parts: Vec<(String, Shard, SweepData)>,
         notes: &mut dyn Notes,
@@ -122,7 +129,7 @@ impl Analyze {
                     }
                 };
                 if !put {
-                    let message = "this part does not hold what its question asks for";
+                    let message = "this part lacks data that its options ask for";
                     return Err(mistake::with_help(name, message, "make it again"));
                 }
             }
@@ -144,7 +151,7 @@ impl Analyze {
         let workspace = study.region.workspace(manipulator, *seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
         notes.progress(0, workspace.len());
-        let residuals = study.compensation.as_ref().map(|left| left.of(description));
+        let residuals = study.compensation.as_ref().map(|compensated| compensated.residuals(description));
         let tolerances = [study.tolerance, study.orientation_tolerance];
         let options = BudgetOptions { residuals: residuals.as_deref(), tolerances };
         let budget = BudgetSweep::new(manipulator, workspace, options)

@@ -1,4 +1,4 @@
-//! The ledger as tables: the sources in rows, their sums in the last ones.
+//! The ledger as tables: one row per source, followed by their sums.
 
 use abbe::analysis::{Extreme, Figures, Measurand};
 
@@ -7,7 +7,7 @@ use super::unit;
 use crate::listing::Listing;
 use crate::number::{self, fixed, percent, unbroken};
 
-/// The ledger as a table.
+/// Returns the ledger of position errors as a table.
 pub fn ledger(report: &Report) -> Listing {
     let tolerance = report.study.tolerance;
     let mut header = vec!["source", "max", "RMS", "rank", "worst at (the rest as at home)"];
@@ -38,8 +38,9 @@ pub fn ledger(report: &Report) -> Listing {
     Listing { header, rows, numbers }
 }
 
-/// The ledger of the orientation in mrad: rows 4–6 and their norm. None if nothing turns the tool.
-pub fn turns(report: &Report) -> Option<Listing> {
+/// Returns the ledger of orientation errors in mrad, rows 4–6 and their norm; `None` if no source
+/// rotates the tool.
+pub fn orientation_ledger(report: &Report) -> Option<Listing> {
     let (errors, combined, _) = report.budget.errors(Measurand::Orientation);
     if combined.worst_case_radius.value == 0.0 {
         return None;
@@ -48,14 +49,14 @@ pub fn turns(report: &Report) -> Option<Listing> {
     let mut order = ranks.into_iter().zip(errors).collect::<Vec<_>>();
     order.sort_by_key(|(rank, _)| *rank);
     let show = |value| unit::fixed(report, Measurand::Orientation, value);
-    let [first, second, third] = unit::rows(report, Measurand::Orientation);
+    let [first, second, third] = unit::row_names(report, Measurand::Orientation);
     let mut header = vec!["source", first, second, third, "norm", "RMS", "worst at (the rest as at home)"];
     let tolerance = report.study.orientation_tolerance;
     if tolerance.is_some() {
         header.insert(5, "of tolerance");
     }
     let row = |name: &str, rows: [Option<f64>; 3], norm: Extreme, rms: Option<f64>| {
-        // What is the same everywhere is worst nowhere.
+        // An error that is constant over the workspace has no worst configuration.
         let varies = norm.value > rms.unwrap_or_default() * (1.0 + 1e-9);
         let at = report.configuration(norm.configuration).filter(|_| varies);
         let mut cells = vec![name.to_owned()];
@@ -83,9 +84,10 @@ pub fn turns(report: &Report) -> Option<Listing> {
     Some(Listing { header, rows, numbers })
 }
 
-/// What a tolerance of the study allows each source, and what is gained by making it smaller.
-pub fn allowed(report: &Report, measurand: Measurand) -> Option<Listing> {
-    let (factor, _) = unit::of(report, measurand);
+/// Returns the table of errors that the tolerance allows each source, and of the gain from reducing
+/// it by one percent.
+pub fn allowance_table(report: &Report, measurand: Measurand) -> Option<Listing> {
+    let (factor, _) = unit::display_unit(report, measurand);
     let times = |scale: Option<f64>| {
         scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
     };

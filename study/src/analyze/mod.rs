@@ -1,20 +1,20 @@
-//! Section 5 of the paper: what every source does over a workspace, alone and together.
+//! Section 5 of the paper: the effect of each source over a workspace, alone and combined.
 //!
-//! `job` is the question, `sweep` how it is answered, `parts` the same on several machines, `report` the answer, which is what
-//! `--json` prints. The sweep runs once; `figures` gathers on the way what the figures show, and `first_order` compares with the
-//! exact chain.
+//! `job` holds the options, `sweep` evaluates the workspace once, and `report` is the result that
+//! `--json` prints. `parts` divides the sweep over several machines, `figures` gathers figure data
+//! during the sweep, and `first_order` compares with the exact chain.
 //!
-//! The others put the report into words: `summary` answers in a few sentences and `verdict` says whether the tolerance is met,
-//! `ledger` and `uncertainty` are tables, `at_most` stands beside what is certified, `agreement` beside what is published,
-//! `unreachable` says what could not be had and why, `conclusions` puts the results into sentences; `unit` has the units.
+//! The other files turn the report into text: `summary` and `verdict` (first sentences), `ledger`
+//! and `uncertainty` (tables), `norm_comparison` (certified bounds), `agreement` (published
+//! figures), `unreachable` (reasons), `conclusions` (closing sentences), and `unit` (units).
 
 mod agreement;
-mod at_most;
 mod conclusions;
 pub mod figures;
 mod first_order;
 mod job;
 mod ledger;
+mod norm_comparison;
 pub mod options;
 pub mod parts;
 mod report;
@@ -25,15 +25,17 @@ pub mod unit;
 mod unreachable;
 mod verdict;
 
-pub use at_most::{Sampled, at_most};
 pub use first_order::FirstOrder;
 pub use job::Analyze;
-pub use ledger::{allowed, ledger, turns};
+pub use ledger::{allowance_table, ledger, orientation_ledger};
+pub use norm_comparison::{NormComparison, norm_comparison_table};
 pub use report::{
-    AfterCompensation, Agreement, CombinedReport, Comparison, Drawn, DrawnErrors, ErrorAllowance, Ledger,
-    LedgerEntry, LongestEllipsoid, OrientationReport, OrientationSource, Quantity, Radii, Report,
-    RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict, UncertaintyBudget,
-    Verdict, Verdicts,
+    AfterCompensation, Agreement, CombinedReport, Comparison, ErrorAllowance, Ledger, LedgerEntry,
+    LongestEllipsoid, MonteCarloErrors, MonteCarloReport, OrientationReport, OrientationSource, Quantity,
+    Radii, Report, RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict,
+    UncertaintyBudget, Verdict, Verdicts,
 };
-pub use uncertainty::{contributions, sentences, totals};
-pub use unreachable::{Reason, first_few, reason, reasons, summary};
+pub use uncertainty::{uncertainty_contributions, uncertainty_sentences, uncertainty_totals};
+pub use unreachable::{
+    UnreachableReason, first_unreachable, unreachable_reason, unreachable_reasons, unreachable_summary,
+};

@@ -1,6 +1,6 @@
-//! The options of an analysis.
+//! Options of an analysis.
 
 use std::ops::RangeInclusive;
 
-/// Numbers of draws.
+/// Valid numbers of Monte Carlo draws.
 pub const DRAWS: RangeInclusive<usize> = 1..=10_000_000;

@@ -1,13 +1,14 @@
-//! The answer in a few sentences: how large the error is, which source it is of, and where.
+//! Summary in a few sentences: the largest error, its main sources, and the worst configuration.
 
 use super::report::{Ledger, LedgerEntry, Report};
 use crate::number::{self, percent, unbroken};
 
-/// How many sources are named.
+/// Number of sources that are named.
 const NAMED: usize = 3;
 
 impl Report {
-    /// The largest error of all sources together, and the sources that make most of it; nothing if there is none.
+    /// Returns sentences on the largest combined error and the sources that cause most of it; empty
+    /// if there is no error.
     pub fn summary(&self) -> Vec<String> {
         let Ledger { sources, sums: [.., all, _] } = &self.ledger;
         if sources.is_empty() || all.max == 0.0 {
@@ -25,19 +26,19 @@ impl Report {
             0.0 => "",
             _ => ", random sources at their bounds",
         };
-        let together = format!("Largest error{bounds}: {}{share}{}.", self.show(all.max), self.place(all));
+        let together = format!("Largest error{bounds}: {}{share}{}.", self.show(all.max), self.location(all));
         let name = |LedgerEntry { name, max, .. }: &LedgerEntry| format!("\"{name}\", {}", self.show(*max));
         let mut named = sources.iter().filter(|entry| entry.max > 0.0);
         let Some(first) = named.next() else { return vec![together] };
-        let mut most = format!("Most of it: {}{}", name(first), self.place(first));
+        let mut most = format!("Most of it: {}{}", name(first), self.location(first));
         for next in named.take(NAMED - 1) {
             most += &format!("; then {}", name(next));
         }
         vec![together, most + "."]
     }
 
-    /// ` at q1 = …`; nothing where all configurations are as good.
-    fn place(&self, entry: &LedgerEntry) -> String {
+    /// Returns `, at q1 = …`; empty without a worst configuration.
+    fn location(&self, entry: &LedgerEntry) -> String {
         let worst = self.configuration(entry.configuration);
         worst.map(|worst| format!(", at {}", unbroken(&self.label(worst)))).unwrap_or_default()
     }

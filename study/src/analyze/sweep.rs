@@ -1,4 +1,4 @@
-//! The sweep over the workspace: what is gathered chunk by chunk, and the report of all of it.
+//! The sweep over the workspace: data gathered chunk by chunk, and the report on all of it.
 
 use std::ops::Range;
 
@@ -10,40 +10,41 @@ use abbe::analysis::{
 use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
-use super::figures::{Data, Figures, Gathering};
+use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
 use super::report::{
-    AfterCompensation, CombinedReport, Comparison, Drawn, DrawnErrors, ErrorAllowance, ErrorSites, Ledger,
-    OrientationReport, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget, Verdicts,
+    AfterCompensation, CombinedReport, Comparison, ErrorAllowance, ErrorSites, Ledger, MonteCarloErrors,
+    MonteCarloReport, OrientationReport, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget,
+    Verdicts,
 };
 use super::unreachable;
-use crate::bound::Norms;
-use crate::extrapolated::extrapolated;
+use crate::bound::CertifiedNorms;
+use crate::extrapolation::warn_of_extrapolation;
 use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::study_file::Study;
 use crate::{mistake, number};
 
-/// At how many configurations it is looked whether errors are extrapolated.
+/// Largest number of configurations that are checked for extrapolation.
 const EXTRAPOLATED: usize = 2000;
 
-/// What was gathered over some chunks of a workspace.
+/// Data gathered over some chunks of a workspace.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct SweepData {
-    /// Of the sources.
+    /// Data of the error sources.
     pub(super) budget: PartialBudget,
-    /// For the figures, if they are asked for.
-    figures: Option<Vec<Data>>,
+    /// Data of the figures; `None` if they were not requested.
+    figures: Option<Vec<PartialFigure>>,
 }
 
-/// The sweep over the workspace of a study.
+/// Sweep over the workspace of a study.
 pub(super) struct Sweep<'a> {
     pub(super) machine: &'a Machine,
     pub(super) study: &'a Study,
     pub(super) monte_carlo: Option<usize>,
     pub(super) seed: u64,
-    /// Whether to gather what the figures of the study show.
+    /// Gathers the data of the study's figures.
     pub(super) figures: bool,
     pub(super) manipulator: &'a dyn Sweepable,
     pub(super) workspace: &'a dyn Workspace,
@@ -59,25 +60,26 @@ impl Sweep<'_> {
         notes: &mut dyn Notes,
     ) -> Result<SweepData, Diagnostics> {
         let range = self.budget.configurations(&chunks);
-        let gathering = self.figures.then(|| Gathering::new(self.study, self.manipulator.description()));
+        let builder = self.figures.then(|| FiguresBuilder::new(self.study, self.manipulator.description()));
         notes.progress(0, range.len());
-        let mut watching = Watching { rows, gathering, notes, range: range.clone() };
-        let budget = self.budget.part(chunks, &mut watching);
-        let Watching { gathering, notes, .. } = watching;
+        let mut observer = SweepObserver { rows, builder, notes, range: range.clone() };
+        let budget = self.budget.part(chunks, &mut observer);
+        let SweepObserver { builder, notes, .. } = observer;
         notes.progress(range.len(), range.len());
         let budget = budget.map_err(|refused| self.not_evaluated(&refused))?;
-        // Of a sweep that was stopped there is a part.
+        // An interrupted sweep returns an incomplete part; do not use it.
         notes.go_on()?;
-        Ok(SweepData { budget, figures: gathering.map(Gathering::data) })
+        Ok(SweepData { budget, figures: builder.map(FiguresBuilder::data) })
     }
 
-    /// Takes in what follows; says whether it does, and is of the same figures.
+    /// Appends the data of the chunks that follow. Returns false if they do not follow or have
+    /// other figures.
     pub(super) fn append(&self, all: &mut SweepData, next: SweepData) -> bool {
         let figures = match (all.figures.take(), next.figures) {
             (None, None) => Some(None),
             (Some(here), Some(next)) => {
-                let mut gathering = Gathering::new(self.study, self.manipulator.description());
-                (gathering.append(here) && gathering.append(next)).then(|| Some(gathering.data()))
+                let mut builder = FiguresBuilder::new(self.study, self.manipulator.description());
+                (builder.append(here) && builder.append(next)).then(|| Some(builder.data()))
             }
             _ => None,
         };
@@ -86,7 +88,7 @@ impl Sweep<'_> {
         all.budget.append(next.budget).is_ok()
     }
 
-    /// The report of all that was gathered.
+    /// Returns the report on all gathered data.
     pub(super) fn report(&self, data: SweepData, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let spec = &machine.spec;
@@ -94,17 +96,17 @@ impl Sweep<'_> {
         self.require_reached(&budget)?;
         notes.go_on()?;
 
-        let first_order = FirstOrder::over(manipulator, workspace);
+        let first_order = FirstOrder::compare(manipulator, workspace);
         let first_order = first_order.map_err(|refused| self.not_evaluated(&refused))?;
         let moving_inputs = study.region.moving_inputs();
         let sites = ErrorSites::new(&budget, workspace, spec, &study.region.varying(spec), &moving_inputs);
         let verdicts = self.verdicts(&budget, &sites)?;
         let uncertainty = self.uncertainty(&budget, &sites, Measurand::Position)?;
         let turned = self.uncertainty(&budget, &sites, Measurand::Orientation)?;
-        let monte_carlo = self.drawn(&budget, &sites, notes)?;
-        let certified = Norms::over(machine, study, notes);
+        let monte_carlo = self.draw_errors(&budget, &sites, notes)?;
+        let certified = CertifiedNorms::certify(machine, study, notes);
         notes.go_on()?;
-        let figures = data.figures.map(|data| self.drawings(data)).transpose()?;
+        let figures = data.figures.map(|data| self.finish_figures(data)).transpose()?;
         let sources = SourceReport::all(&budget, spec, &sites);
         let tolerance = study.tolerance;
         let report = Report {
@@ -123,7 +125,7 @@ impl Sweep<'_> {
             after_compensation: study.compensated.as_ref().map(|left| AfterCompensation::new(left, &budget)),
             first_order,
             certified,
-            unreachable_reasons: unreachable::reasons(&budget.unreachable, spec),
+            unreachable_reasons: unreachable::unreachable_reasons(&budget.unreachable, spec),
             not_reproducible: study.not_reproducible.clone(),
             ledger: Ledger::new(&budget, &sources, tolerance),
             allowance: tolerance
@@ -149,17 +151,18 @@ impl Sweep<'_> {
         let verdict = |measurand, tolerance: Option<f64>| {
             let errors_at =
                 |index| self.at(index, |configuration| errors_at(self.manipulator, configuration));
-            let judged = tolerance.map(|tolerance| {
+            let verdict = tolerance.map(|tolerance| {
                 ToleranceVerdict::new(budget, sites, measurand, (tolerance, probability), errors_at)
             });
-            judged.transpose()
+            verdict.transpose()
         };
         let position = verdict(Measurand::Position, tolerance)?;
         let orientation = verdict(Measurand::Orientation, orientation_tolerance)?;
         Ok(Verdicts::new(probability, [position, orientation]))
     }
 
-    /// The budget where the standard uncertainty is largest; none if there is no random error.
+    /// Returns the uncertainty budget at the configuration with the largest standard uncertainty;
+    /// `None` if there is no random error.
     fn uncertainty(
         &self,
         budget: &Budget,
@@ -176,18 +179,19 @@ impl Sweep<'_> {
         Ok(Some(UncertaintyBudget::new(&statement, largest.configuration, &self.machine.spec, sites)))
     }
 
-    /// What is drawn where the radius of all errors is largest and at home, if it is asked for.
-    fn drawn(
+    /// Draws errors at the configuration with the largest radius and at home; `None` if no draws
+    /// were requested.
+    fn draw_errors(
         &self,
         budget: &Budget,
         sites: &ErrorSites,
         notes: &mut dyn Notes,
-    ) -> Result<Option<Drawn>, Diagnostics> {
+    ) -> Result<Option<MonteCarloReport>, Diagnostics> {
         let Some(draws) = self.monte_carlo else { return Ok(None) };
         let draw = |index| {
             let errors = self
                 .at(index, |configuration| monte_carlo(self.manipulator, configuration, draws, self.seed))?;
-            Ok::<_, Diagnostics>(DrawnErrors::new(sites.get(index).unwrap_or(&sites.home), errors))
+            Ok::<_, Diagnostics>(MonteCarloErrors::new(sites.get(index).unwrap_or(&sites.home), errors))
         };
         notes.progress(0, 2 * draws);
         let worst = draw(budget.combined.radius.configuration)?;
@@ -195,20 +199,20 @@ impl Sweep<'_> {
         notes.go_on()?;
         let home = draw(None)?;
         notes.progress(2 * draws, 2 * draws);
-        Ok(Some(Drawn { draws, seed: self.seed, worst, home }))
+        Ok(Some(MonteCarloReport { draws, seed: self.seed, worst, home }))
     }
 
-    fn drawings(&self, data: Vec<Data>) -> Result<Figures, Diagnostics> {
+    fn finish_figures(&self, data: Vec<PartialFigure>) -> Result<Figures, Diagnostics> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
-        let mut gathering = Gathering::new(study, manipulator.description());
-        if !gathering.append(data) {
+        let mut builder = FiguresBuilder::new(study, manipulator.description());
+        if !builder.append(data) {
             let message = "the figures are not those of the study";
             return Err(mistake::with_help(&machine.origin, message, "make all parts again"));
         }
-        gathering.finish(manipulator, workspace.home(), &machine.spec)
+        builder.finish(manipulator, workspace.home(), &machine.spec)
     }
 
-    /// Evaluates something at a configuration of the workspace; at home without an index.
+    /// Evaluates a function at a configuration of the workspace, or at home if there is no index.
     fn at<T>(
         &self,
         index: Option<usize>,
@@ -223,33 +227,40 @@ impl Sweep<'_> {
         if budget.configurations > 0 {
             return Ok(());
         }
-        let reasons = unreachable::summary(&budget.unreachable, &self.machine.spec);
+        let reasons = unreachable::unreachable_summary(&budget.unreachable, &self.machine.spec);
         let message = format!("no configuration of the workspace can be reached: {reasons}");
         let help = "move or shrink the workspace of the study, or widen the limits of the joints";
         Err(mistake::with_help(&self.machine.origin, message, help))
     }
 
-    /// Warns if first order is not good enough for the tolerance.
+    /// Warns if the first-order error exceeds a tenth of the tolerance.
     fn warn_of_first_order(&self, FirstOrder { largest: neglected, .. }: FirstOrder, notes: &mut dyn Notes) {
         let length = |value| number::length(value, self.machine.spec.length);
         if let Some(tolerance) = self.study.tolerance.filter(|tolerance| neglected > tolerance / 10.0) {
             notes.warn(&format!(
-                "first order is off by up to {}, more than a tenth of the tolerance of {}; look at --monte-carlo",
+                "first order differs from the exact chain by up to {}, more than a tenth of the \
+                 tolerance of {}; see --monte-carlo",
                 length(neglected),
                 length(tolerance),
             ));
         }
     }
 
-    /// Looks at some configurations of a large workspace.
+    /// Warns of extrapolation, checked at some configurations of a large workspace.
     fn warn_of_extrapolation(&self, notes: &mut dyn Notes) {
         let Self { machine, workspace, .. } = *self;
         if machine.spec.fitted.is_empty() {
             return;
         }
         let reached = Subset { workspace, count: EXTRAPOLATED }.reached();
-        let places = reached.iter().map(|place| (&place.q[..], &place.u[..]));
-        extrapolated(&machine.spec, &*machine.evaluator(true), "configurations", places, notes);
+        let configurations = reached.iter().map(|reached| (&reached.q[..], &reached.u[..]));
+        warn_of_extrapolation(
+            &machine.spec,
+            &*machine.evaluator(true),
+            "configurations",
+            configurations,
+            notes,
+        );
     }
 
     fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {
@@ -257,7 +268,7 @@ impl Sweep<'_> {
     }
 }
 
-/// The mistake that a configuration has no finite errors.
+/// Returns the diagnostic for a configuration without finite errors.
 pub(super) fn not_evaluated(
     machine: &Machine,
     workspace: &dyn Workspace,
@@ -271,23 +282,23 @@ pub(super) fn not_evaluated(
     mistake::not_evaluated(&machine.origin, &at, &refused.error, description)
 }
 
-/// Who is shown every configuration, if anybody is, and how far the sweep is.
-struct Watching<'r, 'n, 'g> {
+/// Observer of the sweep: passes each configuration on, and reports progress.
+struct SweepObserver<'r, 'n, 'g> {
     rows: Option<&'r mut dyn FnMut(&Row)>,
-    gathering: Option<Gathering<'g>>,
+    builder: Option<FiguresBuilder<'g>>,
     notes: &'n mut dyn Notes,
-    /// The configurations that are looked at.
+    /// Indices of the configurations of this sweep.
     range: Range<usize>,
 }
 
-impl Watch for Watching<'_, '_, '_> {
+impl Watch for SweepObserver<'_, '_, '_> {
     fn rows(&self) -> bool {
-        self.rows.is_some() || self.gathering.is_some()
+        self.rows.is_some() || self.builder.is_some()
     }
 
     fn row(&mut self, row: &Row) {
         self.rows.iter_mut().for_each(|show| show(row));
-        self.gathering.iter_mut().for_each(|gathering| gathering.add(row));
+        self.builder.iter_mut().for_each(|builder| builder.add(row));
     }
 
     fn done(&mut self, before: usize) -> bool {

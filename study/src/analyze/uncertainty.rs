@@ -8,8 +8,9 @@ use super::unit;
 use crate::listing::Listing;
 use crate::number;
 
-/// Every random source, the largest share first; with its degrees of freedom if any are finite.
-pub fn contributions(report: &Report, budget: &UncertaintyBudget) -> Listing {
+/// Returns the table of random sources, largest share first. Has a column of degrees of freedom if
+/// any are finite.
+pub fn uncertainty_contributions(report: &Report, budget: &UncertaintyBudget) -> Listing {
     let measurand = budget.measurand;
     let estimated = budget.is_estimated();
     let row = |one: &SourceUncertainty| {
@@ -35,11 +36,12 @@ pub fn contributions(report: &Report, budget: &UncertaintyBudget) -> Listing {
     Listing { header, rows: budget.sources.iter().map(row).collect(), numbers }
 }
 
-/// Bias, u, k and U along the rows and of the norm; with the effective degrees of freedom if any are finite.
-pub fn totals(report: &Report, budget: &UncertaintyBudget) -> Listing {
+/// Returns the table of bias, u, k and U for each row and the norm. Has a column of effective
+/// degrees of freedom if any are finite.
+pub fn uncertainty_totals(report: &Report, budget: &UncertaintyBudget) -> Listing {
     let UncertaintyBudget { measurand, bias, expanded_uncertainty: expanded, .. } = budget;
     let estimated = budget.is_estimated();
-    let names = unit::rows(report, *measurand).into_iter().chain(["norm"]);
+    let names = unit::row_names(report, *measurand).into_iter().chain(["norm"]);
     let row = |(i, name): (usize, &str)| {
         let show = |value: f64| unit::fixed(report, *measurand, value);
         let sum = bias[i].abs() + expanded[i];
@@ -64,12 +66,12 @@ pub fn totals(report: &Report, budget: &UncertaintyBudget) -> Listing {
     Listing { header, rows: names.enumerate().map(row).collect(), numbers }
 }
 
-/// What the budget covers.
-pub fn sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
+/// Returns sentences on what the budget covers.
+pub fn uncertainty_sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
     let UncertaintyBudget { measurand, coverage, .. } = budget;
     let (_, combined, _) = report.budget.errors(*measurand);
     let estimated = budget.is_estimated();
-    let show = |value| unit::shown(report, *measurand, value);
+    let show = |value| unit::with_symbol(report, *measurand, value);
     let at = report
         .configuration(budget.configuration)
         .map(|worst| number::unbroken(&report.label(worst)))
@@ -77,12 +79,12 @@ pub fn sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
     let holds = match coverage.draws {
         None => "U covers 95 % of the errors: all random sources are normal.".to_owned(),
         Some(draws) => format!(
-            "{}, {} % of {} errors have a norm within it.",
+            "{} U covers {} % of {} drawn errors.",
             match estimated {
-                false => "U would cover 95 % of a normal error; drawn as the sources are distributed",
+                false => "U assumes a normal distribution; with the actual distributions",
                 true => {
-                    "Of U of the norm: where all sources are drawn as they are distributed, those with few degrees of freedom after \
-                     Student's t (JCGM 101, 6.4.9)"
+                    "For the norm, with all sources drawn from their distributions, those with \
+                     few degrees of freedom from Student's t (JCGM 101, 6.4.9),"
                 }
             },
             number::trimmed(100.0 * coverage.probability, 1),
@@ -92,42 +94,50 @@ pub fn sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
     let percent = number::short(100.0 * COVERAGE);
     let factors = match estimated {
         false => {
-            format!("k is that of {percent} % of a normal error. Degrees of freedom are taken as infinite.")
+            format!(
+                "k is the coverage factor for {percent} % of a normal error, with infinite degrees of \
+             freedom."
+            )
         }
         true => format!(
-            "k is that of {percent} % of Student's t with ν effective degrees of freedom, along each axis after Welch and Satterthwaite (G.4.1); \
-             ν of the norm is the harmonic mean of the sources by their shares."
+            "k is the coverage factor for {percent} % of Student's t with ν effective degrees of \
+             freedom, for each axis by the Welch-Satterthwaite formula (G.4.1); ν of the norm is \
+             the harmonic mean over the sources, weighted by their shares."
         ),
     };
-    let mut sentences = vec![format!("This is where u is largest: {at}."), holds];
-    sentences.extend(elsewhere(report, *measurand, combined.standard_radius.value));
+    let mut sentences = vec![format!("Configuration with the largest u: {at}."), holds];
+    sentences.extend(workspace_bound(report, *measurand, combined.standard_radius.value));
     let biased = combined.repeatable_radius.value > 0.0;
     if biased {
         sentences.push(format!(
-            "Repeatable errors that are not corrected are a bias, of up to {} at these configurations.",
+            "Repeatable errors that are not corrected are a bias of up to {} at these \
+             configurations.",
             show(combined.repeatable_radius.value)
         ));
     }
     sentences.push(format!(
-        "After the GUM (JCGM 100): u = value × sensitivity / divisor, added as root sum of squares. {factors}"
+        "According to the GUM (JCGM 100): u = value × sensitivity / divisor, combined as root sum \
+         of squares. {factors}"
     ));
     if biased {
-        let corrected = "The budget covers the random sources. Repeatable ones are known errors: the GUM takes for granted that they are \
-                         corrected (3.2.4); as long as they are not, they stand beside U (6.3.1, note).";
+        let corrected = "The budget covers the random sources. Repeatable errors are known: the GUM assumes that \
+         they are corrected (3.2.4); until then they are stated beside U (6.3.1, note).";
         sentences.push(corrected.to_owned());
     }
     sentences
 }
 
-/// What no U of the norm exceeds. Whatever the shape of a covariance, the quantile of the norm is no more than that of a line, as
-/// long as there are three degrees of freedom or more, and effective ones are no fewer than those of any source.
-fn elsewhere(report: &Report, measurand: Measurand, largest: f64) -> Option<String> {
+/// States an upper bound of the norm's U over the workspace; `None` below three degrees of freedom.
+/// With at least three degrees of freedom the quantile of the norm does not exceed that of a scalar
+/// error with the same variance, whatever the covariance. The effective degrees of freedom are no
+/// fewer than the smallest of any source.
+fn workspace_bound(report: &Report, measurand: Measurand, largest: f64) -> Option<String> {
     let fewest =
         report.spec.enabled_sources().map(|source| source.degrees_of_freedom).fold(f64::INFINITY, f64::min);
     let factor = (fewest >= 3.0).then(|| student_95(fewest))?;
-    let show = |value| unit::shown(report, measurand, value);
+    let show = |value| unit::with_symbol(report, measurand, value);
     Some(format!(
-        "At none of the {} configurations is the U of the norm more than {} ({factor:.3} × {}).",
+        "Over the {} configurations, U of the norm is at most {} ({factor:.3} × {}).",
         report.budget.configurations,
         show(factor * largest),
         show(largest)
@@ -149,7 +159,7 @@ fn value(report: &Report, one: &SourceUncertainty) -> String {
 }
 
 fn sensitivity(report: &Report, measurand: Measurand, one: &SourceUncertainty) -> String {
-    let (factor, result) = unit::of(report, measurand);
+    let (factor, result) = unit::display_unit(report, measurand);
     let (per, unit) = match &one.quantity {
         Quantity::Multiple => (1.0, None),
         Quantity::Length => (1.0, Some(report.spec.length.symbol())),

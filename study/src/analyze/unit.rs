@@ -1,47 +1,49 @@
-//! Positions and orientations as people read them: the spec's length unit, and mrad.
+//! Display units of positions and orientations: the spec's length unit, and mrad.
 
 use abbe::analysis::Measurand;
 
 use super::report::Report;
 use crate::number::{self, error_decimals};
 
-/// What a figure is multiplied by, and the symbol of the unit it is in then.
-pub fn of(report: &Report, measurand: Measurand) -> (f64, &'static str) {
+/// Returns the factor from internal to display unit, and the symbol of the display unit.
+pub fn display_unit(report: &Report, measurand: Measurand) -> (f64, &'static str) {
     match measurand {
         Measurand::Position => (1.0, report.spec.length.symbol()),
         Measurand::Orientation => (1e3, "mrad"),
     }
 }
 
-/// The names of the three rows.
-pub fn rows(report: &Report, measurand: Measurand) -> [&'static str; 3] {
+/// Returns the names of the three rows.
+pub fn row_names(report: &Report, measurand: Measurand) -> [&'static str; 3] {
     match measurand {
         Measurand::Position => ["x", "y", "z"],
         Measurand::Orientation => report.orientation.rows,
     }
 }
 
-/// A figure with as many decimals as those beside it, without its unit.
+/// Formats a figure in its display unit, without the symbol, with the same number of decimals as
+/// its table.
 pub fn fixed(report: &Report, measurand: Measurand, value: f64) -> String {
-    number::fixed(value * of(report, measurand).0, report.decimals_of(measurand))
+    number::fixed(value * display_unit(report, measurand).0, report.decimals_of(measurand))
 }
 
-/// A figure with its unit.
-pub fn shown(report: &Report, measurand: Measurand, value: f64) -> String {
-    let (factor, symbol) = of(report, measurand);
+/// Formats a figure with its unit.
+pub fn with_symbol(report: &Report, measurand: Measurand, value: f64) -> String {
+    let (factor, symbol) = display_unit(report, measurand);
     format!("{} {symbol}", number::trimmed(value * factor, report.decimals_of(measurand)))
 }
 
 impl Report {
-    /// How many decimals errors have: three digits of the smallest source that matters.
+    /// Returns the number of decimals of position errors: three significant digits of the smallest
+    /// source that is not negligible.
     pub fn decimals(&self) -> usize {
         self.decimals_of(Measurand::Position)
     }
 
-    /// The same of a measurand in the unit in which it is printed; of mrad at least four.
+    /// Returns the number of decimals of a measurand in its display unit; at least four for mrad.
     pub(super) fn decimals_of(&self, measurand: Measurand) -> usize {
         let (sources, combined, _) = self.budget.errors(measurand);
-        let (factor, _) = of(self, measurand);
+        let (factor, _) = display_unit(self, measurand);
         let least = match measurand {
             Measurand::Position => error_decimals(self.spec.length),
             Measurand::Orientation => 4,

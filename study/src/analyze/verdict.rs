@@ -1,4 +1,4 @@
-//! Whether the tolerance is met, in sentences.
+//! The tolerance verdict, in sentences.
 
 use abbe::analysis::{Compliance, Measurand};
 
@@ -7,7 +7,8 @@ use super::unit;
 use crate::number;
 
 impl Report {
-    /// `Verdict: not met`.
+    /// Returns the verdict in one line, such as `Verdict: not met`; `None` if the study has no
+    /// tolerance.
     pub fn verdict_line(&self) -> Option<String> {
         let verdicts = self.verdicts.as_ref()?;
         let least = verdicts
@@ -21,53 +22,52 @@ impl Report {
         })
     }
 
-    /// A sentence on each tolerance.
+    /// Returns one sentence on each tolerance.
     pub fn verdict_sentences(&self) -> Vec<String> {
-        self.verdicts.iter().flat_map(Verdicts::all).map(|judged| self.judgement(judged)).collect()
+        self.verdicts.iter().flat_map(Verdicts::all).map(|verdict| self.tolerance_sentence(verdict)).collect()
     }
 
-    fn judgement(&self, judged: &ToleranceVerdict) -> String {
-        let show = |value| unit::shown(self, judged.measurand, value);
-        let name = match judged.measurand {
+    fn tolerance_sentence(&self, verdict: &ToleranceVerdict) -> String {
+        let show = |value| unit::with_symbol(self, verdict.measurand, value);
+        let name = match verdict.measurand {
             Measurand::Position => "Position",
             Measurand::Orientation => "Orientation",
         };
-        let tolerance = show(judged.tolerance);
-        if let (Verdict::Met, Some(largest)) = (judged.verdict, judged.largest) {
+        let tolerance = show(verdict.tolerance);
+        if let (Verdict::Met, Some(largest)) = (verdict.verdict, verdict.largest) {
             return format!(
-                "{name}: met for certain. All random sources are bounded, and together with the repeatable ones they make at most \
-                 {} of {tolerance} at each of the {} configurations, to first order.",
+                "{name}: met. All random sources are bounded, and with the repeatable ones the \
+                 error is at most {} of {tolerance} at each of the {} configurations, to first \
+                 order.",
                 show(largest),
                 self.configurations,
             );
         }
-        let at = self.configuration(judged.configuration);
+        let at = self.configuration(verdict.configuration);
         let at = at.map(|worst| number::unbroken(&self.label(worst))).unwrap_or_default();
         let all = self.configurations;
-        let least = match judged.configurations {
+        let least = match verdict.configurations {
             1 if all == 1 => "the only configuration".to_owned(),
             some if some < all => {
                 format!(
-                    "the least of {all} configurations ({some} were drawn at, those where an approximation has it lowest)"
+                    "the lowest of {all} configurations, checked at the {some} most likely to be \
+                     worst"
                 )
             }
-            _ => format!("the least of all {all} configurations"),
+            _ => format!("the lowest of all {all} configurations"),
         };
-        let how = match judged.compliance.draws {
-            Some(draws) => format!("random ones drawn {} times", number::short(draws as f64)),
-            None if self.is_random(judged.measurand) => "random ones all normal".to_owned(),
+        let how = match verdict.compliance.draws {
+            Some(draws) => format!("random sources drawn {} times", number::short(draws as f64)),
+            None if self.is_random(verdict.measurand) => "all random sources normal".to_owned(),
             None => "nothing is random".to_owned(),
         };
-        let asked = number::at_least(self.study.probability);
-        let enough = match judged.verdict {
-            Verdict::NotMet => format!("{asked} are asked for"),
-            _ => format!("{asked} are enough"),
-        };
-        let met = if judged.verdict == Verdict::NotMet { "not met" } else { "met" };
+        let required = number::at_least(self.study.probability);
+        let enough = format!("{required} is required");
+        let met = if verdict.verdict == Verdict::NotMet { "not met" } else { "met" };
         format!(
-            "{name}: {met}. The error is within {tolerance} with probability {}; {enough}. This is {least}, at {at}. To first \
-             order, repeatable sources as they are, {how}.",
-            probability(judged.compliance)
+            "{name}: {met}. The error is within {tolerance} with probability {}; {enough}. This \
+             is {least}, at {at}. To first order, repeatable sources at their values, {how}.",
+            probability(verdict.compliance)
         )
     }
 
@@ -76,20 +76,30 @@ impl Report {
     }
 }
 
-/// `97.35 % ± 0.02 %` with the standard error of draws; what all draws say is a bound.
+impl ToleranceVerdict {
+    /// Returns the probability that the tolerance is met with its standard error, such as
+    /// `= 97.35 % ± 0.02 %`, or a bound, such as `< 0.002 %`.
+    pub fn probability(&self) -> String {
+        let text = probability(self.compliance);
+        if text.starts_with(['<', '>']) { text } else { format!("= {text}") }
+    }
+}
+
+/// Formats a probability with the standard error of its draws, such as `97.35 % ± 0.02 %`; a
+/// one-sided bound if all draws agree.
 fn probability(Compliance { probability, error, draws }: Compliance) -> String {
     let percent = |p: f64| format!("{} %", number::trimmed(100.0 * p, 2));
     match draws {
-        // No draw out of N was otherwise: 95 % sure that less than 3/N are.
+        // Rule of three: if none of N draws differs, the rate is below 3/N with 95 % confidence.
         Some(draws) if probability == 1.0 => {
-            format!("more than {} %", number::trimmed(100.0 * (1.0 - 3.0 / draws as f64), 3))
+            format!("> {} %", number::trimmed(100.0 * (1.0 - 3.0 / draws as f64), 3))
         }
         Some(draws) if probability == 0.0 => {
-            format!("less than {} %", number::trimmed(300.0 / draws as f64, 3))
+            format!("< {} %", number::trimmed(300.0 / draws as f64, 3))
         }
         Some(_) => format!("{} ± {}", percent(probability), percent(error.max(1e-4))),
-        None if probability > 0.9999 && probability < 1.0 => "more than 99.99 %".to_owned(),
-        None if probability < 0.0001 && probability > 0.0 => "less than 0.01 %".to_owned(),
+        None if probability > 0.9999 && probability < 1.0 => "> 99.99 %".to_owned(),
+        None if probability < 0.0001 && probability > 0.0 => "< 0.01 %".to_owned(),
         None => percent(probability),
     }
 }

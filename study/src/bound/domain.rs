@@ -1,4 +1,4 @@
-//! The box in which errors are sought.
+//! The enclosing box of a workspace.
 
 use std::sync::Arc;
 
@@ -14,36 +14,40 @@ use crate::machine::Machine;
 use crate::mistake;
 use crate::number;
 use crate::study_file::Study;
-use crate::workspace::{Span, name};
+use crate::workspace::Span;
 
-/// How many names may move: the search for the remainder moves one more.
+/// Largest number of names that may move. The search for the remainder moves one more.
 const MOST_NAMES: usize = MOST_MOVING - 1;
 
-/// The box of joints, parameters and inputs that contains the workspace of a study.
+/// Box of joints, parameters and inputs that encloses the workspace of a study.
 pub(super) struct Domain {
     pub(super) spec: Arc<Spec>,
     pub(super) spans: Vec<Span>,
 }
 
 impl Domain {
-    /// That of a machine and a study with all changes.
+    /// Creates the box of a machine and a study; changes are already applied. Fails if a span is
+    /// unlimited or too many names move.
     pub(super) fn new(machine: &Machine, study: &Study) -> Result<Self, Diagnostics> {
         let spans = study.region.spans(&machine.spec, &machine.origin)?;
         let domain = Self { spec: machine.spec.clone(), spans };
-        let moving = domain.moving();
+        let moving = domain.moving_count();
         if moving > MOST_NAMES {
             return Err(mistake::with_help(
                 &machine.origin,
                 format!(
-                    "{moving} joints, parameters and inputs move: of more than {MOST_NAMES} at once nothing can be proved"
+                    "{moving} joints, parameters and inputs vary: a bound can be computed for up \
+                     to {MOST_NAMES}"
                 ),
-                "hold some of them: a study whose workspace is a `grid` moves those that it names, `--set` holds inputs",
+                "fix some of them: a study whose workspace is a `grid` varies only those that it \
+                 names, `--set` fixes inputs",
             ));
         }
         Ok(domain)
     }
 
-    /// The largest size of an error in it; the search begins at `start`, or at home.
+    /// Bounds the largest magnitude of an error over the box. The search starts at `start`, or at
+    /// home.
     pub(super) fn largest(
         &self,
         graph: &mut Graph,
@@ -60,13 +64,13 @@ impl Domain {
         abbe_bound::largest(graph, magnitude, &names, still, effort, watch)
     }
 
-    /// What norms cannot exceed because of their parts.
+    /// Bounds the norms by the sum of their parts.
     pub(super) fn limits(&self, graph: &mut Graph, apart: &Apart) -> Limits {
         abbe_bound::limits(graph, apart, &self.names(), |symbol| home(symbol, &self.spec))
     }
 
-    /// Whether fewer of the names that move move the first node than the second.
-    pub(super) fn moves_less(&self, graph: &Graph, nodes: [Node; 2]) -> bool {
+    /// Returns true if the first node depends on fewer moving names than the second.
+    pub(super) fn depends_on_fewer(&self, graph: &Graph, nodes: [Node; 2]) -> bool {
         let [first, second] = nodes.map(|node| {
             let symbols = graph.symbols(&[node]);
             let moving = self.spans.iter().filter(|span| span.range[0] < span.range[1]);
@@ -75,24 +79,25 @@ impl Domain {
         first < second
     }
 
-    /// The value of every variable and of all else that moves, and in words those of what is not at home.
-    pub(super) fn place(&self, values: &[f64]) -> (IndexMap<String, f64>, String) {
+    /// Returns the values of all variables and of every moving parameter and input, and a
+    /// description of those that are not at home.
+    pub(super) fn describe(&self, values: &[f64]) -> (IndexMap<String, f64>, String) {
         let Self { spec, spans } = self;
         let variables = spec.variables.iter().map(|variable| (variable.name.clone(), variable.home));
         let mut at: IndexMap<String, f64> = variables.collect();
-        let mut place = Vec::new();
+        let mut description = Vec::new();
         for (span, value) in spans.iter().zip(values) {
-            let name = name(span.symbol, spec);
+            let name = spec.name_of(span.symbol);
             at.insert(name.to_owned(), *value);
             if *value != home(span.symbol, spec) {
-                place.push(format!("{name} = {}", number::of_symbol(*value, span.symbol, spec)));
+                description.push(format!("{name} = {}", number::of_symbol(*value, span.symbol, spec)));
             }
         }
-        (at, place.join(", "))
+        (at, description.join(", "))
     }
 
-    /// How many names move.
-    pub(super) fn moving(&self) -> usize {
+    /// Returns the number of names that move.
+    pub(super) fn moving_count(&self) -> usize {
         self.spans.iter().filter(|span| span.range[0] < span.range[1]).count()
     }
 
@@ -107,13 +112,13 @@ impl Domain {
     }
 }
 
-/// Where something stands that does not move.
+/// Returns the home or nominal value of a symbol.
 pub(super) fn home(symbol: Symbol, spec: &Spec) -> f64 {
     match symbol {
         Symbol::Variable(i) => spec.variables[i].home,
         Symbol::Parameter(i) => spec.parameters[i].value,
         Symbol::Input(i) => spec.inputs[i].value,
-        // No error of the spec's own sources depends on anything else.
+        // The errors of a spec depend on no other symbols.
         _ => f64::NAN,
     }
 }

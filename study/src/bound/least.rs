@@ -1,13 +1,13 @@
-//! Least values: how far the joints move the tool at least, and how stiff the machine is at least.
+//! Smallest singular value of the joint Jacobian, and smallest stiffness of the machine.
 
 use abbe_bound::{Effort, Extreme, Progress, Singular, singular_value};
 use abbe_codegen::chain;
 
 use super::domain::{Domain, home};
-use super::report::{Dexterity, Least};
+use super::report::{Dexterity, LowerBound};
 
 impl Domain {
-    /// That of the tool point, and of the tool; none of fewer than three joints.
+    /// Returns the dexterity of the tool point and of the tool; `None` for fewer than three joints.
     pub(super) fn dexterity(
         &self,
         effort: &Effort,
@@ -22,12 +22,13 @@ impl Domain {
         Some(Dexterity { point: least(&point), pose: pose.as_ref().map(least) })
     }
 
-    /// Of the tool point, N/m: the inverse of how far a force of 1 N moves it at most; none if no force moves it.
+    /// Returns the smallest stiffness at the tool point, in N/m: the inverse of the largest
+    /// compliance. `None` if no force deflects the tool point.
     pub(super) fn stiffness(
         &self,
         effort: &Effort,
         watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Option<Least> {
+    ) -> Option<LowerBound> {
         let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&self.spec)?;
         let still = |symbol| home(symbol, &self.spec);
         let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), still, effort, watch);
@@ -35,9 +36,9 @@ impl Domain {
         Some(self.least(&Singular { certified, found: largest.found.map(f64::recip), ..largest }))
     }
 
-    fn least(&self, least: &Singular) -> Least {
-        let (at, place) = self.place(&least.at);
+    fn least(&self, least: &Singular) -> LowerBound {
+        let (at, label) = self.describe(&least.at);
         let Singular { certified, found, boxes, complete, .. } = *least;
-        Least { certified, found: found.filter(|found| found.is_finite()), at, boxes, complete, place }
+        LowerBound { certified, found: found.filter(|found| found.is_finite()), at, boxes, complete, label }
     }
 }

@@ -1,12 +1,12 @@
-//! How large the errors of the tool point are at most: over a box of joints, parameters and inputs, with a proof.
+//! Certified upper bounds on the errors of the tool, over a box of joints, parameters and inputs.
 //!
-//! `domain` is the box in which everything is sought, `remainder` what first order and a step of compensation leave, `least` how far
-//! the joints move the tool at least, and how stiff the machine is at least; `norms` are those of the position's errors alone, for an
-//! analysis.
+//! `domain` is the enclosing box of the workspace. `remainder` bounds the first-order error and the
+//! error after one step of compensation, `least` the dexterity and stiffness. `certified_norms`
+//! holds the position bounds that an analysis shows.
 
+mod certified_norms;
 mod domain;
 mod least;
-mod norms;
 pub mod options;
 mod remainder;
 mod report;
@@ -26,21 +26,21 @@ use crate::notes::Notes;
 use crate::reads::Reads;
 use crate::study_file::Study;
 
+pub use certified_norms::CertifiedNorms;
 use domain::Domain;
-pub use norms::Norms;
-pub use report::{AfterStep, Dexterity, Errors, Largest, Least, Margin, Remainder, Report};
-use report::{Classes, Others};
+use report::{Classes, OtherBounds};
+pub use report::{Dexterity, ErrorBound, ErrorBounds, LowerBound, Margin, Remainder, Report, StepResidual};
 
-/// How large are the errors at most?
+/// Job of `abbe bound`: certifies upper bounds on the errors.
 #[derive(Clone)]
 pub struct Bound {
     machine: Machine,
     study: Study,
-    /// What is proved of each error, and when it is enough.
+    /// Effort of each search: gap and number of boxes.
     pub effort: Effort,
-    /// Whether the dexterity and the stiffness are asked for, too.
+    /// Also certifies the dexterity and the stiffness.
     pub least: bool,
-    /// After so much time no further box is looked at.
+    /// Time limit, after which no further box is evaluated; `None` for no limit.
     pub time: Option<Duration>,
 }
 
@@ -51,7 +51,7 @@ impl Reads for Bound {
 }
 
 impl Bound {
-    /// Asks it of a manipulator over the box that contains the workspace of a study, with the changes that the study makes.
+    /// Creates the job for a machine and a study, and applies the study's changes to the machine.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
         machine.change(&study.changes);
         machine.add_magnitude_errors();
@@ -66,89 +66,92 @@ impl Bound {
         self.study.fix(self.machine.fixed_inputs());
     }
 
-    /// Looks at boxes until each error is known to the gap.
+    /// Refines boxes until each bound reaches the gap, or a limit on boxes or time. Returns the
+    /// report.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
         let domain = Domain::new(machine, study)?;
         let Magnitudes { mut graph, repeatable, random, radius, across_z, apart } =
             Magnitudes::new(&domain.spec);
         let limits = domain.limits(&mut graph, &apart);
-        // Rows 4–6 are no rotation vector there.
+        // Euler angles are no rotation vector, so the limit on it does not apply.
         let is_rotation = domain.spec.orientation == Orientation::RotationVector;
         let at_most = |kind: usize| {
             let rotation = if is_rotation { limits.rotation[kind] } else { f64::INFINITY };
             [limits.position[kind], rotation]
         };
-        let mut sought = Sought { job: self, domain: &domain, begun: Instant::now(), done: 0 };
-        let repeatable = sought.errors(&mut graph, &repeatable, &across_z[0], at_most(0), notes)?;
-        let random = sought.errors(&mut graph, &random, &across_z[1], at_most(1), notes)?;
-        // Of one class alone both together are that one.
-        let radius = match Classes::of(&domain.spec) {
+        let mut searches = Searches { job: self, domain: &domain, begun: Instant::now(), done: 0 };
+        let repeatable = searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), notes)?;
+        let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), notes)?;
+        // With sources of one class only, the combined error is that of the class.
+        let radius = match Classes::enabled(&domain.spec) {
             Classes { repeatable: true, random: true } => {
-                let both = sought.errors(&mut graph, &radius, &across_z[2], at_most(2), notes)?;
-                both.at_most(&repeatable, &random)
+                let both = searches.error_bounds(&mut graph, &radius, &across_z[2], at_most(2), notes)?;
+                both.tighten_by_sum(&repeatable, &random)
             }
             Classes { random: true, .. } => random.clone(),
             _ => repeatable.clone(),
         };
-        let remainder = sought.one(notes, |_, watch| domain.remainder(&self.effort, watch))?;
+        let remainder = searches.run(notes, |_, watch| domain.remainder(&self.effort, watch))?;
         let before = [&repeatable.norm, &repeatable.orientation];
         let before = before.map(|largest| largest.certified.unwrap_or(f64::INFINITY));
-        let after_one_step = sought.one(notes, |_, watch| domain.after_step(&self.effort, before, watch))?;
+        let after_one_step =
+            searches.run(notes, |_, watch| domain.after_step(&self.effort, before, watch))?;
         let (mut dexterity, mut stiffness) = (None, None);
         if self.least {
-            dexterity = sought.one(notes, |_, watch| domain.dexterity(&self.effort, watch))?;
-            stiffness = sought.one(notes, |_, watch| domain.stiffness(&self.effort, watch))?;
+            dexterity = searches.run(notes, |_, watch| domain.dexterity(&self.effort, watch))?;
+            stiffness = searches.run(notes, |_, watch| domain.stiffness(&self.effort, watch))?;
         }
         let errors = [repeatable, random, radius];
-        let others = Others { remainder, after_one_step, dexterity, stiffness };
+        let others = OtherBounds { remainder, after_one_step, dexterity, stiffness };
         let report = Report::new(domain, study, &self.effort, errors, others);
         report.warn(notes);
         Ok(report)
     }
 }
 
-/// How much is looked for: five errors of each of three kinds and what those along x and y do not exceed, the remainder, what a step of
-/// compensation leaves, the dexterity and the stiffness.
-const SOUGHT: usize = 22;
+/// Number of searches: for each of three kinds of error five bounds and one on x and y together,
+/// then the remainder, the residual after one step, the dexterity and the stiffness.
+const SEARCHES: usize = 22;
 
-/// What is being looked for.
-struct Sought<'a> {
+/// Progress through the searches.
+struct Searches<'a> {
     job: &'a Bound,
     domain: &'a Domain,
     begun: Instant,
-    /// How much is known.
+    /// Number of completed searches.
     done: usize,
 }
 
-impl Sought<'_> {
-    fn errors(
+impl Searches<'_> {
+    fn error_bounds(
         &mut self,
         graph: &mut Graph,
         [norm, x, y, z, orientation]: &[Magnitude; 5],
         across_z: &Magnitude,
         at_most: [f64; 2],
         notes: &mut dyn Notes,
-    ) -> Result<Errors, Diagnostics> {
-        let [of_norm, of_turn] = at_most.map(|at_most| Effort { at_most, ..self.job.effort });
-        let norm = self.largest(graph, norm, None, &of_norm, notes)?;
-        // No part of a position's error is larger than its norm.
-        let of_part = Effort { at_most: norm.certified, ..of_norm };
-        // Where a joint turns both about z, the largest part across z is soon known and leads to those along x and y.
-        let across = match self.domain.moves_less(graph, [across_z.node, x.node]) {
-            true => Some(self.largest(graph, across_z, None, &of_part, notes)?),
+    ) -> Result<ErrorBounds, Diagnostics> {
+        let [norm_effort, orientation_effort] = at_most.map(|at_most| Effort { at_most, ..self.job.effort });
+        let norm = self.largest(graph, norm, None, &norm_effort, notes)?;
+        // A component of the position error cannot exceed its norm.
+        let component_effort = Effort { at_most: norm.certified, ..norm_effort };
+        // If a joint rotates both components about z, their common bound is found quickly. It
+        // yields a start and an upper bound for x and y.
+        let across = match self.domain.depends_on_fewer(graph, [across_z.node, x.node]) {
+            true => Some(self.largest(graph, across_z, None, &component_effort, notes)?),
             false => None,
         };
         let start = across.as_ref().map(|across| &across.at[..]);
         let at_most = across.as_ref().map_or(norm.certified, |across| across.certified);
-        let of_row = Effort { at_most, ..of_part };
-        let mut x = self.largest(graph, x, start, &of_row, notes)?;
+        let row_effort = Effort { at_most, ..component_effort };
+        let mut x = self.largest(graph, x, start, &row_effort, notes)?;
         x.boxes += across.as_ref().map_or(0, |across| across.boxes);
-        let y = self.largest(graph, y, start, &of_row, notes)?;
-        let z = self.largest(graph, z, None, &of_part, notes)?;
-        let orientation = self.largest(graph, orientation, None, &of_turn, notes)?;
-        let largest = |bound| Largest::new(&bound, self.domain);
-        Ok(Errors {
+        let y = self.largest(graph, y, start, &row_effort, notes)?;
+        let z = self.largest(graph, z, None, &component_effort, notes)?;
+        let orientation = self.largest(graph, orientation, None, &orientation_effort, notes)?;
+        let largest = |bound| ErrorBound::new(&bound, self.domain);
+        Ok(ErrorBounds {
             norm: largest(norm),
             x: largest(x),
             y: largest(y),
@@ -165,22 +168,22 @@ impl Sought<'_> {
         effort: &Effort,
         notes: &mut dyn Notes,
     ) -> Result<Proved, Diagnostics> {
-        self.one(notes, |domain, watch| domain.largest(graph, magnitude, start, effort, watch))
+        self.run(notes, |domain, watch| domain.largest(graph, magnitude, start, effort, watch))
     }
 
-    /// One of what is looked for, while there is time.
-    fn one<T>(
+    /// Runs one search within the time limit.
+    fn run<T>(
         &mut self,
         notes: &mut dyn Notes,
         search: impl FnOnce(&Domain, &mut dyn FnMut(&Progress) -> bool) -> T,
     ) -> Result<T, Diagnostics> {
         let Self { job, domain, begun, done } = *self;
         let found = search(domain, &mut |_| {
-            notes.progress(done, SOUGHT);
+            notes.progress(done, SEARCHES);
             !notes.stop() && job.time.is_none_or(|time| begun.elapsed() < time)
         });
         self.done += 1;
-        notes.progress(self.done, SOUGHT);
+        notes.progress(self.done, SEARCHES);
         notes.go_on()?;
         Ok(found)
     }

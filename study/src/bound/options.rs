@@ -1,27 +1,28 @@
-//! The options of a bound.
+//! Options of a bound.
 
 use std::fmt;
 use std::str::FromStr;
 
 use abbe_bound::Effort;
 
-use crate::options::Number;
+use crate::options::NumericOption;
 
-/// Largest number of boxes that are looked at for each error.
-pub const BOXES: Number<usize> = Number { default: Effort::DEFAULT.boxes, range: 1..=100_000_000 };
+/// Largest number of boxes that are evaluated for each error.
+pub const BOXES: NumericOption<usize> =
+    NumericOption { default: Effort::DEFAULT.boxes, range: 1..=100_000_000 };
 
-/// Share of the error that was found by which the certified one may exceed it.
+/// Largest excess of the certified over the found error, as a share of the found error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap(f64);
 
 impl Gap {
-    /// Returns a gap, which is more than 0 and less than 10.
+    /// Creates a gap; fails unless it is greater than 0 and less than 10.
     pub fn new(share: f64) -> Result<Self, &'static str> {
         let is_gap = share > 0.0 && share < 10.0;
         if is_gap { Ok(Self(share)) } else { Err("a gap is more than 0: `1%`, `0.1%`") }
     }
 
-    /// Returns it as a share.
+    /// Returns the gap as a share.
     pub fn share(self) -> f64 {
         self.0
     }
@@ -33,7 +34,7 @@ impl Default for Gap {
     }
 }
 
-/// `1%` or `0.01`.
+/// Parses `1%` or `0.01`.
 impl FromStr for Gap {
     type Err = String;
 

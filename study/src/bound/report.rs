@@ -1,4 +1,4 @@
-//! What is proved.
+//! Report of a bound.
 
 use std::sync::Arc;
 
@@ -11,60 +11,64 @@ use serde::Serialize;
 use crate::notes::Notes;
 use crate::number;
 use crate::study_file::Study;
-use crate::workspace::{Span, name};
+use crate::workspace::Span;
 
 use super::domain::Domain;
 
-/// What [`Bound`](super::Bound) proves. Lengths in the spec's unit, angles in rad; the true maximum of each error, to first
-/// order in the errors of the sources, lies between `found` and `certified`.
+/// Result of [`Bound`](super::Bound). Lengths are in the spec's unit, angles in rad. To first order
+/// in the errors of the sources, the true maximum of each error lies between `found` and
+/// `certified`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The manipulator.
+    /// Name of the manipulator.
     pub manipulator: String,
-    /// The unit of every length.
+    /// Symbol of the length unit.
     pub length: &'static str,
-    /// Which share of `found` `certified` may exceed it by.
+    /// Requested gap: largest excess of `certified` over `found`, as a share of `found`.
     pub gap: f64,
-    /// Of the repeatable sources, with their signs.
-    pub repeatable: Errors,
-    /// Root sum of squares of the random sources.
-    pub random: Errors,
-    /// Both, added.
-    pub radius: Errors,
-    /// What first order leaves out of the repeatable sources; none if there are no such sources.
+    /// Errors of the repeatable sources, with signs.
+    pub repeatable: ErrorBounds,
+    /// Errors of the random sources at their bounds, root sum of squares.
+    pub random: ErrorBounds,
+    /// Sums of the repeatable and random errors.
+    pub radius: ErrorBounds,
+    /// First-order error of the repeatable sources; `None` if there are none.
     pub remainder: Option<Remainder>,
-    /// What one step of compensation leaves of the repeatable sources; none if there are no such sources, or fewer than three joints.
-    pub after_one_step: Option<AfterStep>,
-    /// What the errors leave of the position's tolerance of the study; none if it has none.
+    /// Error of the repeatable sources after one step of compensation; `None` without repeatable
+    /// sources or with fewer than three joints.
+    pub after_one_step: Option<StepResidual>,
+    /// Margin to the position tolerance, in the length unit; `None` if the study has no such
+    /// tolerance.
     pub margin: Option<Margin>,
-    /// What they leave of the orientation's, rad.
+    /// Margin to the orientation tolerance, in rad; `None` if the study has no such tolerance.
     pub orientation_margin: Option<Margin>,
-    /// How far the joints move the tool at least; none if it was not asked for, or of fewer than three joints.
+    /// Smallest motion of the tool per unit of joint motion; `None` if not requested, or with fewer
+    /// than three joints.
     pub dexterity: Option<Dexterity>,
-    /// How stiff the machine is at least, N/m: a force at the tool point, in whatever direction, over the length by which the enabled repeatable
-    /// beams and compliances let it move; none if it was not asked for, or nothing gives way.
-    pub stiffness: Option<Least>,
-    /// From where to where everything goes that moves.
+    /// Smallest stiffness at the tool point in any direction, in N/m, from the enabled repeatable
+    /// beams and compliances. `None` if not requested, or if nothing is compliant.
+    pub stiffness: Option<LowerBound>,
+    /// Ranges of all moving variables, parameters and inputs.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
-    /// Whether the box holds more than the workspace of the study.
+    /// Indicates that the enclosing box is larger than the workspace of the study.
     pub contains_more: bool,
-    /// How many boxes were looked at.
+    /// Number of evaluated boxes, all searches together.
     pub boxes: usize,
-    /// Whether the gap was reached everywhere.
+    /// Indicates that every search reached the gap.
     pub complete: bool,
-    /// Of which manipulator, for names and units.
+    /// Spec of the manipulator, for names and units.
     #[serde(skip)]
     pub spec: Arc<Spec>,
     /// The study.
     #[serde(skip)]
     pub study: Study,
-    /// The box.
+    /// Enclosing box of the workspace.
     #[serde(skip)]
-    pub moved: Vec<Span>,
+    pub moving_spans: Vec<Span>,
 }
 
-/// Of which classes there are sources that are switched on.
+/// Classes that have an enabled source.
 #[derive(Clone, Copy)]
 pub(super) struct Classes {
     pub(super) repeatable: bool,
@@ -72,7 +76,7 @@ pub(super) struct Classes {
 }
 
 impl Classes {
-    pub(super) fn of(spec: &Spec) -> Self {
+    pub(super) fn enabled(spec: &Spec) -> Self {
         let any = |repeatable: bool| {
             spec.enabled_sources().any(|source| (source.class == Class::Repeatable) == repeatable)
         };
@@ -80,113 +84,118 @@ impl Classes {
     }
 }
 
-/// Errors of one kind.
+/// Bounds on one kind of error.
 #[derive(Clone, Debug, Serialize)]
-pub struct Errors {
-    /// ‖ΔX‖ of the position.
-    pub norm: Largest,
-    /// Along x of `F_0`.
-    pub x: Largest,
-    /// Along y.
-    pub y: Largest,
-    /// Along z.
-    pub z: Largest,
-    /// The norm of rows 4–6, rad.
-    pub orientation: Largest,
+pub struct ErrorBounds {
+    /// Norm ‖ΔX‖ of the position error, in the length unit.
+    pub norm: ErrorBound,
+    /// Absolute position error along x of `F_0`.
+    pub x: ErrorBound,
+    /// Absolute position error along y of `F_0`.
+    pub y: ErrorBound,
+    /// Absolute position error along z of `F_0`.
+    pub z: ErrorBound,
+    /// Norm of rows 4–6, in rad.
+    pub orientation: ErrorBound,
 }
 
-/// The largest size of an error.
+/// Bounds on the largest magnitude of an error over the box.
 #[derive(Clone, Debug, Serialize)]
-pub struct Largest {
-    /// It is at least this.
+pub struct ErrorBound {
+    /// Lower bound: the value at the configuration `at`.
     pub found: f64,
-    /// It is at most this; none if nothing could be proved.
+    /// Certified upper bound; `None` if nothing could be proved.
     pub certified: Option<f64>,
-    /// Where `found` is: the value of every variable, and of every parameter and input that moves.
+    /// Configuration of `found`: values of all variables, and of the parameters and inputs that
+    /// move.
     pub at: IndexMap<String, f64>,
-    /// How many boxes were looked at.
+    /// Number of evaluated boxes.
     pub boxes: usize,
-    /// Whether the gap was reached.
+    /// Indicates that the gap was reached.
     pub complete: bool,
-    /// Where `found` is, but for what is at home.
+    /// Description of the configuration by its differences from home.
     #[serde(skip)]
-    pub place: String,
+    pub label: String,
 }
 
-/// What first order leaves out: how far the exact chain `A_1 E_1 … A_n E_n T` has the tool point from where `ΔX = J_e ε` of the
-/// repeatable sources has it.
+/// First-order error: distance of the tool point between the exact chain `A_1 E_1 … A_n E_n T` and
+/// `ΔX = J_e ε` of the repeatable sources.
 #[derive(Clone, Debug, Serialize)]
 pub struct Remainder {
-    /// No more than this, anywhere in the box; none if nothing could be proved.
+    /// Certified upper bound over the box, in the length unit; `None` if nothing could be proved.
     pub certified: Option<f64>,
-    /// How many boxes were looked at.
+    /// Number of evaluated boxes.
     pub boxes: usize,
 }
 
-/// What is left of the repeatable sources after one step of compensation, `q′ = q − J_q⁻¹ J_e ε`: how far the exact chain at q′ has the
-/// tool from where the ideal one is at q.
+/// Error of the repeatable sources after one step of compensation, `q′ = q − J_q⁻¹ J_e ε`: the
+/// exact chain at q′ compared with the ideal chain at q.
 #[derive(Clone, Debug, Serialize)]
-pub struct AfterStep {
-    /// Of the tool point no more than this, anywhere in the box; none if nothing could be proved.
+pub struct StepResidual {
+    /// Certified upper bound on the distance of the tool point over the box, in the length unit;
+    /// `None` if nothing could be proved.
     pub position: Option<f64>,
-    /// The tool is turned by no more than this, rad; none if nothing could be proved, or of fewer than six joints, which correct the
-    /// tool point alone.
+    /// Certified upper bound on the rotation of the tool over the box, in rad. `None` if nothing
+    /// could be proved, or with fewer than six joints, which correct the tool point alone.
     pub orientation: Option<f64>,
-    /// How many boxes were looked at.
+    /// Number of evaluated boxes.
     pub boxes: usize,
-    /// Whether six joints or more correct the orientation, too.
+    /// Indicates that six or more joints correct the orientation, too.
     #[serde(skip)]
     pub corrects_orientation: bool,
-    /// Where joints can hardly do it, if there is such a place.
+    /// Configuration where one step can increase the error, if one was found: it is near a
+    /// singularity.
     #[serde(skip)]
-    pub hardly: Option<String>,
+    pub near_singularity: Option<String>,
 }
 
-/// How far the tool moves at least, in whatever direction, where the joints move by 1 m or 1 rad altogether (root sum of squares): the
-/// least singular value of `J_q` in metres and rad, 0 in a singular place.
+/// Smallest singular value of the joint Jacobian `J_q`, in metres and radians: the smallest motion
+/// of the tool for a joint motion of root sum of squares 1. It is 0 at a singularity.
 #[derive(Clone, Debug, Serialize)]
 pub struct Dexterity {
-    /// Of the tool point, rows 1–3.
-    pub point: Least,
-    /// Of the tool, a rad counted as a metre; none of fewer than six joints.
-    pub pose: Option<Least>,
+    /// Dexterity of the tool point, rows 1–3.
+    pub point: LowerBound,
+    /// Dexterity of the tool, all rows with 1 rad counted as 1 m; `None` with fewer than six
+    /// joints.
+    pub pose: Option<LowerBound>,
 }
 
-/// The least value anywhere in the box.
+/// Bounds on a smallest value over the box.
 #[derive(Clone, Debug, Serialize)]
-pub struct Least {
-    /// It is no less than this.
+pub struct LowerBound {
+    /// Certified lower bound.
     pub certified: f64,
-    /// It is no more than this; none if there was no number wherever it was looked for.
+    /// Upper bound: the value at the configuration `at`; `None` if no evaluated value was finite.
     pub found: Option<f64>,
-    /// Where `found` is.
+    /// Configuration of `found`: values of all variables, and of the parameters and inputs that
+    /// move.
     pub at: IndexMap<String, f64>,
-    /// How many boxes were looked at.
+    /// Number of evaluated boxes.
     pub boxes: usize,
-    /// Whether the gap was reached, or what is found is next to nothing.
+    /// Indicates that the gap was reached, or that `found` is nearly zero.
     pub complete: bool,
-    /// The same place in words, but for what is at home.
+    /// Description of the configuration by its differences from home.
     #[serde(skip)]
-    pub place: String,
+    pub label: String,
 }
 
-/// What the largest error of both classes, added, leaves of a tolerance, to first order in the errors: negative where the tolerance is
-/// exceeded.
+/// Margin between the largest error and a tolerance, to first order. The error is the sum of
+/// repeatable and random norms; a negative margin exceeds the tolerance.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Margin {
-    /// The tolerance.
+    /// Tolerance: the length unit, or rad.
     pub tolerance: f64,
-    /// So much is left everywhere in the box at least; none if nothing could be proved.
+    /// Certified lower bound on the margin over the box; `None` if nothing could be proved.
     pub certified: Option<f64>,
-    /// No more than this is left at the worst place that was found.
+    /// Smallest margin that was found, an upper bound.
     pub found: f64,
-    /// So much is left at least once the repeatable sources are compensated by one step; none if nothing could be proved, or nothing is
-    /// compensated.
+    /// Certified lower bound on the margin after one step of compensation of the repeatable
+    /// sources; `None` if nothing could be proved or nothing is compensated.
     pub after_one_step: Option<f64>,
 }
 
 impl Margin {
-    fn new(tolerance: f64, largest: &Largest, left: Option<f64>, random: &Largest) -> Self {
+    fn new(tolerance: f64, largest: &ErrorBound, left: Option<f64>, random: &ErrorBound) -> Self {
         let both = left.zip(random.certified).map(|(left, random)| (left + random).next_up());
         let below = |error: f64| (tolerance - error).next_down();
         Self {
@@ -198,8 +207,9 @@ impl Margin {
     }
 }
 
-impl AfterStep {
-    /// From the largest sizes of position and orientation, and what these are without the step.
+impl StepResidual {
+    /// Creates the result from the bounds on position and orientation. `before` holds the bounds
+    /// without compensation.
     pub(super) fn new(
         domain: &Domain,
         bounds: &[Option<abbe_bound::Bound>; 2],
@@ -208,7 +218,7 @@ impl AfterStep {
     ) -> Self {
         let [point, turn] = bounds;
         let certified =
-            |bound: &Option<abbe_bound::Bound>| bound.as_ref().and_then(|bound| known(bound.certified));
+            |bound: &Option<abbe_bound::Bound>| bound.as_ref().and_then(|bound| if_finite(bound.certified));
         let all = bounds.iter().flatten().zip(before);
         let hard = all.clone().find(|(bound, before)| bound.found > *before);
         Self {
@@ -216,38 +226,39 @@ impl AfterStep {
             orientation: certified(turn),
             boxes: all.map(|(bound, _)| bound.boxes).sum(),
             corrects_orientation,
-            hardly: hard.map(|(bound, _)| domain.place(&bound.at).1),
+            near_singularity: hard.map(|(bound, _)| domain.describe(&bound.at).1),
         }
     }
 }
 
 impl Remainder {
     pub(super) fn new(bound: &abbe_bound::Bound) -> Self {
-        Self { certified: known(bound.certified), boxes: bound.boxes }
+        Self { certified: if_finite(bound.certified), boxes: bound.boxes }
     }
 }
 
-/// What is known beside the largest errors.
-pub(super) struct Others {
+/// Results besides the bounds on the errors.
+pub(super) struct OtherBounds {
     pub(super) remainder: Option<Remainder>,
-    pub(super) after_one_step: Option<AfterStep>,
+    pub(super) after_one_step: Option<StepResidual>,
     pub(super) dexterity: Option<Dexterity>,
-    pub(super) stiffness: Option<Least>,
+    pub(super) stiffness: Option<LowerBound>,
 }
 
 impl Report {
     pub(super) fn new(
-        Domain { spec, spans: moved }: Domain,
+        Domain { spec, spans: moving_spans }: Domain,
         study: &Study,
         effort: &Effort,
-        [repeatable, random, radius]: [Errors; 3],
-        Others { remainder, after_one_step, dexterity, stiffness }: Others,
+        [repeatable, random, radius]: [ErrorBounds; 3],
+        OtherBounds { remainder, after_one_step, dexterity, stiffness }: OtherBounds,
     ) -> Self {
-        let of_both = matches!(Classes::of(&spec), Classes { repeatable: true, random: true });
-        // Of one class alone the last kind is a copy.
+        let of_both = matches!(Classes::enabled(&spec), Classes { repeatable: true, random: true });
+        // With sources of one class only, `radius` is a copy and is not counted.
         let kinds = [Some(&repeatable), Some(&random), of_both.then_some(&radius)];
-        let all = || kinds.into_iter().flatten().flat_map(Errors::all);
-        let spans = moved.iter().map(|span| (name(span.symbol, &spec).to_owned(), span.range)).collect();
+        let all = || kinds.into_iter().flatten().flat_map(ErrorBounds::all);
+        let spans =
+            moving_spans.iter().map(|span| (spec.name_of(span.symbol).to_owned(), span.range)).collect();
         let boxes: usize = all().map(|largest| largest.boxes).sum();
         let boxes = boxes + remainder.as_ref().map_or(0, |remainder| remainder.boxes);
         let boxes = boxes + after_one_step.as_ref().map_or(0, |left| left.boxes);
@@ -261,7 +272,7 @@ impl Report {
         });
         let is_rotation = spec.orientation == Orientation::RotationVector;
         let orientation_margin = study.orientation_tolerance.map(|tolerance| {
-            // Rows 4–6 are no rotation vector elsewhere, and cannot be added to one.
+            // Euler angles are no rotation vector and cannot be added to one.
             let left = left.and_then(|left| left.orientation).filter(|_| is_rotation);
             Margin::new(tolerance, &radius.orientation, left, &random.orientation)
         });
@@ -284,13 +295,13 @@ impl Report {
             complete,
             spec,
             study: study.clone(),
-            moved,
+            moving_spans,
         }
     }
 
-    /// The kinds of errors of which there are sources: what they are called, and how they are summed.
-    pub fn kinds(&self) -> Vec<(&'static str, &Errors)> {
-        let Classes { repeatable, random } = Classes::of(&self.spec);
+    /// Returns the kinds of error that have a source, with their titles.
+    pub fn kinds(&self) -> Vec<(&'static str, &ErrorBounds)> {
+        let Classes { repeatable, random } = Classes::enabled(&self.spec);
         let kinds = [
             ("Repeatable sources, with their signs", &self.repeatable, repeatable),
             ("Random sources at their bounds, root sum of squares", &self.random, random),
@@ -299,45 +310,47 @@ impl Report {
         kinds.into_iter().filter(|(.., any)| *any).map(|(title, errors, _)| (title, errors)).collect()
     }
 
-    /// How far the box goes beyond the range on which errors were fitted, if it does.
-    fn beyond(&self, fitted: &Fitted) -> Option<String> {
-        let span = self.moved.iter().find(|span| span.symbol == fitted.symbol)?;
+    /// Describes the range on which errors were fitted, if the box exceeds it.
+    fn extrapolated(&self, fitted: &Fitted) -> Option<String> {
+        let span = self.moving_spans.iter().find(|span| span.symbol == fitted.symbol)?;
         let [first, last] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, &self.spec));
         let is_within = span.range.into_iter().all(|end| fitted.contains(end));
         (!is_within).then(|| format!("{} beyond {first} … {last}", self.spec.name_of(fitted.symbol)))
     }
 
     pub(super) fn warn(&self, notes: &mut dyn Notes) {
-        let beyond: Vec<String> = self.spec.fitted.iter().filter_map(|fitted| self.beyond(fitted)).collect();
-        if !beyond.is_empty() {
+        let extrapolated: Vec<String> =
+            self.spec.fitted.iter().filter_map(|fitted| self.extrapolated(fitted)).collect();
+        if !extrapolated.is_empty() {
             notes.warn(&format!(
-                "the errors were identified on less than the box, and are extrapolated beyond it: {}",
-                beyond.join(", ")
+                "the box exceeds the ranges on which the errors were identified; they are \
+                 extrapolated: {}",
+                extrapolated.join(", ")
             ));
         }
         if self.contains_more {
             notes.note(
-                "the box contains more than the workspace of the study: what is certified holds for the workspace, too, but its \
-                 own maximum may be smaller",
+                "the enclosing joint box is larger than the workspace of the study: the bounds \
+                 hold for the workspace, but its own maximum may be smaller",
             );
         }
         if !self.complete {
             notes.warn(&format!(
-                "the gap of {} was not reached everywhere: what is certified holds, but may be far more than the maximum; \
-                 --boxes and --time allow more work",
+                "the gap of {} was not reached everywhere: the bounds hold, but may be far above \
+                 the maximum; --boxes and --time allow more work",
                 number::percent(self.gap, 1.0)
             ));
         }
     }
 }
 
-impl Errors {
-    /// With what they cannot exceed because others, added, do not.
-    pub(super) fn at_most(self, first: &Self, second: &Self) -> Self {
-        let sum = |own: Largest, first: &Largest, second: &Largest| {
+impl ErrorBounds {
+    /// Tightens each bound by the sum of the bounds on two parts.
+    pub(super) fn tighten_by_sum(self, first: &Self, second: &Self) -> Self {
+        let sum = |own: ErrorBound, first: &ErrorBound, second: &ErrorBound| {
             let sum = first.certified.zip(second.certified).map(|(first, second)| (first + second).next_up());
             let certified = [own.certified, sum].into_iter().flatten().reduce(f64::min);
-            Largest { certified, ..own }
+            ErrorBound { certified, ..own }
         };
         Self {
             norm: sum(self.norm, &first.norm, &second.norm),
@@ -348,27 +361,27 @@ impl Errors {
         }
     }
 
-    /// All five, in the order of the report.
-    pub fn all(&self) -> [&Largest; 5] {
+    /// Returns the five bounds in report order.
+    pub fn all(&self) -> [&ErrorBound; 5] {
         [&self.norm, &self.x, &self.y, &self.z, &self.orientation]
     }
 }
 
-impl Largest {
+impl ErrorBound {
     pub(super) fn new(bound: &abbe_bound::Bound, domain: &Domain) -> Self {
-        let (at, place) = domain.place(&bound.at);
+        let (at, label) = domain.describe(&bound.at);
         Self {
             found: bound.found,
-            certified: known(bound.certified),
+            certified: if_finite(bound.certified),
             at,
             boxes: bound.boxes,
             complete: bound.complete,
-            place,
+            label,
         }
     }
 }
 
-/// What is certified, if anything is.
-fn known(certified: f64) -> Option<f64> {
+/// Returns the certified value if it is finite.
+fn if_finite(certified: f64) -> Option<f64> {
     Some(certified).filter(|certified| certified.is_finite())
 }

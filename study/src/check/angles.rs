@@ -1,4 +1,4 @@
-//! Angles beyond a whole turn: degrees, most likely, to which nobody gave the unit.
+//! Angles of more than a full turn, which are probably degrees without a unit.
 
 use std::f64::consts::TAU;
 
@@ -12,16 +12,17 @@ use serde::Serialize;
 use super::chain::value_at_home;
 use crate::number::short;
 
-/// A number that is hardly meant as it stands.
+/// A suspicious number in the spec.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Warning {
-    /// The line of the spec, from 1; none where it is known by its name alone.
+    /// Line of the spec, from 1; `None` if only its name is known.
     pub line: Option<usize>,
-    /// What is doubtful, and what to write instead.
+    /// Description of the number, with a suggested correction.
     pub message: String,
 }
 
-/// Those of a spec with that text, if it comes from a file, in the order of the chain, then of the sources.
+/// Returns the warnings of a spec, in the order of the chain, then of the sources. `text` is the
+/// text of its file, if any.
 pub(super) fn warnings(spec: &Spec, text: Option<&str>) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let mut check = |what: String, value: f64, span: Option<Span>| {
@@ -32,7 +33,7 @@ pub(super) fn warnings(spec: &Spec, text: Option<&str>) -> Vec<Warning> {
             });
             let value = short(value);
             let message =
-                format!("{what} is {value} rad, more than a turn; write {value}deg if degrees are meant");
+                format!("{what} is {value} rad, more than one revolution; write `{value}deg` for degrees");
             warnings.push(Warning { line, message });
         }
     };
@@ -45,7 +46,7 @@ pub(super) fn warnings(spec: &Spec, text: Option<&str>) -> Vec<Warning> {
         spec.frames.iter().map(|frame| (format!("an angle of the frame \"{}\"", frame.name), &frame.factors));
     for (what, factors) in links.chain([("an angle of the tool".to_owned(), &spec.tool)]) {
         for angle in factors.iter().filter_map(rotation) {
-            let (value, span) = doubtful(angle, spec, text);
+            let (value, span) = value_without_unit(angle, spec, text);
             check(what.clone(), value, Some(span));
         }
     }
@@ -57,16 +58,16 @@ pub(super) fn warnings(spec: &Spec, text: Option<&str>) -> Vec<Warning> {
         });
         let errors = errors.filter(|(component, _)| motion(*component).0 == Motion::Rotation);
         let errors = errors.map(|(_, error)| error);
-        let deviations = source.deviations.iter().filter(|deviation| turns(deviation.number, spec));
+        let deviations = source.deviations.iter().filter(|deviation| is_angle(deviation.number, spec));
         for angle in errors.chain(deviations.map(|deviation| &deviation.error)) {
-            let (value, span) = doubtful(angle, spec, text);
+            let (value, span) = value_without_unit(angle, spec, text);
             check(what.clone(), value, Some(span));
         }
     }
     warnings
 }
 
-/// The angle that a factor turns by.
+/// Returns the angle of a rotating factor.
 fn rotation(factor: &Factor) -> Option<&Expression> {
     match factor {
         Factor::Elementary(elementary) if elementary.motion == Motion::Rotation => Some(&elementary.amount),
@@ -75,8 +76,8 @@ fn rotation(factor: &Factor) -> Option<&Expression> {
     }
 }
 
-/// Whether a number of the chain is an angle.
-fn turns(number: ChainNumber, spec: &Spec) -> bool {
+/// Returns true if a number of the chain is an angle.
+fn is_angle(number: ChainNumber, spec: &Spec) -> bool {
     match number {
         ChainNumber::Joint(i) => spec.variables[i].kind == VariableKind::Revolute,
         ChainNumber::Parameter(_) => false,
@@ -86,12 +87,13 @@ fn turns(number: ChainNumber, spec: &Spec) -> bool {
     }
 }
 
-/// The value of an angle at home and its place; nothing of one that is written with a unit.
-fn doubtful(angle: &Expression, spec: &Spec, text: Option<&str>) -> (f64, Span) {
-    let written = text.and_then(|text| text.get(angle.span())).unwrap_or_default();
-    let meant = ["deg", "rad", "arc"].iter().any(|unit| written.contains(unit));
-    let named = angle.symbols().any(|symbol| matches!(symbol, Symbol::Parameter(_) | Symbol::Input(_)));
-    if meant && !named {
+/// Returns the value of an angle at home and its span in the text; the value is 0 for an angle with
+/// an explicit unit.
+fn value_without_unit(angle: &Expression, spec: &Spec, text: Option<&str>) -> (f64, Span) {
+    let source = text.and_then(|text| text.get(angle.span())).unwrap_or_default();
+    let has_unit = ["deg", "rad", "arc"].iter().any(|unit| source.contains(unit));
+    let has_names = angle.symbols().any(|symbol| matches!(symbol, Symbol::Parameter(_) | Symbol::Input(_)));
+    if has_unit && !has_names {
         return (0.0, angle.span());
     }
     let mut graph = Graph::with_tables(&spec.tables);

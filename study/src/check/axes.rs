@@ -1,7 +1,8 @@
-//! What the rotations that sources give at frames turn about, where a reader may expect another axis.
+//! Axes of rotational errors that differ from the axis a reader may expect.
 //!
-//! `E_i` stands after `A_i`: with `dh = { a = 400, … }` an `e_r` turns about an axis 400 mm from that of the frame's own
-//! joint. All of it at home; with rotation ω and translation v the axis of a small motion goes through `ω × v/|ω|²`.
+//! `E_i` stands after `A_i`: with `dh = { a = 400, … }` an `e_r` rotates about an axis 400 mm from
+//! that of the frame's joint. All axes are at home. The axis of a small motion with rotation ω and
+//! translation v passes through `ω × v/|ω|²`.
 
 use std::collections::BTreeMap;
 
@@ -13,23 +14,23 @@ use abbe_spec::{Cause, Source, Spec};
 
 use crate::number::digits;
 
-/// How far directions and lines may differ, relative to what they are made of, and still be the same.
+/// Tolerance on the cosine between parallel directions.
 const SAME: f64 = 1e-9;
 
 type Vector = [f64; 3];
 
-/// An axis in `F_0`.
+/// Axis in `F_0`.
 struct Axis {
     point: Vector,
     direction: Vector,
 }
 
-/// A sentence for every frame at which a source turns about another axis than that of the frame's joint, but parallel to
-/// it, or about the axis of another joint.
+/// Returns a sentence for each frame with a source whose rotation axis is parallel to the frame's
+/// joint axis but apart from it, or is the axis of another joint.
 pub(super) fn notes(spec: &Spec) -> Vec<String> {
     let plain = plain_errors(spec);
     let (mut graph, nodes) = effects(&plain);
-    let turned = by_place(spec, &nodes);
+    let turned = by_source_and_frame(spec, &nodes);
     if turned.is_empty() {
         return Vec::new();
     }
@@ -44,12 +45,14 @@ pub(super) fn notes(spec: &Spec) -> Vec<String> {
         first = range.end;
         let Some(joint) = spec.frames[frame].variable else { continue };
         let Some(expected) = &joints[joint] else { continue };
-        // With inputs at the upper ends of their ranges where those at their nominal values turn nothing.
+        // Second attempt: inputs at the upper ends of their ranges, if the nominal inputs cause no
+        // rotation.
         let axis = |values: &Vec<f64>| error_axis(&frames[frame], errors, &values[range.clone()]);
         let Some(axis) = both.iter().find_map(axis) else { continue };
         let name = &spec.variables[joint].name;
-        let other = joints.iter().position(|other| other.as_ref().is_some_and(|other| axis.is(other)));
-        let what = if axis.is(expected) {
+        let other =
+            joints.iter().position(|other| other.as_ref().is_some_and(|other| axis.coincides_with(other)));
+        let what = if axis.coincides_with(expected) {
             continue;
         } else if axis.is_parallel(expected) {
             let distance = digits(axis.distance(expected), 4);
@@ -60,27 +63,28 @@ pub(super) fn notes(spec: &Spec) -> Vec<String> {
             continue;
         };
         notes.push(format!(
-            "`{}` at {} turns about {what}; if the joint's own error is meant, write `joint = \"{name}\"`.",
+            "`{}` at {} rotates about {what}; for an error of the joint itself, write `joint = \
+             \"{name}\"`.",
             plain.sources[source].name, spec.frames[frame].name
         ));
     }
     notes
 }
 
-/// The errors of a source at a frame, in order of both: those at frames with a revolute joint of their own.
-fn by_place(spec: &Spec, nodes: &[EffectNode]) -> BTreeMap<(usize, usize), [Option<Node>; 6]> {
-    let mut places = BTreeMap::new();
+/// Groups the errors by source and frame, for frames with a revolute joint of their own.
+fn by_source_and_frame(spec: &Spec, nodes: &[EffectNode]) -> BTreeMap<(usize, usize), [Option<Node>; 6]> {
+    let mut groups = BTreeMap::new();
     for node in nodes {
         let variable = spec.frames[node.frame].variable.map(|joint| spec.variables[joint].kind);
         if variable == Some(VariableKind::Revolute) {
-            let errors = places.entry((node.source, node.frame)).or_insert([None; 6]);
+            let errors = groups.entry((node.source, node.frame)).or_insert([None; 6]);
             errors[node.component as usize] = Some(node.value);
         }
     }
-    places
+    groups
 }
 
-/// Axes and origin of every frame at home.
+/// Returns the axes and origin of each frame at home, in `F_0`.
 fn frames(graph: &mut Graph, spec: &Spec) -> Vec<[Vector; 4]> {
     let mut pose = graph.identity();
     let mut nodes = Vec::with_capacity(12 * spec.frames.len());
@@ -94,7 +98,7 @@ fn frames(graph: &mut Graph, spec: &Spec) -> Vec<[Vector; 4]> {
     numbers.chunks_exact(12).map(|twelve| std::array::from_fn(|i| vector(&twelve[3 * i..]))).collect()
 }
 
-/// The axis of every joint, at the frame that declares it.
+/// Returns the axis of each joint, located at the frame that declares the joint.
 fn joint_axes(graph: &mut Graph, spec: &Spec, frames: &[[Vector; 4]]) -> Vec<Option<Axis>> {
     let nodes = (0..spec.variables.len()).flat_map(|joint| {
         let twist = joint_twist(graph, spec, joint);
@@ -106,7 +110,7 @@ fn joint_axes(graph: &mut Graph, spec: &Spec, frames: &[[Vector; 4]]) -> Vec<Opt
     twists.map(|(six, joint)| Axis::new(&frames[joint.frame], vector(six), vector(&six[3..]))).collect()
 }
 
-/// The spec with all its sources, and of these only what they say of frames as errors e_x … e_p.
+/// Returns the spec with all sources enabled, reduced to their errors e_x … e_p at frames.
 fn plain_errors(spec: &Spec) -> Spec {
     let plain = |source: &Source| {
         let errors = source.effects.iter().filter(|effect| matches!(effect.cause, Cause::Errors(_)));
@@ -121,7 +125,8 @@ fn plain_errors(spec: &Spec) -> Spec {
     Spec { sources: spec.sources.iter().map(plain).collect(), ..spec.clone() }
 }
 
-/// The axis of the errors of a frame, from their values one after the other.
+/// Returns the axis of a frame's errors. `values` holds the values of those errors that are given,
+/// in order.
 fn error_axis(frame: &[Vector; 4], errors: [Option<Node>; 6], values: &[f64]) -> Option<Axis> {
     let (mut velocity, mut rotation) = ([0.0; 3], [0.0; 3]);
     let given = Component::ALL.into_iter().zip(errors).filter(|(_, error)| error.is_some());
@@ -133,7 +138,7 @@ fn error_axis(frame: &[Vector; 4], errors: [Option<Node>; 6], values: &[f64]) ->
 }
 
 impl Axis {
-    /// Of a small motion in the axes of a frame; none if it does not turn.
+    /// Creates the axis of a small motion in a frame's axes; returns `None` if it has no rotation.
     fn new([x, y, z, origin]: &[Vector; 4], velocity: Vector, rotation: Vector) -> Option<Self> {
         let square = dot(rotation, rotation);
         if !square.is_normal() {
@@ -152,7 +157,7 @@ impl Axis {
         dot(self.direction, other.direction).abs() > 1.0 - SAME
     }
 
-    /// Between this axis and one that is parallel to it.
+    /// Returns the distance to a parallel axis.
     fn distance(&self, other: &Self) -> f64 {
         let between = cross(self.lever(other), self.direction);
         dot(between, between).sqrt()
@@ -162,13 +167,14 @@ impl Axis {
         std::array::from_fn(|i| self.point[i] - other.point[i])
     }
 
-    fn is(&self, other: &Self) -> bool {
+    fn coincides_with(&self, other: &Self) -> bool {
         let size = dot(self.point, self.point).sqrt() + dot(other.point, other.point).sqrt();
         self.is_parallel(other) && self.distance(other) <= 1e-6 * size
     }
 }
 
-/// At home, with inputs at their nominal values or the upper ends of their ranges.
+/// Evaluates nodes at home, with inputs at their nominal values or at the upper ends of their
+/// ranges.
 fn values(graph: &Graph, spec: &Spec, nodes: &[Node], nominal: bool) -> Vec<f64> {
     graph.evaluate(nodes, |symbol| match symbol {
         Symbol::Variable(i) => spec.variables[i].home,

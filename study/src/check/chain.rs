@@ -1,4 +1,4 @@
-//! The nominal chain at home: the matrices `A_i` as the spec gives them, and the pose that they make.
+//! The nominal chain at home: the matrices `A_i` from the spec, and their product.
 
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose};
@@ -7,52 +7,54 @@ use abbe_spec::expr::{Elementary, Symbol};
 use abbe_spec::{DhConvention, DhNumber, Factor, Spec};
 use serde::Serialize;
 
-/// `A_1 … A_n`, the tool and the tool point at home, with nominal parameters.
+/// Matrices `A_1 … A_n`, the tool and the tool's pose at home, with nominal parameters.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chain {
-    /// Base to tip.
+    /// Frames, base to tip.
     pub frames: Vec<Link>,
-    /// `T`, from `F_n` to the tool point, row by row.
+    /// Tool `T`, from `F_n` to the tool point, 4 × 4, row by row.
     pub tool: [[f64; 4]; 4],
-    /// The tool point in `F_0`, row by row.
+    /// Pose of the tool in `F_0`, 4 × 4, row by row.
     pub pose: [[f64; 4]; 4],
 }
 
-/// One `A_i` at home.
+/// One matrix `A_i` at home.
 #[derive(Clone, Debug, Serialize)]
 pub struct Link {
-    /// The frame's name.
+    /// Name of the frame.
     pub name: String,
-    /// Its Denavit-Hartenberg numbers, if the spec gives it by them or as a product of motions in their order.
+    /// Denavit-Hartenberg parameters, if the spec states them, or a product of motions in their
+    /// order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dh: Option<Dh>,
-    /// The matrix, row by row: `F_i` coordinates to `F_{i-1}`.
+    /// Matrix from `F_i` coordinates to `F_{i-1}`, 4 × 4, row by row.
     pub matrix: [[f64; 4]; 4],
 }
 
-/// Denavit-Hartenberg numbers: lengths in the spec's unit, angles in rad.
+/// Denavit-Hartenberg parameters: lengths in the spec's unit, angles in rad.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Dh {
-    /// `standard`: `Rz(theta) Tz(d) Tx(a) Rx(alpha)`; `modified`: `Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
+    /// Convention, `standard` for `Rz(theta) Tz(d) Tx(a) Rx(alpha)`, `modified` for `Rx(alpha)
+    /// Tx(a) Rz(theta) Tz(d)`.
     pub convention: &'static str,
-    /// The turn about z.
+    /// Rotation about z.
     pub theta: f64,
-    /// The shift along z.
+    /// Translation along z.
     pub d: f64,
-    /// The shift along x.
+    /// Translation along x.
     pub a: f64,
-    /// The turn about x.
+    /// Rotation about x.
     pub alpha: f64,
 }
 
 impl Chain {
-    /// None if there is no finite pose at home.
+    /// Evaluates the chain; returns `None` if its pose at home is not finite.
     pub(super) fn at_home(spec: &Spec, manipulator: &dyn Manipulator) -> Option<Self> {
         let description = manipulator.description();
         let (q, s) = (sampling::home(description), sampling::nominal_parameters(description));
         let mut transforms = vec![Pose::IDENTITY; spec.frames.len() + 1];
         manipulator.transforms(&q, &s, &mut transforms).ok()?;
-        // Adding 0 makes −0 a plain 0.
+        // Adding 0 turns −0 into 0.
         let rows = |pose: &Pose| pose.rows().map(|row| row.map(|entry| entry + 0.0));
         let frames = spec.frames.iter().zip(&transforms).map(|(frame, matrix)| Link {
             name: frame.name.clone(),
@@ -68,13 +70,13 @@ impl Chain {
 }
 
 impl Dh {
-    /// The numbers of a frame that the spec gives by them, or as elementary motions each of which is one of them, in the
-    /// order of either convention. What is not there is 0.
+    /// Returns the parameters of a frame that states them, or whose elementary motions are some of
+    /// the four in the order of either convention. Missing parameters are 0.
     fn new(factors: &[Factor], convention: Option<DhConvention>, spec: &Spec) -> Option<Self> {
         let all = [DhConvention::Standard, DhConvention::Modified];
         let conventions = convention.as_ref().map_or(&all[..], std::slice::from_ref);
         let (convention, numbers) =
-            conventions.iter().find_map(|convention| Some((convention, in_order(factors, *convention)?)))?;
+            conventions.iter().find_map(|convention| Some((convention, assigned(factors, *convention)?)))?;
         let value = |wanted: DhNumber| {
             let found = numbers.iter().find(|(number, _)| *number == wanted);
             found.map_or(0.0, |(_, factor)| at_home(factor, spec))
@@ -92,8 +94,9 @@ impl Dh {
     }
 }
 
-/// Which number each factor is, if they are some of the four in the convention's order.
-fn in_order(factors: &[Factor], convention: DhConvention) -> Option<Vec<(DhNumber, &Elementary)>> {
+/// Assigns a parameter to each factor; returns `None` unless the factors are some of the four in
+/// the convention's order.
+fn assigned(factors: &[Factor], convention: DhConvention) -> Option<Vec<(DhNumber, &Elementary)>> {
     let mut left = convention.order().into_iter();
     let mut numbers = Vec::new();
     for factor in factors {
@@ -110,7 +113,7 @@ fn at_home(factor: &Elementary, spec: &Spec) -> f64 {
     graph.evaluate(&[node], |symbol| value_at_home(symbol, spec))[0] + 0.0
 }
 
-/// What a name stands for at home.
+/// Returns the value of a symbol at home.
 pub(super) fn value_at_home(symbol: Symbol, spec: &Spec) -> f64 {
     match symbol {
         Symbol::Variable(i) => spec.variables[i].home,

@@ -1,4 +1,4 @@
-//! What a spec says, in the order of the file.
+//! Content of a spec, in the order of the file.
 
 use abbe::{Class, Distribution, Orientation, VariableKind};
 use abbe_codegen::chain::effects;
@@ -7,104 +7,104 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use serde::Serialize;
 
-/// What a spec says, and how many operations its functions take.
+/// Content of a spec, and operation counts of its functions.
 #[derive(Clone, Debug, Serialize)]
 pub struct Facts {
-    /// The manipulator.
+    /// Name of the manipulator.
     pub name: String,
-    /// Its name for people.
+    /// Title of the manipulator.
     pub title: String,
-    /// The spec's file, or the shipped name.
+    /// Path of the spec, or name of a shipped manipulator.
     pub spec: String,
-    /// The unit of every length.
+    /// Symbol of the length unit.
     pub length: &'static str,
-    /// What rows 4–6 are: `rotation-vector` or `euler-yzx`.
+    /// Convention of rows 4–6: `rotation-vector` or `euler-yzx`.
     pub orientation: &'static str,
-    /// Base to tip.
+    /// Frames, base to tip.
     pub frames: Vec<Frame>,
-    /// The joint variables, in the order of the frames.
+    /// Joint variables, in the order of the frames.
     pub variables: Vec<Variable>,
-    /// The structural parameters.
-    pub parameters: Vec<Value>,
-    /// The inputs.
-    pub inputs: Vec<Value>,
-    /// The sources, those that are switched off among them.
+    /// Structural parameters.
+    pub parameters: Vec<NominalValue>,
+    /// Inputs.
+    pub inputs: Vec<NominalValue>,
+    /// Error sources, disabled ones included.
     pub sources: Vec<Source>,
-    /// What the functions of the generated code take.
-    pub operations: Vec<Function>,
+    /// Operation counts of the generated functions.
+    pub operations: Vec<FunctionOperations>,
 }
 
-/// A frame.
+/// Frame of the chain.
 #[derive(Clone, Debug, Serialize)]
 pub struct Frame {
-    /// Its name.
+    /// Name of the frame.
     pub name: String,
-    /// Its variable; a fixed frame has none.
+    /// Name of its joint variable; `None` for a fixed frame.
     pub variable: Option<String>,
 }
 
-/// A joint variable, in the length unit or rad.
+/// Joint variable, in the length unit or rad.
 #[derive(Clone, Debug, Serialize)]
 pub struct Variable {
-    /// Its name.
+    /// Name of the variable.
     pub name: String,
-    /// `revolute` or `prismatic`.
+    /// Kind of the joint: `revolute` or `prismatic`.
     pub kind: &'static str,
-    /// Lower and upper limit, if there are any.
+    /// Lower and upper limit; `None` where there is no limit.
     pub limits: [Option<f64>; 2],
-    /// Its value at home.
+    /// Value at home.
     pub home: f64,
 }
 
-/// A parameter or an input.
+/// Structural parameter or input.
 #[derive(Clone, Debug, Serialize)]
-pub struct Value {
-    /// Its name.
+pub struct NominalValue {
+    /// Name of the parameter or input.
     pub name: String,
-    /// Its nominal value.
+    /// Nominal value, in `unit`.
     pub nominal: f64,
-    /// Its coherent unit.
+    /// Coherent unit; empty for a plain number.
     pub unit: String,
-    /// The range of an input: no end where there is none.
+    /// Range of an input, in `unit`, with `None` for a missing end. Parameters have no range.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[Option<f64>; 2]>,
 }
 
-/// An error source.
+/// Error source.
 #[derive(Clone, Debug, Serialize)]
 pub struct Source {
-    /// Its name.
+    /// Name of the source.
     pub name: String,
-    /// `repeatable`, or `random` with its distribution.
+    /// Class of the source: `repeatable`, or `random` with its distribution.
     pub class: &'static str,
-    /// What it is an error of.
+    /// Element of the chain that the source acts on.
     pub at: String,
-    /// How many generalized errors it causes.
+    /// Number of generalized errors that the source causes.
     pub effects: usize,
-    /// Whether it takes part.
+    /// Indicates that the source is switched on.
     pub enabled: bool,
 }
 
-/// The operations of one function of the generated code.
+/// Operation counts of one generated function.
 #[derive(Clone, Debug, Serialize)]
-pub struct Function {
-    /// Its name.
+pub struct FunctionOperations {
+    /// Name of the function.
     pub function: &'static str,
     /// Multiplications.
     pub mul: usize,
     /// Additions and subtractions.
     pub add: usize,
-    /// Changes of sign.
+    /// Negations.
     pub neg: usize,
     /// Divisions.
     pub div: usize,
-    /// Sines and cosines of one angle.
+    /// Sine–cosine pairs.
     pub sincos: usize,
     /// Square roots.
     pub sqrt: usize,
-    /// All others.
+    /// Other operations.
     pub other: usize,
-    /// The same, as they are displayed.
+    /// Counts in displayable form.
     #[serde(skip)]
     pub operations: Operations,
 }
@@ -122,13 +122,13 @@ impl Facts {
             limits: variable.limits.map(finite),
             home: variable.home,
         });
-        let parameters = spec.parameters.iter().map(|parameter| Value {
+        let parameters = spec.parameters.iter().map(|parameter| NominalValue {
             name: parameter.name.clone(),
             nominal: parameter.value,
             unit: parameter.unit.clone(),
             range: None,
         });
-        let inputs = spec.inputs.iter().map(|input| Value {
+        let inputs = spec.inputs.iter().map(|input| NominalValue {
             name: input.name.clone(),
             nominal: input.value,
             unit: input.unit.clone(),
@@ -181,17 +181,17 @@ fn class(class: Class) -> &'static str {
     }
 }
 
-/// JSON has no infinity: where there is no limit stands null.
+/// Maps an infinite limit to `None`, since JSON has no infinity.
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-fn operations(routines: &Routines) -> Vec<Function> {
+fn operations(routines: &Routines) -> Vec<FunctionOperations> {
     let functions = routines.list.iter().filter(|routine| routine.function.is_some());
     let counted = functions.map(|routine| {
         let operations = routine.operations;
         let Operations { mul, add, neg, div, sincos, sqrt, other } = operations;
-        Function { function: routine.name, mul, add, neg, div, sincos, sqrt, other, operations }
+        FunctionOperations { function: routine.name, mul, add, neg, div, sincos, sqrt, other, operations }
     });
     counted.collect()
 }

@@ -1,4 +1,4 @@
-//! How many of the generalized errors measurements can tell apart.
+//! Number of generalized errors that measurements can identify.
 
 use abbe::Manipulator;
 use abbe::analysis::{Measurement, Parts, Workspace, identifiable_in_parts, random_joint_samples};
@@ -8,31 +8,34 @@ use serde::Serialize;
 
 use crate::notes::Notes;
 
-/// Of the configurations.
+/// Seed of the sampled configurations.
 const SEED: u64 = 1;
 
-/// How many configurations show the rank of a chain whose longest part has so many transforms.
+/// Returns the number of configurations that is enough for the rank of a chain whose longest part
+/// has this many transforms.
 fn configurations(longest: usize) -> usize {
     (3 * longest).max(60)
 }
 
-/// One way to measure.
+/// Identifiability for one kind of measurement.
 #[derive(Clone, Debug, Serialize)]
 pub struct Identifiable {
-    /// `pose` or `point`.
+    /// Kind of measurement: `pose` or `point`.
     pub measurement: &'static str,
-    /// Whether the errors of a base frame are unknown too.
+    /// Indicates that the six errors of an unknown base frame count as unknowns.
     pub base: bool,
-    /// How many errors can be told apart; none where a sample could not be evaluated.
+    /// Number of identifiable combinations of errors: the rank of the observation matrix. `None` if
+    /// a sample could not be evaluated.
     pub rank: Option<usize>,
-    /// How many there are.
+    /// Number of unknown errors.
     pub unknowns: usize,
-    /// Why there is no rank.
+    /// Reason for a missing rank.
     #[serde(skip)]
     pub reason: String,
 }
 
-/// Counts what can be identified when all joints are moved, and over how many configurations.
+/// Counts the identifiable errors when all joints move. Returns the counts and the number of
+/// configurations.
 pub(super) fn count(
     manipulator: &Interpreter,
     notes: &mut dyn Notes,
@@ -44,14 +47,14 @@ pub(super) fn count(
     let samples = random_joint_samples(manipulator, &moved, configurations, SEED)
         .map(|workspace| workspace.reached())
         .map_err(|error| error.to_string());
-    let ways = [
+    let measurements = [
         ("pose", Measurement::Pose, false),
         ("pose", Measurement::Pose, true),
         ("point", Measurement::Point, false),
         ("point", Measurement::Point, true),
     ];
-    let mut counted = Vec::with_capacity(ways.len());
-    for (name, measurement, base) in ways {
+    let mut counted = Vec::with_capacity(measurements.len());
+    for (name, measurement, base) in measurements {
         notes.go_on()?;
         let found = samples.as_ref().map_err(String::clone).and_then(|samples| {
             identifiable_in_parts(manipulator, &parts, samples, measurement, base)

@@ -1,4 +1,5 @@
-//! Whether the closed form agrees with the exact chain: the laws of the runtime, with their figures.
+//! Self-checks of the closed form against the exact chain: the laws of the runtime, with their
+//! figures.
 
 use abbe::lanes::Batches;
 use abbe::laws::{self, Discrepancy, Failure};
@@ -8,32 +9,33 @@ use serde::Serialize;
 
 use crate::notes::Notes;
 
-/// One law and how well it holds.
+/// Result of checking one law.
 #[derive(Clone, Debug, Serialize)]
 pub struct Law {
-    /// What should hold.
+    /// Statement of the law.
     pub law: &'static str,
-    /// A relative discrepancy, or a slope; none if it is not finite.
+    /// Relative discrepancy, or slope; `None` if it is not finite.
     pub value: Option<f64>,
-    /// What it should be.
+    /// Expected value.
     pub expected: f64,
-    /// By how much it may differ.
+    /// Permitted difference from the expected value.
     pub tolerance: f64,
-    /// Whether it is within its tolerance.
+    /// Indicates that the law holds within its tolerance.
     pub holds: bool,
-    /// Why it could not be looked at, or by how much it fails, and where.
+    /// Reason of a failure: the discrepancy and its configuration, or why the law could not be
+    /// evaluated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<String>,
 }
 
-/// How many configurations are looked at; fewer of a very long chain, and of one with very many parameters: a configuration
-/// takes as long as these are many.
+/// Returns the number of configurations to check. It decreases for long chains and for many
+/// parameters, whose evaluation takes longer.
 pub(super) fn configurations(spec: &Spec) -> usize {
     let size = spec.frames.len().max(spec.parameters.len() / 5);
     (20 * laws::SAMPLES / size.max(20)).max(10)
 }
 
-/// Every law of a manipulator, at that many configurations; an error if it is to stop.
+/// Checks all laws of a manipulator at this many configurations. Fails only if interrupted.
 pub fn laws(
     manipulator: &dyn Batches,
     configurations: usize,
@@ -42,24 +44,24 @@ pub fn laws(
     type Compare = fn(&dyn Batches, usize) -> Result<Discrepancy, Failure>;
     let compared: [(&'static str, Compare, f64); 6] = [
         (
-            "error Jacobian = differences of the exact chain",
+            "error Jacobian = finite differences of the exact chain",
             |m, n| laws::error_jacobian(m, n),
             laws::DERIVATIVE_TOLERANCE,
         ),
         (
-            "joint Jacobian = differences of the pose",
+            "joint Jacobian = finite differences of the pose",
             |m, n| laws::joint_jacobian(m, n),
             laws::DERIVATIVE_TOLERANCE,
         ),
         (
-            "parameter Jacobian = differences of the pose",
+            "parameter Jacobian = finite differences of the pose",
             |m, n| laws::parameter_jacobian(m, n),
             laws::DERIVATIVE_TOLERANCE,
         ),
         ("pose = product of the transforms", |m, n| laws::pose(m, n), laws::ROUNDING_TOLERANCE),
         ("batches = single evaluations", laws::batches, laws::ROUNDING_TOLERANCE),
         (
-            "ε = sum of effects, bad arguments are refused",
+            "ε = sum of effects, invalid arguments are rejected",
             |m, n| laws::contract(m, n),
             laws::ROUNDING_TOLERANCE,
         ),
@@ -80,7 +82,7 @@ pub fn laws(
     let found = laws::remainder_slope(manipulator, configurations);
     let value = found.as_ref().ok().map(|found| found.slope);
     let verdict = found.and_then(|found| found.within(laws::SLOPE_TOLERANCE));
-    checked.push(Law::new("slope of what first order neglects", value, 2.0, laws::SLOPE_TOLERANCE, verdict));
+    checked.push(Law::new("slope of the first-order remainder", value, 2.0, laws::SLOPE_TOLERANCE, verdict));
     done(compared.len() + 1)?;
     Ok(checked)
 }

@@ -1,8 +1,8 @@
-//! Whether a spec is right, and what follows from it.
+//! Checks a spec, and reports what follows from it.
 //!
-//! `facts` is what the spec says, `chain` its matrices at home, `angles` which of its angles are hardly meant, `axes` what
-//! its rotations turn about, `identifiable` what measurements could tell, `laws` whether the closed form agrees with the
-//! exact chain.
+//! `facts` holds the content of the spec, `chain` its matrices at home, `angles` suspicious angles,
+//! `axes` unexpected axes of rotation, `identifiable` the number of identifiable errors, and `laws`
+//! the self-checks of the closed form against the exact chain.
 
 mod angles;
 mod axes;
@@ -24,51 +24,52 @@ use crate::notes::Notes;
 
 pub use angles::Warning;
 pub use chain::{Chain, Dh, Link};
-pub use facts::{Facts, Frame, Function, Source, Value, Variable};
+pub use facts::{Facts, Frame, FunctionOperations, NominalValue, Source, Variable};
 pub use identifiable::Identifiable;
 pub use laws::{Law, laws};
 
-/// Is this spec right?
+/// Job of `abbe check`: checks a spec.
 #[derive(Clone)]
 pub struct Check {
-    /// Whose spec.
+    /// Machine whose spec is checked.
     pub machine: Machine,
 }
 
-/// What [`Check`] finds.
+/// Result of [`Check`].
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// What the spec says.
+    /// Content of the spec.
     #[serde(flatten)]
     pub facts: Facts,
-    /// The nominal chain at home; none if it has no finite pose there.
+    /// Nominal chain at home; `None` if its pose is not finite.
     pub home: Option<Chain>,
-    /// Numbers that are hardly meant as they stand.
+    /// Suspicious numbers in the spec.
     pub warnings: Vec<Warning>,
-    /// What a reader might take for something else.
+    /// Properties of the spec that are easily misunderstood, one sentence each.
     pub notes: Vec<String>,
-    /// What measurements could tell: poses, then tool points; each without and with an unknown base frame.
+    /// Identifiability from poses, then from tool points; each with a known and an unknown base
+    /// frame.
     pub identifiable: Vec<Identifiable>,
-    /// At how many configurations the laws were checked.
+    /// Number of configurations at which the laws were checked.
     pub configurations: usize,
-    /// How well each law holds.
+    /// Results of the self-checks, one per law.
     pub laws: Vec<Law>,
-    /// Over how many configurations was counted what can be identified.
+    /// Number of configurations that the identifiability is based on.
     #[serde(skip)]
-    pub moved: usize,
-    /// The spec, for what else it says.
+    pub identifiability_configurations: usize,
+    /// The spec, for further facts.
     #[serde(skip)]
     pub spec: Arc<Spec>,
 }
 
 impl Check {
-    /// Checks everything.
+    /// Runs all checks.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let spec = &self.machine.spec;
         let interpreter = Interpreter::new(Arc::clone(spec));
         let facts = Facts::new(&interpreter, &self.machine.origin);
         notes.go_on()?;
-        let (identifiable, moved) = identifiable::count(&interpreter, notes)?;
+        let (identifiable, identifiability_configurations) = identifiable::count(&interpreter, notes)?;
         notes.go_on()?;
         let configurations = laws::configurations(spec);
         let report = Report {
@@ -79,7 +80,7 @@ impl Check {
             identifiable,
             configurations,
             laws: laws(&interpreter, configurations, notes)?,
-            moved,
+            identifiability_configurations,
             spec: Arc::clone(spec),
         };
         finite(&self.machine.origin, report)
@@ -87,7 +88,7 @@ impl Check {
 }
 
 impl Report {
-    /// Whether every law holds.
+    /// Returns true if every law holds.
     pub fn passed(&self) -> bool {
         self.laws.iter().all(|law| law.holds)
     }

@@ -1,4 +1,4 @@
-//! Corrected commands one by one, for whoever has no file of them.
+//! Compensation of single commands, without a data file.
 
 use abbe::Manipulator;
 use abbe_spec::diagnostic::Diagnostics;
@@ -6,31 +6,37 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::rows::Task;
 
 /// Corrects commands of a machine.
-pub struct Commands<'a>(Task<'a>);
+pub struct CommandCorrector<'a>(Task<'a>);
 
 /// A corrected command.
 #[derive(Clone, Debug)]
-pub struct Command {
-    /// The joint variables, within their limits.
+pub struct CorrectedCommand {
+    /// Joint variables, within their limits, in the length unit or rad.
     pub q: Vec<f64>,
-    /// ΔX that is left: rows 1–3 in the length unit, 4–6 in rad.
-    pub left: [f64; 6],
-    /// Why not all is compensated to the tolerance, if so.
+    /// Remaining error ΔX: rows 1–3 in the length unit, rows 4–6 in rad.
+    pub remaining: [f64; 6],
+    /// Reason why the remaining error exceeds the tolerance; `None` if it does not.
     pub reason: Option<String>,
 }
 
-impl<'a> Commands<'a> {
-    /// Those of this machine; `tolerance` is what may be left, in the length unit, 1 rad counted as 1 m.
+impl<'a> CommandCorrector<'a> {
+    /// Creates a corrector for a machine. `tolerance` is the permitted error of the tool point in
+    /// the length unit; for angles 1 rad counts as 1 m.
     pub fn new(manipulator: &'a dyn Manipulator, tolerance: f64) -> Result<Self, Diagnostics> {
         Task::new(manipulator, false, tolerance).map(Self)
     }
 
-    /// The command that brings the real tool to where the ideal one is at `q`, with the inputs `u`.
+    /// Returns the command that brings the real tool to the pose of the ideal tool at `q`, with the
+    /// inputs `u`.
     ///
     /// # Errors
     ///
-    /// Why this command cannot be corrected: it is beyond a limit, or cannot be evaluated.
-    pub fn correct(&self, q: &[f64], u: &[f64]) -> Result<Command, String> {
-        self.0.correct(q, u).map(|(found, reason)| Command { q: found.q, left: found.after, reason })
+    /// Returns the reason if the command exceeds a joint limit or cannot be evaluated.
+    pub fn correct(&self, q: &[f64], u: &[f64]) -> Result<CorrectedCommand, String> {
+        self.0.correct(q, u).map(|(found, reason)| CorrectedCommand {
+            q: found.q,
+            remaining: found.after,
+            reason,
+        })
     }
 }

@@ -1,7 +1,7 @@
-//! Joint commands that put the real tool where the ideal one should be.
+//! Corrected joint commands that bring the real tool to the pose of the ideal one.
 
+mod base_frame;
 mod commands;
-mod in_f0;
 pub mod options;
 mod reason;
 mod rows;
@@ -10,83 +10,86 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Base, Data, Heading, Map, Summary, Table, Unusable};
-use crate::extrapolated::{Extrapolated, extrapolated};
+use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::{Machine, Notes, finite, mistake};
 
-pub use commands::{Command, Commands};
-use in_f0::InF0;
+use base_frame::BaseFramePoses;
+pub use commands::{CommandCorrector, CorrectedCommand};
 use rows::Task;
-pub use rows::{Norms, Row};
+pub use rows::{ErrorNorms, Row};
 
-/// Which commands compensate the errors of this machine?
+/// Job of `abbe compensate`: corrects joint commands.
 pub struct Compensate {
-    /// The machine: its repeatable sources are its errors.
+    /// Machine whose repeatable sources are compensated.
     pub machine: Machine,
-    /// What the columns of the data are.
+    /// Description of the data columns.
     pub map: Map,
-    /// The commands to be corrected.
+    /// Commands to correct.
     pub data: Data,
-    /// Whether the tool is to be brought to the poses that the data have, from the joints of the row on.
+    /// Targets the poses in the data, with the joints of each row as the start; otherwise targets
+    /// the ideal pose at these joints.
     pub poses: bool,
-    /// What may be left at the tool point, in the length unit; of an angle, 1 rad counts as 1 m.
+    /// Permitted remaining error of the tool point, in the length unit; for angles 1 rad counts as
+    /// 1 m.
     pub tolerance: f64,
 }
 
-/// Corrected commands.
+/// Result of [`Compensate`].
 #[derive(Debug, Serialize)]
 pub struct Report {
-    /// The machine's name.
+    /// Name of the machine.
     pub name: String,
-    /// The length unit of everything.
+    /// Symbol of the length unit.
     pub length: &'static str,
-    /// How many rows are compensated to the tolerance.
+    /// Number of rows compensated within the tolerance.
     pub compensated: usize,
-    /// What may be left at the tool point.
+    /// Permitted remaining error of the tool point, in the length unit.
     pub tolerance: f64,
-    /// The distance of the tool point from where it should be, with the commands as they were.
-    pub before: Size,
-    /// … and corrected.
-    pub after: Size,
-    /// In how many ways, of six, the machine can move its tool at once.
+    /// Errors with the original commands.
+    pub before: NormStatistics,
+    /// Errors with the corrected commands.
+    pub after: NormStatistics,
+    /// Number of independent tool motions, from 0 to 6.
     pub mobility: usize,
-    /// Rows outside the ranges that were fitted, and how well the machine is known there; nothing if there are none.
-    pub extrapolated: Option<Extrapolated>,
-    /// Row by row; nothing if they were given away.
+    /// Rows outside the fitted ranges, with the uncertainty there; `None` if all rows are within
+    /// them.
+    pub extrapolated: Option<Extrapolation>,
+    /// Corrected rows, in file order; empty if [`Compensate::for_each_row`] passed them on.
     pub rows: Vec<Row>,
-    /// What is to be said of all of them.
+    /// Summary of all rows.
     #[serde(skip)]
-    pub told: Told,
-    /// Rows that cannot be used.
+    pub row_summary: RowSummary,
+    /// Rows that cannot be used, in file order.
     pub unusable: Vec<Unusable>,
-    /// The file.
+    /// Summary of the data file.
     #[serde(skip)]
     pub file: Summary,
-    /// The names of its stations.
+    /// Names of the stations.
     #[serde(skip)]
     pub stations: Vec<String>,
 }
 
-/// What is to be said of rows, however many there are.
+/// Summary of corrected rows, of constant size.
 #[derive(Debug, Default)]
-pub struct Told {
-    /// How many there are.
+pub struct RowSummary {
+    /// Number of rows.
     pub rows: usize,
-    /// The first of them.
+    /// First rows.
     pub first: Vec<Row>,
-    /// How many are not compensated.
+    /// Number of rows not compensated within the tolerance.
     pub failed: usize,
-    /// The first of those: line and reason.
+    /// First such rows: line and reason.
     pub reasons: Vec<(u64, String)>,
-    /// In how many a joint turns far from its command.
+    /// Number of rows in which a joint rotates far from its command.
     pub far: usize,
-    /// The line where one turns most, and by how much: rad.
+    /// Line with the largest rotation of a joint, and that rotation in rad.
     pub farthest: Option<(u64, f64)>,
 }
 
-impl Told {
-    /// How many rows and reasons are told one by one.
+impl RowSummary {
+    /// Number of rows and reasons that are kept.
     const SHOWN: usize = 10;
-    /// Turns of a joint by more degrees than this are far.
+    /// Rotation of a joint, in degrees, above which it counts as far.
     pub const FAR: f64 = 10.0;
 
     fn add(&mut self, row: &Row) {
@@ -109,22 +112,22 @@ impl Told {
     }
 }
 
-/// Figures of the norms of ΔX: lengths in the spec's unit, angles in rad.
+/// Statistics of the norms of ΔX: lengths in the spec's unit, angles in rad.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Size {
-    /// The mean distance of the tool point.
+pub struct NormStatistics {
+    /// Mean distance of the tool point from its target.
     pub mean: f64,
-    /// The root mean square.
+    /// Root mean square distance.
     pub rms: f64,
-    /// The largest.
+    /// Largest distance.
     pub max: f64,
-    /// The largest turn.
+    /// Largest rotation of the tool from its target, in rad.
     pub angle_max: f64,
 }
 
-/// Sums of norms, of which their figures follow.
+/// Accumulated norms, for their statistics.
 #[derive(Default)]
-struct Sums {
+struct NormSums {
     count: usize,
     lengths: f64,
     squares: f64,
@@ -132,8 +135,8 @@ struct Sums {
     angle_max: f64,
 }
 
-impl Sums {
-    fn add(&mut self, Norms { length, angle }: Norms) {
+impl NormSums {
+    fn add(&mut self, ErrorNorms { length, angle }: ErrorNorms) {
         self.count += 1;
         self.lengths += length;
         self.squares += length * length;
@@ -141,26 +144,27 @@ impl Sums {
         self.angle_max = self.angle_max.max(angle);
     }
 
-    fn size(&self) -> Size {
+    fn statistics(&self) -> NormStatistics {
         let n = self.count.max(1) as f64;
         let (mean, rms) = (self.lengths / n, (self.squares / n).sqrt());
-        Size { mean, rms, max: self.length_max, angle_max: self.angle_max }
+        NormStatistics { mean, rms, max: self.length_max, angle_max: self.angle_max }
     }
 }
 
 impl Compensate {
-    /// Corrects row by row.
+    /// Corrects all rows and returns them in the report.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let mut rows = Vec::new();
-        let report = self.each(notes, |row| {
+        let report = self.for_each_row(notes, |row| {
             rows.push(row);
             Ok::<_, Diagnostics>(())
         })?;
         Ok(Report { rows, ..report })
     }
 
-    /// Corrects row by row, and gives each away: no matter how many there are. The report has none of them.
-    pub fn each<E: From<Diagnostics>>(
+    /// Corrects each row and passes it to `take`, so that memory use does not grow with the file.
+    /// The report contains no rows.
+    pub fn for_each_row<E: From<Diagnostics>>(
         &self,
         notes: &mut dyn Notes,
         mut take: impl FnMut(Row) -> Result<(), E>,
@@ -171,17 +175,18 @@ impl Compensate {
         }
         let manipulator = machine.evaluator(true);
         let data = self.data.completed(map, &*manipulator, &machine.spec);
-        let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
-        let extrapolated = extrapolated(&machine.spec, &*manipulator, "rows", places, notes);
+        let configurations = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
+        let extrapolated = warn_of_extrapolation(&machine.spec, &*manipulator, "rows", configurations, notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
-        let in_f0 = InF0::new(map, &data);
-        let (mut told, mut before, mut after) = (Told::default(), Sums::default(), Sums::default());
+        let base_frame = BaseFramePoses::new(map, &data);
+        let (mut row_summary, mut before, mut after) =
+            (RowSummary::default(), NormSums::default(), NormSums::default());
         let mut unusable = data.unusable.clone();
-        rows::rows(&task, &data, &in_f0, notes, |found| {
+        rows::correct_all(&task, &data, &base_frame, notes, |found| {
             match found {
                 Ok(row) => {
                     let row = finite(&self.data.file, row)?;
-                    told.add(&row);
+                    row_summary.add(&row);
                     before.add(row.before);
                     after.add(row.after);
                     take(row)?;
@@ -191,50 +196,51 @@ impl Compensate {
             Ok::<_, E>(())
         })?;
         unusable.sort_by_key(|row| row.line);
-        if told.rows == 0 {
-            return Err(rows::nothing(&data, &unusable).into());
+        if row_summary.rows == 0 {
+            return Err(rows::no_row_compensated(&data, &unusable).into());
         }
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
-            compensated: told.rows - told.failed,
+            compensated: row_summary.rows - row_summary.failed,
             tolerance: *tolerance,
             mobility: task.mobility,
             extrapolated,
-            before: before.size(),
-            after: after.size(),
-            file: Summary { rows: told.rows, unusable: unusable.clone(), ..data.summary() },
+            before: before.statistics(),
+            after: after.statistics(),
+            file: Summary { rows: row_summary.rows, unusable: unusable.clone(), ..data.summary() },
             unusable,
             stations: data.stations.clone(),
             rows: Vec::new(),
-            told,
+            row_summary,
         };
         Ok(finite(&self.data.file, report)?)
     }
 }
 
-/// Whether a map has poses to which the tool can be brought.
+/// Checks that a map describes poses in a known base frame.
 pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
-    let known = map.base != Base::Unknown || !map.stations.stated.is_empty();
-    if map.is_pose() && known {
+    let is_base_known = map.base != Base::Unknown || !map.stations.stated.is_empty();
+    if map.is_pose() && is_base_known {
         return Ok(());
     }
-    let help = "name the columns of position and orientation; or leave `--poses` out to correct joints";
+    let help = "name the columns of position and orientation; or omit `--poses` to correct joints";
     Err(mistake::with_help(map.path(), "`--poses` needs a map with `[pose]`, in F_0", help))
 }
 
 impl Report {
-    /// Whether every row is compensated.
+    /// Returns true if every row is compensated within the tolerance.
     pub fn complete(&self) -> bool {
-        self.compensated == self.asked()
+        self.compensated == self.total_rows()
     }
 
-    /// How many rows were to be compensated, those that cannot be used among them.
-    pub fn asked(&self) -> usize {
-        self.told.rows + self.unusable.len()
+    /// Returns the number of rows to compensate, unusable ones included.
+    pub fn total_rows(&self) -> usize {
+        self.row_summary.rows + self.unusable.len()
     }
 
-    /// The corrected commands in the columns and units of the data, and what they leave.
+    /// Returns the corrected commands in the columns and units of the data, with the remaining
+    /// errors.
     pub fn table(&self, map: &Map) -> Table {
         let rows = self.rows.iter().map(|row| row.numbers(map)).collect();
         let labels = map.labels(self.rows.iter().map(|row| &row.corrected), &self.stations);
@@ -243,14 +249,14 @@ impl Report {
 }
 
 impl Compensate {
-    /// What stands above the corrected commands.
+    /// Returns the heading of the table of corrected commands.
     pub fn heading(&self) -> Heading {
         let named = self.map.stations.column.is_some();
         let labels = if named { self.data.stations.clone() } else { Vec::new() };
         Heading { names: heading(&self.map), labels }
     }
 
-    /// The name of a row's station, if there is a column of these.
+    /// Returns the station name of a row; `None` if the data have no station column.
     pub fn label(&self, row: &Row) -> Option<&str> {
         let station = row.corrected.station as usize;
         let label = self.map.stations.column.as_ref();
@@ -266,7 +272,8 @@ fn heading(map: &Map) -> Vec<String> {
 }
 
 impl Row {
-    /// The corrected command in the columns and units of the data, and what it leaves.
+    /// Returns the corrected command in the columns and units of the data, with the remaining
+    /// errors.
     pub fn numbers(&self, map: &Map) -> Vec<Option<f64>> {
         let mut values = map.numbers(&self.corrected, [0.0; 3], false);
         let done = f64::from(u8::from(self.reason.is_none()));

@@ -1,4 +1,4 @@
-//! The options of a compensation.
+//! Options of a compensation.
 
-/// Length that may be left at the tool point if nothing is said.
+/// Default tolerance of the tool point.
 pub const TOLERANCE: &str = "0.001mm";

@@ -1,11 +1,12 @@
-//! Why a row is not compensated, in words.
+//! Reasons for incomplete compensation, in words.
 
 use abbe::Description;
 use abbe::analysis::{Missing, Obstacle};
 
 use crate::number::{length, of_variable};
 
-/// Joints at their limits, what no joint moves, and what is left.
+/// Describes the obstacle: joints at their limits, or a direction that no joint moves; and the
+/// remaining error.
 pub(super) fn reason(description: &Description, q: &[f64], obstacle: &Obstacle) -> String {
     let Description { variables, length: unit, .. } = description;
     let axis = obstacle.axis.map(|share| format!("{:.2}", share + 0.0)).join(", ");
@@ -15,15 +16,17 @@ pub(super) fn reason(description: &Description, q: &[f64], obstacle: &Obstacle) 
     });
     let held = held.collect::<Vec<_>>().join(" and ");
     let why = match (obstacle.limits.len(), obstacle.immobile, obstacle.missing) {
-        (1.., _, _) => format!("{held} and would have to go further"),
+        (1.., _, _) => format!("{held} and would have to exceed it"),
         (0, true, Missing::Point(_)) => format!("no joint moves the tool point along ({axis}) there"),
         (0, true, Missing::Turn(_)) => {
-            format!("no joint turns the tool about ({axis}) there with its point where it is")
+            format!("no joint rotates the tool about ({axis}) there with its point fixed")
         }
-        (0, false, _) => "nothing better was found near the command".to_owned(),
+        (0, false, _) => "no better solution was found near the command".to_owned(),
     };
     match obstacle.missing {
-        Missing::Turn(turn) => format!("{why}; the tool point is there, {turn:.3e} rad are left"),
+        Missing::Turn(turn) => {
+            format!("{why}; the tool point is reached, {turn:.3e} rad of the orientation error remain")
+        }
         Missing::Point(distance) => format!("{why}; {} left", length(distance, *unit)),
     }
 }

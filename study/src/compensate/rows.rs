@@ -1,4 +1,4 @@
-//! Row by row.
+//! Compensation of the rows of a data file.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -12,65 +12,66 @@ use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use super::in_f0::InF0;
+use super::base_frame::BaseFramePoses;
 use super::reason::reason;
 use crate::data::{Data, Unusable};
 use crate::number::{Named, length, of_variable};
 use crate::{Notes, mistake};
 
-/// The norms of ΔX.
+/// Norms of ΔX.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Norms {
-    /// Of the tool point, in the spec's length unit.
+pub struct ErrorNorms {
+    /// Norm of the tool point's error, in the spec's length unit.
     pub length: f64,
-    /// Of the orientation, rad.
+    /// Norm of the orientation error, in rad.
     pub angle: f64,
 }
 
-impl Norms {
+impl ErrorNorms {
     fn new(rows: &[f64; 6]) -> Self {
         let (length, angle) = norms(rows);
         Self { length, angle }
     }
 }
 
-/// The corrected commands of a row.
+/// Corrected command of a row.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Its line in the file.
+    /// Line in the file, from 1.
     pub line: u64,
-    /// By variable, in the spec's length unit and in rad.
+    /// Corrected value of each variable, in the spec's length unit or rad.
     pub q: Named,
-    /// With the commands as they were.
-    pub before: Norms,
-    /// With the corrected ones.
-    pub after: Norms,
-    /// Why it is not compensated to the tolerance, if so.
+    /// Error with the original command.
+    pub before: ErrorNorms,
+    /// Error with the corrected command.
+    pub after: ErrorNorms,
+    /// Reason why the remaining error exceeds the tolerance; `None` if it does not.
     pub reason: Option<String>,
-    /// How far the joint that turns most is turned from the command (with poses: from where the ideal tool is there), rad.
+    /// Largest rotation of a joint, in rad: from its command, or with poses from the ideal joints
+    /// for that pose.
     pub largest_turn: f64,
-    /// By variable: corrected minus what the row has; the length unit, or rad.
+    /// Corrected − original value of each variable, in the length unit or rad.
     #[serde(skip)]
     pub changes: Vec<f64>,
-    /// What was asked for, with the corrected commands.
+    /// Original row, with the corrected joints.
     #[serde(skip)]
     pub corrected: Observation,
 }
 
-/// What is asked of every row.
+/// Compensation task that is common to all rows.
 pub(super) struct Task<'a> {
     manipulator: &'a dyn Manipulator,
     description: &'a Description,
     s: Vec<f64>,
-    /// Whether poses are asked for, not joints.
+    /// Targets the measured poses instead of the joints.
     poses: bool,
-    /// What may be left, in the length unit.
+    /// Permitted remaining error, in the length unit.
     tolerance: f64,
-    /// In how many ways the machine can move its tool.
+    /// Number of independent tool motions, from 0 to 6.
     pub(super) mobility: usize,
 }
 
-/// A corrected row, and why it does not arrive.
+/// A corrected row, with the reason for incomplete compensation.
 struct Corrected {
     found: Compensated<Vec<f64>>,
     reason: Option<String>,
@@ -90,39 +91,42 @@ impl<'a> Task<'a> {
         Ok(Self { manipulator, description, s, poses, tolerance, mobility })
     }
 
-    /// One command for the joints, and why it does not arrive.
+    /// Corrects one command. Also returns the reason for incomplete compensation.
     pub(super) fn correct(
         &self,
         q: &[f64],
         u: &[f64],
     ) -> Result<(Compensated<Vec<f64>>, Option<String>), String> {
         within_limits(self.description, q)?;
-        let corrected = corrected(self, None, q, u).map_err(|error| evaluation(self.description, &error))?;
+        let corrected =
+            corrected(self, None, q, u).map_err(|error| evaluation_message(self.description, &error))?;
         Ok((corrected.found, corrected.reason))
     }
 }
 
-/// Rows that one thread takes at a time.
+/// Number of rows that one thread takes at a time.
 const BLOCK: usize = 64;
 
-/// Every row that can be evaluated, for its joints or for the pose that was measured; or why it cannot.
-pub(super) fn rows<E: From<Diagnostics>>(
+/// Corrects all rows in file order. `take` receives each corrected row, or the reason why it cannot
+/// be evaluated.
+pub(super) fn correct_all<E: From<Diagnostics>>(
     task: &Task<'_>,
     data: &Data,
-    in_f0: &InF0,
+    base_frame: &BaseFramePoses,
     notes: &mut dyn Notes,
     mut take: impl FnMut(Result<Row, Unusable>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let asked = &data.observations;
-    let blocks: Vec<&[Observation]> = asked.chunks(BLOCK).collect();
-    // A failure of `take`, and a stop, end the blocks as one of their own does.
+    let observations = &data.observations;
+    let blocks: Vec<&[Observation]> = observations.chunks(BLOCK).collect();
+    // A failure of `take`, or an interruption, ends the remaining blocks.
     let (mut done, mut failed) = (0, None);
     let made = |block: usize| {
-        let rows = blocks[block].iter().map(|asked| one(task, in_f0.row(asked.clone())));
+        let rows =
+            blocks[block].iter().map(|observation| correct_row(task, base_frame.row(observation.clone())));
         Ok::<Vec<_>, Infallible>(rows.collect())
     };
     let taken = |rows: Vec<Result<Row, Unusable>>| {
-        notes.progress(done, asked.len());
+        notes.progress(done, observations.len());
         done += rows.len();
         let all = notes.go_on().map_err(E::from);
         match all.and_then(|()| rows.into_iter().try_for_each(&mut take)) {
@@ -134,38 +138,43 @@ pub(super) fn rows<E: From<Diagnostics>>(
         }
     };
     let Ok(()) = in_order_until(blocks.len(), made, taken);
-    notes.progress(asked.len(), asked.len());
+    notes.progress(observations.len(), observations.len());
     failed.map_or(Ok(()), Err)
 }
 
-fn one(task: &Task<'_>, asked: Observation) -> Result<Row, Unusable> {
-    let Corrected { found, reason, largest_turn } =
-        row(task, &asked).map_err(|reason| Unusable { line: asked.line, reason })?;
+fn correct_row(task: &Task<'_>, observation: Observation) -> Result<Row, Unusable> {
+    let Corrected { found, reason, largest_turn } = correct_observation(task, &observation)
+        .map_err(|reason| Unusable { line: observation.line, reason })?;
     let Compensated { q, before, after, .. } = found;
     let names = task.description.variables.iter().map(|variable| variable.name.to_string());
     Ok(Row {
-        line: asked.line,
-        changes: q.iter().zip(asked.q.iter()).map(|(corrected, asked)| corrected - asked).collect(),
+        line: observation.line,
+        changes: q
+            .iter()
+            .zip(observation.q.iter())
+            .map(|(corrected, original)| corrected - original)
+            .collect(),
         q: Named(names.zip(q.clone()).collect()),
-        before: Norms::new(&before),
-        after: Norms::new(&after),
+        before: ErrorNorms::new(&before),
+        after: ErrorNorms::new(&after),
         reason,
         largest_turn,
-        corrected: Observation { q: q.into(), ..asked },
+        corrected: Observation { q: q.into(), ..observation },
     })
 }
 
-/// No row could be compensated.
-pub(super) fn nothing(data: &Data, unusable: &[Unusable]) -> Diagnostics {
+/// Returns the diagnostic for data of which no row could be compensated.
+pub(super) fn no_row_compensated(data: &Data, unusable: &[Unusable]) -> Diagnostics {
     let why = unusable.first().map(|row| format!(": {}: {}", data.place(row.line), row.reason));
     let message = format!("no row can be compensated{}", why.unwrap_or_default());
-    mistake::with_help(&data.file, message, "are the units of the map and the limits of the joints right?")
+    mistake::with_help(&data.file, message, "check the units of the map and the limits of the joints")
 }
 
-/// A pose is first brought to the ideal tool; of a machine that moves it in fewer than six ways, its point is.
-fn row(task: &Task<'_>, asked: &Observation) -> Result<Corrected, String> {
+/// Corrects one row. For a pose, first solves the ideal chain for it; with fewer than six
+/// independent motions, for its tool point.
+fn correct_observation(task: &Task<'_>, observation: &Observation) -> Result<Corrected, String> {
     let Task { manipulator, description, ref s, .. } = *task;
-    let Observation { q, u, measured, .. } = asked;
+    let Observation { q, u, measured, .. } = observation;
     let (target, start) = match (measured, task.poses) {
         (Measurement::Pose(wanted), true) => {
             let all: Vec<usize> = (0..q.len()).collect();
@@ -174,20 +183,20 @@ fn row(task: &Task<'_>, asked: &Observation) -> Result<Corrected, String> {
                 _ => Target::Pose(**wanted),
             };
             let ideal = inverse(manipulator, s, q, &all, &target);
-            (Some(&**wanted), ideal.map_err(|reason| unreached(description, &reason))?)
+            (Some(&**wanted), ideal.map_err(|reason| unreachable_message(description, &reason))?)
         }
         _ => {
             within_limits(description, q)?;
             (None, q.to_vec())
         }
     };
-    corrected(task, target, &start, u).map_err(|error| evaluation(description, &error))
+    corrected(task, target, &start, u).map_err(|error| evaluation_message(description, &error))
 }
 
 fn corrected(task: &Task<'_>, target: Option<&Pose>, start: &[f64], u: &[f64]) -> Result<Corrected, Error> {
     let Task { manipulator, description, s, tolerance, mobility, .. } = task;
     let found = compensated(*manipulator, target, start, s, u)?;
-    // Of a machine that moves its tool in fewer than six ways the tool point is all that is asked for.
+    // With fewer than six independent motions only the tool point is a target.
     let angle = if *mobility < 6 { f64::INFINITY } else { tolerance * description.length.in_metres() };
     let obstacle = obstacle(*manipulator, target, start, s, u, &found, [*tolerance, angle])?;
     let variables = description.variables.iter().zip(start.iter().zip(&found.q));
@@ -197,7 +206,7 @@ fn corrected(task: &Task<'_>, target: Option<&Pose>, start: &[f64], u: &[f64]) -
     Ok(Corrected { found, reason, largest_turn })
 }
 
-/// A command that the machine would refuse is not one to be corrected.
+/// Checks that a command is within the joint limits, which the machine would enforce.
 fn within_limits(description: &Description, q: &[f64]) -> Result<(), String> {
     let outside = |(variable, value): &(&Variable, &f64)| {
         let [lower, upper] = variable.limits;
@@ -209,7 +218,7 @@ fn within_limits(description: &Description, q: &[f64]) -> Result<(), String> {
     Err(format!("{} is commanded to {value}, beyond its limits {lower} … {upper}", variable.name))
 }
 
-fn evaluation(description: &Description, error: &Error) -> String {
+fn evaluation_message(description: &Description, error: &Error) -> String {
     match error {
         Error::OutOfRange { input, value, range: [lower, upper] } => {
             let input = &description.inputs[*input];
@@ -220,12 +229,12 @@ fn evaluation(description: &Description, error: &Error) -> String {
     }
 }
 
-fn unreached(description: &Description, reason: &ReachError) -> String {
+fn unreachable_message(description: &Description, reason: &ReachError) -> String {
     match reason {
         ReachError::OutsideLimits { variable, value, .. } => {
             let variable = &description.variables[*variable];
             let value = of_variable(*value, variable.kind, description.length);
-            format!("not even the ideal tool gets there: {} would have to be {value}", variable.name)
+            format!("unreachable for the ideal tool: needs {} = {value}", variable.name)
         }
         ReachError::OutOfReach { residual, turn } => {
             let away = length(*residual, description.length);
@@ -234,8 +243,8 @@ fn unreached(description: &Description, reason: &ReachError) -> String {
             } else {
                 String::new()
             };
-            format!("not even the ideal tool gets there: out of reach, at best {away} away{turned}")
+            format!("unreachable for the ideal tool: out of reach by {away}{turned}")
         }
-        reason => format!("not even the ideal tool gets there: {reason}"),
+        reason => format!("unreachable for the ideal tool: {reason}"),
     }
 }

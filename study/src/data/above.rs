@@ -1,4 +1,4 @@
-//! What programs write above the heading of a table: `sep=;`, which is obeyed, and titles, which are not understood.
+//! Lines above the heading of a table: `sep=;` states the separator, a title is an error.
 
 use std::io::Cursor;
 
@@ -6,21 +6,21 @@ use abbe_spec::bounded::Unfit;
 use csv::StringRecord;
 
 use super::dialect::{Dialect, SEPARATORS};
-use crate::lines::Watched;
+use crate::lines::RecordedReader;
 use crate::number::counted;
 
-/// How many records are looked at.
+/// Number of records that are examined.
 const LOOKED_AT: usize = 40;
 
-/// What a first line `sep=;` says that stands between cells. It becomes a comment, so that nobody reads it as a heading.
+/// Returns the separator that a first line `sep=;` states, and turns that line into a comment.
 pub(super) fn stated_separator(text: &mut [u8]) -> Option<u8> {
     let start = if text.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
     let line = text[start..].split(|byte| *byte == b'\n').next()?;
     let line = line.strip_suffix(b"\r").unwrap_or(line);
     let line = line.strip_prefix(b"\"").and_then(|line| line.strip_suffix(b"\"")).unwrap_or(line);
-    let (said, [separator]) = line.split_last_chunk()?;
-    let is_said = said.eq_ignore_ascii_case(b"sep=") && SEPARATORS.contains(separator);
-    let separator = is_said.then_some(*separator)?;
+    let (key, [separator]) = line.split_last_chunk()?;
+    let is_stated = key.eq_ignore_ascii_case(b"sep=") && SEPARATORS.contains(separator);
+    let separator = is_stated.then_some(*separator)?;
     text[start] = b'#';
     Some(separator)
 }
@@ -28,15 +28,17 @@ pub(super) fn stated_separator(text: &mut [u8]) -> Option<u8> {
 /// A line of a table.
 struct Row {
     line: u64,
-    /// How many cells it has, empty ones at its end aside.
+    /// Number of cells, without empty ones at the end.
     cells: usize,
     has_number: bool,
-    /// Whether each of these cells has something in it.
+    /// Each of these cells is nonempty.
     is_full: bool,
 }
 
-/// The first lines of a text, if they are no heading: they have fewer cells than the rows below, and one below them that has no
-/// number in it has as many as these. Whatever stands between the cells: a title does not tell.
+/// Reports first lines that are not the heading.
+///
+/// They have fewer cells than the rows below, and the first line with as many cells as these has no
+/// number. All separators are tried, because a title does not reveal the one of the table.
 pub(super) fn above_heading(text: &[u8], dialect: Dialect) -> Option<Unfit> {
     std::iter::once(dialect).chain(SEPARATORS.map(|separator| dialect.separated(separator))).find_map(
         |dialect| {
@@ -63,14 +65,14 @@ pub(super) fn above_heading(text: &[u8], dialect: Dialect) -> Option<Unfit> {
 }
 
 fn rows(text: &[u8], dialect: Dialect) -> Vec<Row> {
-    let (watched, mut lines) = Watched::new(Cursor::new(text));
+    let (watched, mut lines) = RecordedReader::new(Cursor::new(text));
     let records = dialect.all_records(watched).into_records().take(LOOKED_AT).filter_map(Result::ok);
     let row = |record: StringRecord| {
         let cells = (1..=record.len()).rev().find(|cells| !record[cells - 1].is_empty()).unwrap_or(0);
         let is_number =
             |cell: &str| cell.parse::<f64>().is_ok() || cell.replacen(',', ".", 1).parse::<f64>().is_ok();
         Row {
-            line: record.position().map_or(0, |position| lines.of_record(position.byte())),
+            line: record.position().map_or(0, |position| lines.record_line(position.byte())),
             cells,
             has_number: record.iter().any(is_number),
             is_full: record.iter().take(cells).all(|cell| !cell.is_empty()),
@@ -99,11 +101,11 @@ mod tests {
         for (text, expected) in [
             ("Run of Monday\nq1,x,y\n1,2,3\n4,5,6\n", title(1, "1 cell", 2)),
             ("Run of Monday;;\r\nq1;x;y\r\n1,5;2,5;3\r\n", title(1, "1 cell", 2)),
-            // A comma in the title, and none between cells.
+            // The title has a comma, which is not the separator.
             ("Monday, hall 2\nq1;x;y\n1,5;2;3\n", title(1, "1 cell", 2)),
             ("\n# by hand\nMonday\nHall;2\n\nq1;x;y\n1;2;3\n4;;6\n7;8;\n", title(3, "1 cell", 6)),
             ("sep=;\nMonday\nq1;x;y\n1;2;3\n", title(2, "1 cell", 3)),
-            // Headings, whatever is wrong below.
+            // The first line is a heading, whatever follows.
             ("q1,x,y\n1,2,3\n", None),
             ("q1,x,y\ndeg,mm,mm\n1,2,3\n", None),
             ("q1,x\n1,2,3\n4,5,6\n", None),

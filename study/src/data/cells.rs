@@ -1,11 +1,11 @@
 //! Columns in memory.
 
-/// The cells of a column.
+/// Cells of a column.
 #[derive(Clone, Debug)]
 pub enum Cells {
-    /// Numbers; one that is not there is NaN.
+    /// Numbers; a missing one is NaN.
     Numbers(Vec<f64>),
-    /// Texts; one that is not there is empty.
+    /// Texts; a missing one is empty.
     Texts(Vec<String>),
 }
 

@@ -1,49 +1,49 @@
-//! Columns, and values that may come from them.
+//! Columns, and channels that read from them.
 
 use abbe_spec::diagnostic::Span;
 
 use super::from_rows::FromRows;
 
-/// A column of the file.
+/// A column of a data file.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// Its name.
+    /// Heading of the column.
     pub name: String,
-    /// Where the map names it, if that is a file.
+    /// Position in the map, if that is a file.
     pub(super) span: Option<Span>,
 }
 
-/// How the numbers of a column are read.
+/// Linear scale of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
-    /// One in the column, in coherent units; negative if it counts the other way round.
+    /// Factor to coherent units; negative for the opposite direction of counting.
     pub one: f64,
-    /// What it is where the column says 0, in coherent units.
+    /// Value at 0 in the column, in coherent units.
     pub zero: f64,
 }
 
 impl Scale {
-    /// Coherent numbers as they are.
+    /// Identity scale of a column in coherent units.
     pub const COHERENT: Self = Self { one: 1.0, zero: 0.0 };
 
-    /// What a number of the column is.
+    /// Converts a number of the column to a value.
     pub(super) fn value(self, number: f64) -> f64 {
         self.one * number + self.zero
     }
 
-    /// What stands in the column for a value.
+    /// Converts a value to a number of the column.
     pub(super) fn number(self, value: f64) -> f64 {
         (value - self.zero) / self.one
     }
 }
 
-/// Where a value comes from.
+/// Source of a value.
 #[derive(Clone, Debug)]
 pub enum Channel {
-    /// A column, on a scale.
+    /// A column with a scale.
     Column(Column, Scale),
-    /// It is the same in every row.
+    /// A constant.
     Fixed(f64),
-    /// It follows from the rows.
+    /// A quantity computed from the rows.
     FromRows(FromRows),
 }

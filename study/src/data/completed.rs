@@ -1,4 +1,4 @@
-//! Rows with the inputs that follow from them.
+//! Completion of inputs that are computed from the rows.
 
 use std::borrow::Cow;
 
@@ -12,19 +12,19 @@ use super::map::Map;
 use super::rows::Data;
 
 impl Map {
-    /// Whether an input follows from the rows.
+    /// Returns whether an input is computed from the rows.
     pub(crate) fn follows_from_rows(&self) -> bool {
         self.inputs.iter().any(|channel| matches!(channel, Channel::FromRows(_)))
     }
 }
 
 impl Data {
-    /// The same rows with the inputs that follow from them; `manipulator` is that of the spec.
+    /// Returns the rows with computed inputs; `manipulator` is that of the spec.
     pub(crate) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
         Self::complete(Cow::Borrowed(self), map, manipulator, spec)
     }
 
-    /// The same, without a copy of rows that are given away.
+    /// Completes rows without copying owned ones.
     pub(crate) fn complete<'d>(
         data: Cow<'d, Self>,
         map: &Map,

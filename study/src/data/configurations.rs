@@ -1,4 +1,4 @@
-//! Which rows are visits of one configuration: joints and inputs are the same, as far as values can be told apart.
+//! Grouping of rows into configurations: joints and inputs that agree within their resolution.
 
 use abbe::VariableKind;
 use abbe::identify::Observation;
@@ -7,13 +7,13 @@ use abbe_spec::expr::Unit;
 
 use crate::workspace::has_range;
 
-/// Angles that differ by no more are the same, rad.
+/// Resolution of angles, in rad.
 const ANGLE: f64 = 1e-4;
 
-/// The share of its range by which an input must differ.
+/// Resolution of an input, as a share of its range.
 const SHARE: f64 = 0.01;
 
-/// By variable and then by input: values that differ by no more are the same. Travels: 0.01 mm.
+/// Returns the resolution of each variable and then of each input; 0.01 mm for lengths.
 pub(super) fn resolution(spec: &Spec) -> Vec<Option<f64>> {
     let travel = Unit::named("mm").unwrap_or(Unit::NONE).convert(0.01, spec.length);
     let joints = spec.variables.iter().map(|variable| match variable.kind {
@@ -27,9 +27,9 @@ pub(super) fn resolution(spec: &Spec) -> Vec<Option<f64>> {
     joints.chain(inputs).collect()
 }
 
-/// Numbers the rows by their configuration, from 0 in the order in which they come first.
+/// Numbers the configurations of rows from 0 in order of first occurrence.
 pub(super) fn number_configurations(rows: &mut [Observation], resolution: &[Option<f64>]) {
-    // Column by column: rows stay together that are at one level of each.
+    // Refines the groups column by column.
     let mut numbers = vec![0; rows.len()];
     for (i, resolution) in resolution.iter().enumerate() {
         let values: Vec<f64> =
@@ -39,12 +39,12 @@ pub(super) fn number_configurations(rows: &mut [Observation], resolution: &[Opti
     rows.iter_mut().zip(numbers).for_each(|(row, number)| row.configuration = number);
 }
 
-/// Numbers pairs, from 0 in the order in which they come first: sorted, for there may be a million.
+/// Numbers pairs from 0 in order of first occurrence, by sorting, because there can be a million.
 fn numbered(first: &[u32], second: &[u32]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..first.len() as u32).collect();
     let pair = |i: u32| (first[i as usize], second[i as usize]);
     order.sort_unstable_by_key(|i| (pair(*i), *i));
-    // The first row of every pair, for all of its rows.
+    // First row of each pair, stored for all of its rows.
     let mut numbers = vec![0; order.len()];
     for rows in order.chunk_by(|a, b| pair(*a) == pair(*b)) {
         rows.iter().for_each(|i| numbers[*i as usize] = rows[0]);
@@ -52,7 +52,7 @@ fn numbered(first: &[u32], second: &[u32]) -> Vec<u32> {
     drop(order);
     let mut next = 0;
     for i in 0..numbers.len() {
-        // Rows before this one have their numbers already.
+        // Earlier rows have their final numbers already.
         let first = numbers[i] as usize;
         numbers[i] = if first == i { next } else { numbers[first] };
         next += u32::from(first == i);
@@ -60,8 +60,10 @@ fn numbered(first: &[u32], second: &[u32]) -> Vec<u32> {
     numbers
 }
 
-/// Numbers values so that those of one level lie within the resolution: from the least on, a level begins where a value is
-/// farther from the beginning of the last. Without a resolution, it is a share of what the values span.
+/// Numbers the levels of values.
+///
+/// A level begins at its least value and has all values within the resolution of that one. Without
+/// a resolution, it is a share of the range of the values.
 fn levels(values: &[f64], resolution: Option<f64>) -> Vec<u32> {
     let mut order: Vec<u32> = (0..values.len() as u32).collect();
     let value = |i: u32| values[i as usize];
@@ -94,7 +96,7 @@ mod tests {
     fn values_within_the_resolution_are_the_same() {
         let values = [0.5, 0.50005, 0.5002, -0.3, 0.49999, 0.5003];
         assert_eq!(levels(&values, Some(1e-4)), [2, 2, 3, 1, 2, 3]);
-        // Many values close to each other are no chain.
+        // Closely spaced values do not merge into one level.
         let dense: Vec<f64> = (0..1000).map(|i| f64::from(i) * 5e-5).collect();
         assert!(levels(&dense, Some(1e-4)).iter().max() > Some(&300));
         assert_eq!(levels(&[1.0, 1.0, 1.0], None), [1, 1, 1]);

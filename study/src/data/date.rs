@@ -1,21 +1,21 @@
-//! Dates: what stands in a column or in the name of a file, and days since 1970-01-01.
+//! Dates in columns and file names, as days since 1970-01-01.
 
 use serde::Serialize;
 
-/// What times count.
+/// Unit and origin of times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Calendar {
-    /// Days since 1970-01-01: there are dates.
+    /// Days since 1970-01-01.
     Dates,
-    /// Days since a day that nobody has said.
+    /// Days since an unknown day.
     Days,
-    /// Checks: nobody has said when they were.
+    /// Number of the check, without dates.
     Checks,
 }
 
 impl Calendar {
-    /// A time in words: `2026-03-14`, `day 12`, `check 12`.
+    /// Formats a time: `2026-03-14`, `day 12`, `check 12`.
     pub fn show(self, time: f64) -> String {
         match self {
             Self::Dates => {
@@ -27,13 +27,13 @@ impl Calendar {
         }
     }
 
-    /// What one unit of time is: `day`, `check`.
+    /// Returns the name of the unit: `day` or `check`.
     pub fn unit(self) -> &'static str {
         if self == Self::Checks { "check" } else { "day" }
     }
 }
 
-/// `2026-03-14`, `20260314`, `2026-03-14T08:30`, `2026-03-14 08:30:00`, or a number of days.
+/// Parses `2026-03-14`, `20260314`, `2026-03-14T08:30`, `2026-03-14 08:30:00`, or a number of days.
 pub(crate) fn parse_date(text: &str) -> Option<(Calendar, f64)> {
     if let Some(date) = compact(text) {
         return Some((Calendar::Dates, date));
@@ -55,7 +55,7 @@ pub(crate) fn parse_date(text: &str) -> Option<(Calendar, f64)> {
         .then_some((Calendar::Dates, days + (hour + (minute + second / 60.0) / 60.0) / 24.0))
 }
 
-/// The date in the name of a file: `check-2026-03-14.csv`, `20260314_flange.csv`.
+/// Finds the date in a file name: `check-2026-03-14.csv`, `20260314_flange.csv`.
 pub(crate) fn in_name(name: &str) -> Option<f64> {
     let starts = (0..name.len()).filter(|i| *i == 0 || !name.as_bytes()[i - 1].is_ascii_digit());
     let mut dates = starts.filter_map(|i| {
@@ -68,13 +68,13 @@ pub(crate) fn in_name(name: &str) -> Option<f64> {
     dates.next_back()
 }
 
-/// `20260314`.
+/// Parses `20260314`.
 fn compact(date: &str) -> Option<f64> {
     let digits = date.len() == 8 && date.bytes().all(|byte| byte.is_ascii_digit());
     if digits { day(&format!("{}-{}-{}", &date[..4], &date[4..6], &date[6..])) } else { None }
 }
 
-/// `2026-03-14`, also with `_` or `.` between.
+/// Parses `2026-03-14`, also with `_` or `.` as separators.
 fn day(date: &str) -> Option<f64> {
     let parts: Vec<&str> = date.split(['-', '_', '.']).collect();
     let [year, month, day] = parts[..] else { return None };
@@ -84,11 +84,12 @@ fn day(date: &str) -> Option<f64> {
     };
     let (year, month, day) = (number(year, 4)?, number(month, 2)?, number(day, 2)?);
     let days = days(year, month, day);
-    // What is no date, as the 31st of February, comes back as another.
+    // An invalid date, such as the 31st of February, does not survive the round trip.
     (civil(days) == (year, month, day)).then_some(days as f64)
 }
 
-/// Days since 1970-01-01 of a Gregorian date; years begin in March here, so that the leap day is their last.
+/// Returns the days from 1970-01-01 to a Gregorian date. Years begin in March, so that the leap day
+/// is the last.
 fn days(year: i64, month: i64, day: i64) -> i64 {
     let year = if month <= 2 { year - 1 } else { year };
     let (era, of_era) = (year.div_euclid(400), year.rem_euclid(400));
@@ -96,7 +97,7 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
     era * 146_097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719_468
 }
 
-/// The date so many days after 1970-01-01: year, month, day.
+/// Returns the date `days` after 1970-01-01: year, month, day.
 fn civil(days: i64) -> (i64, i64, i64) {
     let days = days + 719_468;
     let (era, of_era) = (days.div_euclid(146_097), days.rem_euclid(146_097));

@@ -1,4 +1,4 @@
-//! Rows, and what their times count.
+//! Rows with the calendar of their times.
 
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -7,17 +7,17 @@ use super::map::Map;
 use super::rows::Data;
 use super::source::Source;
 
-/// The rows of a file, and what its column of dates counts.
+/// Rows of a file, and the calendar of its column of times.
 #[derive(Clone, Debug)]
 pub struct Dated {
     /// The rows.
     pub data: Data,
-    /// Whether dates or days stand in the column of dates, row by row; nothing if the map names none.
+    /// Calendar of each row; none if the map names no column of times.
     pub calendars: Option<Vec<Calendar>>,
 }
 
 impl Dated {
-    /// Reads what was commanded, what was measured, and when. A row may be there twice.
+    /// Reads commands, measurements and times. Repeated rows are kept.
     pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
         let source = source.into();
         let data = Data::read_wanted(source, map)?;

@@ -1,32 +1,33 @@
-//! How a data file is written: what stands between its cells, and how its decimals are written.
+//! Dialect of a CSV file: separator and decimal mark.
 
 use std::io::Read;
 
 use csv::{ReaderBuilder, Trim};
 
-/// What can stand between cells.
+/// Possible separators.
 pub(super) const SEPARATORS: [u8; 3] = [b'\t', b';', b','];
 
-/// How many records are looked at.
+/// Number of records that are examined.
 const LOOKED_AT: usize = 200;
 
-/// How a CSV file is written.
+/// Dialect of a CSV file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Dialect {
-    /// Between cells: a comma, a semicolon or a tab.
+    /// Separator: comma, semicolon or tab.
     delimiter: u8,
-    /// Whether decimals have a comma.
+    /// The decimal mark is a comma.
     decimal_comma: bool,
 }
 
 impl Dialect {
-    /// Of a file's text. The first record has the names of the columns: whatever it has most of outside of quotes stands
-    /// between them. Decimals have a comma if a cell is a number with a comma and none is one with a point.
+    /// Detects the dialect of a text.
     ///
-    /// What stands between cells may be stated.
+    /// The separator is the most frequent candidate in the heading outside of quotes, unless
+    /// `stated`. The decimal mark is a comma if a cell is a number with a comma and none is a
+    /// number with a point.
     pub(super) fn detect(bytes: &[u8], stated: Option<u8>) -> Self {
         let counts = separators(bytes);
-        // Of equals the last is taken.
+        // `max_by_key` returns the last of equal counts.
         let most = || SEPARATORS.into_iter().max_by_key(|byte| counts[usize::from(*byte)]);
         let delimiter = stated.or_else(most);
         let plain = Self { delimiter: delimiter.unwrap_or(b','), decimal_comma: false };
@@ -44,7 +45,7 @@ impl Dialect {
         self.builder().from_reader(bytes)
     }
 
-    /// The same, the heading being a record as all others.
+    /// Returns a reader that treats the heading as a record.
     pub(super) fn all_records<R: Read>(&self, bytes: R) -> csv::Reader<R> {
         self.builder().has_headers(false).from_reader(bytes)
     }
@@ -55,12 +56,12 @@ impl Dialect {
         builder
     }
 
-    /// The same decimals between other cells.
+    /// Returns the dialect with another separator.
     pub(super) fn separated(self, delimiter: u8) -> Self {
         Self { delimiter, ..self }
     }
 
-    /// The number in a cell.
+    /// Parses the number in a cell.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
         match self.decimal_comma {
             true if cell.contains('.') => None,
@@ -69,7 +70,7 @@ impl Dialect {
         }
     }
 
-    /// What is not as usual, in words.
+    /// Describes a dialect that is not the usual one.
     pub(super) fn words(&self) -> Option<&'static str> {
         Some(match (self.delimiter, self.decimal_comma) {
             (b',', false) => return None,
@@ -81,7 +82,7 @@ impl Dialect {
         })
     }
 
-    /// The name of what stands between cells.
+    /// Returns the plural name of the separator.
     pub(super) fn delimiter(&self) -> &'static str {
         match self.delimiter {
             b';' => "semicolons",
@@ -91,7 +92,7 @@ impl Dialect {
     }
 }
 
-/// How often every byte stands in the heading, outside of quotes.
+/// Counts each byte in the heading, outside of quotes.
 fn separators(bytes: &[u8]) -> [usize; 256] {
     let mut rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     while let [b'\n' | b'\r' | b'#', ..] = rest {
@@ -101,7 +102,7 @@ fn separators(bytes: &[u8]) -> [usize; 256] {
     let (mut counts, mut quoted, mut before) = ([0; 256], false, b',');
     for byte in rest.iter().copied() {
         match byte {
-            // A quote in the middle of a cell is one; of two in a quoted cell, the second opens it again.
+            // A quote inside a cell is literal; the second of two in a quoted cell reopens it.
             b'"' if quoted || matches!(before, b',' | b';' | b'\t' | b'"') => quoted = !quoted,
             b'\n' | b'\r' if !quoted => break,
             _ if quoted => {}
@@ -123,7 +124,7 @@ mod tests {
             ("a;b\n1,5;2\n", b';', true),
             ("a;b\n1.5;2\n", b';', false),
             ("# made; by, an; instrument\r\n\r\na\tb\r\n1,5\t-2,0e3\r\n", b'\t', true),
-            // A name may have a comma in it, and a text one that is no decimal.
+            // A name with a comma, and a text with a comma that is no decimal.
             ("a;b, measured;c\n1.5;x,y;3\n", b';', false),
             ("a;b\n1,5;2.5\n", b';', false),
             ("a\n1\n", b',', false),

@@ -1,4 +1,4 @@
-//! A CSV file: its heading, and records that know their lines. It is read as it is used, not kept.
+//! CSV files: a heading, and records with line numbers, read on demand.
 
 use std::io::{self, Cursor, Read};
 use std::path::Path;
@@ -11,27 +11,27 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::above::{above_heading, stated_separator};
 use super::dialect::Dialect;
 use super::record::Record;
-use crate::lines::{Lines, Watched};
+use crate::lines::{Lines, RecordedReader};
 use crate::mistake;
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
 
-/// The largest file that is read, in bytes.
+/// Largest size of a file, in bytes.
 const LARGEST_FILE: u64 = 4 << 30;
 
-/// How much of it tells how it is written, in bytes.
+/// Number of bytes examined for the dialect.
 const HEAD: u64 = 1 << 18;
 
-/// The most columns of a file.
+/// Largest number of columns.
 const MOST_COLUMNS: usize = 10_000;
 
-/// The most rows of a file.
+/// Largest number of rows.
 pub(super) const MOST_ROWS: usize = 2_000_000;
 
-/// A file with a heading.
+/// A CSV file with a heading.
 pub(super) struct File {
     file: String,
-    reader: csv::Reader<Watched<io::Chain<Cursor<Vec<u8>>, Bounded>>>,
+    reader: csv::Reader<RecordedReader<io::Chain<Cursor<Vec<u8>>, Bounded>>>,
     lines: Lines,
     pub(super) dialect: Dialect,
     pub(super) heading: Arc<[String]>,
@@ -53,23 +53,23 @@ impl File {
         if let Some(found) = above_heading(&head, dialect) {
             return Err(unfit(&name, &found));
         }
-        let (watched, lines) = Watched::new(Cursor::new(head).chain(input));
+        let (watched, lines) = RecordedReader::new(Cursor::new(head).chain(input));
         let mut reader = dialect.reader(watched);
         let heading = reader.headers().map_err(|error| unreadable(&name, &error))?;
         let heading: Arc<[String]> = heading.iter().map(|name| meant(name).to_owned()).collect();
         if heading.len() > MOST_COLUMNS {
-            let message = format!("this file has {} columns; {MOST_COLUMNS} can be read", heading.len());
+            let message = format!("this file has {} columns; the maximum is {MOST_COLUMNS}", heading.len());
             return Err(mistake::with_help(name, message, "leave out those that the map does not name"));
         }
         Ok(Self { file: name, reader, lines, dialect, heading })
     }
 
-    /// Every record below the heading.
+    /// Returns the records below the heading.
     pub(super) fn records(self) -> impl Iterator<Item = Result<Record, Diagnostics>> {
         let Self { file, reader, mut lines, dialect, heading } = self;
         reader.into_records().enumerate().map(move |(row, record)| {
             let fields = record.map_err(|error| unreadable(&file, &error))?;
-            let line = fields.position().map_or(0, |position| lines.of_record(position.byte()));
+            let line = fields.position().map_or(0, |position| lines.record_line(position.byte()));
             if row == MOST_ROWS {
                 let message = format!("this file has more rows than can be worked with: {MOST_ROWS}");
                 let help = "split it, or take every second row";
@@ -80,7 +80,7 @@ impl File {
     }
 }
 
-/// What a text is that is no data, by its first line.
+/// Recognizes a text that is not a table by its first line.
 fn other_text(head: &[u8]) -> Option<Unfit> {
     if head.contains(&0) {
         return Some(Unfit::new("this file is no text: it has bytes that are 0", WANTED));

@@ -1,28 +1,29 @@
-//! Inputs that no column has because the rows have them: by their order, or by the pose of the machine in each.
+//! Inputs that are computed from the rows: from their order, or from the pose of the machine.
 
 use abbe::identify::Observation;
 use abbe::{Manipulator, Pose};
 use abbe_spec::Spec;
 
-/// How an input follows from the rows. Its value is −1, 0 or 1.
+/// Rule by which an input is computed from the rows. Its value is −1, 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FromRows {
-    /// 1 where a joint came from smaller values in its last move, −1 from larger ones, 0 before it was moved.
+    /// Direction of the last move of a joint: 1 forward, −1 backward, 0 before the first move.
     Approach(usize),
-    /// 1 where a weight at the origin of a frame, or at the tool point behind the last, turns a joint forward, −1 where back.
+    /// Sign of the moment of a weight about a joint: 1 forward, −1 backward.
     GravityMoment {
-        /// The revolute joint.
+        /// Index of the revolute joint.
         variable: usize,
-        /// The frame, from 0; as many as there are frames stands for the tool point.
+        /// Frame whose origin has the weight, from 0; the number of frames stands for the tool
+        /// point.
         at: usize,
     },
 }
 
-/// Of the moments on a joint: below this share of the largest there is none.
+/// Relative threshold of a moment, as a share of the largest.
 const NOTHING: f64 = 1e-6;
 
 impl FromRows {
-    /// What it is, in one sentence.
+    /// Describes the rule in one sentence.
     pub fn description(&self, spec: &Spec) -> String {
         match *self {
             Self::Approach(variable) => {
@@ -38,7 +39,7 @@ impl FromRows {
         }
     }
 
-    /// As the entry of a map's `[inputs]` has it, line by line.
+    /// Returns the lines of its entry in `[inputs]` of a map.
     pub fn lines(&self, spec: &Spec) -> String {
         match *self {
             Self::Approach(variable) => format!("approach = {:?}\n", spec.variables[variable].name),
@@ -50,7 +51,7 @@ impl FromRows {
         }
     }
 
-    /// Its values in rows that are in the order in which they were measured.
+    /// Computes the values in rows that are in order of time.
     pub(crate) fn values(
         &self,
         manipulator: &dyn Manipulator,
@@ -64,7 +65,7 @@ impl FromRows {
     }
 }
 
-/// The indices of rows in the order in which they were measured: that of their times, if all have one.
+/// Returns the indices of rows in order of time, if all have one; otherwise in their own order.
 pub(crate) fn in_order(rows: &[Observation]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rows.len()).collect();
     if rows.iter().all(|row| row.time().is_some()) {
@@ -74,7 +75,7 @@ pub(crate) fn in_order(rows: &[Observation]) -> Vec<usize> {
     order
 }
 
-/// The sign of the last move of a joint, row by row.
+/// Returns the sign of the last move of a joint, row by row.
 fn approaches(rows: &[&Observation], variable: usize) -> Vec<f64> {
     let mut last = 0.0;
     let mut before = rows.first().map_or(0.0, |row| row.q[variable]);
@@ -89,8 +90,8 @@ fn approaches(rows: &[&Observation], variable: usize) -> Vec<f64> {
     rows.iter().map(direction).collect()
 }
 
-/// The sign of the moment `z · (p − o) × g` of a weight at p about a joint's axis z through o, nominally; 0 where a
-/// row cannot be evaluated, or where there is no moment worth its sign.
+/// Returns the sign of the moment `z · (p − o) × g` of a weight at p about the nominal axis z
+/// through o; 0 where a row cannot be evaluated or the moment is negligible.
 fn moments(
     manipulator: &dyn Manipulator,
     spec: &Spec,
@@ -101,7 +102,8 @@ fn moments(
     let s: Vec<f64> = spec.parameters.iter().map(|parameter| parameter.value).collect();
     let down = gravity(spec);
     let mut transforms = vec![Pose::IDENTITY; spec.frames.len() + 1];
-    // A turn of the joint moves the point by `z × (p − o)`: a difference of poses says the same for all kinds of frames.
+    // A rotation of the joint moves the point by `z × (p − o)`; a difference of poses gives it for
+    // all kinds of frames.
     const STEP: f64 = 1e-4;
     let mut height = |row: &Observation, by: f64| {
         let mut q = row.q.to_vec();
@@ -123,7 +125,7 @@ fn moments(
     moments.iter().map(|moment| if moment.abs() > least { moment.signum() } else { 0.0 }).collect()
 }
 
-/// The direction of gravity: against z of `F_0` if the spec does not say.
+/// Returns the unit direction of gravity; against z of `F_0` by default.
 fn gravity(spec: &Spec) -> [f64; 3] {
     let stated = spec.gravity.as_ref().map(|entries| {
         let value = |i: usize| entries[i].constant().unwrap_or_default();

@@ -1,189 +1,94 @@
-//! Instruments that are read one by one, several of them in one file.
+//! Instruments that are read one number at a time, several of them in one file.
 
-use abbe::identify::{Fixture, Gauge, Place, Reading};
+use std::ops::Range;
+
+use abbe::identify::{Fixture, InstrumentKind, Observable, Reference};
 
 use super::column::Column;
 
-/// What kind of instrument it is, and what it looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// The coordinates of a target, in the instrument's frame.
-    Point,
-    /// How far a target is from a point: a ballbar, a wire.
-    Distance,
-    /// A target is held at a point: nothing is read.
-    Contact,
-    /// A target touches a plane: nothing is read.
-    Plane,
-    /// A target touches a sphere: nothing is read.
-    Sphere,
-    /// How far a target is along a direction: a dial indicator with a flat tip.
-    Indicator,
-    /// How far two targets are apart.
-    Between,
-    /// How far a target has moved since the row before: a laser interferometer, a scale.
-    Displacement,
-    /// By how much a mirror on the tool leans towards a direction: an autocollimator.
-    Angle,
-}
-
-/// What is said of a row in which no instrument was read.
+/// Reason of a row without readings.
 pub(super) const NOTHING_READ: &str = "nothing was read";
 
 /// One instrument of a map.
 #[derive(Clone, Debug)]
 pub struct Instrument {
-    /// What it is called.
+    /// Name in reports.
     pub name: String,
-    /// What it is.
-    pub kind: Kind,
-    /// The columns of its numbers: none if it is touched.
+    /// Kind of instrument.
+    pub kind: &'static InstrumentKind,
+    /// Columns of its readings; empty if it is touched.
     pub columns: Vec<Column>,
-    /// What makes them coherent.
+    /// Factor of its readings to coherent units.
     pub factor: f64,
-    /// The unit of its numbers, as the map has it; that of lengths if it is touched.
+    /// Unit of its readings as in the map; the length unit if it is touched.
     pub unit: String,
-    /// In which rows it is read: those with this number in the map's column `setup`; all if there is none.
+    /// Value in the column `setup` of the rows in which it is read; all rows if none.
     pub setup: Option<f64>,
-    /// Between which readings it can be used: the length unit or rad.
+    /// Range of readings; the length unit or rad.
     pub range: Option<[f64; 2]>,
-    /// One standard deviation: none if the data are to tell it.
+    /// Standard deviation of a reading; none if it is estimated from the data.
     pub uncertainty: Option<f64>,
-    /// About where it looks, in `F_0`.
-    pub at: Option<[f64; 3]>,
-    /// Its readings, by index.
-    pub readings: std::ops::Range<usize>,
+    /// Indices of its observables.
+    pub observables: Range<usize>,
 }
 
-/// All instruments of a map, and what they look at.
+/// The instruments of a map, with their targets and fixtures.
 #[derive(Clone, Debug, Default)]
 pub struct Instruments {
-    /// One by one.
+    /// The instruments.
     pub list: Vec<Instrument>,
-    /// Targets in the frame of the tool, about there.
+    /// Nominal positions of the targets in the frame of the tool.
     pub targets: Vec<[f64; 3]>,
-    /// What stands still, in `F_0`.
+    /// Fixtures in `F_0`.
     pub fixtures: Vec<Fixture>,
-    /// All their readings.
-    pub readings: Vec<Reading>,
-    /// Those whose place and zero were found, by index: what they look at is where it is said to be.
+    /// Observables of all instruments.
+    pub observables: Vec<Observable>,
+    /// Indices of the instruments whose fixture and zero were identified before.
     pub found: Vec<usize>,
-    /// The column that says in which setup a row was measured.
+    /// Column of the setup of a row.
     pub setup: Option<Column>,
 }
 
-/// What an instrument looks at, and how good it is.
-pub(super) struct Look {
-    /// Its targets, by index.
-    pub(super) targets: Vec<usize>,
-    /// A point in `F_0`, the length unit.
-    pub(super) at: [f64; 3],
-    /// A direction in `F_0`.
-    pub(super) direction: [f64; 3],
-    /// The normal of a mirror, in the frame of the tool.
-    pub(super) mirror: [f64; 3],
-    /// What the instrument adds, or about what.
-    pub(super) zero: f64,
-    /// Whether that is known.
-    pub(super) zero_known: bool,
-    /// One standard deviation, or what stands for one that is unknown.
-    pub(super) uncertainty: f64,
-}
-
-impl Kind {
-    /// Whether the machine is moved until it touches: nothing but its joints is read.
-    pub fn is_touched(self) -> bool {
-        matches!(self, Self::Contact | Self::Plane | Self::Sphere)
-    }
-
-    /// How many columns it has.
-    pub fn columns(self) -> usize {
-        match self {
-            Self::Point => 3,
-            _ if self.is_touched() => 0,
-            _ => 1,
-        }
-    }
-}
-
 impl Instruments {
-    /// Adds the fixture and the readings of an instrument, and says which readings those are.
-    pub(super) fn add(&mut self, name: &str, kind: Kind, look: &Look) -> std::ops::Range<usize> {
-        let fixture = self.fixtures.len();
-        let place = match kind {
-            Kind::Distance | Kind::Contact | Kind::Sphere => Some(Place::Point(look.at)),
-            Kind::Plane | Kind::Indicator | Kind::Angle => Some(Place::Direction(look.direction)),
-            Kind::Point | Kind::Between | Kind::Displacement => None,
-        };
-        self.fixtures.extend(place.map(|place| Fixture { name: name.to_owned(), place }));
-        let target = look.targets[0];
-        let gauges = match kind {
-            Kind::Point => (0..3).map(|axis| Gauge::Coordinate { target, axis }).collect(),
-            Kind::Distance | Kind::Sphere => vec![Gauge::Distance { target, from: fixture }],
-            Kind::Contact => (0..3).map(|axis| Gauge::Apart { target, from: fixture, axis }).collect(),
-            Kind::Plane | Kind::Indicator => {
-                vec![Gauge::Along { target, about: look.at, direction: fixture }]
-            }
-            Kind::Between => vec![Gauge::Between { targets: [target, *look.targets.last().unwrap_or(&0)] }],
-            Kind::Displacement => vec![Gauge::Moved { target }],
-            Kind::Angle => vec![Gauge::Lean { mirror: look.mirror, direction: fixture }],
-        };
-        let first = self.readings.len();
-        let (zero, zero_known) = match kind {
-            Kind::Point | Kind::Contact | Kind::Displacement => (0.0, true),
-            Kind::Distance | Kind::Between | Kind::Sphere => (look.zero, look.zero_known),
-            Kind::Plane | Kind::Indicator | Kind::Angle => (0.0, false),
-        };
-        self.readings.extend(gauges.into_iter().map(|gauge| Reading {
-            name: name.to_owned(),
-            gauge,
-            zero,
-            zero_known,
-            uncertainty: look.uncertainty,
-            touched: kind.is_touched(),
-            instrument: self.list.len(),
-        }));
-        first..self.readings.len()
-    }
-
-    /// What all readings are called, in order: by their instrument, and by the axis if it has three.
+    /// Returns the names of all observables: that of the instrument, with the axis if it has three.
     pub(crate) fn names(&self) -> Vec<String> {
-        let of = |instrument: &Instrument| match instrument.readings.len() {
+        let of = |instrument: &Instrument| match instrument.observables.len() {
             3 => ["x", "y", "z"].map(|axis| format!("{}_{axis}", instrument.name)).to_vec(),
             _ => vec![instrument.name.clone()],
         };
         self.list.iter().flat_map(of).collect()
     }
 
-    /// The fixture that an instrument looks at, if it looks at one.
+    /// Returns the index of the fixture of an instrument, if it has one.
     pub fn fixture_of(&self, instrument: usize) -> Option<usize> {
-        self.readings[self.list[instrument].readings.start].gauge.fixture()
+        self.observables[self.list[instrument].observables.start].fixture
     }
 
-    /// Whether any of them sees where `F_0` is: the fixtures of all others stand in `F_0`.
+    /// Returns whether the readings of any instrument depend on the pose of `F_0`.
     pub(super) fn see_the_base(&self) -> bool {
-        self.list.iter().any(|instrument| instrument.kind == Kind::Point)
+        self.list.iter().any(|instrument| instrument.kind.sees_base)
     }
 
-    /// Whether any of them tells how far a target has moved since the row before.
-    pub(crate) fn count_from_before(&self) -> bool {
-        self.list.iter().any(|instrument| instrument.kind == Kind::Displacement)
+    /// Returns whether the readings of any instrument refer to the previous row.
+    pub(crate) fn depend_on_previous_row(&self) -> bool {
+        self.list.iter().any(|instrument| instrument.kind.reference == Reference::PreviousRow)
     }
 
-    /// The readings of a row before which there is none: nothing has moved yet.
+    /// Removes the readings that refer to the previous row.
     pub(super) fn at_first(&self, mut readings: Vec<Option<f64>>) -> Vec<Option<f64>> {
-        let moved = self.list.iter().filter(|instrument| instrument.kind == Kind::Displacement);
-        moved.for_each(|instrument| readings[instrument.readings.clone()].fill(None));
+        let moved = self.list.iter().filter(|instrument| instrument.kind.reference == Reference::PreviousRow);
+        moved.for_each(|instrument| readings[instrument.observables.clone()].fill(None));
         readings
     }
 
-    /// One standard deviation of the first that tells lengths.
+    /// Returns the standard deviation of the first observable that is a length.
     pub(super) fn uncertainty(&self) -> f64 {
-        let lengths = self.readings.iter().find(|reading| !reading.gauge.is_angle());
+        let lengths = self.observables.iter().find(|reading| !reading.kind.is_angle);
         lengths.map_or(1.0, |reading| reading.uncertainty)
     }
 
-    /// Every setup, and the instruments that are read in it, by index; a single one if the map has no column for them.
+    /// Returns each setup with the indices of its instruments; a single one without a column of
+    /// setups.
     pub fn setups(&self) -> Vec<(Option<f64>, Vec<usize>)> {
         let mut numbers: Vec<f64> = self.list.iter().filter_map(|instrument| instrument.setup).collect();
         numbers.sort_by(f64::total_cmp);
@@ -195,49 +100,51 @@ impl Instruments {
         all.into_iter().map(|setup| (setup, self.read_in(setup))).collect()
     }
 
-    /// The instruments that are read in a setup.
+    /// Returns the indices of the instruments of a setup.
     pub(super) fn read_in(&self, setup: Option<f64>) -> Vec<usize> {
         let read = |i: &usize| self.list[*i].setup.is_none() || self.list[*i].setup == setup;
         (0..self.list.len()).filter(read).collect()
     }
 
-    /// Readings that are still to come, of these instruments.
+    /// Returns placeholders for the readings of these instruments.
     pub fn unread(&self, instruments: &[usize]) -> Vec<Option<f64>> {
-        let mut readings = vec![None; self.readings.len()];
+        let mut readings = vec![None; self.observables.len()];
         for i in instruments {
-            readings[self.list[*i].readings.clone()].fill(Some(0.0));
+            readings[self.list[*i].observables.clone()].fill(Some(0.0));
         }
         readings
     }
 
-    /// The setup in which these were read.
+    /// Returns the setup of a row with these readings.
     pub(super) fn setup_of(&self, readings: &[Option<f64>]) -> Option<f64> {
         let read = |instrument: &&Instrument| {
-            instrument.setup.is_some() && readings[instrument.readings.clone()].iter().any(Option::is_some)
+            instrument.setup.is_some() && readings[instrument.observables.clone()].iter().any(Option::is_some)
         };
         self.list.iter().find(read).and_then(|instrument| instrument.setup)
     }
 
-    /// The readings that the numbers of a row are: first its setup, if there is a column for it, then the columns of all
-    /// instruments; none where a cell is empty. Or why they are none.
+    /// Converts the numbers of a row to readings; none where a cell is empty.
+    ///
+    /// The numbers are the setup, if there is a column for it, then the columns of all instruments.
+    /// Returns the reason if the row has no reading.
     pub(super) fn read(&self, numbers: &[Option<f64>]) -> Result<Vec<Option<f64>>, String> {
         let skipped = usize::from(self.setup.is_some());
         let setup = numbers[..skipped].first().copied().flatten();
         let names = self.distinct_columns();
-        let told = |column: &Column| {
+        let cell = |column: &Column| {
             let place = names.iter().position(|other| other.name == column.name)?;
             numbers.get(skipped + place).copied().flatten()
         };
-        let mut readings = vec![None; self.readings.len()];
+        let mut readings = vec![None; self.observables.len()];
         let read = self.read_in(setup);
         if read.is_empty() {
             return Err("no instrument of the map is read in this setup".to_owned());
         }
         for instrument in read.into_iter().map(|i| &self.list[i]) {
-            for (place, reading) in instrument.readings.clone().enumerate() {
+            for (place, reading) in instrument.observables.clone().enumerate() {
                 readings[reading] = match instrument.kind.is_touched() {
                     true => Some(0.0),
-                    false => told(&instrument.columns[place]).map(|number| number * instrument.factor),
+                    false => cell(&instrument.columns[place]).map(|number| number * instrument.factor),
                 };
             }
         }
@@ -247,25 +154,26 @@ impl Instruments {
         Ok(readings)
     }
 
-    /// The numbers of readings, as [`read`](Self::read) takes them.
+    /// Converts readings to the numbers of a row, in the order of [`read`](Self::read).
     pub(super) fn numbers(&self, readings: &[Option<f64>]) -> Vec<Option<f64>> {
         let mut numbers: Vec<Option<f64>> = self.setup.iter().map(|_| self.setup_of(readings)).collect();
         for column in self.distinct_columns() {
-            let told = self.list.iter().find_map(|instrument| {
+            let number = self.list.iter().find_map(|instrument| {
                 let place = instrument.columns.iter().position(|own| own.name == column.name)?;
-                readings[instrument.readings.start + place].map(|value| value / instrument.factor)
+                readings[instrument.observables.start + place].map(|value| value / instrument.factor)
             });
-            numbers.push(told);
+            numbers.push(number);
         }
         numbers
     }
 
-    /// The columns of what is read.
+    /// Returns the columns of setup and readings.
     pub(super) fn columns(&self) -> Vec<&Column> {
         self.setup.iter().chain(self.distinct_columns()).collect()
     }
 
-    /// The columns of all instruments, each once: an instrument that is used in several setups has one column.
+    /// Returns the distinct columns of all instruments: one that is used in several setups has one
+    /// column.
     fn distinct_columns(&self) -> Vec<&Column> {
         let mut distinct: Vec<&Column> = Vec::new();
         for column in self.list.iter().flat_map(|instrument| &instrument.columns) {

@@ -1,4 +1,4 @@
-//! Every key of a map.
+//! Keys of a map.
 
 abbe_spec::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
@@ -11,7 +11,9 @@ abbe_spec::tables! {
     POINT: ["[point]"], ["columns", "unit"];
     DIFFERENCE: ["[difference]"], ["target", "difference", "unit"];
     TARGET: ["[[target]]"], ["name", "columns", "unit", "position"];
-    INSTRUMENT: ["[[instrument]]"], ["name", "kind", "column", "columns", "unit", "target", "targets", "at", "direction", "mirror", "zero", "radius", "nominal_radius", "range", "setup", "uncertainty"];
+    ANY_INSTRUMENT: ["[[instrument]]"], ["name", "kind"];
+    INSTRUMENT: ["[[instrument]]"], ["column", "columns", "unit", "target", "targets", "at", "direction", "mirror", "zero", "radius", "nominal_radius", "range"];
+    EVERY_INSTRUMENT: ["[[instrument]]"], ["setup", "uncertainty"];
     POSE: ["[pose]"], ["position", "unit"];
     TURN: ["[pose]"], ["quaternion", "matrix", "euler", "rotation_vector"];
     QUATERNION: ["[pose.quaternion]"], ["columns", "order"];

@@ -1,4 +1,4 @@
-//! The columns of a data file and what they mean, both ways: numbers to measurements, and measurements to numbers.
+//! Conversion between the columns of a data file and measurements.
 
 use abbe::Pose;
 use abbe::identify::{Measurement, Observation};
@@ -8,7 +8,8 @@ use super::map::{Layout, Map};
 use super::rotation;
 
 impl Map {
-    /// What the numbers of the measured columns mean, none where a target was hidden; or why they mean nothing.
+    /// Converts the numbers of the measured columns to a measurement, without hidden targets; or
+    /// returns the reason of the failure.
     pub(super) fn measurement(&self, numbers: &[Option<f64>]) -> Result<Measurement, String> {
         let known: Vec<f64> = numbers.iter().flatten().copied().collect();
         let point = |factor: f64| std::array::from_fn(|i| known[i] * factor);
@@ -33,7 +34,7 @@ impl Map {
         })
     }
 
-    /// The heading: joints and inputs, and what is measured unless this is a plan.
+    /// Returns the heading: joints and inputs, and the measured columns unless it is a plan.
     pub fn heading(&self, measured: bool) -> Vec<String> {
         let station = self.stations.column.iter();
         let mut names: Vec<String> =
@@ -46,7 +47,7 @@ impl Map {
         names
     }
 
-    /// The names of the stations of rows, if they have a column; `names` by index.
+    /// Returns the name of the station of each row if they have a column; `names` by index.
     pub fn labels<'o>(
         &self,
         rows: impl IntoIterator<Item = &'o Observation>,
@@ -59,7 +60,7 @@ impl Map {
         }
     }
 
-    /// The numbers of a row; `ideal` is the commanded tool point, for differences.
+    /// Returns the numbers of a row; `ideal` is the commanded tool point, for differences.
     pub fn numbers(&self, row: &Observation, ideal: [f64; 3], measured: bool) -> Vec<Option<f64>> {
         let channels = self.joints.iter().zip(row.q.iter()).chain(self.inputs.iter().zip(row.u.iter()));
         let commanded = channels.filter_map(|(channel, value)| match channel {
@@ -102,7 +103,7 @@ impl Map {
     }
 }
 
-/// The coordinates of a point, or three empty fields.
+/// Returns the coordinates of a point, or three empty cells.
 fn spread(point: Option<[f64; 3]>, factor: f64) -> [Option<f64>; 3] {
     std::array::from_fn(|i| point.map(|point| point[i] / factor))
 }

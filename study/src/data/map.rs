@@ -1,4 +1,4 @@
-//! What the columns of a data file are.
+//! Maps: the meaning of the columns of a data file.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,26 +19,26 @@ use crate::{Acceptance, Machine};
 /// A target on the end effector.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// The columns of its coordinates.
+    /// Columns of its coordinates.
     pub columns: [Column; 3],
-    /// What makes them coherent.
+    /// Factor of its coordinates to coherent units.
     pub factor: f64,
-    /// Where it is in the frame of the tool, as designed.
+    /// Nominal position in the frame of the tool.
     pub position: [f64; 3],
 }
 
-/// Where the instrument stands.
+/// Knowledge of the pose of `F_0` in the frame of the instrument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
-    /// It sees in `F_0` but for small errors of the base.
+    /// The instrument measures in `F_0`, up to small errors of the base.
     Known,
-    /// Anywhere.
+    /// Any pose.
     Unknown,
-    /// It sees in `F_0` itself: nothing of the base is unknown.
+    /// The instrument measures in `F_0`: the base has no unknowns.
     Exact,
 }
 
-/// What was measured; columns of lengths with the factor that makes them coherent.
+/// Measured quantity, with the factors of its columns to coherent units.
 #[derive(Clone, Debug)]
 pub enum Layout {
     /// The tool point.
@@ -47,50 +47,50 @@ pub enum Layout {
     Difference([Column; 3], [Column; 3], f64),
     /// Targets on the end effector.
     Targets(Vec<Target>),
-    /// Position and orientation.
+    /// Position and orientation of the tool.
     Pose([Column; 3], f64, Turn),
-    /// Instruments that are read one by one.
+    /// Readings of several instruments.
     Instruments(Box<Instruments>),
 }
 
 /// A map, read and checked.
 #[derive(Clone, Debug)]
 pub struct Map {
-    /// What it is called.
+    /// Title.
     pub title: String,
-    /// One standard deviation of the instrument.
+    /// Standard deviations of the instrument.
     pub uncertainty: Uncertainty,
-    /// Where the instrument stands.
+    /// Knowledge of the pose of the base.
     pub base: Base,
-    /// Where the machine stands before it.
+    /// Stations of the machine.
     pub stations: Stations,
-    /// What is mounted on the tool.
+    /// Mounting of the targets on the tool.
     pub placement: Placement,
-    /// Limits for rows that nothing is fitted to.
+    /// Limits for rows that were not used in a fit.
     pub accept: Acceptance,
-    /// By variable of the spec.
+    /// Channel of each variable of the spec.
     pub joints: Vec<Channel>,
-    /// By input of the spec.
+    /// Channel of each input of the spec.
     pub inputs: Vec<Channel>,
-    /// What was measured.
+    /// Measured quantity.
     pub layout: Layout,
-    /// The column that says which rows are visits of one configuration; joints and inputs say it otherwise.
+    /// Column that identifies visits of one configuration; otherwise joints and inputs do.
     pub group: Option<Column>,
-    /// The column of the direction from which a configuration was approached.
+    /// Column of the direction of approach.
     pub direction: Option<Column>,
-    /// The column of the time; rows are in its order otherwise.
+    /// Column of the time; otherwise the rows are in order of time.
     pub time: Option<Column>,
-    /// By variable and then by input: values that differ by no more are the same; for an input without a range, none.
+    /// Resolution of each variable and then of each input; none for an input without a range.
     pub(super) resolution: Vec<Option<f64>>,
     pub(super) path: String,
     pub(super) text: Arc<str>,
-    /// The file it was read from; none if it is shipped.
+    /// The files that it was read from; empty for a shipped map.
     pub(crate) files: Vec<PathBuf>,
 }
 
 impl Map {
-    /// The map of a file whose columns are named as the spec names its variables and inputs: in its coherent units. What has
-    /// no column among the inputs is nominal.
+    /// Creates the map of a file whose columns have the names of variables and inputs of the spec,
+    /// in coherent units. Inputs without a column are nominal.
     pub fn from_names(header: &[String], spec: &Spec) -> Self {
         let column = |name: &str| Column { name: name.to_owned(), span: None };
         let joints =
@@ -119,22 +119,23 @@ impl Map {
         }
     }
 
-    /// What messages call it: the path of its file.
+    /// Returns the path of its file, for messages.
     pub fn path(&self) -> &str {
         &self.path
     }
 
-    /// The SHA-256 of its text.
+    /// Returns the SHA-256 of its text.
     pub fn hash(&self) -> String {
-        crate::hash::of_text(&self.text)
+        crate::hash::text(&self.text)
     }
 
-    /// Whether whole poses are measured.
+    /// Returns whether whole poses are measured.
     pub fn is_pose(&self) -> bool {
         matches!(self.layout, Layout::Pose(..))
     }
 
-    /// The targets in the frame of the tool: the tool point itself if there are no others.
+    /// Returns the positions of the targets in the frame of the tool; the tool point if there are
+    /// no others.
     pub fn targets(&self) -> Vec<[f64; 3]> {
         match (&self.placement.targets, &self.layout) {
             (Some(targets), _) => targets.clone(),
@@ -144,25 +145,26 @@ impl Map {
         }
     }
 
-    /// From the frame that is seen to that of the tool: identity unless poses are measured and it is known.
+    /// Returns the transform from the measured frame to the frame of the tool; identity unless
+    /// poses are measured and it is known.
     pub fn mounting(&self) -> Pose {
         self.placement.mounting.unwrap_or(Pose::IDENTITY)
     }
 
-    /// The names of the stations that it states, or a single one without a name.
+    /// Returns the names of the stated stations, or a single empty one.
     pub fn station_names(&self) -> Vec<String> {
         let names = self.stations.names();
         if names.is_empty() { vec![String::new()] } else { names }
     }
 
-    /// The names of all columns that it names.
+    /// Returns the names of all columns of the map.
     pub fn columns(&self) -> Vec<&str> {
         let beside = [&self.group, &self.direction, &self.time, &self.stations.column];
         let beside = beside.into_iter().flatten().chain(self.setup());
         self.commanded().chain(self.measured()).chain(beside).map(|column| &*column.name).collect()
     }
 
-    /// The same for instruments that stand elsewhere, and look at something else: where, the data are to tell.
+    /// Returns the map for instruments at new, unknown stations, with new fixtures.
     pub fn newly_stationed(self) -> Self {
         let stations = Stations { stated: Vec::new(), ..self.stations };
         let layout = match self.layout {
@@ -175,18 +177,18 @@ impl Map {
         Self { base, stations, layout, ..self }
     }
 
-    /// The text of its file.
+    /// Returns the text of its file.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The variables that have a column.
+    /// Returns the indices of the variables with a column.
     pub fn moved(&self) -> impl Iterator<Item = usize> {
         let columns = self.joints.iter().enumerate();
         columns.filter(|(_, channel)| matches!(channel, Channel::Column(..))).map(|(i, _)| i)
     }
 
-    /// The inputs that have a column and a range to go through, apart from those that are fixed.
+    /// Returns the indices of the inputs with a column and a range, without fixed ones.
     pub fn moved_inputs(&self, machine: &Machine) -> Vec<usize> {
         let columns = self.inputs.iter().zip(&machine.spec.inputs).enumerate();
         let moved = columns.filter(|(i, (channel, input))| {
@@ -196,7 +198,7 @@ impl Map {
         moved.map(|(i, _)| i).collect()
     }
 
-    /// An observation that is to be made; what the map holds fixed is so.
+    /// Creates an observation to be measured, with the constants of the map.
     pub fn planned(&self, line: u64, place: Configuration) -> Observation {
         let Configuration { mut q, mut u, .. } = place;
         let values = q.iter_mut().chain(&mut u);
@@ -208,9 +210,9 @@ impl Map {
         Observation::new(line, q, u, self.unmeasured(None))
     }
 
-    /// Rows in their order, each with the one before it if an instrument tells how far a target has moved since.
+    /// Links each row to the previous one, if an instrument refers to it.
     pub(crate) fn in_sequence(&self, mut rows: Vec<Observation>) -> Vec<Observation> {
-        let Some(all) = self.instruments().filter(|all| all.count_from_before()) else { return rows };
+        let Some(all) = self.instruments().filter(|all| all.depend_on_previous_row()) else { return rows };
         let mut before: Option<Observation> = None;
         for row in &mut rows {
             row.approach_mut().from = None;
@@ -223,7 +225,7 @@ impl Map {
         rows
     }
 
-    /// What stands for a measurement before there is one, in a setup if the map has a column for those.
+    /// Returns the placeholder of a measurement, in a setup if the map has a column for it.
     pub(super) fn unmeasured(&self, setup: Option<f64>) -> Measurement {
         match &self.layout {
             Layout::Pose(..) => Measurement::Pose(Box::new(Pose::IDENTITY)),
@@ -232,7 +234,7 @@ impl Map {
         }
     }
 
-    /// The instruments that are read one by one, if the map has any.
+    /// Returns the instruments that are read one number at a time, if the map has any.
     pub fn instruments(&self) -> Option<&Instruments> {
         match &self.layout {
             Layout::Instruments(all) => Some(all),
@@ -240,12 +242,12 @@ impl Map {
         }
     }
 
-    /// The column of the setup, if there is one.
+    /// Returns the column of the setup, if there is one.
     pub(super) fn setup(&self) -> Option<&Column> {
         self.instruments().and_then(|all| all.setup.as_ref())
     }
 
-    /// The columns of joints and inputs.
+    /// Returns the columns of joints and inputs.
     pub(super) fn commanded(&self) -> impl Iterator<Item = &Column> {
         self.joints.iter().chain(&self.inputs).filter_map(|channel| match channel {
             Channel::Column(column, _) => Some(column),
@@ -253,7 +255,7 @@ impl Map {
         })
     }
 
-    /// The columns of what was measured.
+    /// Returns the columns of the measurement.
     pub(super) fn measured(&self) -> Vec<&Column> {
         match &self.layout {
             Layout::Point(columns, _) => columns.iter().collect(),
@@ -265,7 +267,7 @@ impl Map {
     }
 }
 
-/// Whether where `F_0` stands can be seen.
+/// Returns whether the measurement depends on the pose of `F_0`.
 fn sees_the_base(layout: &Layout) -> bool {
     match layout {
         Layout::Instruments(all) => all.see_the_base(),

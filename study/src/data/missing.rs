@@ -1,4 +1,4 @@
-//! Columns that a map names and a file has not.
+//! Diagnostics for columns of a map that are missing in a file.
 
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 
@@ -6,12 +6,12 @@ use super::column::Column;
 use super::map::Map;
 
 impl Map {
-    /// The mistake that columns are missing: all of them, each where the map names it.
+    /// Reports all missing columns, each at its position in the map.
     pub(super) fn missing(&self, file: &str, columns: &[&Column], header: &[String]) -> Diagnostics {
         let there_are = first_of(header);
         let wanted: Vec<&str> =
             self.commanded().chain(self.measured()).map(|column| column.name.as_str()).collect();
-        // Many at once have one cause.
+        // Many missing columns have a common cause.
         if let [first, .., last] = columns
             && columns.len() > 3
         {
@@ -34,7 +34,7 @@ impl Map {
             return Diagnostics { path: self.path.clone(), text: self.text.clone(), list: vec![mistake] };
         }
         let list = columns.iter().map(|column| {
-            // Those that the map has found are not what is missing.
+            // Columns that other keys of the map name are no suggestions.
             let free = header.iter().filter(|name| !wanted.contains(&name.as_str()));
             let similarity = |name: &&String| match name.contains(column.name.as_str()) {
                 true => 0.9,
@@ -54,7 +54,7 @@ impl Map {
     }
 }
 
-/// The names of columns, and not too many of them.
+/// Lists the names of the first columns.
 fn first_of(header: &[String]) -> String {
     const SHOWN: usize = 60;
     let shown = header[..header.len().min(SHOWN)].join(", ");

@@ -1,6 +1,6 @@
-//! Measurements: a CSV file or columns in memory, and a map (TOML) that says what its columns are.
+//! Measurements: a CSV file or columns in memory, and a map (TOML) with the meaning of the columns.
 //!
-//! `docs/reference/map.md` has every key.
+//! `docs/reference/map.md` describes all keys.
 
 mod above;
 mod cells;
@@ -17,7 +17,7 @@ mod keys;
 mod layout;
 mod map;
 mod missing;
-mod numbers;
+mod raw_table;
 mod read;
 mod read_channels;
 mod read_instruments;
@@ -31,6 +31,7 @@ mod station;
 mod table;
 mod turn;
 
+pub use abbe_spec::csv_writer::{Csv, Heading};
 pub use cells::Cells;
 pub use column::{Channel, Column, Scale};
 pub use date::Calendar;
@@ -38,14 +39,14 @@ pub(crate) use date::{in_name, parse_date};
 pub use dated::Dated;
 pub use from_rows::FromRows;
 pub(crate) use from_rows::in_order;
-pub use instrument::{Instrument, Instruments, Kind};
+pub use instrument::{Instrument, Instruments};
 pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
-pub(crate) use numbers::{Numbers, numbers};
+pub(crate) use raw_table::{RawTable, raw_table};
 pub use rows::{Data, Summary, Unusable};
 pub use source::{Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
-pub use table::{Csv, Heading, Table};
+pub use table::Table;
 pub(crate) use turn::EULER_ORDERS;
 pub use turn::{Order, Turn};
 

@@ -1,4 +1,4 @@
-//! Reads a map from top to bottom.
+//! Reader of a map.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,17 +18,17 @@ use super::read_instruments::instruments;
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
 use super::turn::{EULER_ORDERS, Order, Turn};
-use crate::acceptance::{Acceptance, FIGURES};
+use crate::acceptance::{Acceptance, FIGURE_NAMES};
 use crate::named;
 
 impl Map {
-    /// The map in a file, or the one shipped under that name.
+    /// Reads the map in a file, or the shipped map of that name.
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
         let document = named::document("--map", argument, abbe_manipulators::MAPS, "maps", "shipped map")?;
         Self::from_document(document, spec)
     }
 
-    /// The map that a text is; `path` is what mistakes are shown under.
+    /// Parses the text of a map; diagnostics name `path`.
     pub fn parse(path: &str, text: &str, spec: &Spec) -> Result<Self, Diagnostics> {
         Self::from_document(Document::new(path, text), spec)
     }
@@ -37,13 +37,13 @@ impl Map {
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
         let map = tables.and_then(|tables| read_map(&Section::root(&tables), &mut document, spec));
-        gather_alike(&mut document);
+        merge_duplicates(&mut document);
         document.finish(map)
     }
 }
 
-/// Of mistakes with the same message only the first is shown, with the lines of the others.
-fn gather_alike(document: &mut Document) {
+/// Merges diagnostics with equal messages into the first one, which lists the other lines.
+fn merge_duplicates(document: &mut Document) {
     let line = |mistake: &Diagnostic| {
         let start = mistake.span.as_ref().map_or(0, |span| span.start.min(document.text.len()));
         document.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
@@ -119,7 +119,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     let placement = placement(root, &head, document, spec, layout.as_ref());
     let accept = accept(root, document, spec);
     let base = match &layout {
-        // All else that is unknown of where `F_0` is stands among the places of the instruments.
+        // The pose of `F_0` is absorbed by the fixtures of the instruments.
         Some(Layout::Instruments(all)) if !all.see_the_base() => Base::Exact,
         _ => base,
     };
@@ -246,13 +246,13 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layo
     None
 }
 
-/// `[accept]`: limits for rows that nothing is fitted to.
+/// Reads `[accept]`: limits for rows that were not used in a fit.
 fn accept(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Acceptance> {
     let Some(item) = root.get("accept") else { return Some(Acceptance::default()) };
     let mut section = document.section(&item)?;
     section.name = "[accept]".to_owned();
     section.check_keys(&[&keys::ACCEPT], document);
-    let figures = FIGURES.into_iter().filter_map(|figure| Some((figure, section.get(figure)?)));
+    let figures = FIGURE_NAMES.into_iter().filter_map(|figure| Some((figure, section.get(figure)?)));
     let limits =
         figures.map(|(figure, item)| Some((figure, constant(&item, document, spec, Dimension::LENGTH)?)));
     Some(Acceptance { limits: limits.collect::<Option<_>>()? })

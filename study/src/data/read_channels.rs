@@ -1,4 +1,4 @@
-//! Reads where the values of joints and inputs come from.
+//! Reader of `[joints]` and `[inputs]`.
 
 use abbe::VariableKind;
 use abbe_spec::diagnostic::Diagnostic;
@@ -59,13 +59,13 @@ pub(super) fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -
     channels.into_iter().collect()
 }
 
-/// The table of an input that follows from the rows, if it is one.
+/// Returns the table of an input that is computed from the rows, if it is one.
 fn from_rows<'d>(item: &Item<'d>, document: &mut Document) -> Option<Section<'d>> {
     let section = item.is_table().then(|| document.section(item)).flatten()?;
     keys::FROM_ROWS.keys.iter().any(|key| section.get(key).is_some()).then_some(section)
 }
 
-/// `{ approach = "q1" }` or `{ gravity_moment = "q2", frame = "wrist 1" }`.
+/// Reads `{ approach = "q1" }` or `{ gravity_moment = "q2", frame = "wrist 1" }`.
 fn read_from_rows(
     section: &Section<'_>,
     document: &mut Document,
@@ -85,8 +85,7 @@ fn read_from_rows(
     let is_number = input.dimension == Dimension::NONE;
     match (approach, moment, frame) {
         (Some(_), None, None) | (None, Some(_), _) if !is_number => {
-            let message =
-                format!("`{}` is {}; what follows from the rows is -1, 0 or 1", input.name, input.dimension);
+            let message = format!("`{}` is {}; it must be -1, 0 or 1", input.name, input.dimension);
             let help = "this needs an input that is a pure number: give it a `column` or a `value`";
             document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
             None
@@ -123,7 +122,7 @@ fn read_from_rows(
     }
 }
 
-/// `{ column = "…", unit = "…", sign = -1, zero = "…" }` or `{ value = … }`.
+/// Reads `{ column = "…", unit = "…", sign = -1, zero = "…" }` or `{ value = … }`.
 fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<Channel> {
     let mut section = document.section(item)?;
     section.name = format!("`{}`", item.key);

@@ -1,5 +1,8 @@
-//! Reads the instruments of a map: `[[instrument]]`, and `[[target]]` for where targets are on the tool.
+//! Reader of `[[instrument]]`, and of `[[target]]` beside it.
+//!
+//! The keys of an instrument are those of its [kind](InstrumentKind); each key has one reader here.
 
+use abbe::identify::{Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
@@ -8,28 +11,17 @@ use abbe_spec::keys::Keys;
 use abbe_spec::value::find_name;
 
 use super::column::Column;
-use super::instrument::{Instrument, Instruments, Kind, Look, norm};
+use super::instrument::{Instrument, Instruments, norm};
+use super::keys;
 use super::read_values::{column, columns, constant, positive, unit};
 
-const KINDS: [(&str, Kind); 9] = [
-    ("point", Kind::Point),
-    ("distance", Kind::Distance),
-    ("contact", Kind::Contact),
-    ("plane", Kind::Plane),
-    ("sphere", Kind::Sphere),
-    ("indicator", Kind::Indicator),
-    ("between", Kind::Between),
-    ("displacement", Kind::Displacement),
-    ("angle", Kind::Angle),
-];
-
-/// A target that other tables name.
+/// A target with a name.
 struct Named {
     name: String,
     position: [f64; 3],
 }
 
-/// `stated` is the uncertainty of `[data]`, for instruments that have none of their own.
+/// Reads all instruments; `stated` is the uncertainty of `[data]`, the default for lengths.
 pub(super) fn instruments(
     root: &Section<'_>,
     stated: Option<f64>,
@@ -94,40 +86,44 @@ fn instrument(
     spec: &Spec,
 ) -> Option<Instrument> {
     let kind = section.required("kind", document)?;
-    let kind = document.choice(&kind, &KINDS)?;
-    section.check_keys(&[&keys_of(kind)], document);
+    let kind = document.choice(&kind, &INSTRUMENTS.map(|kind| (kind.name, kind)))?;
+    let own = Keys { tables: &["[[instrument]]"], keys: kind.keys };
+    section.check_keys(&[&keys::ANY_INSTRUMENT, &own, &keys::EVERY_INSTRUMENT], document);
     let name = section.required("name", document).and_then(|item| document.string(&item));
-    let angle = kind == Kind::Angle;
-    let dimension = if angle { Dimension::NONE } else { Dimension::LENGTH };
-    let columns = match kind.columns() {
-        3 => columns::<3>(section, "columns", document).map(Vec::from),
-        1 => section.required("column", document).and_then(|item| column(&item, document)).map(|c| vec![c]),
-        _ => Some(Vec::new()),
+    let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
+    let columns = match kind.has("columns") {
+        true => columns::<3>(section, "columns", document).map(Vec::from),
+        false if kind.is_touched() => Some(Vec::new()),
+        false => {
+            section.required("column", document).and_then(|item| column(&item, document)).map(|c| vec![c])
+        }
     };
     let factor = if kind.is_touched() { Some(1.0) } else { unit(section, document, spec, dimension) };
     let uncertainty = match section.get("uncertainty") {
         Some(item) if is_unknown(&item, document) => Some(None),
         Some(item) => positive(&item, document, spec, dimension).map(Some),
-        None if angle || stated.is_none() => section.required("uncertainty", document).map(|_| None),
+        None if kind.is_angle || stated.is_none() => section.required("uncertainty", document).map(|_| None),
         None => Some(stated),
     };
-    // What stands for one that is unknown: 10 µm, or 10 µrad.
-    let some = if angle { 1e-5 } else { 1e-5 / spec.length.in_metres() };
+    // Initial value of an uncertainty to be estimated: 10 µm or 10 µrad.
+    let guess = if kind.is_angle { 1e-5 } else { 1e-5 / spec.length.in_metres() };
     let (zero, zero_known) = zero(section, kind, document, spec)?;
-    let look = Look {
-        targets: looked_at(section, kind, targets, document)?,
-        at: optional(section, "at", needs_place(kind), document, spec, Dimension::LENGTH)?,
-        direction: direction(
-            section,
-            "direction",
-            matches!(kind, Kind::Plane | Kind::Indicator | Kind::Angle),
-            document,
-            spec,
-        )?,
-        mirror: unit_vector(direction(section, "mirror", angle, document, spec)?),
+    let targets = targets_of(section, kind, targets, document)?;
+    let at = own_vector(section, kind, "at", document, spec, Dimension::LENGTH)?;
+    let direction = own_direction(section, kind, "direction", document, spec)?;
+    let mirror = unit_vector(own_direction(section, kind, "mirror", document, spec)?);
+    let observable = Observable {
+        name: name.clone().unwrap_or_default(),
+        kind,
+        instrument: all.list.len(),
+        axis: 0,
+        targets,
+        fixture: None,
+        at,
+        mirror,
         zero,
         zero_known,
-        uncertainty: uncertainty?.unwrap_or(some),
+        uncertainty: uncertainty?.unwrap_or(guess),
     };
     let setup = setup(section, all, document, spec)?;
     let unit = section.get("unit").and_then(|item| document.string(&item));
@@ -146,7 +142,17 @@ fn instrument(
         None => None,
     };
     let name = name?;
-    let readings = all.add(&name, kind, &look);
+    let geometry = match kind.has("direction") {
+        true => Some(FixtureGeometry::Direction(direction)),
+        false => kind.has("at").then_some(FixtureGeometry::Point(at)),
+    };
+    let fixture = geometry.map(|geometry| {
+        all.fixtures.push(Fixture { name: name.clone(), geometry });
+        all.fixtures.len() - 1
+    });
+    let first = all.observables.len();
+    let observable = Observable { fixture, ..observable };
+    all.observables.extend((0..kind.numbers).map(|axis| Observable { axis, ..observable.clone() }));
     Some(Instrument {
         name,
         kind,
@@ -156,61 +162,36 @@ fn instrument(
         setup,
         range,
         uncertainty: uncertainty?,
-        at: section.get("at").is_some().then_some(look.at),
-        readings,
+        observables: first..all.observables.len(),
     })
 }
 
-/// The keys that an instrument of a kind has.
-fn keys_of(kind: Kind) -> Keys {
-    let keys: &'static [&'static str] = match kind {
-        Kind::Point => &["name", "kind", "columns", "unit", "target", "setup", "uncertainty"],
-        Kind::Distance => {
-            &["name", "kind", "column", "unit", "target", "at", "zero", "range", "setup", "uncertainty"]
-        }
-        Kind::Contact => &["name", "kind", "target", "at", "setup", "uncertainty"],
-        Kind::Plane => &["name", "kind", "target", "at", "direction", "setup", "uncertainty"],
-        Kind::Sphere => &["name", "kind", "target", "at", "radius", "nominal_radius", "setup", "uncertainty"],
-        Kind::Indicator => {
-            &["name", "kind", "column", "unit", "target", "at", "direction", "range", "setup", "uncertainty"]
-        }
-        Kind::Between => &["name", "kind", "column", "unit", "targets", "zero", "setup", "uncertainty"],
-        Kind::Displacement => &["name", "kind", "column", "unit", "target", "setup", "uncertainty"],
-        Kind::Angle => &["name", "kind", "column", "unit", "direction", "mirror", "setup", "uncertainty"],
-    };
-    Keys { tables: &["[[instrument]]"], keys }
-}
-
-fn needs_place(kind: Kind) -> bool {
-    !matches!(kind, Kind::Point | Kind::Between | Kind::Displacement | Kind::Angle)
-}
-
-/// Whether the data are to tell a number.
+/// Returns whether a number is to be estimated from the data.
 fn is_unknown(item: &Item<'_>, document: &mut Document) -> bool {
     item.is_text() && document.string(item).as_deref() == Some("unknown")
 }
 
-/// The targets that an instrument looks at, by index: the first if it names none.
-fn looked_at(
+/// Reads the indices of the targets of an instrument; the first target if it names none.
+fn targets_of(
     section: &Section<'_>,
-    kind: Kind,
+    kind: &InstrumentKind,
     targets: &[Named],
     document: &mut Document,
-) -> Option<Vec<usize>> {
+) -> Option<[usize; 2]> {
     let names: Vec<&str> = targets.iter().map(|target| target.name.as_str()).collect();
     let find = |item: &Item<'_>, document: &mut Document| {
         let name = document.string(item)?;
         find_name(document, item.span(), &name, &names, "target")
     };
-    if kind == Kind::Between {
+    if kind.has("targets") {
         let item = section.required("targets", document)?;
         let both: [Item<'_>; 2] = document.entries(&item, "two names of targets")?;
         let [first, second] = both.map(|item| find(&item, document));
-        return Some(vec![first?, second?]);
+        return Some([first?, second?]);
     }
     match section.get("target") {
-        Some(item) => find(&item, document).map(|target| vec![target]),
-        None => Some(vec![0]),
+        Some(item) => find(&item, document).map(|target| [target; 2]),
+        None => Some([0; 2]),
     }
 }
 
@@ -229,19 +210,20 @@ fn setup(
     constant(&item, document, spec, Dimension::NONE).map(Some)
 }
 
-/// What the instrument adds to a distance, and whether that is known: its zero, of a sphere minus the radius.
-fn zero(section: &Section<'_>, kind: Kind, document: &mut Document, spec: &Spec) -> Option<(f64, bool)> {
-    let (key, sign) = match kind {
-        Kind::Sphere => ("radius", -1.0),
-        _ => ("zero", 1.0),
-    };
-    let item = match kind {
-        Kind::Sphere => Some(section.required(key, document)?),
-        _ => section.get(key),
+/// Reads the zero of an instrument, and whether it is known: `zero`, or minus `radius`.
+fn zero(
+    section: &Section<'_>,
+    kind: &InstrumentKind,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<(f64, bool)> {
+    let (item, sign) = match kind.has("radius") {
+        true => (Some(section.required("radius", document)?), -1.0),
+        false => (section.get("zero"), 1.0),
     };
     let nominal = section.get("nominal_radius");
     match (item, nominal) {
-        (None, _) => Some((0.0, true)),
+        (None, _) => Some((0.0, !kind.has_unknown_zero)),
         (Some(item), nominal) if is_unknown(&item, document) => {
             let about = nominal.map(|item| constant(&item, document, spec, Dimension::LENGTH));
             Some((about.map_or(Some(0.0), |about| about.map(|about| sign * about))?, false))
@@ -259,19 +241,20 @@ fn zero(section: &Section<'_>, kind: Kind, document: &mut Document, spec: &Spec)
     }
 }
 
-fn optional(
+/// Reads a vector; zero if instruments of this kind have no such key.
+fn own_vector(
     section: &Section<'_>,
+    kind: &InstrumentKind,
     key: &str,
-    needed: bool,
     document: &mut Document,
     spec: &Spec,
     dimension: Dimension,
 ) -> Option<[f64; 3]> {
-    match section.get(key) {
-        Some(item) => vector(&item, document, spec, dimension),
-        None if needed => section.required(key, document).map(|_| [0.0; 3]),
-        None => Some([0.0; 3]),
+    if !kind.has(key) {
+        return Some([0.0; 3]);
     }
+    let item = section.required(key, document)?;
+    vector(&item, document, spec, dimension)
 }
 
 fn vector(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<[f64; 3]> {
@@ -282,16 +265,17 @@ fn vector(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dime
     Some([x?, y?, z?])
 }
 
-fn direction(
+/// Reads a direction, which must not be zero; zero if instruments of this kind have no such key.
+fn own_direction(
     section: &Section<'_>,
+    kind: &InstrumentKind,
     key: &str,
-    needed: bool,
     document: &mut Document,
     spec: &Spec,
 ) -> Option<[f64; 3]> {
-    let along = optional(section, key, needed, document, spec, Dimension::NONE)?;
+    let along = own_vector(section, kind, key, document, spec, Dimension::NONE)?;
     match section.get(key) {
-        Some(item) if norm(along) == 0.0 => {
+        Some(item) if kind.has(key) && norm(along) == 0.0 => {
             let mistake = Diagnostic::new(item.span(), format!("`{key}` has no direction"));
             document.mistake(mistake.help("write where it points: [0, 0, 1] is z"));
             None

@@ -1,7 +1,7 @@
-//! Reads where the machine stands and what is mounted on its tool.
+//! Readers of `[[station]]`, `[placement]` and `[[place]]`.
 
 use abbe::Pose;
-use abbe::identify::Place;
+use abbe::identify::FixtureGeometry;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
@@ -15,7 +15,7 @@ use super::read_values::{column, constant};
 use super::rotation;
 use super::station::{Placement, StatedStation, Stations};
 
-/// The column of stations in `[data]`, and the `[[station]]` tables.
+/// Reads the column of stations in `[data]`, and the `[[station]]` tables.
 pub(super) fn stations(
     root: &Section<'_>,
     head: &Section<'_>,
@@ -53,7 +53,7 @@ pub(super) fn stations(
     Some(Stations { column, stated })
 }
 
-/// `[placement]`, and whether it is exact.
+/// Reads `[placement]`, and whether it is exact.
 pub(super) fn placement(
     root: &Section<'_>,
     head: &Section<'_>,
@@ -98,7 +98,7 @@ pub(super) fn placement(
     Some(placement)
 }
 
-/// `[[place]]`: where what instruments look at was found.
+/// Reads `[[place]]`: identified geometry and zero of the fixtures of instruments.
 pub(super) fn found_places(
     root: &Section<'_>,
     layout: Option<Layout>,
@@ -121,21 +121,21 @@ pub(super) fn found_places(
         let name = section.required("name", document)?;
         let text = document.string(&name)?;
         let instrument = find_name(document, name.span(), &text, &names, "instrument")?;
-        let (fixture, first) = (all.fixture_of(instrument), all.list[instrument].readings.start);
-        let (gauge, zero_known) = (all.readings[first].gauge, all.readings[first].zero_known);
+        let (fixture, first) = (all.fixture_of(instrument), all.list[instrument].observables.start);
+        let (kind, zero_known) = (all.observables[first].kind, all.observables[first].zero_known);
         if let Some(fixture) = fixture {
-            let (key, dimension) = match all.fixtures[fixture].place {
-                Place::Point(_) => ("position", Dimension::LENGTH),
-                Place::Direction(_) => ("direction", Dimension::NONE),
+            let (key, dimension) = match all.fixtures[fixture].geometry {
+                FixtureGeometry::Point(_) => ("position", Dimension::LENGTH),
+                FixtureGeometry::Direction(_) => ("direction", Dimension::NONE),
             };
             let three = section.required(key, document)?;
             let three: [Item<'_>; 3] = document.entries(&three, "three numbers: x, y, z")?;
             let [x, y, z] = three.map(|item| constant(&item, document, spec, dimension));
             let found = [x?, y?, z?];
-            all.fixtures[fixture].place = match all.fixtures[fixture].place {
-                Place::Point(_) => Place::Point(found),
-                Place::Direction(_) if norm(found) > 0.0 => Place::Direction(found),
-                Place::Direction(_) => {
+            all.fixtures[fixture].geometry = match all.fixtures[fixture].geometry {
+                FixtureGeometry::Point(_) => FixtureGeometry::Point(found),
+                FixtureGeometry::Direction(_) if norm(found) > 0.0 => FixtureGeometry::Direction(found),
+                FixtureGeometry::Direction(_) => {
                     let mistake = Diagnostic::new(item.span(), "`direction` has no direction");
                     document.mistake(mistake.help("write where it points: [0, 0, 1] is z"));
                     return None;
@@ -144,17 +144,17 @@ pub(super) fn found_places(
         }
         if !zero_known {
             let zero = section.required("zero", document)?;
-            let dimension = if gauge.is_angle() { Dimension::NONE } else { Dimension::LENGTH };
-            all.readings[first].zero = constant(&zero, document, spec, dimension)?;
+            let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
+            all.observables[first].zero = constant(&zero, document, spec, dimension)?;
         }
-        let place = fixture.map_or(0, |fixture| all.fixtures[fixture].place.unknowns());
+        let place = fixture.map_or(0, |fixture| all.fixtures[fixture].geometry.unknowns());
         covariance(&section, document, place + usize::from(!zero_known))?;
         all.found.push(instrument);
     }
     Some(Layout::Instruments(all))
 }
 
-/// A position and a quaternion: w x y z.
+/// Reads a position and a quaternion w x y z.
 fn place(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Pose> {
     let position = section.required("position", document)?;
     let position: [Item<'_>; 3] = document.entries(&position, "three lengths")?;
@@ -172,7 +172,7 @@ fn place(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     }
 }
 
-/// A covariance that is for people and other programs: its size is checked.
+/// Checks the size of a covariance, which is not used otherwise.
 fn covariance(section: &Section<'_>, document: &mut Document, size: usize) -> Option<()> {
     let Some(item) = section.get("covariance") else { return Some(()) };
     let rows = document.array(&item, "rows of numbers")?;

@@ -1,4 +1,4 @@
-//! Reads what stands in a map: constants, columns and units.
+//! Readers of constants, columns and units.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
@@ -8,7 +8,7 @@ use abbe_spec::value::parse_value;
 
 use super::column::Column;
 
-/// What squares and reciprocals of can be computed with.
+/// Reads a positive number whose square and reciprocal are finite.
 pub(super) fn positive(
     item: &Item<'_>,
     document: &mut Document,
@@ -52,7 +52,7 @@ pub(super) fn columns<const N: usize>(
     columns.try_into().ok()
 }
 
-/// What the numbers are multiplied with: `unit`, a text such as "deg".
+/// Reads `unit`, a text such as "deg", as a factor to coherent units.
 pub(super) fn unit(
     section: &Section<'_>,
     document: &mut Document,

@@ -11,19 +11,19 @@ use super::cells::Cells;
 use super::date::parse_date;
 use super::dialect::Dialect;
 
-/// A record below the heading.
+/// A row of a file or of columns in memory.
 pub(super) struct Record {
-    /// Its line in the file, from 1; in a table its row, from 0.
+    /// Line in the file, from 1; index of the row in a table.
     pub(super) line: u64,
     heading: Arc<[String]>,
     fields: Fields,
 }
 
-/// What stands in it.
+/// Storage of the cells.
 enum Fields {
-    /// In a file: texts.
+    /// Texts of a file.
     Written(Dialect, StringRecord),
-    /// In columns: their cells in one row.
+    /// Columns in memory, and the index of the row.
     Columns(Arc<[Arc<Cells>]>, usize),
 }
 
@@ -42,7 +42,7 @@ impl Record {
         Self { line: row as u64, heading, fields: Fields::Columns(cells, row) }
     }
 
-    /// What stands at a place, none behind its end.
+    /// Returns a cell; none beyond the end.
     fn cell(&self, place: usize) -> Option<Cell<'_>> {
         match &self.fields {
             Fields::Written(_, fields) => fields.get(place).map(Cell::Text),
@@ -54,7 +54,7 @@ impl Record {
         }
     }
 
-    /// The number that a text is.
+    /// Parses the number in a text.
     fn parsed(&self, text: &str) -> Option<f64> {
         match &self.fields {
             Fields::Written(dialect, _) => dialect.number(text),
@@ -62,7 +62,7 @@ impl Record {
         }
     }
 
-    /// Whether there are cells beyond the heading, and how many in all. Empty ones do not count.
+    /// Returns a message if there are nonempty cells beyond the heading.
     pub(super) fn too_long(&self) -> Option<String> {
         let Fields::Written(dialect, fields) = &self.fields else { return None };
         let cells = (1..=fields.len()).rev().find(|cells| !self.is_empty(cells - 1))?;
@@ -70,22 +70,23 @@ impl Record {
         (cells > columns).then(|| {
             let between = dialect.delimiter();
             format!(
-                "it has {cells} cells, the heading {columns}: is there one of the {between} inside a cell?"
+                "it has {cells} cells, the heading {columns}: is a cell with one of the {between} \
+                 not quoted?"
             )
         })
     }
 
-    /// Whether there is nothing at a place.
+    /// Returns whether a cell is empty.
     pub(super) fn is_empty(&self, place: usize) -> bool {
         matches!(self.cell(place), None | Some(Cell::Text("")))
     }
 
-    /// The finite numbers at some places, or why one is none.
+    /// Returns the finite numbers of some cells, or the reason of the first that has none.
     pub(super) fn numbers(&self, places: &[usize]) -> Result<Vec<f64>, String> {
         places.iter().map(|place| self.number(*place)).collect()
     }
 
-    /// What stands at a place.
+    /// Returns the text of a cell.
     pub(super) fn text(&self, place: usize) -> Cow<'_, str> {
         match self.cell(place) {
             None => "".into(),
@@ -94,7 +95,7 @@ impl Record {
         }
     }
 
-    /// The time at a place: a number, or of a date the days since 1970.
+    /// Returns the time in a cell: a number, or the days from 1970-01-01 to a date.
     pub(super) fn time(&self, place: usize) -> Result<f64, String> {
         let text = self.text(place);
         let time = parse_date(&text).map(|(_, time)| time).or_else(|| self.parsed(&text));
@@ -103,7 +104,7 @@ impl Record {
         })
     }
 
-    /// The finite number at a place, or why it is none.
+    /// Returns the finite number in a cell, or the reason of the failure.
     pub(super) fn number(&self, place: usize) -> Result<f64, String> {
         let name = &self.heading[place];
         let (number, text) = match self.cell(place) {

@@ -1,11 +1,11 @@
-//! Rotations from the numbers that files hold, and back.
+//! Conversion between rotations and their representations in files.
 
 use super::turn::{Order, Turn};
 
-/// The columns of a rotation matrix.
+/// Columns of a rotation matrix.
 pub(crate) type Rotation = [[f64; 3]; 3];
 
-/// The rotation, or why the numbers are none.
+/// Converts numbers to a rotation, or returns the reason of the failure.
 pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, String> {
     match turn {
         Turn::Quaternion(_, order) => {
@@ -25,7 +25,7 @@ pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, Str
     }
 }
 
-/// Tests whether columns are those of a rotation: lengths and angles between them to this tolerance, right-handed.
+/// Returns whether columns are orthonormal to a tolerance, and right-handed.
 pub(crate) fn is_rotation(r: &Rotation, tolerance: f64) -> bool {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let [x, y, z] = *r;
@@ -35,13 +35,13 @@ pub(crate) fn is_rotation(r: &Rotation, tolerance: f64) -> bool {
         && dot(cross, z) > 0.0
 }
 
-/// `R_a R_b R_c` of three angles in rad about these axes, 0 = x.
+/// Returns `R_a R_b R_c` for three angles in rad about these axes, 0 = x.
 pub(crate) fn from_euler(axes: [usize; 3], angles: [f64; 3]) -> Rotation {
     let turns = axes.into_iter().zip(angles).map(|(axis, angle)| about(axis, angle));
     turns.fold(about(0, 0.0), |product, turn| times(&product, &turn))
 }
 
-/// The rotation of an axis times its angle in rad, or why it is none.
+/// Returns the rotation of a rotation vector in rad, or the reason of the failure.
 pub(crate) fn from_rotation_vector(vector: [f64; 3]) -> Result<Rotation, String> {
     let angle = length(vector);
     // sin(a/2) / a.
@@ -50,7 +50,7 @@ pub(crate) fn from_rotation_vector(vector: [f64; 3]) -> Result<Rotation, String>
     from_quaternion(&[(0.5 * angle).cos(), x, y, z])
 }
 
-/// The rotation of a quaternion w x y z, or why it is none.
+/// Returns the rotation of a quaternion w x y z, or the reason of the failure.
 pub(crate) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
     let [w, x, y, z] = numbers.try_into().unwrap_or([0.0; 4]);
     let length = (w * w + x * x + y * y + z * z).sqrt();
@@ -65,7 +65,7 @@ pub(crate) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
     ])
 }
 
-/// The numbers of a rotation, as they are written.
+/// Converts a rotation to the numbers of its representation.
 pub(crate) fn to_numbers(turn: &Turn, r: &Rotation) -> Vec<f64> {
     match turn {
         Turn::Quaternion(_, order) => {
@@ -94,7 +94,7 @@ fn times(a: &Rotation, b: &Rotation) -> Rotation {
     b.map(|column| std::array::from_fn(|i| (0..3).map(|k| a[k][i] * column[k]).sum()))
 }
 
-/// The quaternion w x y z of a rotation.
+/// Returns the quaternion w x y z of a rotation.
 pub(crate) fn quaternion(r: &Rotation) -> [f64; 4] {
     let trace = r[0][0] + r[1][1] + r[2][2];
     let largest = [trace, r[0][0], r[1][1], r[2][2]];
@@ -114,7 +114,7 @@ pub(crate) fn quaternion(r: &Rotation) -> [f64; 4] {
     q
 }
 
-/// The axis times the angle, which is at most π.
+/// Returns the rotation vector, with an angle of at most π.
 fn rotation_vector(r: &Rotation) -> [f64; 3] {
     let [w, x, y, z] = quaternion(r);
     let sine = length([x, y, z]);
@@ -127,7 +127,7 @@ fn length([x, y, z]: [f64; 3]) -> f64 {
     x.hypot(y).hypot(z)
 }
 
-/// Angles of `R_a R_b R_c`, where no axis follows itself.
+/// Returns the angles of `R_a R_b R_c`; consecutive axes differ.
 fn euler(r: &Rotation, [a, b, c]: [usize; 3]) -> [f64; 3] {
     let sign = if (a + 1) % 3 == b { 1.0 } else { -1.0 };
     // Entries are r[column][row].

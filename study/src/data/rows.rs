@@ -1,4 +1,4 @@
-//! Rows of a data file: what can be used, and what cannot and why.
+//! Rows of a data file: usable observations, and the reasons of the others.
 
 use std::borrow::Cow;
 use std::hash::{BuildHasher, Hash, Hasher, RandomState};
@@ -16,68 +16,68 @@ use super::instrument::{Instruments, NOTHING_READ};
 use super::map::{Layout, Map};
 use super::record::Record;
 use super::source::Source;
-use crate::mistake;
+use crate::{mistake, number};
 
 /// A row that cannot be used.
 #[derive(Clone, Debug, Serialize)]
 pub struct Unusable {
-    /// Its line in the file, from 1; of columns in memory its row, from 0.
+    /// Line in the file, from 1; index of the row for columns in memory.
     pub line: u64,
-    /// Why not.
+    /// Reason.
     pub reason: String,
 }
 
-/// The rows of a file, or of columns in memory.
+/// Rows of a file, or of columns in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
-    /// The file's name, or what the columns are called.
+    /// Name of the file or of the columns.
     pub file: String,
-    /// The file itself; none if the rows come from elsewhere.
+    /// The file; empty if the rows come from elsewhere.
     pub files: Vec<PathBuf>,
-    /// How it is written, if not with commas between cells and points in decimals.
-    pub written: Option<&'static str>,
-    /// Those that can be used, in order.
+    /// Description of the dialect, if it is not the usual one.
+    pub dialect: Option<&'static str>,
+    /// Usable rows, in order.
     pub observations: Vec<Observation>,
-    /// Those that cannot.
+    /// Unusable rows.
     pub unusable: Vec<Unusable>,
-    /// The names of the stations that rows were measured at; none if that is not said.
+    /// Names of the stations; empty if there is no column for them.
     pub stations: Vec<String>,
 }
 
-/// Which columns are read.
+/// Columns to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wanted {
-    /// What was commanded alone: a plan.
+    /// Commands alone: a plan.
     Commanded,
-    /// What was measured, too.
+    /// Commands and measurements.
     Measured,
 }
 
 impl Data {
-    /// The same measurements with configurations drawn with replacement, for the bootstrap: see
-    /// [`Configurations::resampled`].
+    /// Draws configurations with replacement, for the bootstrap; see [`Configurations::resampled`].
     pub fn resampled(&self, seed: u64, number: usize) -> Self {
         let rows = Configurations::new(&self.observations).resampled(seed, number);
         let observations = rows.into_iter().map(|row| self.observations[row].clone()).collect();
         Self { observations, ..self.clone() }
     }
 
-    /// Reads what was commanded and what was measured. A row that was there before, digit by digit, is not used.
+    /// Reads commands and measurements. Exact repetitions of a row are unusable.
     pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
         Self::rows(source.into(), map, Wanted::Measured, true)
     }
 
-    /// The names of the columns of a file.
+    /// Returns the names of the columns of a file.
     pub fn heading(file: &Path) -> Result<Vec<String>, Diagnostics> {
         Source::File(file).open().map(|file| file.heading.to_vec())
     }
 
-    /// Reads where the tool is wanted: what is measured elsewhere; the same place may be wanted again.
+    /// Reads wanted poses of the tool, which other columns of the map measure; repetitions are
+    /// kept.
     pub fn read_wanted<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
         Self::rows(source.into(), map, Wanted::Measured, false)
     }
 
-    /// Reads what was commanded alone: a plan.
+    /// Reads commands alone: a plan.
     pub fn read_commanded<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
         Self::rows(source.into(), map, Wanted::Commanded, false)
     }
@@ -85,12 +85,12 @@ impl Data {
     fn rows(source: Source<'_>, map: &Map, columns: Wanted, once: bool) -> Result<Self, Diagnostics> {
         let table = source.open()?;
         let header = &Arc::clone(&table.heading);
-        // The setup is read with what is measured, if anything is.
+        // With measurements, their columns include the setup.
         let setup = map.setup().filter(|_| columns == Wanted::Commanded);
         let commanded: Vec<&Column> = map.commanded().chain(setup).collect();
         let measured = if columns == Wanted::Measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
-        // A plan says only if it can where it is for.
+        // A plan does not need a column of stations.
         let is_there = |column: &&Column| columns == Wanted::Measured || place(column).is_some();
         let station = map.stations.column.as_ref().filter(is_there);
         let beside = map.group.iter().chain(&map.direction).chain(&map.time).filter(|_| once);
@@ -111,7 +111,7 @@ impl Data {
         let mut data = Self {
             file: source.name(),
             files: source.file().map(Path::to_owned).into_iter().collect(),
-            written: table.written,
+            dialect: table.dialect,
             stations: map.stations.names(),
             ..Self::default()
         };
@@ -119,8 +119,8 @@ impl Data {
             [&map.group, &map.direction, &map.time].map(|column| column.as_ref().and_then(|c| place(&c)));
         let (mut groups, mut directions) = (Vec::new(), Vec::new());
         let mut known = Known::default();
-        // Where the machine was before, for instruments that tell how far it moved since.
-        let from_before = map.instruments().is_some_and(Instruments::count_from_before);
+        // Previous row, for readings that refer to it.
+        let from_before = map.instruments().is_some_and(Instruments::depend_on_previous_row);
         let mut before: Option<Observation> = None;
         for record in table.records {
             let record = record?;
@@ -147,7 +147,7 @@ impl Data {
                     groups.extend(group.map(|place| record.text(place).into_owned()));
                     directions.extend(direction.map(|place| record.text(place).into_owned()));
                 }
-                // A place to begin from.
+                // The row is a reference for the next one.
                 Err(reason) if from_before && reason == NOTHING_READ => {}
                 Err(reason) => data.unusable.push(Unusable { line: record.line, reason }),
             }
@@ -179,7 +179,7 @@ impl Data {
         Ok(data)
     }
 
-    /// The index of a station; one of that name is added if there is none.
+    /// Returns the index of a station; adds it if it is new.
     fn station(&mut self, name: &str) -> u32 {
         let known = self.stations.iter().position(|station| station == name);
         known.unwrap_or_else(|| {
@@ -188,7 +188,8 @@ impl Data {
         }) as u32
     }
 
-    /// The same rows with their stations numbered as in `other`, or the first name that is not there.
+    /// Numbers the stations of the rows as in `other`; returns the first name that is missing
+    /// there.
     pub fn at_stations(&self, other: &Self) -> Result<Cow<'_, Self>, String> {
         if self.stations == other.stations {
             return Ok(Cow::Borrowed(self));
@@ -203,22 +204,22 @@ impl Data {
         Ok(Cow::Owned(data))
     }
 
-    /// Notes a row that was left out after all.
+    /// Adds a row to the unusable ones.
     pub fn leave_out(&mut self, line: u64, reason: &str) {
         let place = self.unusable.partition_point(|row| row.line < line);
         self.unusable.insert(place, Unusable { line, reason: reason.to_owned() });
     }
 
-    /// Where a row stands: `line 5` of a file, `row 3` of columns in memory.
+    /// Names a row: `line 5` of a file, `row 3` of columns in memory.
     pub fn place(&self, line: u64) -> String {
         place(!self.files.is_empty(), line)
     }
 
-    /// How many rows there are, and what is wrong with the others.
+    /// Summarizes the rows and the reasons of unusable ones.
     pub fn summary(&self) -> Summary {
         Summary {
             file: self.file.clone(),
-            written: self.written,
+            dialect: self.dialect,
             rows: self.observations.len(),
             unusable: self.unusable.clone(),
             of_file: !self.files.is_empty(),
@@ -226,34 +227,35 @@ impl Data {
     }
 }
 
-/// How many rows of a file can be used, and what is wrong with the others.
+/// Number of usable rows, and the reasons of the others.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// The file's name.
+    /// Name of the file.
     pub file: String,
-    /// How it is written, if not with commas between cells and points in decimals.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub written: Option<&'static str>,
-    /// How many rows can be used.
+    /// Description of the dialect, if it is not the usual one.
+    #[serde(rename = "written", skip_serializing_if = "Option::is_none")]
+    pub dialect: Option<&'static str>,
+    /// Number of usable rows.
     pub rows: usize,
-    /// Those that cannot.
+    /// Unusable rows.
     pub unusable: Vec<Unusable>,
-    /// Whether they have lines, being those of a file.
+    /// Rows are lines of a file.
     #[serde(skip)]
     pub(crate) of_file: bool,
 }
 
-/// Where a row stands, in words.
+/// Names a row.
 fn place(of_file: bool, line: u64) -> String {
     format!("{} {line}", if of_file { "line" } else { "row" })
 }
 
 impl Summary {
-    /// In words, one line each and not too many.
+    /// Formats the summary with a limited number of lines.
     pub fn lines(&self) -> Vec<String> {
         const SHOWN: usize = 10;
-        let written = self.written.map(|written| format!(" ({written})")).unwrap_or_default();
-        let mut lines = vec![format!("{}: {} rows{written}", self.file, self.rows)];
+        let dialect = self.dialect.map(|dialect| format!(" ({dialect})")).unwrap_or_default();
+        let mut lines =
+            vec![format!("{}: {}{dialect}", self.file, number::counted(self.rows, "row", "rows"))];
         if !self.unusable.is_empty() {
             lines[0] += &format!(", {} more that cannot be used:", self.unusable.len());
             let shown = self.unusable.iter().take(SHOWN);
@@ -266,7 +268,7 @@ impl Summary {
     }
 }
 
-/// The places of rows, by a hash of their digits: 5 bytes for each.
+/// Set of rows by the hash of their values: 5 bytes per row.
 #[derive(Default)]
 struct Known {
     places: HashTable<u32>,
@@ -274,12 +276,12 @@ struct Known {
 }
 
 impl Known {
-    /// Whether one of the rows says the same.
+    /// Returns whether an equal row is among `rows`.
     fn has(&self, row: &Observation, rows: &[Observation]) -> bool {
         self.places.find(hash(&self.digits, row), |place| is_same(&rows[*place as usize], row)).is_some()
     }
 
-    /// The last of the rows is known from now on.
+    /// Adds the last of the rows.
     fn add(&mut self, rows: &[Observation]) {
         let hash_of = |place: usize| hash(&self.digits, &rows[place]);
         let last = rows.len() - 1;
@@ -301,12 +303,13 @@ fn hash(digits: &RandomState, row: &Observation) -> u64 {
     hasher.finish()
 }
 
-/// Whether two rows say the same.
+/// Returns whether two rows are equal.
 fn is_same(a: &Observation, b: &Observation) -> bool {
     a.q == b.q && a.u == b.u && a.measured == b.measured
 }
 
-/// What a record says; `measured` are the places of what was measured, none if that is not wanted.
+/// Converts a record to an observation; `measured` are the columns of the measurement, none for a
+/// plan.
 fn row(
     record: &Record,
     commanded: &[usize],
@@ -321,7 +324,7 @@ fn row(
     let mut channel = |channel: &Channel| match channel {
         Channel::Column(_, scale) => scale.value(values.next().unwrap_or_default()),
         Channel::Fixed(value) => *value,
-        // All rows tell it together.
+        // Computed later, from all rows.
         Channel::FromRows(_) => 0.0,
     };
     let q: Vec<f64> = map.joints.iter().map(&mut channel).collect();
@@ -333,7 +336,7 @@ fn row(
     Ok(Observation::new(record.line, q, u, map.measurement(&numbers)?))
 }
 
-/// The numbers of what was measured, none where a target was hidden: its three fields are empty.
+/// Returns the numbers of the measurement; none for the three empty cells of a hidden target.
 fn measured_numbers(record: &Record, places: &[usize], map: &Map) -> Result<Vec<Option<f64>>, String> {
     if matches!(map.layout, Layout::Instruments(_)) {
         let number = |place: &usize| match record.is_empty(*place) {
@@ -358,7 +361,7 @@ fn measured_numbers(record: &Record, places: &[usize], map: &Map) -> Result<Vec<
     Ok(numbers)
 }
 
-/// Whether a row says how far a target has moved since the one before, and there is none.
+/// Returns whether a row has readings that refer to a previous row, without there being one.
 fn moved_from_nowhere(row: &Observation, before: Option<&Observation>, map: &Map) -> bool {
     match (map.instruments(), &row.measured, before) {
         (Some(all), Measurement::Readings(readings), None) => all.at_first(readings.clone()) != *readings,

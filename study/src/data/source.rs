@@ -1,4 +1,4 @@
-//! Where rows come from: a CSV file, or columns that are in memory.
+//! Sources of rows: a CSV file, or columns in memory.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use super::file::{File, MOST_ROWS};
 use super::record::Record;
 use crate::{hash, mistake};
 
-/// Where rows come from.
+/// Source of rows.
 #[derive(Clone, Copy, Debug)]
 pub enum Source<'a> {
     /// A CSV file.
@@ -20,10 +20,10 @@ pub enum Source<'a> {
     Columns(&'a Columns),
 }
 
-/// Columns of equal lengths, each with its name, and the names of others that nobody reads.
+/// Named columns of equal lengths, and the names of ignored ones.
 #[derive(Clone, Debug)]
 pub struct Columns {
-    /// What mistakes are shown under.
+    /// Name in diagnostics.
     name: String,
     pub(super) heading: Arc<[String]>,
     cells: Vec<Arc<Cells>>,
@@ -31,8 +31,10 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Columns with their names; `name` is what mistakes are shown under, `others` are columns that no map of theirs names.
-    /// Those of different lengths are a mistake.
+    /// Creates columns with their names.
+    ///
+    /// `name` is used in diagnostics; `others` are the names of ignored columns. Columns of
+    /// different lengths are an error.
     pub fn new(name: &str, columns: Vec<(String, Cells)>, others: Vec<String>) -> Result<Self, Diagnostics> {
         let rows = columns.first().map_or(0, |(_, cells)| cells.len());
         if let Some((other, cells)) = columns.iter().find(|(_, cells)| cells.len() != rows) {
@@ -45,7 +47,7 @@ impl Columns {
             return Err(mistake::with_help(name, message, "all columns of a table have a cell in every row"));
         }
         if rows > MOST_ROWS {
-            let message = format!("this table has {rows} rows; {MOST_ROWS} can be worked with");
+            let message = format!("this table has {rows} rows; the maximum is {MOST_ROWS}");
             return Err(mistake::with_help(name, message, "split it, or take every second row"));
         }
         let (mut heading, cells): (Vec<_>, Vec<_>) =
@@ -54,7 +56,7 @@ impl Columns {
         Ok(Self { name: name.to_owned(), heading: heading.into(), cells, rows })
     }
 
-    /// The SHA-256 of its names, numbers and texts; without the others.
+    /// Returns the SHA-256 of names, numbers and texts, without ignored columns.
     fn hash(&self) -> String {
         let mut hasher = Sha256::new();
         let mut text = |text: &str| {
@@ -70,20 +72,20 @@ impl Columns {
                 }
             }
         }
-        hash::digits(&hasher.finalize())
+        hash::hex(&hasher.finalize())
     }
 }
 
-/// A heading, and how the rows below it are read, one by one.
+/// A heading, and an iterator over the rows below it.
 pub(super) struct Opened {
     pub(super) heading: Arc<[String]>,
-    /// How it is written, if not as usual.
-    pub(super) written: Option<&'static str>,
+    /// Description of the dialect, if it is not the usual one.
+    pub(super) dialect: Option<&'static str>,
     pub(super) records: Box<dyn Iterator<Item = Result<Record, Diagnostics>>>,
 }
 
 impl Source<'_> {
-    /// What mistakes are shown under.
+    /// Returns the name in diagnostics.
     pub fn name(&self) -> String {
         match self {
             Self::File(file) => file.display().to_string(),
@@ -91,7 +93,7 @@ impl Source<'_> {
         }
     }
 
-    /// The file, if it is one.
+    /// Returns the path, if it is a file.
     pub fn file(&self) -> Option<&Path> {
         match self {
             Self::File(file) => Some(file),
@@ -99,10 +101,11 @@ impl Source<'_> {
         }
     }
 
-    /// The SHA-256 of a file as `sha256sum` says it; of columns, that of their names, numbers and texts.
+    /// Returns the SHA-256 of a file, as `sha256sum` does, or of the names, numbers and texts of
+    /// columns.
     pub fn hash(&self) -> Result<String, Diagnostics> {
         match self {
-            Self::File(file) => hash::of_file(file),
+            Self::File(file) => hash::file(file),
             Self::Columns(columns) => Ok(columns.hash()),
         }
     }
@@ -112,8 +115,8 @@ impl Source<'_> {
         match self {
             Self::File(file) => {
                 let file = File::open(file)?;
-                let (heading, written) = (Arc::clone(&file.heading), file.dialect.words());
-                Ok(Opened { heading, written, records: Box::new(file.records()) })
+                let (heading, dialect) = (Arc::clone(&file.heading), file.dialect.words());
+                Ok(Opened { heading, dialect, records: Box::new(file.records()) })
             }
             Self::Columns(columns) => {
                 let (heading, cells) = (Arc::clone(&columns.heading), Arc::<[_]>::from(&columns.cells[..]));
@@ -121,7 +124,7 @@ impl Source<'_> {
                     let heading = Arc::clone(&heading);
                     move |row| Ok(Record::of_columns(row, Arc::clone(&heading), Arc::clone(&cells)))
                 };
-                Ok(Opened { heading, written: None, records: Box::new((0..columns.rows).map(row)) })
+                Ok(Opened { heading, dialect: None, records: Box::new((0..columns.rows).map(row)) })
             }
         }
     }

@@ -1,34 +1,34 @@
-//! Where a machine stands and what is mounted on its tool, as a map states it: no errors of the machine.
+//! Stations and mounting as a map states them; they are no errors of the machine.
 
 use abbe::Pose;
 
 use super::column::Column;
 
-/// Where the machine stands before the instrument.
+/// Pose of the machine at a station.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedStation {
-    /// What it is called; empty if it is the only one.
+    /// Name; empty for a single station.
     pub name: String,
-    /// From `F_0` to the frame of the instrument.
+    /// Transform from `F_0` to the frame of the instrument.
     pub pose: Pose,
 }
 
-/// The stations of a map.
+/// Stations of a map.
 #[derive(Clone, Debug, Default)]
 pub struct Stations {
-    /// The column that names the station of a row.
+    /// Column of the station of a row.
     pub column: Option<Column>,
-    /// Those whose place is stated.
+    /// Stations with a stated pose.
     pub stated: Vec<StatedStation>,
 }
 
 impl Stations {
-    /// Where a station is, if that is stated.
+    /// Returns the pose of a station, if it is stated.
     pub fn pose(&self, name: &str) -> Option<Pose> {
         self.stated.iter().find(|station| station.name == name).map(|station| station.pose)
     }
 
-    /// The names before any row is read: those that are stated, or a single one without a name.
+    /// Returns the names before any row is read: the stated ones, or a single empty one.
     pub(super) fn names(&self) -> Vec<String> {
         match (&self.column, &self.stated[..]) {
             (None, []) => vec![String::new()],
@@ -37,13 +37,14 @@ impl Stations {
     }
 }
 
-/// What is mounted on the tool.
+/// Mounting on the tool.
 #[derive(Clone, Debug, Default)]
 pub struct Placement {
-    /// Whether nothing of it is unknown: the targets, or the frame that is seen, are where the map says.
+    /// The mounting is exact: targets or measured frame have no unknowns.
     pub exact: bool,
-    /// Where the targets were found in the frame of the tool, in place of where they were designed.
+    /// Identified positions of the targets in the frame of the tool, which replace the nominal
+    /// ones.
     pub targets: Option<Vec<[f64; 3]>>,
-    /// From the frame that is seen to that of the tool, for whole poses.
+    /// Transform from the measured frame to the frame of the tool, for whole poses.
     pub mounting: Option<Pose>,
 }

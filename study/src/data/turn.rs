@@ -1,17 +1,17 @@
-//! How an orientation is written.
+//! Representations of an orientation.
 
 use super::column::Column;
 
-/// Which number of a quaternion comes first.
+/// Order of the numbers of a quaternion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// The scalar.
+    /// Scalar first.
     Wxyz,
-    /// The vector.
+    /// Scalar last.
     Xyzw,
 }
 
-/// The orders of axes, 0 = x, in which no axis follows itself.
+/// Orders of axes, 0 = x, without equal consecutive axes.
 pub(crate) const EULER_ORDERS: [(&str, [usize; 3]); 12] = [
     ("xyz", [0, 1, 2]),
     ("xzy", [0, 2, 1]),
@@ -27,16 +27,16 @@ pub(crate) const EULER_ORDERS: [(&str, [usize; 3]); 12] = [
     ("zyz", [2, 1, 2]),
 ];
 
-/// The columns of an orientation.
+/// Columns of an orientation.
 #[derive(Clone, Debug)]
 pub enum Turn {
     /// A quaternion.
     Quaternion(Box<[Column; 4]>, Order),
-    /// A rotation matrix, row by row.
+    /// A rotation matrix, in row-major order.
     Matrix(Box<[Column; 9]>),
-    /// Angles: times the factor are rad; the axes (0 = x) in the order of the product.
+    /// Three angles, their axes (0 = x) in the order of the product, and the factor to rad.
     Euler(Box<[Column; 3]>, [usize; 3], f64),
-    /// An axis times its angle: times the factor in rad.
+    /// A rotation vector, and the factor to rad.
     RotationVector(Box<[Column; 3]>, f64),
 }
 

@@ -1,36 +1,37 @@
-//! The interpretations that are tried where nothing is stated.
+//! Interpretations to try for data without a map.
 
 use super::kinematics::Kinematics;
 use crate::interpretations::{Chain, Change, Trial};
 
-/// Differences one by one and in pairs; then every choice of signs and, of up to six joints, every order.
+/// Returns the trials in two stages: single changes and pairs; then all combinations of signs and,
+/// for up to six joints, all permutations.
 pub(super) fn stages(kinematics: &Kinematics) -> impl Iterator<Item = Vec<Trial>> {
-    let (of_joints, of_ends) = (of_joints(kinematics), of_ends(kinematics));
+    let (joint_changes, end_changes) = (joint_changes(kinematics), end_changes(kinematics));
     let pairs = move || {
         let trial = |joints: &Vec<Change>| {
-            let ends = of_ends.iter().filter(|ends| are_tried(joints, ends)).cloned().collect();
+            let ends = end_changes.iter().filter(|ends| is_tried_together(joints, ends)).cloned().collect();
             Trial { joints: joints.clone(), ends }
         };
-        of_joints.iter().map(trial).collect()
+        joint_changes.iter().map(trial).collect()
     };
     let count = kinematics.kinds().len();
-    let further = move || {
+    let signs_and_orders = move || {
         let ends = [vec![], vec![Change::PoseInverted], vec![Change::BaseElsewhere, Change::ToolElsewhere]];
         let trial = |joints| Trial { joints, ends: ends.to_vec() };
-        further(count).into_iter().map(trial).collect()
+        signs_and_orders(count).into_iter().map(trial).collect()
     };
-    std::iter::once_with(pairs).chain(std::iter::once_with(further))
+    std::iter::once_with(pairs).chain(std::iter::once_with(signs_and_orders))
 }
 
-/// Changes of the joints, one alone and two together, none first.
-fn of_joints(kinematics: &Kinematics) -> Vec<Vec<Change>> {
+/// Returns changes of the joints: none, single ones, and pairs.
+fn joint_changes(kinematics: &Kinematics) -> Vec<Vec<Change>> {
     let kinds = kinematics.kinds();
     let count = kinds.len();
     let mut all: Vec<Change> = (0..count).map(|joint| Change::Reversed(vec![joint])).collect();
     let pairs = (0..count).flat_map(|j| (0..j).map(move |i| (i, j)));
     all.extend(pairs.map(|(i, j)| Change::exchanged(i, j, count)));
     if count > 3 {
-        // Two or three of them are swapped then.
+        // Cyclic and reversed orders; with up to three joints these are the swaps above.
         all.push(Change::Order((0..count).rev().collect()));
         all.push(Change::Order((0..count).map(|i| (i + 1) % count).collect()));
         all.push(Change::Order((0..count).map(|i| (i + count - 1) % count).collect()));
@@ -47,8 +48,8 @@ fn of_joints(kinematics: &Kinematics) -> Vec<Vec<Change>> {
     up_to_pairs(&all)
 }
 
-/// Changes of base, tool and poses, one alone and two together, none first.
-fn of_ends(kinematics: &Kinematics) -> Vec<Vec<Change>> {
+/// Returns changes of base, tool and pose: none, single ones, and pairs.
+fn end_changes(kinematics: &Kinematics) -> Vec<Vec<Change>> {
     let mut all = vec![Change::PoseInverted, Change::BaseElsewhere, Change::ToolElsewhere];
     if kinematics.has_tool {
         all.extend([Change::ToolInverted, Change::ToolLeftOut]);
@@ -64,7 +65,7 @@ fn of_ends(kinematics: &Kinematics) -> Vec<Vec<Change>> {
     sets
 }
 
-/// Tells whether one makes the other meaningless.
+/// Returns true if one change makes the other meaningless.
 fn excludes(one: &Change, other: &Change) -> bool {
     use Change::{
         BaseElsewhere, BaseInverted, BaseLeftOut, EndsExchanged, ToolElsewhere, ToolInverted, ToolLeftOut,
@@ -85,7 +86,7 @@ fn up_to_pairs(all: &[Change]) -> Vec<Vec<Change>> {
     for (i, second) in all.iter().enumerate() {
         sets.extend(all[..i].iter().map(|first| vec![first.clone(), second.clone()]));
     }
-    // Two orders, or two signs, are one of each kind.
+    // Two permutations, or two signs of one coupling, cannot be combined.
     sets.retain(|set| match &set[..] {
         [Change::Order(_), Change::Order(_)] => false,
         [Change::Coupled { joint, .. }, Change::Coupled { joint: other, .. }] => joint != other,
@@ -94,18 +95,19 @@ fn up_to_pairs(all: &[Change]) -> Vec<Vec<Change>> {
     sets
 }
 
-/// Tells whether changes of joints and of ends are tried together: two in all, and one of the joints whatever base and tool are.
-fn are_tried(of_joints: &[Change], of_ends: &[Change]) -> bool {
+/// Returns true if these changes of joints and ends are tried together: at most two in all, or with
+/// a fitted base or tool at most one of the joints.
+fn is_tried_together(joint_changes: &[Change], end_changes: &[Change]) -> bool {
     let is_fitted = |change: &Change| matches!(change, Change::BaseElsewhere | Change::ToolElsewhere);
-    let zero = of_joints.iter().any(|change| matches!(change, Change::Zero { .. }));
-    if of_ends.iter().any(is_fitted) {
-        return !zero && of_joints.len() <= 1;
+    let zero = joint_changes.iter().any(|change| matches!(change, Change::Zero { .. }));
+    if end_changes.iter().any(is_fitted) {
+        return !zero && joint_changes.len() <= 1;
     }
-    of_joints.len() + of_ends.len() <= 2
+    joint_changes.len() + end_changes.len() <= 2
 }
 
-/// Every order of up to six joints, and every choice of signs.
-fn further(count: usize) -> Vec<Vec<Change>> {
+/// Returns all combinations of more than two signs, and all permutations of four to six joints.
+fn signs_and_orders(count: usize) -> Vec<Vec<Change>> {
     let mut sets = Vec::new();
     if count <= 8 {
         for signs in 0..1_u32 << count {
@@ -116,12 +118,12 @@ fn further(count: usize) -> Vec<Vec<Change>> {
         }
     }
     if (4..=6).contains(&count) {
-        sets.extend(orders(count).into_iter().map(|order| vec![Change::Order(order)]));
+        sets.extend(permutations(count).into_iter().map(|order| vec![Change::Order(order)]));
     }
     sets
 }
 
-fn orders(count: usize) -> Vec<Vec<usize>> {
+fn permutations(count: usize) -> Vec<Vec<usize>> {
     let mut all = vec![Vec::new()];
     for _ in 0..count {
         let longer = |order: &Vec<usize>| {

@@ -1,38 +1,40 @@
-//! The numbers of a file or a table: joints, and what was seen.
+//! Columns of a file or table: joint values and measured poses.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostics, listed};
 
-use crate::data::{Numbers, Source, numbers};
+use crate::data::{RawTable, Source, raw_table};
 use crate::interpretations::configurations;
 use crate::{Notes, mistake};
 
-/// The rows of a file or a table.
+/// Numeric columns of a file or table.
 pub(super) struct Columns {
-    /// The names of the columns of joints.
+    /// Names of the joint columns.
     pub(super) joint_names: Vec<String>,
-    /// The names of the others that have numbers.
+    /// Names of the other numeric columns.
     pub(super) pose_names: Vec<String>,
-    /// A number for each joint, as it stands there.
+    /// Joint values per row, in the file's units.
     pub(super) joints: Vec<Vec<f64>>,
-    /// What was seen, as it stands there.
+    /// Measured values per row, in the file's units.
     pub(super) pose: Vec<Vec<f64>>,
 }
 
-/// Of fewer configurations every reading fits.
+/// Smallest number of distinct configurations. With fewer, every interpretation fits.
 const LEAST: usize = 4;
 
 impl Columns {
-    /// The columns that are named as the variables of the spec are the joints; if not all are there, the first ones.
+    /// Reads the columns. Joint columns are those named as the variables of the spec; unless all of
+    /// these exist, the first columns are. Keeps at most `most` rows, evenly spaced.
     pub(super) fn read(
         source: Source<'_>,
         spec: &Spec,
         most: usize,
         notes: &mut dyn Notes,
     ) -> Result<Self, Diagnostics> {
-        let Numbers { heading, rows, slips } = numbers(source)?;
+        let RawTable { heading, rows, slips } = raw_table(source)?;
         let fail = |message: String, help: &str| Err(mistake::with_help(source.name(), message, help));
-        // A cell that is no number among numbers is a slip in its row; among texts it is a text.
+        // In a mostly numeric column, a cell that is no number invalidates its row; other columns
+        // are text.
         let is_number = |place: usize| {
             let numbers = rows.iter().filter(|row| !row[place].is_nan()).count();
             2 * numbers > rows.len()
@@ -55,7 +57,7 @@ impl Columns {
         }
         if !texts.is_empty() {
             let texts: Vec<&str> = texts.iter().map(|place| heading[*place].as_str()).collect();
-            notes.note(&format!("columns of texts are not read: {}", listed(&texts)));
+            notes.note(&format!("text columns are ignored: {}", listed(&texts)));
         }
         let is_whole = |row: &&Vec<f64>| !numeric.iter().any(|place| row[*place].is_nan());
         let whole: Vec<&Vec<f64>> = rows.iter().filter(is_whole).collect();
@@ -66,7 +68,7 @@ impl Columns {
                 count => format!("; {count} rows are like this"),
             };
             let place = if source.file().is_some() { "line" } else { "row" };
-            notes.warn(&format!("a row that is not whole is not read: {place} {line}: {reason}{others}"));
+            notes.warn(&format!("an incomplete row is ignored: {place} {line}: {reason}{others}"));
         }
         let named: Option<Vec<usize>> = spec
             .variables
@@ -77,7 +79,7 @@ impl Columns {
         let pose: Vec<usize> = numeric.into_iter().filter(|place| !joints.contains(place)).collect();
         let step = whole.len().div_ceil(most).max(1);
         if step > 1 {
-            notes.note(&format!("{} of {} rows are looked at", whole.len().div_ceil(step), whole.len()));
+            notes.note(&format!("{} of {} rows are used", whole.len().div_ceil(step), whole.len()));
         }
         let picked = |places: &[usize]| -> Vec<Vec<f64>> {
             let row = |row: &&Vec<f64>| places.iter().map(|place| row[*place]).collect();
@@ -88,14 +90,14 @@ impl Columns {
         if configurations < LEAST {
             let message = match at.len() {
                 rows if rows == configurations => {
-                    format!("this {what} has {rows} whole rows below its heading")
+                    format!("this {what} has {rows} complete rows below its heading")
                 }
                 rows if configurations == 1 => {
                     format!("the {rows} rows of this {what} are of one configuration")
                 }
                 rows => format!("the {rows} rows of this {what} are of {configurations} configurations"),
             };
-            return fail(message, "give four at least, better ten, at configurations far from each other");
+            return fail(message, "give at least four rows, better ten, at well-spread configurations");
         }
         let names = |places: &[usize]| places.iter().map(|place| heading[*place].clone()).collect();
         Ok(Self { joint_names: names(&joints), pose_names: names(&pose), joints: at, pose: seen })

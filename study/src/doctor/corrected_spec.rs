@@ -1,7 +1,8 @@
-//! Corrects the text of a spec by an interpretation, and leaves everything else in it as it is.
+//! Rewrites the text of a spec according to an interpretation, and keeps everything else in it.
 //!
-//! Numbers of the other convention are under the other key; what is the other way round is its factors inverted, last first; a coupled joint
-//! and zeros behind a coupling are written where the variable stands: with column values c, `q3` becomes `(q3 + q2 + zero)`.
+//! The other convention is the other key. An inverted placement is the product of its inverted
+//! factors in reverse order. A coupled joint, and the zeros of a coupled machine, are inserted at
+//! the variable: with column values c, `q3` becomes `(q3 + q2 + zero)`.
 
 use std::ops::Range;
 use std::path::Path;
@@ -17,50 +18,53 @@ use crate::interpretations::{Change, words};
 use crate::number::digits;
 use crate::toml_text::quoted;
 
-/// The keys that place a frame or the tool.
-const PLACES: [&str; 5] = ["transform", "matrix", "dh", "mdh", "origin"];
+/// Keys that place a frame or the tool.
+const PLACEMENT_KEYS: [&str; 5] = ["transform", "matrix", "dh", "mdh", "origin"];
 
-/// Digits of a fitted zero, which rows determine to fewer.
+/// Significant digits of a fitted zero; data determine fewer.
 const DIGITS: usize = 8;
 
-/// Where text is replaced, and by what.
+/// Range of text to replace, with its replacement.
 type Edit = (Range<usize>, String);
 
 impl Report {
-    /// Returns the spec, whose text this is, by the first interpretation; none if that changes nothing of the spec, or something that its
-    /// text cannot say. `path` is the name of its file: files of tables must be where they are looked for from there.
+    /// Returns the text of the spec according to the first interpretation. Returns `None` if that
+    /// changes nothing in the spec, or cannot be expressed in its text. `path` is the file name of
+    /// the result; paths of table files are resolved from there.
     pub fn corrected(&self, spec: &Spec, text: &str, path: &str) -> Result<Option<String>, Diagnostics> {
         let changes = self.found.first().map_or(&[][..], |found| &found.interpretation.changes);
-        let Some(text) = changed(changes, spec, text) else { return Ok(None) };
+        let Some(text) = rewritten(changes, spec, text) else { return Ok(None) };
         Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &text)?;
         Ok(Some(text))
     }
 }
 
-fn changed(changes: &[Change], spec: &Spec, text: &str) -> Option<String> {
+fn rewritten(changes: &[Change], spec: &Spec, text: &str) -> Option<String> {
     let coupled = changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
-    let mut of_spec: Vec<&Change> = changes.iter().filter(|change| step(change, coupled).is_some()).collect();
-    // As the search tries it: ends that are exchanged are then turned round.
-    of_spec.sort_by_key(|change| step(change, coupled));
-    let (mut new, mut said, mut meant) = (text.to_owned(), String::new(), Vec::new());
-    for change in &of_spec {
-        said += &format!("# - {}\n", words::change(change, spec));
+    let mut spec_changes: Vec<&Change> =
+        changes.iter().filter(|change| step(change, coupled).is_some()).collect();
+    // In the order of the search: ends are exchanged before they are inverted.
+    spec_changes.sort_by_key(|change| step(change, coupled));
+    let (mut new, mut description, mut substitutions) = (text.to_owned(), String::new(), Vec::new());
+    for change in &spec_changes {
+        description += &format!("# - {}\n", words::change(change, spec));
         match change {
             Change::Coupled { joint, to, by } => {
                 let sign = if *by > 0.0 { '+' } else { '-' };
-                meant.push((*joint, format!(" {sign} {}", spec.variables[*to].name)));
+                substitutions.push((*joint, format!(" {sign} {}", spec.variables[*to].name)));
             }
-            Change::Zero { joint, offset } => meant.push((*joint, zero(*offset, *joint, spec))),
-            change => new = edited(&new, |file| file.edits(change, spec))?,
+            Change::Zero { joint, offset } => substitutions.push((*joint, zero(*offset, *joint, spec))),
+            change => new = apply_edits(&new, |file| file.edits(change, spec))?,
         }
     }
-    if !meant.is_empty() {
-        new = edited(&new, |file| file.meant(&meant, spec))?;
+    if !substitutions.is_empty() {
+        new = apply_edits(&new, |file| file.substitute(&substitutions, spec))?;
     }
-    (!of_spec.is_empty()).then(|| format!("# The spec as `abbe doctor` reads it:\n{said}{new}"))
+    (!spec_changes.is_empty()).then(|| format!("# The spec as `abbe doctor` reads it:\n{description}{new}"))
 }
 
-/// The step in which a change is written, of those that concern the spec; the others concern columns, and are in the map.
+/// Returns the order in which a change is applied; `None` for changes of the columns, which the map
+/// holds.
 fn step(change: &Change, coupled: bool) -> Option<u8> {
     match change {
         Change::Convention => Some(0),
@@ -73,8 +77,8 @@ fn step(change: &Change, coupled: bool) -> Option<u8> {
     }
 }
 
-/// A text with places in it replaced.
-fn edited(text: &str, edits: impl FnOnce(&File<'_>) -> Option<Vec<Edit>>) -> Option<String> {
+/// Applies edits to a text.
+fn apply_edits(text: &str, edits: impl FnOnce(&File<'_>) -> Option<Vec<Edit>>) -> Option<String> {
     let table = DeTable::parse(text).ok()?;
     let mut edits = edits(&File { text, table: table.get_ref() })?;
     edits.sort_by_key(|(span, _)| span.start);
@@ -97,11 +101,11 @@ fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
     }
 }
 
-/// What places a frame or the tool: its key and its value.
+/// Placement of a frame or the tool: key and value.
 #[derive(Clone, Copy)]
 struct Placement<'t> {
     key: &'t str,
-    /// From the key on.
+    /// Start of the key in the text.
     start: usize,
     value: &'t Spanned<DeValue<'t>>,
 }
@@ -125,77 +129,82 @@ impl<'t> File<'t> {
         frames.iter().filter_map(|frame| frame.get_ref().as_table()).collect()
     }
 
-    fn place(table: &'t DeTable<'t>) -> Option<Placement<'t>> {
+    fn placement(table: &'t DeTable<'t>) -> Option<Placement<'t>> {
         table.iter().find_map(|(key, value)| {
             let name: &str = key.get_ref();
-            PLACES.contains(&name).then(|| Placement { key: name, start: key.span().start, value })
+            PLACEMENT_KEYS.contains(&name).then(|| Placement { key: name, start: key.span().start, value })
         })
     }
 
     fn tool(&self) -> Option<Placement<'t>> {
-        Self::place(self.table.get("tool")?.get_ref().as_table()?)
+        Self::placement(self.table.get("tool")?.get_ref().as_table()?)
     }
 
-    /// The one frame before all that moves.
+    /// Returns the placement of the base, if exactly one frame precedes the first joint.
     fn base(&self, spec: &Spec) -> Option<Placement<'t>> {
         let moving = spec.variables_of_transforms();
         let fixed = moving.iter().take_while(|variables| variables.is_empty()).count();
-        (fixed == 1).then(|| Self::place(self.frames()[0]))?
+        (fixed == 1).then(|| Self::placement(self.frames()[0]))?
     }
 
-    /// What a change of ends or of the convention is in the text.
+    /// Returns the edits for a change of base, tool or convention; `None` if the text cannot
+    /// express it.
     fn edits(&self, change: &Change, spec: &Spec) -> Option<Vec<Edit>> {
         Some(match change {
             Change::Convention => self.other_convention(),
-            Change::EndsExchanged => self.exchanged(self.base(spec)?, self.tool()?).to_vec(),
-            Change::ToolInverted => vec![self.inverted(self.tool()?)?],
-            Change::BaseInverted => vec![self.inverted(self.base(spec)?)?],
-            Change::ToolLeftOut => vec![Self::left_out(self.tool()?)],
-            Change::BaseLeftOut => vec![Self::left_out(self.base(spec)?)],
+            Change::EndsExchanged => self.exchange(self.base(spec)?, self.tool()?).to_vec(),
+            Change::ToolInverted => vec![self.invert(self.tool()?)?],
+            Change::BaseInverted => vec![self.invert(self.base(spec)?)?],
+            Change::ToolLeftOut => vec![Self::identity(self.tool()?)],
+            Change::BaseLeftOut => vec![Self::identity(self.base(spec)?)],
             _ => return None,
         })
     }
 
     fn other_convention(&self) -> Vec<Edit> {
-        let places = self.frames().into_iter().filter_map(Self::place);
+        let placements = self.frames().into_iter().filter_map(Self::placement);
         let other = |key: &str| match key {
             "dh" => Some("mdh"),
             "mdh" => Some("dh"),
             _ => None,
         };
-        places
-            .filter_map(|place| {
-                Some((place.start..place.start + place.key.len(), other(place.key)?.to_owned()))
+        placements
+            .filter_map(|placement| {
+                Some((
+                    placement.start..placement.start + placement.key.len(),
+                    other(placement.key)?.to_owned(),
+                ))
             })
             .collect()
     }
 
-    fn left_out(place: Placement<'_>) -> Edit {
-        (place.span(), "origin = { xyz = [0, 0, 0] }".to_owned())
+    fn identity(placement: Placement<'_>) -> Edit {
+        (placement.span(), "origin = { xyz = [0, 0, 0] }".to_owned())
     }
 
-    fn exchanged(&self, one: Placement<'_>, other: Placement<'_>) -> [Edit; 2] {
-        let with =
-            |place: Placement<'_>, other: Placement<'_>| (place.span(), self.text[other.span()].to_owned());
+    fn exchange(&self, one: Placement<'_>, other: Placement<'_>) -> [Edit; 2] {
+        let with = |placement: Placement<'_>, other: Placement<'_>| {
+            (placement.span(), self.text[other.span()].to_owned())
+        };
         [with(one, other), with(other, one)]
     }
 
-    /// The factors of a place, last first, each the other way round.
-    fn inverted(&self, place: Placement<'_>) -> Option<Edit> {
-        let factors: Vec<(String, String)> = match (place.key, place.value.get_ref()) {
+    /// Replaces a placement by its inverse: the inverted factors in reverse order.
+    fn invert(&self, placement: Placement<'_>) -> Option<Edit> {
+        let factors: Vec<(String, String)> = match (placement.key, placement.value.get_ref()) {
             ("transform", DeValue::String(product)) => factors(product)?,
-            ("dh", DeValue::Table(four)) => self.four(four, ["theta", "d", "a", "alpha"])?,
-            ("mdh", DeValue::Table(four)) => self.four(four, ["alpha", "a", "theta", "d"])?,
+            ("dh", DeValue::Table(four)) => self.dh_factors(four, ["theta", "d", "a", "alpha"])?,
+            ("mdh", DeValue::Table(four)) => self.dh_factors(four, ["alpha", "a", "theta", "d"])?,
             ("origin", DeValue::Table(origin)) => self.origin(origin)?,
             _ => return None,
         };
         let inverse: Vec<String> =
             factors.iter().rev().map(|(name, amount)| format!("{name}({})", negative(amount))).collect();
-        Some((place.span(), format!("transform = {}", quoted(&inverse.join(" ")))))
+        Some((placement.span(), format!("transform = {}", quoted(&inverse.join(" ")))))
     }
 
-    /// Four numbers as factors, in the order of the convention.
-    fn four(&self, table: &DeTable<'_>, keys: [&str; 4]) -> Option<Vec<(String, String)>> {
+    /// Returns Denavit-Hartenberg parameters as factors, in the order of the convention.
+    fn dh_factors(&self, table: &DeTable<'_>, keys: [&str; 4]) -> Option<Vec<(String, String)>> {
         let factor = |key: &str| {
             let name = match key {
                 "theta" => "Rz",
@@ -208,7 +217,7 @@ impl<'t> File<'t> {
         keys.into_iter().map(factor).collect()
     }
 
-    /// T(xyz) Rz(yaw) Ry(pitch) Rx(roll).
+    /// Returns a URDF origin as factors: T(xyz) Rz(yaw) Ry(pitch) Rx(roll).
     fn origin(&self, table: &DeTable<'_>) -> Option<Vec<(String, String)>> {
         let three = |key: &str, names: [&str; 3]| -> Option<Vec<(String, String)>> {
             let Some(values) = table.get(key) else { return Some(Vec::new()) };
@@ -224,7 +233,7 @@ impl<'t> File<'t> {
         Some([three("xyz", ["Tx", "Ty", "Tz"])?, turns].concat())
     }
 
-    /// What stands in a value: a number or an expression.
+    /// Returns the text of a number or expression.
     fn amount(&self, value: &Spanned<DeValue<'_>>) -> Option<String> {
         match value.get_ref() {
             DeValue::String(text) => Some(text.to_string()),
@@ -233,10 +242,10 @@ impl<'t> File<'t> {
         }
     }
 
-    /// Every variable as what is meant by it, in all that places a frame.
-    fn meant(&self, added: &[(usize, String)], spec: &Spec) -> Option<Vec<Edit>> {
+    /// Replaces each variable by its corrected expression, in the placements of all frames.
+    fn substitute(&self, added: &[(usize, String)], spec: &Spec) -> Option<Vec<Edit>> {
         let mut edits = Vec::new();
-        let meant: Vec<(&str, String)> = (0..spec.variables.len())
+        let substitutions: Vec<(&str, String)> = (0..spec.variables.len())
             .filter_map(|i| {
                 let parts: String =
                     added.iter().filter(|(joint, _)| *joint == i).map(|(_, part)| part.as_str()).collect();
@@ -245,15 +254,16 @@ impl<'t> File<'t> {
             })
             .collect();
         for (i, frame) in self.frames().into_iter().enumerate() {
-            let place = Self::place(frame)?;
+            let placement = Self::placement(frame)?;
             let variable = spec.frames[i].variable.map(|variable| spec.variables[variable].name.as_str());
-            // There the variable is moved about an axis, and stands in no expression.
-            if place.key == "origin" && meant.iter().any(|(name, _)| variable == Some(name)) {
+            // With `origin` the joint axis moves implicitly, so that there is no expression to
+            // edit.
+            if placement.key == "origin" && substitutions.iter().any(|(name, _)| variable == Some(name)) {
                 return None;
             }
-            self.each_text(place.value, &mut |span| {
+            self.each_text(placement.value, &mut |span| {
                 let old = &self.text[span.clone()];
-                let new = with_names(old, &meant);
+                let new = replace_names(old, &substitutions);
                 if new != old {
                     edits.push((span, new));
                 }
@@ -272,7 +282,7 @@ impl<'t> File<'t> {
     }
 }
 
-/// `Tx(30 mm) Rz(q1)`: names and amounts.
+/// Splits a product such as `Tx(30 mm) Rz(q1)` into names and amounts.
 fn factors(product: &str) -> Option<Vec<(String, String)>> {
     let mut rest = product.trim_start();
     let mut found = Vec::new();
@@ -290,7 +300,7 @@ fn factors(product: &str) -> Option<Vec<(String, String)>> {
     Some(found)
 }
 
-/// The other sign: of a number as a number, so that its unit is still that of its place.
+/// Negates an amount. A number stays a number, so that it keeps its implied unit.
 fn negative(amount: &str) -> String {
     match amount.parse::<f64>() {
         Ok(0.0) => "0".to_owned(),
@@ -301,8 +311,8 @@ fn negative(amount: &str) -> String {
     }
 }
 
-/// A text with some names replaced, where they stand as whole words.
-fn with_names(text: &str, meant: &[(&str, String)]) -> String {
+/// Replaces names that occur as whole words.
+fn replace_names(text: &str, substitutions: &[(&str, String)]) -> String {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut new = String::new();
     let mut rest = text;
@@ -310,7 +320,10 @@ fn with_names(text: &str, meant: &[(&str, String)]) -> String {
         let end = rest[begin..].find(|c| !is_word(c)).map_or(rest.len(), |end| begin + end);
         let word = &rest[begin..end];
         new += &rest[..begin];
-        new += meant.iter().find(|(name, _)| *name == word).map_or(word, |(_, meant)| meant);
+        new += substitutions
+            .iter()
+            .find(|(name, _)| *name == word)
+            .map_or(word, |(_, substitutions)| substitutions);
         rest = &rest[end..];
     }
     new + rest
@@ -321,7 +334,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn factors_are_the_other_way_round() {
+    fn factors_are_inverted() {
         let inverse = |product| {
             factors(product).map(|all| {
                 let turned: Vec<String> =
@@ -338,7 +351,10 @@ mod tests {
 
     #[test]
     fn names_are_whole_words() {
-        let meant = [("q3", "(q3 + q2)".to_owned())];
-        assert_eq!(with_names("\"q3 - q31*q2 + 2*q3\"", &meant), "\"(q3 + q2) - q31*q2 + 2*(q3 + q2)\"");
+        let substitutions = [("q3", "(q3 + q2)".to_owned())];
+        assert_eq!(
+            replace_names("\"q3 - q31*q2 + 2*q3\"", &substitutions),
+            "\"(q3 + q2) - q31*q2 + 2*(q3 + q2)\""
+        );
     }
 }

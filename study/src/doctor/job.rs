@@ -1,4 +1,4 @@
-//! The job: reads the rows, searches, and writes the map of the first interpretation.
+//! The job: reads the rows, searches the interpretations, and writes the map of the best.
 
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -14,19 +14,20 @@ use crate::interpretations::{
 use crate::number::digits;
 use crate::{Machine, Notes, mistake};
 
-/// The largest number of rows that are read; of more, as many at equal distances.
+/// Largest number of rows that are used; of more, this many evenly spaced ones.
 const MOST_ROWS: usize = 40;
 
-/// The share of the spread of the positions up to which an interpretation fits, if no tolerance is asked for.
+/// Default tolerance, as a share of the spread of the positions.
 const WITHIN: f64 = 0.02;
 
-/// Which interpretation of these rows is that of this machine?
+/// Job of `abbe doctor`: finds the interpretation under which data agree with a spec.
 pub struct Doctor<'a> {
-    /// The machine as its spec has it.
+    /// Machine with its spec.
     pub machine: Machine,
-    /// A column for each joint, then a pose or a position.
+    /// Rows with one column per joint, then a pose or position.
     pub data: Source<'a>,
-    /// The largest residual of a position for an interpretation to fit, in the spec's length unit.
+    /// Largest residual at which an interpretation fits, in the spec's length unit; `None` for the
+    /// default.
     pub within: Option<f64>,
 }
 
@@ -36,8 +37,8 @@ impl Doctor<'_> {
         let columns = Columns::read(self.data, &self.machine.spec, MOST_ROWS, notes)?;
         let kinematics = Kinematics::new(&self.machine.spec)
             .map_err(|error| mistake::whole(&self.machine.origin, &error))?;
-        let layouts = PoseFormat::all(columns.pose.first().map_or(0, Vec::len));
-        if layouts.is_empty() {
+        let formats = PoseFormat::all(columns.pose.first().map_or(0, Vec::len));
+        if formats.is_empty() {
             let count = columns.pose.first().map_or(0, Vec::len);
             let message = format!("beside the joints there are {count} columns of numbers");
             let help = "a position has 3; a pose 6 with angles, 7 with a quaternion, 12 with a matrix, 16 as 4×4; leave out the others";
@@ -45,18 +46,19 @@ impl Doctor<'_> {
         }
         let tolerance = Tolerance { within: self.within, share: WITHIN, enough: 1.0 };
         let metres = self.machine.spec.length.in_metres();
-        let observed = Observed::all(&columns.pose, &layouts, &LENGTHS, &[None], metres);
+        let observed = Observed::all(&columns.pose, &formats, &LENGTHS, &[None], metres);
         let search = Search::new(&kinematics, &columns.joints, &LENGTHS, observed, tolerance);
         let candidates = search.run(alternatives::stages(&kinematics), notes)?;
         let Ranked { found, simpler, others } = ranked(candidates, &tolerance, None);
         let spec = &self.machine.spec;
         let best = found.first().or(others.first());
         let within = best.map_or(self.within.unwrap_or_default(), |best| tolerance.limit(best.spread));
-        if let Some(asked) = self.within.filter(|asked| *asked > within) {
+        if let Some(requested) = self.within.filter(|requested| *requested > within) {
             let unit = spec.length.symbol();
             notes.warn(&format!(
-                "{} {unit} are more than a tenth of how far the positions spread, which any reading may leave: {} {unit} are taken",
-                digits(asked, 3),
+                "{} {unit} is more than a tenth of the spread of the positions, which any \
+                 interpretation meets: {} {unit} is used",
+                digits(requested, 3),
                 digits(within, 3)
             ));
         }

@@ -1,4 +1,4 @@
-//! The poses of a spec, in three parts.
+//! Poses of a spec, split into base, chain and tool.
 
 use abbe::analysis::sampling;
 use abbe::{Error, Manipulator, Pose, VariableKind};
@@ -7,13 +7,14 @@ use abbe_spec::{DhConvention, Frame, Spec};
 
 use crate::interpretations::{Chain, Parts};
 
-/// A spec that is evaluated as it is written, and with its Denavit-Hartenberg numbers read in the other convention.
+/// Spec that can be evaluated as written, or with its Denavit-Hartenberg parameters read in the
+/// other convention.
 pub(super) struct Kinematics {
     as_written: Interpreter,
     other: Option<Interpreter>,
     parameters: Vec<f64>,
     kinds: Vec<VariableKind>,
-    /// How many frames stand before the first that moves.
+    /// Number of frames before the first joint.
     fixed: usize,
     pub(super) has_tool: bool,
     metres: f64,
@@ -44,12 +45,12 @@ impl Kinematics {
         Ok(kinematics)
     }
 
-    /// Tells whether there is a frame by Denavit-Hartenberg numbers.
+    /// Returns true if any frame has Denavit-Hartenberg parameters.
     pub(super) fn has_convention(&self) -> bool {
         self.other.is_some()
     }
 
-    /// Tells whether fixed frames stand at the base.
+    /// Returns true if the chain starts with fixed frames.
     pub(super) fn has_base(&self) -> bool {
         self.fixed > 0
     }
@@ -75,11 +76,11 @@ impl Chain for Kinematics {
     }
 }
 
-/// The same four numbers as the other product.
+/// Returns the frame with the same four parameters in the other convention.
 fn in_other_convention(frame: &Frame) -> Frame {
     let mut frame = frame.clone();
     let (Some(convention), [a, b, c, d]) = (frame.convention, &frame.factors[..]) else { return frame };
-    // theta, d, a, alpha; and alpha, a, theta, d.
+    // Factor order: standard theta, d, a, alpha; modified alpha, a, theta, d.
     let (factors, other) = match convention {
         DhConvention::Standard => ([d, c, a, b], DhConvention::Modified),
         DhConvention::Modified => ([c, d, b, a], DhConvention::Standard),

@@ -11,10 +11,11 @@ use crate::interpretations::{Candidate, Change, Interpretation, PoseFormat, word
 use crate::number::digits;
 use crate::toml_text::quoted;
 
-/// Digits of a fitted zero, which rows determine to fewer.
+/// Significant digits of a fitted zero; data determine fewer.
 const DIGITS: usize = 8;
 
-/// Returns the map, and in words what it cannot hold. Uncertainties are a twentieth of the residual that is allowed.
+/// Returns the map, and sentences on what a map cannot express. Measurement uncertainties are set
+/// to a twentieth of the permitted residual.
 pub(super) fn map(
     candidate: &Candidate,
     spec: &Spec,
@@ -22,7 +23,7 @@ pub(super) fn map(
     within: f64,
 ) -> (String, Vec<String>) {
     let Candidate { interpretation, tool, spread, .. } = candidate;
-    let placement = tool.and_then(|tool| placement(tool, interpretation.layout, spec));
+    let placement = tool.and_then(|tool| tool_placement(tool, interpretation.layout, spec));
     let count = spec.variables.len();
     let mut joints = Joints { order: (0..count).collect(), signs: vec![1; count], zeros: vec![0.0; count] };
     let coupled = interpretation.changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
@@ -31,7 +32,7 @@ pub(super) fn map(
         match change {
             Change::Order(columns) => joints.order.clone_from(columns),
             Change::Reversed(reversed) => reversed.iter().for_each(|i| joints.signs[*i] = -1),
-            // With a coupling it would be the zero of another number.
+            // With a coupling it would be the zero of another joint value.
             Change::Zero { joint, offset } if !coupled => joints.zeros[*joint] = *offset,
             Change::BaseElsewhere => base = "unknown",
             Change::ToolElsewhere if placement.is_some() => {}
@@ -55,12 +56,12 @@ pub(super) fn map(
     }
     let _ = write!(text, "base = \"{base}\"\n\n[joints]\n");
     text += &joints.lines(interpretation, spec, columns);
-    text += &measured(interpretation, columns);
+    text += &measured_table(interpretation, columns);
     text += &placement.unwrap_or_default();
     (text, of_spec)
 }
 
-/// Order, signs and zeros of the columns of joints.
+/// Order, signs and zeros of the joint columns.
 struct Joints {
     order: Vec<usize>,
     signs: Vec<i32>,
@@ -78,7 +79,7 @@ impl Joints {
             };
             let sign = if self.signs[i] < 0 { ", sign = -1" } else { "" };
             let column = quoted(&columns.joint_names[self.order[i]]);
-            let zero = zero(self.zeros[i], variable.kind, spec);
+            let zero = zero_key(self.zeros[i], variable.kind, spec);
             let _ =
                 writeln!(text, "{} = {{ column = {column}, unit = \"{unit}\"{sign}{zero} }}", variable.name);
         }
@@ -89,14 +90,14 @@ impl Joints {
     }
 }
 
-/// The table of what was measured.
-fn measured(interpretation: &Interpretation, columns: &Columns) -> String {
+/// Returns the map's table of the measured quantity.
+fn measured_table(interpretation: &Interpretation, columns: &Columns) -> String {
     let names = |places: &[usize]| {
         let names: Vec<String> = places.iter().map(|place| quoted(&columns.pose_names[*place])).collect();
         format!("[{}]", names.join(", "))
     };
     let unit = interpretation.lengths_in;
-    let of_angle = |degrees: bool| if degrees { "deg" } else { "rad" };
+    let angle_unit = |degrees: bool| if degrees { "deg" } else { "rad" };
     let pose = |position: &[usize], turn: String| {
         format!("\n[pose]\nposition = {}\nunit = \"{unit}\"\n{turn}\n", names(position))
     };
@@ -109,18 +110,18 @@ fn measured(interpretation: &Interpretation, columns: &Columns) -> String {
         ),
         PoseFormat::Euler { axes, fixed, degrees } => {
             let (mut axes, mut places) = (axes, [3, 4, 5]);
-            // About fixed axes the last turn stands first in the product.
+            // Rotations about fixed axes multiply in reverse order.
             if fixed {
                 axes.reverse();
                 places.reverse();
             }
             let order: String = axes.iter().map(|axis| ["x", "y", "z"][*axis]).collect();
-            let (columns, unit) = (names(&places), of_angle(degrees));
+            let (columns, unit) = (names(&places), angle_unit(degrees));
             let turn = format!("euler = {{ columns = {columns}, order = \"{order}\", unit = \"{unit}\" }}");
             pose(&[0, 1, 2], turn)
         }
         PoseFormat::RotationVector { degrees } => {
-            let (columns, unit) = (names(&[3, 4, 5]), of_angle(degrees));
+            let (columns, unit) = (names(&[3, 4, 5]), angle_unit(degrees));
             pose(&[0, 1, 2], format!("rotation_vector = {{ columns = {columns}, unit = \"{unit}\" }}"))
         }
         PoseFormat::Quaternion { scalar_first } => {
@@ -129,14 +130,14 @@ fn measured(interpretation: &Interpretation, columns: &Columns) -> String {
             pose(&[0, 1, 2], format!("quaternion = {{ columns = {columns}, order = \"{order}\" }}"))
         }
         PoseFormat::Matrix { .. } | PoseFormat::Homogeneous { .. } => {
-            let (position, nine) = matrix(interpretation.layout, columns.pose_names.len());
+            let (position, nine) = pose_columns(interpretation.layout, columns.pose_names.len());
             pose(&position, format!("matrix = {}", names(&nine)))
         }
     }
 }
 
-/// The key of a zero, if it is not where the spec has it.
-fn zero(offset: f64, kind: VariableKind, spec: &Spec) -> String {
+/// Returns the `zero` key of a joint; empty if its zero is that of the spec.
+fn zero_key(offset: f64, kind: VariableKind, spec: &Spec) -> String {
     match kind {
         _ if offset == 0.0 => String::new(),
         VariableKind::Revolute => format!(", zero = \"{} deg\"", digits(offset.to_degrees(), DIGITS)),
@@ -146,8 +147,8 @@ fn zero(offset: f64, kind: VariableKind, spec: &Spec) -> String {
     }
 }
 
-/// The table of a tool that is elsewhere, as the one of the spec sees it.
-fn placement(tool: Pose, layout: PoseFormat, spec: &Spec) -> Option<String> {
+/// Returns the table of a fitted tool, relative to the tool of the spec; `None` for differences.
+fn tool_placement(tool: Pose, layout: PoseFormat, spec: &Spec) -> Option<String> {
     let unit = spec.length.symbol();
     let point = tool.0[3].map(|x| format!("\"{} {unit}\"", digits(x, DIGITS))).join(", ");
     match layout {
@@ -161,8 +162,8 @@ fn placement(tool: Pose, layout: PoseFormat, spec: &Spec) -> Option<String> {
     }
 }
 
-/// The places of the position, and of the matrix row by row.
-fn matrix(layout: PoseFormat, count: usize) -> (Vec<usize>, Vec<usize>) {
+/// Returns the column indices of the position, and of the rotation matrix row by row.
+fn pose_columns(layout: PoseFormat, count: usize) -> (Vec<usize>, Vec<usize>) {
     let place = |i: usize, j: usize| match (layout, count) {
         (PoseFormat::Matrix { by_rows: true }, _) => 3 + 3 * i + j,
         (PoseFormat::Matrix { .. }, _) => 3 + 3 * j + i,

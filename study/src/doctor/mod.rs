@@ -1,8 +1,10 @@
-//! Which convention is it? Some rows of joints and poses, and the interpretation under which they are those of a spec.
+//! Finds the convention of unknown data: the interpretation under which joints and poses agree with
+//! a spec.
 //!
-//! `columns` finds numbers in a file, `kinematics` evaluates the spec in parts, `alternatives` are the interpretations that the
-//! search (`interpretations`) tries. `map_writer` writes the map of the one that is found, `corrected_spec` the spec where it
-//! is about the spec; `job` is the way from the question to the `report`, whose answer `sentence` gives in words.
+//! `job` runs the search and fills the `report`, with its answer in `sentence`. `columns` reads the
+//! data, `kinematics` evaluates the spec in parts, and `alternatives` lists the interpretations
+//! that the search (`interpretations`) tries. `map_writer` writes the map of the best
+//! interpretation, `corrected_spec` the spec if it has to change.
 
 mod alternatives;
 mod columns;

@@ -1,4 +1,4 @@
-//! What `abbe doctor` finds.
+//! Report of `abbe doctor`.
 
 use serde::Serialize;
 
@@ -7,47 +7,51 @@ use crate::interpretations::Interpretation;
 /// An interpretation and its residual.
 #[derive(Clone, Debug, Serialize)]
 pub struct Finding {
-    /// What the numbers are then.
+    /// The interpretation. Serialized as `reading`.
     #[serde(rename = "reading")]
     pub interpretation: Interpretation,
-    /// The same in words.
+    /// Description of the interpretation.
     pub words: String,
-    /// The root mean square residual of positions, in the spec's length unit.
+    /// Root mean square residual of the positions, in the spec's length unit.
     pub residual: f64,
-    /// The root mean square residual of orientations, in rad; none if there are none.
+    /// Root mean square residual of the orientations, in rad; `None` if the data have no
+    /// orientations.
     pub angle: Option<f64>,
-    /// What is held against `within`, in the spec's length unit: both together, angles at a lever of three tenths of how far the
-    /// positions spread, and more by what fitted numbers take away.
+    /// Combined root mean square residual, in the spec's length unit, which is compared with
+    /// `within`. Angles are multiplied by a lever of 0.3 × the spread of the positions. Corrected
+    /// for the degrees of freedom that fitted numbers take.
     pub both: f64,
 }
 
-/// The answer of `abbe doctor`.
+/// Result of [`Doctor`](super::Doctor).
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The machine's name.
+    /// Name of the machine.
     pub name: String,
-    /// The length unit of residuals.
+    /// Symbol of the length unit.
     pub length: &'static str,
-    /// Number of rows that were read.
+    /// Number of rows that were used.
     pub rows: usize,
-    /// The columns that were read as joints.
+    /// Names of the columns read as joints.
     pub joints: Vec<String>,
-    /// The columns that were read as what was seen.
+    /// Names of the columns read as measured values.
     pub seen: Vec<String>,
-    /// Whether an interpretation fits.
+    /// Indicates that at least one interpretation fits.
     pub fits: bool,
-    /// What may be left of a position for that.
+    /// Largest combined residual at which an interpretation fits, in the spec's length unit.
     pub within: f64,
-    /// Interpretations that fit and that these rows cannot tell apart, the simplest first; if none fits, none.
+    /// Interpretations that fit and that the data cannot distinguish, simplest first.
     pub found: Vec<Finding>,
-    /// The first of these with less in it, where that leaves little as well, but more than noise does.
+    /// Simplification of the first interpretation that is also within the tolerance, but fits
+    /// significantly worse.
     pub simpler: Option<Finding>,
-    /// The nearest of the others.
+    /// Best of the interpretations that do not fit.
     pub others: Vec<Finding>,
-    /// What is found, in one sentence.
+    /// Conclusion in one sentence.
     pub sentence: String,
-    /// The map of the first interpretation; none if none fits.
+    /// Map of the first interpretation; `None` if no interpretation fits.
     pub map: Option<String>,
-    /// What the map cannot hold: to be changed in the spec.
+    /// Corrections that the map cannot express and that belong in the spec or the file, one
+    /// sentence each.
     pub of_spec: Vec<String>,
 }

@@ -1,17 +1,17 @@
-//! The answer in one sentence.
+//! Conclusion in one sentence.
 
 use abbe_spec::Spec;
 
 use super::report::Finding;
 use crate::number::digits;
 
-/// Returns the answer in one sentence.
+/// Returns the conclusion in one sentence.
 pub(super) fn sentence(found: &[Finding], others: &[Finding], spec: &Spec, within: f64) -> String {
     let unit = spec.length.symbol();
     match found {
         [] => {
             let nearest = match others.first() {
-                None => "no reading of these columns comes near".to_owned(),
+                None => "no interpretation of these columns fits".to_owned(),
                 Some(one) => {
                     let turns = one.angle.map_or(String::new(), |angle| {
                         format!(

@@ -1,9 +1,10 @@
-//! The errors as those of joints: zeros, parameters and Denavit-Hartenberg numbers in place of errors of frames, as far as these act
-//! alike.
+//! Expresses identified errors of frames as errors of joint zeros, structural parameters and
+//! Denavit-Hartenberg numbers.
 //!
-//! In `A_i E_i` a change δ of a number of `A_i` is `E_i` with `vee(A_i⁻¹ ∂A_i/∂x) δ`, and as well `E_{i-1}` with
-//! `vee(∂A_i/∂x A_i⁻¹) δ`. Where one of these is the same in all configurations, the number is a combination of constant
-//! errors, and takes the place of one of them: a change of basis that leaves the machine what it is.
+//! A change δ of a number x in `A_i E_i` is equivalent to `E_i` with `vee(A_i⁻¹ ∂A_i/∂x) δ`, and to
+//! `E_{i-1}` with `vee(∂A_i/∂x A_i⁻¹) δ`. If one of these twists is the same in all configurations,
+//! the number is a linear combination of constant errors and replaces one of them. This is a change
+//! of basis; the machine stays the same to first order.
 
 use abbe::identify::{Failure, Fit, Model, Observation, Unknown};
 use abbe::{Component, VariableKind};
@@ -18,103 +19,108 @@ use super::solve::Solved;
 use super::terms::{self, ErrorSite, Term};
 use crate::number::digits;
 
-/// In how many configurations an error must be the same.
+/// Number of configurations at which an error must be equal to count as constant.
 const SAMPLES: usize = 5;
 
-/// The most rows at which machines are compared.
+/// Largest number of rows at which two machines are compared.
 const ROWS: usize = 1000;
 
-/// From which correlation on two numbers cannot be told apart.
+/// Correlation at and above which a number cannot be distinguished from a magnitude.
 const CORRELATED: f64 = 0.9;
 
-/// Beyond how many standard deviations something counts as found.
-const FOUND: f64 = 3.0;
+/// Number of standard deviations beyond which a value is significant.
+const SIGNIFICANT: f64 = 3.0;
 
-/// The found errors, with numbers of the chain in place of some errors of frames: the same machine to first order.
+/// Identified errors, with numbers of the chain in place of some errors of frames. The machine is
+/// the same to first order.
 pub(super) struct AsJointErrors {
-    /// The numbers.
+    /// Numbers of the chain that replace errors of frames.
     pub(super) numbers: Vec<FoundNumber>,
-    /// What the other unknowns are beside them, by place among the kept ones: value and standard deviation.
+    /// Remaining unknowns: index among the kept unknowns, value and standard deviation.
     pub(super) others: Vec<(usize, f64, f64)>,
-    /// The covariance of all of them, by place among the kept unknowns.
+    /// Covariance of both, in the order of the kept unknowns.
     pub(super) covariance: Vec<Vec<f64>>,
 }
 
-/// The error of a number of the chain.
+/// Identified error of a number of the chain.
 #[derive(Clone, Debug, Serialize)]
 pub struct JointError {
-    /// The error of a frame that it takes the place of, such as `e_r1`.
+    /// Error of a frame that it replaces, such as `e_r1`.
     pub in_place_of: String,
-    /// The number: `zero of q2`, `reach`, `a of shoulder`.
+    /// Name of the number: `zero of q2`, `reach`, `a of shoulder`.
     pub number: String,
-    /// By how much it is off: the length unit, or rad.
+    /// Actual minus nominal value, in the length unit or rad.
     pub value: f64,
-    /// How well that is known.
+    /// Standard deviation of the value, in the same unit.
     pub standard_deviation: f64,
-    /// All this as a sentence.
+    /// Statement of the result in one sentence.
     pub sentence: String,
 }
 
-/// A number of the chain.
+/// Number of the chain with its identified error.
 #[derive(Clone, Debug)]
 pub(super) struct FoundNumber {
-    /// What it is called: `zero of q2`.
+    /// Name: `zero of q2`.
     pub(super) name: String,
     pub(super) number: ChainNumber,
-    /// The kept unknown in whose place it stands.
-    pub(super) place: usize,
+    /// Index among the kept unknowns of the one it replaces.
+    pub(super) index: usize,
     pub(super) value: f64,
     pub(super) standard_deviation: f64,
-    /// The largest of its correlations with magnitudes of sources, without its sign.
+    /// Largest absolute correlation with the magnitude of a source.
     pub(super) correlation: f64,
 }
 
 impl AsJointErrors {
     pub(super) fn new(spec: &Spec, model: &Model, fit: &Fit) -> Self {
-        let mut basis = Basis::new(model, fit);
+        let mut basis = ExchangedBasis::new(model, fit);
         let mut graph = Graph::with_tables(&spec.tables);
-        let mut places = Vec::new();
-        for (name, number) in numbers(spec) {
+        let mut replaced = Vec::new();
+        for (name, number) in chain_numbers(spec) {
             let Some((frame, errors)) = constant_errors(&mut graph, spec, number) else { continue };
-            places.extend(basis.exchange(frame, errors).map(|place| (place, name, number)));
+            replaced.extend(basis.exchange(frame, errors).map(|index| (index, name, number)));
         }
-        let taken = |place: &usize| places.iter().any(|(other, ..)| other == place);
-        let others = (0..basis.forms.len()).filter(|place| !taken(place));
-        let value = |place| {
-            let (value, standard_deviation) = basis.value(place);
-            (place, value, standard_deviation)
+        let taken = |index: &usize| replaced.iter().any(|(other, ..)| other == index);
+        let others = (0..basis.forms.len()).filter(|index| !taken(index));
+        let value = |index| {
+            let (value, standard_deviation) = basis.value(index);
+            (index, value, standard_deviation)
         };
         let others = others.map(value).collect();
-        let number = |(place, name, number)| {
-            let (value, standard_deviation) = basis.value(place);
-            let correlation = basis.correlation(place);
-            FoundNumber { name, number, place, value, standard_deviation, correlation }
+        let number = |(index, name, number)| {
+            let (value, standard_deviation) = basis.value(index);
+            let correlation = basis.correlation(index);
+            FoundNumber { name, number, index, value, standard_deviation, correlation }
         };
-        let numbers = places.into_iter().map(number).collect();
+        let numbers = replaced.into_iter().map(number).collect();
         Self { numbers, others, covariance: basis.covariance() }
     }
 
-    /// Whatever is found, as sentences.
+    /// Returns the significant errors, with a sentence each.
     ///
-    /// A term that changes with a joint is hardly told from a constant where the joint moves a little: of numbers that are
-    /// correlated with the magnitude of a source nothing is said.
+    /// A term that changes with a joint is hard to distinguish from a constant if the joint moves
+    /// only a little. Numbers that are correlated with the magnitude of a source are therefore left
+    /// out.
     pub(super) fn joint_errors(&self, spec: &Spec, model: &Model, fit: &Fit) -> Vec<JointError> {
-        let found = |one: &&FoundNumber| {
-            one.value.abs() > FOUND * one.standard_deviation && one.correlation < CORRELATED
+        let is_significant = |one: &&FoundNumber| {
+            one.value.abs() > SIGNIFICANT * one.standard_deviation && one.correlation < CORRELATED
         };
-        self.numbers.iter().filter(found).map(|one| one.joint_error(spec, model, fit)).collect()
+        self.numbers.iter().filter(is_significant).map(|one| one.joint_error(spec, model, fit)).collect()
     }
 }
 
-/// All numbers of the chain as terms of magnitude 1.
+/// Returns all numbers of the chain as terms of magnitude 1.
 pub(super) fn number_terms(spec: &Spec) -> Vec<Term> {
-    let term = |(_, number)| Term { place: ErrorSite::of_number(number), basis: terms::Basis::One };
-    numbers(spec).into_iter().map(term).collect()
+    let term = |(_, number)| Term { site: ErrorSite::from_chain_number(number), basis: terms::Basis::One };
+    chain_numbers(spec).into_iter().map(term).collect()
 }
 
 impl AsJointErrors {
-    /// How far apart the points of rows are by this and by the fit, root mean square: of second order. Of many rows some tell
-    /// it. The last sources of the manipulator are the [`number_terms`].
+    /// Computes the root mean square distance between the points of this model and of the fit, in
+    /// the length unit. It is of second order in the errors.
+    ///
+    /// At most [`ROWS`] of the rows are compared. The last sources of the manipulator must be the
+    /// [`number_terms`].
     pub(super) fn difference(
         &self,
         spec: &Spec,
@@ -126,20 +132,20 @@ impl AsJointErrors {
         let terms = number_terms(spec);
         let first = setup.description.sources.len() - terms.len();
         let other =
-            |(place, value, _): &(usize, f64, f64)| (model.unknowns[fit.identifiable.kept[*place]], *value);
+            |(index, value, _): &(usize, f64, f64)| (model.unknowns[fit.identifiable.kept[*index]], *value);
         let number = |one: &FoundNumber| {
-            let place = ErrorSite::of_number(one.number);
-            let index = terms.iter().position(|term| term.place == place);
+            let site = ErrorSite::from_chain_number(one.number);
+            let index = terms.iter().position(|term| term.site == site);
             (Unknown::Magnitude(first + index.unwrap_or_default()), one.value)
         };
         let all = self.others.iter().map(other).chain(self.numbers.iter().map(number));
         let (unknowns, x): (Vec<Unknown>, Vec<f64>) = all.unzip();
-        let written = setup.real.with(unknowns);
-        let (mut room, mut room_of_fit) = (written.room(), model.room());
+        let converted = setup.real.with(unknowns);
+        let (mut scratch, mut scratch_of_fit) = (converted.scratch(), model.scratch());
         let (mut squares, mut points) = (0.0, 0);
         for row in rows.iter().step_by(rows.len().div_ceil(ROWS)) {
-            let here = written.deviations(&mut room, row, &x)?;
-            for (a, b) in here.iter().zip(model.deviations(&mut room_of_fit, row, &fit.x)?) {
+            let here = converted.deviations(&mut scratch, row, &x)?;
+            for (a, b) in here.iter().zip(model.deviations(&mut scratch_of_fit, row, &fit.x)?) {
                 squares += (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>();
                 points += 1;
             }
@@ -150,8 +156,8 @@ impl AsJointErrors {
 
 impl FoundNumber {
     fn joint_error(&self, spec: &Spec, model: &Model, fit: &Fit) -> JointError {
-        let Self { name: number, number: of, place, value, standard_deviation, .. } = self.clone();
-        let in_place_of = model.name(model.unknowns[fit.identifiable.kept[place]]);
+        let Self { name: number, number: of, index, value, standard_deviation, .. } = self.clone();
+        let in_place_of = model.name(model.unknowns[fit.identifiable.kept[index]]);
         let (factor, unit) = if is_angle(spec, of) { (1e3, "mrad") } else { (1.0, spec.length.symbol()) };
         let size = format!(
             "{} ± {} {unit}",
@@ -176,23 +182,25 @@ fn is_angle(spec: &Spec, number: ChainNumber) -> bool {
     }
 }
 
-/// What the kept unknowns are replaced by, step by step: every one a linear form of what was found of them.
-struct Basis<'a> {
+/// Replacement of kept unknowns by numbers of the chain, one after the other. Every entry of the
+/// basis is a linear form of the kept unknowns.
+struct ExchangedBasis<'a> {
     model: &'a Model<'a>,
     fit: &'a Fit,
-    /// By place among the kept unknowns.
+    /// Coefficients of each entry's linear form, by index among the kept unknowns.
     forms: Vec<Vec<f64>>,
-    /// The places that may still be given to a number: errors of frames that no unknown base, tool or target acts as.
+    /// Entries that a number may still replace: errors of frames that are not equivalent to an
+    /// unknown of base, tool or target.
     free: Vec<bool>,
 }
 
-impl<'a> Basis<'a> {
+impl<'a> ExchangedBasis<'a> {
     fn new(model: &'a Model<'a>, fit: &'a Fit) -> Self {
         let kept = &fit.identifiable.kept;
         let count = kept.len();
         let forms = (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
         let mut basis = Self { model, fit, forms, free: vec![true; count] };
-        // A direction of an instrument that is held as it is expected takes no place.
+        // A direction of an instrument that is held at its expected value excludes no entry.
         let held = |k: usize| fit.identifiable.inexact.contains(&k);
         let is_free = |k: usize, unknown: &Unknown| matches!(unknown, Unknown::Fixture(..)) && held(k);
         for (k, unknown) in model.unknowns.iter().enumerate() {
@@ -205,7 +213,7 @@ impl<'a> Basis<'a> {
         basis
     }
 
-    /// What an unknown acts as, by place among the kept ones.
+    /// Returns the combination of kept unknowns that an unknown is equivalent to.
     fn kept_coordinates(&self, unknown: usize) -> Vec<f64> {
         let identifiable = &self.fit.identifiable;
         let held = identifiable.held.iter().find(|(held, _)| *held == unknown);
@@ -216,7 +224,8 @@ impl<'a> Basis<'a> {
         identifiable.kept.iter().map(factor).collect()
     }
 
-    /// Puts a number in the place of the kept unknown that says most of it; that place, if there is any.
+    /// Replaces the kept unknown with the largest part in a number. Returns the index of that
+    /// unknown, or none if no replacement is possible.
     fn exchange(&mut self, frame: usize, errors: [f64; 6]) -> Option<usize> {
         let mut coordinates = vec![0.0; self.forms.len()];
         for (component, error) in Component::ALL.into_iter().zip(errors).filter(|(_, error)| *error != 0.0) {
@@ -228,41 +237,42 @@ impl<'a> Basis<'a> {
             coordinates.iter_mut().zip(parts).for_each(|(sum, part)| *sum += error * part);
         }
         let now: Vec<f64> = self.forms.iter().map(|form| product(form, &coordinates)).collect();
-        // In standard deviations of the kept unknowns.
-        let says = |place: usize| now[place].abs() / self.fit.covariance[(place, place)].max(0.0).sqrt();
-        let most = (0..now.len()).map(says).fold(0.0, f64::max);
-        let place = (0..now.len()).filter(|i| self.free[*i]).max_by(|a, b| says(*a).total_cmp(&says(*b)))?;
-        // Where the machine stands and what is mounted on it stays what it is.
+        // Coefficients in standard deviations of the kept unknowns.
+        let weight = |index: usize| now[index].abs() / self.fit.covariance[(index, index)].max(0.0).sqrt();
+        let most = (0..now.len()).map(weight).fold(0.0, f64::max);
+        let index =
+            (0..now.len()).filter(|i| self.free[*i]).max_by(|a, b| weight(*a).total_cmp(&weight(*b)))?;
+        // A number must not change the placement of the machine or of what is mounted on its tool.
         let unknown = |i: usize| self.model.unknowns[self.fit.identifiable.kept[i]];
-        let moves = (0..now.len()).any(|i| unknown(i).is_placement() && says(i) > 1e-3 * most);
-        // A number is not found from what hardly belongs to it.
-        if moves || says(place).is_nan() || says(place) <= 0.1 * most {
+        let moves = (0..now.len()).any(|i| unknown(i).is_placement() && weight(i) > 1e-3 * most);
+        // A number must not replace an unknown with only a small part in it.
+        if moves || weight(index).is_nan() || weight(index) <= 0.1 * most {
             return None;
         }
-        let form: Vec<f64> = self.forms[place].iter().map(|factor| factor / now[place]).collect();
+        let form: Vec<f64> = self.forms[index].iter().map(|factor| factor / now[index]).collect();
         for (i, other) in self.forms.iter_mut().enumerate() {
             other.iter_mut().zip(&form).for_each(|(factor, new)| *factor -= now[i] * new);
         }
-        self.forms[place] = form;
-        self.free[place] = false;
-        Some(place)
+        self.forms[index] = form;
+        self.free[index] = false;
+        Some(index)
     }
 
-    /// The largest correlation of what stands at a place with the magnitude of a source, without its sign.
-    fn correlation(&self, place: usize) -> f64 {
+    /// Computes the largest absolute correlation of an entry with the magnitude of a source.
+    fn correlation(&self, index: usize) -> f64 {
         let covariance = &self.fit.covariance;
-        let (_, deviation) = self.value(place);
+        let (_, deviation) = self.value(index);
         let kept = self.fit.identifiable.kept.iter().enumerate();
         let magnitudes = kept.filter(|(_, k)| matches!(self.model.unknowns[**k], Unknown::Magnitude(_)));
         let correlation = |(other, _): (usize, &usize)| {
             let with: f64 =
-                (0..self.forms.len()).map(|j| self.forms[place][j] * covariance[(j, other)]).sum();
+                (0..self.forms.len()).map(|j| self.forms[index][j] * covariance[(j, other)]).sum();
             (with / (deviation * covariance[(other, other)].max(0.0).sqrt())).abs()
         };
         magnitudes.map(correlation).fold(0.0, f64::max)
     }
 
-    /// `F C Fᵀ` with the forms as the rows of F.
+    /// Computes `F C Fᵀ`, where the rows of F are the forms and C is the covariance of the fit.
     fn covariance(&self) -> Vec<Vec<f64>> {
         let count = self.forms.len();
         let half: Vec<Vec<f64>> = self
@@ -275,9 +285,9 @@ impl<'a> Basis<'a> {
         half.iter().map(|row| self.forms.iter().map(|form| product(row, form)).collect()).collect()
     }
 
-    /// Value and standard deviation.
-    fn value(&self, place: usize) -> (f64, f64) {
-        let form = &self.forms[place];
+    /// Returns the value and the standard deviation of an entry.
+    fn value(&self, index: usize) -> (f64, f64) {
+        let form = &self.forms[index];
         let found: Vec<f64> = self.fit.identifiable.kept.iter().map(|k| self.fit.x[*k]).collect();
         let variance = (0..form.len())
             .flat_map(|i| (0..form.len()).map(move |j| (i, j)))
@@ -291,30 +301,31 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A number of the chain that acts as constant errors of one frame.
+/// Number of the chain that is equivalent to constant errors of one frame.
 pub(crate) struct ChainError {
-    /// `zero of q2`, `upper_arm`.
+    /// Name: `zero of q2`, `upper_arm`.
     pub(crate) name: String,
-    /// Whether it is an angle, or a pure number.
+    /// Is true for an angle or a pure number, false for a length.
     pub(crate) is_angle: bool,
-    /// The frame, from 0.
+    /// Index of the frame, from 0.
     pub(crate) frame: usize,
-    /// Its six errors per unit of the number.
+    /// Six generalized errors of that frame per unit of the number.
     pub(crate) errors: [f64; 6],
 }
 
-/// All of them: joints first.
+/// Returns all such numbers, joints first.
 pub(crate) fn chain_errors(spec: &Spec) -> Vec<ChainError> {
     let mut graph = Graph::with_tables(&spec.tables);
-    let all = numbers(spec).into_iter().filter_map(|(name, number)| {
+    let all = chain_numbers(spec).into_iter().filter_map(|(name, number)| {
         let (frame, errors) = constant_errors(&mut graph, spec, number)?;
         Some(ChainError { name, is_angle: is_angle(spec, number), frame, errors })
     });
     all.collect()
 }
 
-/// Every number of the chain and its name: joints first, then what the spec names itself.
-fn numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
+/// Returns every number of the chain with its name: joints, then parameters, then
+/// Denavit-Hartenberg numbers.
+fn chain_numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
     let joints = spec.variables.iter().enumerate();
     let joints = joints.map(|(i, joint)| (format!("zero of {}", joint.name), ChainNumber::Joint(i)));
     let parameters = spec.parameters.iter().enumerate();
@@ -329,7 +340,8 @@ fn numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
     joints.chain(parameters).chain(of_frames).collect()
 }
 
-/// The frame and its six errors per unit of a number, if these are the same in all configurations.
+/// Returns the frame and its six errors per unit of a number, if they are the same in all
+/// configurations.
 fn constant_errors(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Option<(usize, [f64; 6])> {
     let twists = frame_twists(graph, spec, number);
     let [FrameTwist { frame, velocity, rotation }] = twists[..] else { return None };

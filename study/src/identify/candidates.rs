@@ -1,4 +1,4 @@
-//! Which terms are tried, and in which order.
+//! Candidate terms and the order in which they are tried.
 
 use abbe::{Component, VariableKind};
 use abbe_codegen::chain::frame_twists;
@@ -9,9 +9,11 @@ use super::derived::{Derived, DerivedKind};
 use super::families::{Family, Harmonics};
 use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
 
-/// Groups of terms that come together, the sine and cosine of a joint, say: stage by stage, the likelier ones first.
+/// Returns groups of terms by stage, the likelier ones first. A group is accepted or rejected as a
+/// whole, such as the sine and cosine of a joint.
 ///
-/// Each stage is tried beside what those before it took in. `spec` has the derived inputs behind its own.
+/// Each stage is tried beside the terms accepted in earlier stages. `spec` must have the derived
+/// inputs after its own.
 pub fn candidates(
     spec: &Spec,
     derived: &[Derived],
@@ -35,9 +37,9 @@ pub fn candidates(
     };
     let gears = harmonics.iter().flat_map(|one| {
         let group = |times: &u16| {
-            let place = ErrorSite::Joint(one.variable);
+            let site = ErrorSite::Joint(one.variable);
             let bases = Basis::waves(Angle::times(one.variable, *times));
-            bases.into_iter().map(|basis| Term { place, basis }).collect::<Vec<_>>()
+            bases.into_iter().map(|basis| Term { site, basis }).collect::<Vec<_>>()
         };
         one.times.iter().map(group).collect::<Vec<_>>()
     });
@@ -53,13 +55,14 @@ pub fn candidates(
         with(Family::Product, product),
         of_kind(|kind| matches!(kind, DerivedKind::Settling(_) | DerivedKind::Drift)),
     ];
-    // What an error of a frame has in common with that of its joint everywhere is offered as the joint's.
+    // An error of a frame that equals an error of its joint in all configurations is offered as the
+    // joint's.
     let joints: Vec<Option<(usize, Component)>> =
         (0..spec.variables.len()).map(|joint| error_of_joint(spec, joint)).collect();
-    let as_joint = |term: &Term| match term.place {
+    let as_joint = |term: &Term| match term.site {
         ErrorSite::Frame(frame, component) => {
             let joint = joints.iter().position(|same| *same == Some((frame, component)));
-            joint.map(|joint| Term { place: ErrorSite::Joint(joint), ..*term })
+            joint.map(|joint| Term { site: ErrorSite::Joint(joint), ..*term })
         }
         _ => None,
     };
@@ -71,7 +74,8 @@ pub fn candidates(
     stages.into_iter().map(once).filter(|stage| !stage.is_empty()).collect()
 }
 
-/// The one error of a frame that is, in every configuration, the error of a joint, if there is one.
+/// Returns the only error of a frame that equals the error of a joint in all configurations, if
+/// there is one.
 fn error_of_joint(spec: &Spec, joint: usize) -> Option<(usize, Component)> {
     let mut graph = Graph::with_tables(&spec.tables);
     let twists = frame_twists(&mut graph, spec, ChainNumber::Joint(joint));
@@ -89,7 +93,7 @@ fn error_of_joint(spec: &Spec, joint: usize) -> Option<(usize, Component)> {
 fn joint(spec: &Spec, times: &[u16], exponents: &[u8]) -> Vec<Vec<Term>> {
     let moved = spec.frames.iter().enumerate().filter_map(|(frame, has)| Some((frame, has.variable?)));
     let groups = moved.flat_map(|(frame, variable)| {
-        let places = Component::ALL.map(|component| ErrorSite::Frame(frame, component));
+        let sites = Component::ALL.map(|component| ErrorSite::Frame(frame, component));
         let bases: Vec<Vec<Basis>> = match spec.variables[variable].kind {
             VariableKind::Revolute => {
                 times.iter().map(|times| Basis::waves(Angle::times(variable, *times))).collect()
@@ -99,8 +103,8 @@ fn joint(spec: &Spec, times: &[u16], exponents: &[u8]) -> Vec<Vec<Term>> {
                 exponents.iter().map(power).collect()
             }
         };
-        [ErrorSite::Joint(variable)].into_iter().chain(places).flat_map(move |place| {
-            let term = move |basis: &Basis| Term { place, basis: *basis };
+        [ErrorSite::Joint(variable)].into_iter().chain(sites).flat_map(move |site| {
+            let term = move |basis: &Basis| Term { site, basis: *basis };
             bases.iter().map(|group| group.iter().map(term).collect()).collect::<Vec<_>>()
         })
     });
@@ -116,12 +120,13 @@ fn load(spec: &Spec, inputs: usize) -> Vec<Vec<Term>> {
     let parameters = (0..spec.parameters.len()).filter(used).map(ErrorSite::Parameter);
     let frames = (0..spec.frames.len())
         .flat_map(|frame| Component::ALL.map(|component| ErrorSite::Frame(frame, component)));
-    let places: Vec<ErrorSite> = joints.chain(parameters).chain(frames).collect();
-    let term = |input, place| vec![Term { place, basis: Basis::Input(input) }];
-    (0..inputs).flat_map(|input| places.iter().map(move |place| term(input, *place))).collect()
+    let sites: Vec<ErrorSite> = joints.chain(parameters).chain(frames).collect();
+    let term = |input, site| vec![Term { site, basis: Basis::Input(input) }];
+    (0..inputs).flat_map(|input| sites.iter().map(move |site| term(input, *site))).collect()
 }
 
-/// The turns of the base, if its errors can be said at the first frame, and of every frame.
+/// Returns the rotational errors of the base, if they can be located at the first frame, and of
+/// every frame.
 fn turns(spec: &Spec) -> Vec<[ErrorSite; 3]> {
     let turns = [Component::Spin, Component::Roll, Component::Pitch];
     let inverse =
@@ -132,18 +137,19 @@ fn turns(spec: &Spec) -> Vec<[ErrorSite; 3]> {
 }
 
 fn elastic(spec: &Spec) -> Vec<Vec<Term>> {
-    let places = turns(spec).into_iter().flatten();
-    places.map(|place| vec![Term { place, basis: Basis::Moment }]).collect()
+    let sites = turns(spec).into_iter().flatten();
+    sites.map(|site| vec![Term { site, basis: Basis::Moment }]).collect()
 }
 
-/// What full compliances have off their diagonals, of base and frames: pair by pair, and all three of a place at once.
+/// Returns the off-diagonal entries of the compliances of base and frames: each pair alone, and all
+/// three of a site together.
 fn coupled(spec: &Spec) -> Vec<Vec<Term>> {
-    let of_place = |[spin, roll, _]: [ErrorSite; 3]| {
-        let pair = |place: ErrorSite, other| Term { place, basis: Basis::Coupled(other) };
+    let of_site = |[spin, roll, _]: [ErrorSite; 3]| {
+        let pair = |site: ErrorSite, other| Term { site, basis: Basis::Coupled(other) };
         let three = [pair(spin, Component::Roll), pair(spin, Component::Pitch), pair(roll, Component::Pitch)];
         three.map(|term| vec![term]).into_iter().chain([three.to_vec()])
     };
-    turns(spec).into_iter().flat_map(of_place).collect()
+    turns(spec).into_iter().flat_map(of_site).collect()
 }
 
 fn product(spec: &Spec) -> Vec<Vec<Term>> {
@@ -170,8 +176,8 @@ fn product(spec: &Spec) -> Vec<Vec<Term>> {
     let of_joint = |joint: usize| {
         let others = (0..count).filter(|other| *other != joint).flat_map(alone);
         let pairs = (0..count).flat_map(|one| (one + 1..count).flat_map(move |other| both(one, other)));
-        let place = ErrorSite::Joint(joint);
-        let group = |bases: Vec<Basis>| bases.into_iter().map(|basis| Term { place, basis }).collect();
+        let site = ErrorSite::Joint(joint);
+        let group = |bases: Vec<Basis>| bases.into_iter().map(|basis| Term { site, basis }).collect();
         others.chain(pairs).map(group).collect::<Vec<_>>()
     };
     (0..count).flat_map(of_joint).collect()

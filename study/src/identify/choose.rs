@@ -1,4 +1,4 @@
-//! Which richer terms earn their place: by the data alone, on rows left out in turn.
+//! Selection of richer terms by cross-validation on the fitted data alone.
 
 use std::time::{Duration, Instant};
 
@@ -8,44 +8,45 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::extended::extended;
+use super::interpretation_check::check_interpretation;
 use super::magnitude::own_magnitudes;
-use super::misread::check_interpretation;
 use super::options::Settings;
 use super::plausibility::check_plausibility;
 use super::setup::Setup;
-use super::solve::{explained, solve};
+use super::solve::{diagnose, solve};
 use super::terms::{Basis, ErrorSite, Term};
 use crate::Notes;
 use crate::data::{Data, Map};
 
-/// How likely it may be that a term is taken in by chance, all stages together.
+/// Probability of accepting a term by chance, over all stages.
 const CHANCE: f64 = 0.05;
 
-/// Terms that were taken in.
+/// Terms accepted by the selection.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Chosen {
-    /// Group by group, in the order in which they came in.
+    /// Groups in the order of acceptance.
     pub(super) groups: Vec<(Vec<Term>, Selection)>,
-    /// The model with constants alone, if richer terms were tried.
+    /// Model with constant errors alone, if richer terms were tried.
     pub(super) constant: Option<Constant>,
-    /// How many groups were tried.
+    /// Number of groups tried.
     pub(super) tried: usize,
-    /// What must be said.
+    /// Notes for the report.
     pub(super) notes: Vec<String>,
 }
 
-/// How the model with constants alone does.
+/// Accuracy of the model with constant errors alone.
 #[derive(Clone, Debug)]
 pub(super) struct Constant {
-    /// On rows left out in turn.
-    pub(super) crossed: Distances,
-    /// The lines that it rejects as gross errors.
+    /// Position errors of the cross-validation.
+    pub(super) cross_validated: Distances,
+    /// Lines of the rows rejected as outliers.
     pub(super) rejected: Vec<u64>,
 }
 
-/// Chooses from `stages` of groups of terms; those that begin when `time` is over are left out.
+/// Selects terms from `stages` of groups. Stages that would begin after the time limit are skipped.
 ///
-/// Nothing but the terms' errors at places is computed by the spec; what these are multiplied with is a factor of the row.
+/// The interpreter computes only the error of each carrier; the basis of a term is a factor that is
+/// evaluated per row.
 pub(super) fn choose(
     spec: &Spec,
     map: &Map,
@@ -72,15 +73,15 @@ pub(super) fn choose(
     let interpreter = Interpreter::new(extended(spec, &carriers));
     let mut setup = Setup::new(&interpreter, map, data, own.len() + carriers.len())?;
     check_interpretation(&setup, map, data)?;
-    setup.come_near(data).map_err(|failure| explained(&failure, data))?;
-    check_plausibility(&setup, map, data, notes).map_err(|failure| explained(&failure, data))?;
+    setup.come_near(data).map_err(|failure| diagnose(&failure, data))?;
+    check_plausibility(&setup, map, data, notes).map_err(|failure| diagnose(&failure, data))?;
     let solved = solve(&setup, data, &own, &[], settings, notes)?;
 
     let fitted = solved.model.unknowns.len();
     let magnitudes = (setup.declared + own.len()..).take(carriers.len()).map(Unknown::Magnitude);
     let unknowns = solved.model.unknowns.iter().copied().chain(magnitudes).collect();
     let model = solved.model.with(unknowns);
-    let place = |term: &Term| {
+    let factored = |term: &Term| {
         let carrier = term.carrier();
         let unknown = match unknown_error(carrier) {
             Some(error) => model.unknowns.iter().position(|unknown| *unknown == error),
@@ -92,7 +93,7 @@ pub(super) fn choose(
     let values = |row: &Observation| factors.iter().map(|basis| basis.value(&row.q, &row.u)).collect();
     let folds = Folds::new(&data.observations, settings.folds);
     let rejected = solved.fit.rejected(&data.observations).map(|row| row.line).collect();
-    let constant = Constant { crossed: solved.crossed.clone(), rejected };
+    let constant = Constant { cross_validated: solved.cross_validated.clone(), rejected };
     let mut chosen = Chosen { constant: Some(constant), ..Chosen::default() };
     let groups: usize = stages.iter().map(Vec::len).sum();
     for (i, stage) in stages.iter().enumerate() {
@@ -108,14 +109,14 @@ pub(super) fn choose(
         chosen.tried += stage.len();
         notes.go_on()?;
         let taken: Vec<Factored> =
-            chosen.groups.iter().flat_map(|(group, _)| group).filter_map(place).collect();
+            chosen.groups.iter().flat_map(|(group, _)| group).filter_map(factored).collect();
         let groups: Vec<Vec<Factored>> =
-            stage.iter().map(|group| group.iter().filter_map(place).collect()).collect();
+            stage.iter().map(|group| group.iter().filter_map(factored).collect()).collect();
         let offer =
             Offer { taken: &taken, groups: &groups, factors: &values, chance: CHANCE / stages.len() as f64 };
         let mut proceed = || !over(settings.time);
         let selected = select(&model, &data.observations, &solved.fit, &folds, &offer, &mut proceed);
-        let selected = selected.map_err(|failure| explained(&failure, data))?;
+        let selected = selected.map_err(|failure| diagnose(&failure, data))?;
         let group = |selection: Selection| (stage[selection.group].clone(), selection);
         chosen.groups.extend(selected.into_iter().map(group));
     }
@@ -123,16 +124,16 @@ pub(super) fn choose(
     Ok(chosen)
 }
 
-/// The unknown of a model that a constant term is, if it is one.
+/// Returns the unknown of a model that a constant term is equivalent to, if there is one.
 fn unknown_error(term: Term) -> Option<Unknown> {
-    match (term.place, term.basis) {
+    match (term.site, term.basis) {
         (ErrorSite::Frame(frame, component), Basis::One) => Some(Unknown::Error(frame, component)),
         _ => None,
     }
 }
 
 impl Chosen {
-    /// All terms, in the order of the stages.
+    /// Returns all terms, in the order of acceptance.
     pub(super) fn terms(&self) -> Vec<Term> {
         self.groups.iter().flat_map(|(group, _)| group).copied().collect()
     }

@@ -1,27 +1,27 @@
-//! Full compliances of the identified machine: one matrix for a frame, or for what the machine stands on.
+//! Writes full compliances of the identified machine: one matrix per frame, or for the base.
 
 use abbe::Component;
 use abbe_spec::Spec;
 
-use super::found::{FoundModel, FoundTerm};
-use super::spec_writer::{number, source_name};
+use super::found_model::{FoundModel, FoundTerm};
+use super::spec_writer::{format_number, source_name};
 use super::terms::{Basis, ErrorSite};
 use crate::number::digits;
 
-/// The turns of a compliance, in the order of its rows.
+/// Rotational errors in the order of the rows of a compliance.
 const TURNS: [Component; 3] = [Component::Spin, Component::Roll, Component::Pitch];
 
-/// What gives way: a frame, or what the machine stands on.
+/// Elastic body: a frame, or none for the base.
 type Owner = Option<usize>;
 
 impl FoundModel {
-    /// Whether a term is in the matrix of one of the full compliances.
-    pub(super) fn is_of_full_compliance(&self, found: &FoundTerm) -> bool {
-        owner(found).is_some_and(|owner| self.full().contains(&owner))
+    /// Returns true if a term is an entry of one of the full compliances.
+    pub(super) fn is_in_full_compliance(&self, found: &FoundTerm) -> bool {
+        owner(found).is_some_and(|owner| self.full_owners().contains(&owner))
     }
 
-    /// The owners of full compliances: those with an entry off the diagonal.
-    fn full(&self) -> Vec<Owner> {
+    /// Returns the owners of full compliances: those with an off-diagonal entry.
+    fn full_owners(&self) -> Vec<Owner> {
         let mut owners = Vec::new();
         for found in self.terms.iter().filter(|found| matches!(found.term.basis, Basis::Coupled(_))) {
             owners.extend(owner(found).filter(|owner| !owners.contains(owner)));
@@ -29,13 +29,15 @@ impl FoundModel {
         owners
     }
 
-    /// Their sources; `base` is the frame where `F_0` is.
+    /// Returns the sources of all full compliances. `base` is the name of the frame at `F_0`.
     pub(super) fn full_compliances(&self, spec: &Spec, base: &str) -> String {
-        self.full().into_iter().map(|owner| self.full_compliance(spec, base, owner)).collect()
+        self.full_owners().into_iter().map(|owner| self.full_compliance(spec, base, owner)).collect()
     }
 
-    /// A spec takes compliances alone from which no load gains energy. What is none is written as `(C + D) − D`, with the smallest
-    /// diagonal D that makes every row of C + D dominated by its diagonal.
+    /// Returns the source or sources of one compliance.
+    ///
+    /// A spec accepts only positive semidefinite compliances. Any other matrix C is written as
+    /// `(C + D) − D`, where D is the smallest diagonal matrix that makes C + D diagonally dominant.
     fn full_compliance(&self, spec: &Spec, base: &str, of: Owner) -> String {
         let (mut matrix, mut deviations) = ([[0.0; 3]; 3], Vec::new());
         for found in self.terms.iter().filter(|found| owner(found) == Some(of)) {
@@ -58,7 +60,7 @@ impl FoundModel {
                  [[source.effect]]\nframe = {frame:?}\ncompliance = {{ matrix = {} }}\n",
                 source_name(spec, name),
                 self.reference,
-                written(spec, matrix),
+                format_matrix(spec, matrix),
             )
         };
         let name = format!("identified: {owner}: gives way under weight");
@@ -74,9 +76,9 @@ impl FoundModel {
     }
 }
 
-/// What a compliance is of, if the term is one.
+/// Returns the owner of a compliance term; none for any other term.
 fn owner(found: &FoundTerm) -> Option<Owner> {
-    match found.term.place {
+    match found.term.site {
         _ if !found.term.basis.is_elastic() => None,
         ErrorSite::Frame(frame, _) => Some(Some(frame)),
         ErrorSite::Base(_) => Some(None),
@@ -84,21 +86,22 @@ fn owner(found: &FoundTerm) -> Option<Owner> {
     }
 }
 
-/// Row and column of a term of a compliance.
+/// Returns the row and the column of a compliance term.
 fn entry(found: &FoundTerm) -> (usize, usize) {
-    let place = |component: Component| TURNS.iter().position(|turn| *turn == component).unwrap_or_default();
-    let row = match found.term.place {
-        ErrorSite::Frame(_, component) | ErrorSite::Base(component) => place(component),
+    let index = |component: Component| TURNS.iter().position(|turn| *turn == component).unwrap_or_default();
+    let row = match found.term.site {
+        ErrorSite::Frame(_, component) | ErrorSite::Base(component) => index(component),
         _ => 0,
     };
     let column = match found.term.basis {
-        Basis::Coupled(other) => place(other),
+        Basis::Coupled(other) => index(other),
         _ => row,
     };
     (row, column)
 }
 
-/// Sylvester: no principal minor is negative. Digits that are not written may not decide.
+/// Tests by Sylvester's criterion that no principal minor is negative. The margin of 1e-6 keeps the
+/// rounding of written digits from deciding.
 fn is_semidefinite(c: &[[f64; 3]; 3]) -> bool {
     let diagonal = (0..3).all(|i| c[i][i] >= 0.0);
     let minor = |i: usize, j: usize| (1.0 - 1e-6) * c[i][i] * c[j][j] - c[i][j] * c[i][j];
@@ -111,21 +114,22 @@ fn is_semidefinite(c: &[[f64; 3]; 3]) -> bool {
     diagonal && pairs && determinant >= 1e-6 * product
 }
 
-/// What every diagonal entry lacks of the sum of its row's others.
+/// Returns, for every row, the sum of the absolute off-diagonal entries minus the diagonal entry,
+/// at least 0.
 fn deficits(c: &[[f64; 3]; 3]) -> [f64; 3] {
     std::array::from_fn(|i| {
         let others: f64 = (0..3).filter(|j| *j != i).map(|j| c[i][j].abs()).sum();
-        // A little more than the last digit that is written.
+        // The margin exceeds the last digit that is written.
         (others * (1.0 + 1e-6) - c[i][i]).max(0.0)
     })
 }
 
-/// As the six rows of a spec, in the order of e_x e_y e_z e_s e_r e_p.
-fn written(spec: &Spec, matrix: &[[f64; 3]; 3]) -> String {
+/// Formats a matrix as the six rows of a spec, in the order e_x e_y e_z e_s e_r e_p.
+fn format_matrix(spec: &Spec, matrix: &[[f64; 3]; 3]) -> String {
     let unit = Basis::Moment.text(spec);
     let turn = |component: Component| TURNS.iter().position(|turn| *turn == component);
     let entry = |row: Component, column: Component| match (turn(row), turn(column)) {
-        (Some(i), Some(j)) if matrix[i][j] != 0.0 => format!("\"{} * {unit}\"", number(matrix[i][j])),
+        (Some(i), Some(j)) if matrix[i][j] != 0.0 => format!("\"{} * {unit}\"", format_number(matrix[i][j])),
         _ => "0".to_owned(),
     };
     let row = |row: Component| format!("[{}]", Component::ALL.map(|column| entry(row, column)).join(", "));
@@ -137,7 +141,7 @@ mod tests {
     use super::{deficits, is_semidefinite};
 
     #[test]
-    fn what_is_no_compliance_is_one_with_its_deficits() {
+    fn an_indefinite_matrix_plus_its_deficits_is_semidefinite() {
         let good = [[2.0, 1.0, 0.0], [1.0, 2.0, -0.5], [0.0, -0.5, 1.0]];
         assert!(is_semidefinite(&good));
         for bad in [

@@ -1,18 +1,18 @@
-//! How much of a machine can be known.
+//! Number of identifiable errors of a machine.
 
 use std::fmt;
 
 use abbe::identify::{Identifiable, Model, Unknown};
 use serde::Serialize;
 
-/// How many errors of base and frames can be known, of how many.
+/// Number of identifiable errors of base and frames, out of how many.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Counts {
-    /// How many can be known.
+    /// Number of identifiable combinations.
     pub rank: usize,
-    /// How many there are.
+    /// Number of unknown errors.
     pub unknowns: usize,
-    /// Whether those of the base are among them.
+    /// Is true if the errors of the base are among the unknowns.
     pub base: bool,
 }
 
@@ -22,7 +22,7 @@ impl Counts {
         let stands = |unknown: &Unknown| matches!(unknown, Unknown::Fixture(..) | Unknown::Zero(_));
         let kept = || identifiable.kept.iter().map(|k| &model.unknowns[*k]);
         Self {
-            // What instruments that stand anywhere take on is no error of the machine.
+            // Fixtures and zeros that absorb errors are not errors of the machine.
             rank: match model.unknowns.iter().any(stands) {
                 true => kept().filter(|unknown| machine(unknown)).count(),
                 false => identifiable.errors,

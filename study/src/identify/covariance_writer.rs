@@ -1,19 +1,21 @@
-//! `[covariance]` of the identified machine's spec: how well its errors are known, all together.
+//! Writes `[covariance]`, the joint covariance of the identified errors, for the spec of the
+//! identified machine.
 
 use abbe_spec::Spec;
 
-use super::found::FoundModel;
+use super::found_model::FoundModel;
 use super::spec_writer::{ABOVE, constant_name};
 
-/// Something that was found as the spec names it, where it stands in the covariance, and what that is to be divided by.
+/// Identified value: its name in the spec, its row in the covariance, and the divisor that makes it
+/// relative to a magnitude.
 struct Entry {
     text: String,
-    place: usize,
+    row: usize,
     size: f64,
 }
 
 impl FoundModel {
-    /// The table, of all that is written.
+    /// Returns the table for all values that are written to the spec; empty if there are none.
     pub(super) fn covariance_table(&self, spec: &Spec) -> String {
         let entries = self.entries(spec);
         if entries.is_empty() {
@@ -21,16 +23,16 @@ impl FoundModel {
         }
         let of: String = entries.iter().map(|entry| format!("  {{ {} }},\n", entry.text)).collect();
         let covariance = |i: usize, j: usize| {
-            // The same above and below the diagonal, digit by digit.
+            // Reads one triangle only, so that the written matrix is exactly symmetric.
             let (a, b) = (&entries[i.min(j)], &entries[i.max(j)]);
-            let value = self.covariance[a.place][b.place] / (a.size * b.size);
+            let value = self.covariance[a.row][b.row] / (a.size * b.size);
             format!("{:e}", format!("{value:.4e}").parse::<f64>().unwrap_or(value) + 0.0)
         };
-        let row = |i: usize| {
+        let row_text = |i: usize| {
             let numbers: Vec<String> = (0..entries.len()).map(|j| covariance(i, j)).collect();
             format!("  [{}],\n", numbers.join(", "))
         };
-        let rows: String = (0..entries.len()).map(row).collect();
+        let rows: String = (0..entries.len()).map(row_text).collect();
         format!("\n{}[covariance]\nof = [\n{of}]\nrows = [\n{rows}]\n", ABOVE[1])
     }
 
@@ -40,23 +42,22 @@ impl FoundModel {
             let source = constant_name(spec, &frame.name);
             errors.iter().map(move |error| {
                 let text = format!("source = {source:?}, error = {:?}", error.component.name());
-                Entry { text, place: error.place, size: 1.0 }
+                Entry { text, row: error.row, size: 1.0 }
             })
         });
-        let whole = |name: &str, place: usize, size: f64| {
-            // Of what is nothing no share is known.
-            (size != 0.0).then(|| Entry { text: format!("source = {name:?}"), place, size })
+        let whole = |name: &str, row: usize, size: f64| {
+            // A relative deviation of a magnitude of zero is undefined.
+            (size != 0.0).then(|| Entry { text: format!("source = {name:?}"), row, size })
         };
-        let written = self.terms.iter().filter(|found| self.is_written(spec, found));
-        // One number says nothing of a matrix.
-        let written = written.filter(|found| !self.is_of_full_compliance(found));
+        let written = self.terms.iter().filter(|found| self.is_expressible(spec, found));
+        // A compliance matrix has no single magnitude.
+        let written = written.filter(|found| !self.is_in_full_compliance(found));
         let terms = self.numbers.iter().chain(written);
-        let terms =
-            terms.filter_map(|found| whole(&self.term_name(spec, found), found.place, found.magnitude));
+        let terms = terms.filter_map(|found| whole(&self.term_name(spec, found), found.row, found.magnitude));
         let magnitudes = self
             .magnitudes
             .iter()
-            .filter_map(|found| whole(&spec.sources[found.source].name, found.place, found.magnitude));
+            .filter_map(|found| whole(&spec.sources[found.source].name, found.row, found.magnitude));
         constants.chain(terms).chain(magnitudes).collect()
     }
 }

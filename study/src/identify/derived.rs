@@ -1,4 +1,4 @@
-//! Numbers that follow from the order of the rows, or from a pose: inputs that no column has.
+//! Inputs that are computed from the row order or from a pose instead of being read from a column.
 
 use std::borrow::Cow;
 
@@ -11,30 +11,33 @@ use super::families::Family;
 use super::terms::{Basis, ErrorSite, Term};
 use crate::data::{Channel, Data, FromRows, Map, in_order};
 
-/// Such an input.
+/// Derived input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derived {
-    /// What it is called: a name that no symbol of the spec has.
+    /// Name, different from every symbol of the spec.
     pub name: String,
-    /// How it follows.
+    /// Rule that computes its values.
     pub kind: DerivedKind,
 }
 
-/// How an input follows.
+/// Rule that computes the values of a derived input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DerivedKind {
-    /// From the rows of any file: a map can say so.
+    /// Rule that applies to the rows of any file. A map can contain it.
     FromRows(FromRows),
-    /// `exp(−n/N)` in the n-th row; 0 for rows of any other file, which find the machine settled.
+    /// `exp(−n/N)` in the n-th row of the fitted data, with N given. It is 0 for rows of any other
+    /// file, where the machine counts as settled.
     Settling(f64),
-    /// From −1 in the first row to 0 in the last, and for rows of any other file.
+    /// Linear from −1 in the first row of the fitted data to 0 in the last; 0 for rows of any other
+    /// file.
     Drift,
 }
 
-/// After how many rows a machine may have settled.
+/// Time constants that are tried for settling, in rows.
 const SETTLING: [f64; 7] = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0];
 
-/// Those that some families need beside what the map has, for so many rows.
+/// Returns the inputs that the families need in addition to those of the map. `rows` is the number
+/// of fitted rows.
 pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], rows: usize) -> Vec<Derived> {
     let moved: Vec<usize> = map.moved().collect();
     let mut all = Vec::new();
@@ -67,7 +70,7 @@ pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], rows: usize) 
         }
     }
     if families.contains(&Family::Drift) {
-        // What settles later than in half of the rows is a drift.
+        // A time constant longer than half of the rows cannot be distinguished from a drift.
         for after in SETTLING.into_iter().filter(|after| *after <= rows as f64 / 2.0) {
             add(format!("settling_{after}"), DerivedKind::Settling(after));
         }
@@ -76,7 +79,7 @@ pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], rows: usize) 
     all
 }
 
-/// The spec with these inputs behind its own.
+/// Returns the spec with the derived inputs after its own.
 pub(super) fn with_inputs(spec: &Spec, derived: &[Derived]) -> Spec {
     let input = |one: &Derived| Input {
         name: one.name.clone(),
@@ -89,7 +92,8 @@ pub(super) fn with_inputs(spec: &Spec, derived: &[Derived]) -> Spec {
     Spec { inputs: spec.inputs.iter().cloned().chain(derived.iter().map(input)).collect(), ..spec.clone() }
 }
 
-/// The same rows with these inputs; `fitted` are those that the machine is identified by.
+/// Returns the rows with the values of the derived inputs. `fitted` is true for the rows used for
+/// the fit.
 pub(super) fn with_columns<'d>(
     manipulator: &dyn Manipulator,
     spec: &Spec,
@@ -107,7 +111,7 @@ pub(super) fn with_columns<'d>(
         let nothing = derived.iter().map(|_| 0.0);
         row.u = row.u.iter().copied().chain(nothing).collect::<Vec<f64>>().into();
     }
-    // One after the other: a million rows times all of them are there once.
+    // One column at a time, so that a million rows need memory for one column only.
     for (k, one) in derived.iter().enumerate() {
         let column: Vec<f64> = match one.kind {
             DerivedKind::FromRows(follows) => {
@@ -127,7 +131,7 @@ pub(super) fn with_columns<'d>(
 }
 
 impl Derived {
-    /// What it is, in one sentence.
+    /// Returns a description in one sentence.
     pub fn description(&self, spec: &Spec) -> String {
         match self.kind {
             DerivedKind::FromRows(follows) => follows.description(spec),
@@ -136,7 +140,8 @@ impl Derived {
         }
     }
 
-    /// How it follows from the rows of any file; none of what is of the rows of one.
+    /// Returns the rule that computes the input from the rows of any file; none for rules that hold
+    /// for one file only.
     pub fn from_rows(&self) -> Option<FromRows> {
         match self.kind {
             DerivedKind::FromRows(follows) => Some(follows),
@@ -144,9 +149,9 @@ impl Derived {
         }
     }
 
-    /// The groups of terms that it is the basis of.
+    /// Returns the groups of terms that have this input as their basis.
     pub(super) fn groups(&self, spec: &Spec, input: usize) -> Vec<Vec<Term>> {
-        let group = |place| vec![Term { place, basis: Basis::Input(input) }];
+        let group = |site| vec![Term { site, basis: Basis::Input(input) }];
         match self.kind {
             DerivedKind::FromRows(
                 FromRows::Approach(variable) | FromRows::GravityMoment { variable, .. },

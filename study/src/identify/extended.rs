@@ -1,4 +1,4 @@
-//! A spec with terms as sources: what is fitted, and what `analyze` then computes, are one and the same.
+//! Extends a spec by terms as sources. The fit and `analyze` then compute the same model.
 
 use abbe::{Class, Component, VariableKind};
 use abbe_spec::expr::{Dimension, Elementary, Expression, Function, Motion, Symbol, Unit};
@@ -7,10 +7,10 @@ use abbe_spec::{Axes, Cause, ChainNumber, Compliance, Deviation, Effect, Factor,
 use super::magnitude::own_magnitudes;
 use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
 
-/// The spec with its own sources whose magnitude is to be found once more, of magnitude 1, and then all terms as repeatable
-/// sources of magnitude 1, behind its own.
+/// Returns the spec with additional sources after its own: first a copy of magnitude 1 of every
+/// source whose magnitude is unknown, then all terms as repeatable sources of magnitude 1.
 ///
-/// Where a term gives way under weight and the spec has no loads, 1 kg hangs at the tool point.
+/// If a term is elastic and the spec has no loads, a load of 1 kg is added at the tool point.
 pub fn extended(spec: &Spec, terms: &[Term]) -> Spec {
     let mut extended = spec.clone();
     if terms.iter().any(|term| term.basis.is_elastic()) {
@@ -33,12 +33,12 @@ pub fn extended(spec: &Spec, terms: &[Term]) -> Spec {
     extended
 }
 
-/// Standard gravity, 9.80665 m/s², in the coherent system of a spec.
+/// Returns standard gravity, 9.80665 m/s², in the coherent units of a spec.
 fn gravity(spec: &Spec) -> f64 {
     in_units(spec, 9.80665, &[("m", 1), ("s", -2)])
 }
 
-/// A number in a product of units, in the coherent system of a spec.
+/// Converts a number from a product of units to the coherent units of a spec.
 fn in_units(spec: &Spec, number: f64, units: &[(&str, i32)]) -> f64 {
     let unit = units.iter().fold(Unit::NONE, |product, (name, power)| {
         let product_with = Unit::named(name).and_then(|unit| product.times(unit, *power));
@@ -48,7 +48,7 @@ fn in_units(spec: &Spec, number: f64, units: &[(&str, i32)]) -> f64 {
 }
 
 impl Term {
-    /// The source of magnitude 1.
+    /// Returns the term as a source of magnitude 1.
     pub fn source(&self, spec: &Spec) -> Source {
         let (mut effects, mut deviations) = (Vec::new(), Vec::new());
         let error = |dimension: Dimension| match dimension {
@@ -64,7 +64,7 @@ impl Term {
             _ if component.is_rotation() => Cause::Errors(vec![(component, error(Dimension::NONE))]),
             _ => Cause::Errors(vec![(component, error(Dimension::LENGTH))]),
         };
-        match self.place {
+        match self.site {
             ErrorSite::Joint(joint) => {
                 let dimension = match spec.variables[joint].kind {
                     VariableKind::Revolute => Dimension::NONE,
@@ -106,7 +106,7 @@ impl Term {
     }
 }
 
-/// The way back; matrices are left out, and none is asked for.
+/// Returns the factors of the inverse transform. Matrices are left out; callers do not pass any.
 fn inverse(factors: &[Factor]) -> Vec<Factor> {
     let back = |amount: &Expression| Expression::from_number(-1.0, Dimension::NONE) * amount.clone();
     let factors = factors.iter().rev().filter_map(|factor| match factor {
@@ -121,7 +121,8 @@ fn inverse(factors: &[Factor]) -> Vec<Factor> {
     factors.collect()
 }
 
-/// A microradian per N times the length unit: about one axis by the moment about the other, and the other way round.
+/// Returns a compliance of 1 µrad per N times the length unit about one axis by the moment about
+/// the other, and the symmetric entry.
 fn compliance(spec: &Spec, one: Component, other: Component) -> Compliance {
     let value = in_units(spec, 1e-6, &[("N", -1), (spec.length.symbol(), -1)]);
     let dimension = Dimension::NONE.over(Dimension::MOMENT).unwrap_or(Dimension::NONE);
@@ -133,7 +134,7 @@ fn compliance(spec: &Spec, one: Component, other: Component) -> Compliance {
 }
 
 impl Basis {
-    /// A pure number, as a spec computes it; a compliance has none.
+    /// Returns the basis as a pure number of a spec; 0 for a compliance, which is not a factor.
     fn expression(self, spec: &Spec) -> Expression {
         match self {
             Self::One => Expression::from_number(1.0, Dimension::NONE),
@@ -187,12 +188,12 @@ mod tests {
     use super::super::terms::{Basis, ErrorSite, Term};
     use super::extended;
 
-    /// 1 kg, 300 mm from the axis, and a microradian per N mm.
+    /// A mass of 1 kg at 300 mm from the axis turns a compliance of 1 µrad per N mm.
     #[test]
     fn the_default_load_hangs_at_the_tool_point() {
         let text = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"arm\"\nvariable = { name = \"q1\", kind = \"revolute\" }\ntransform = \"Rz(q1)\"\n[tool]\ntransform = \"Tx(300)\"\n";
         let spec = Spec::parse("arm.toml", text).unwrap();
-        let term = Term { place: ErrorSite::Frame(0, Component::Spin), basis: Basis::Moment };
+        let term = Term { site: ErrorSite::Frame(0, Component::Spin), basis: Basis::Moment };
         let robot = Interpreter::new(extended(&spec, &[term]));
         let mut errors = [[0.0; 6]];
         robot.generalized_errors(&[0.7], &[], &[], &mut errors).unwrap();

@@ -1,4 +1,4 @@
-//! Test rows outside the ranges that were fitted, and the uncertainty of the machine there.
+//! Test rows outside the fitted ranges, and the uncertainty of the machine there.
 
 use abbe::identify::{Failure, Observation};
 use abbe_spec::Fitted;
@@ -6,19 +6,23 @@ use serde::Serialize;
 
 use super::solve::Solved;
 
-/// Rows outside the ranges of joints and inputs that were fitted.
+/// Test rows outside the fitted ranges of joints and inputs.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Extrapolation {
-    /// How many rows.
+    /// Number of such rows.
     pub rows: usize,
-    /// How well the place of the tool is known there: one standard deviation, the mean over these rows. The length unit.
+    /// Standard deviation of the tool position there, mean over these rows, in the length unit.
     pub known_outside: f64,
-    /// The same over the rows that were fitted.
+    /// Standard deviation of the tool position at the fitted rows, mean over them, in the length
+    /// unit.
     pub known_within: f64,
 }
 
 impl Extrapolation {
-    /// None if there are no such rows. From the covariance of what was found: what the model does not have grows unseen.
+    /// Returns none if there are no such rows.
+    ///
+    /// The deviations follow from the covariance of the fit. Errors that the model lacks are not
+    /// included.
     pub(super) fn new(
         solved: &Solved,
         fitted: &[Fitted],
@@ -26,8 +30,8 @@ impl Extrapolation {
         test: &[Observation],
     ) -> Result<Option<Self>, Failure> {
         let is_outside = |row: &&Observation| fitted.iter().any(|range| range.is_outside(&row.q, &row.u));
-        let outside = || test.iter().filter(is_outside);
-        let count = outside().count();
+        let extrapolated = || test.iter().filter(is_outside);
+        let count = extrapolated().count();
         if count == 0 {
             return Ok(None);
         }
@@ -36,7 +40,7 @@ impl Extrapolation {
             let points = solved.model.tool_points(std::slice::from_ref(row))?;
             Ok(sum + points.deviations(identifiable, covariance)[0])
         };
-        let beyond = outside().try_fold(-0.0, &mut sum)?;
+        let beyond = extrapolated().try_fold(-0.0, &mut sum)?;
         let within = rows.iter().try_fold(-0.0, &mut sum)?;
         let [known_outside, known_within] = [beyond / count as f64, within / rows.len().max(1) as f64];
         Ok(Some(Self { rows: count, known_outside, known_within }))

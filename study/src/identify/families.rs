@@ -1,35 +1,37 @@
-//! The families of richer terms that can be asked for.
+//! Families of richer terms that a user can request.
 
-/// A family of terms.
+/// Family of terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Errors of joints, and of frames with their own joint: one to four times per turn, or in proportion to its travel, its
-    /// square and its cube.
+    /// Errors of joints, and errors of frames that depend on their own joint: one to four periods
+    /// per turn, or in proportion to travel, its square and its cube.
     Joint,
-    /// Errors of joints, parameters and frames in proportion to an input: to a load, a temperature, a motor's current.
+    /// Errors of joints, parameters and frames in proportion to an input, such as a load, a
+    /// temperature or a motor current.
     Load,
-    /// Turns of base and frames in proportion to the moment that the loads of the spec, or the weight of 1 kg at the tool
-    /// point, have about them: each about its own axis, then what couples the axes.
+    /// Rotational errors of base and frames in proportion to the moment of the loads of the spec,
+    /// or of 1 kg at the tool point. Diagonal compliances come first, then off-diagonal entries.
     Elastic,
-    /// Errors of joints by the direction from which they came, row by row, or in which a weight pulls at them.
+    /// Errors of joints that depend on the direction of approach, row by row, or on the direction
+    /// of the gravity moment.
     Backlash,
-    /// Errors of joints with another joint, or with two.
+    /// Errors of joints that depend on another joint, or on two.
     Product,
-    /// Errors of frames that grow or settle from row to row.
+    /// Errors of frames that drift or settle from row to row.
     Drift,
 }
 
 impl Family {
-    /// All.
+    /// Every family.
     pub const ALL: [Self; 6] =
         [Self::Joint, Self::Load, Self::Elastic, Self::Backlash, Self::Product, Self::Drift];
 }
 
-/// How often per turn of a joint errors are looked for, beside 1 to 4: gear ratios.
+/// Additional numbers of periods per turn of a joint, beside 1 to 4, such as gear ratios.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Harmonics {
-    /// The joint.
+    /// Index of the joint.
     pub variable: usize,
-    /// So many times per turn.
+    /// Numbers of periods per turn.
     pub times: Vec<u16>,
 }

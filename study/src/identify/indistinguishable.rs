@@ -6,18 +6,19 @@ use serde::Serialize;
 
 use crate::number;
 
-/// Unknowns that cannot be distinguished: a combination that acts as another, or has no effect on what is measured.
+/// Combination of unknowns that is equivalent to another, or that has no effect on the measurement.
 #[derive(Clone, Debug, Serialize)]
 pub struct Indistinguishable {
-    /// The combination: names and factors.
+    /// Combination: names and factors.
     pub these: Vec<(String, f64)>,
-    /// What acts the same; nothing if it cannot be seen.
+    /// Equivalent combination; empty if these unknowns have no effect on the measurement.
     pub act_as: Vec<(String, f64)>,
-    /// Why.
+    /// Reason, in words.
     pub reason: String,
 }
 
-/// Returns all combinations that cannot be distinguished if the variables in `moved` are moved and all others stay at `q`.
+/// Returns all combinations that cannot be distinguished if only the variables in `moved` move and
+/// all others stay at `q`.
 pub(crate) fn indistinguishable(
     model: &Model,
     q: &[f64],
@@ -28,10 +29,10 @@ pub(crate) fn indistinguishable(
     let found = groups(model, q, moved, pose)?;
     let mut all: Vec<Indistinguishable> =
         found.iter().map(|group| Indistinguishable::new(group, model, description)).collect();
-    if model.readings.is_empty() || model.stations.iter().any(|station| !station.exact) {
+    if model.observables.is_empty() || model.stations.iter().any(|station| !station.exact) {
         return Ok(all);
     }
-    // What an error of the base would act as: as the places of the fixtures, or nothing.
+    // Finds the fixtures that errors of the base are equivalent to, if any.
     let base = Component::ALL.map(|component| Unknown::Base(0, component));
     let with_base = model.with(base.into_iter().chain(model.unknowns.iter().copied()).collect());
     let of_base = groups(&with_base, q, moved, pose)?.into_iter().filter(|group| {
@@ -42,9 +43,9 @@ pub(crate) fn indistinguishable(
         Indistinguishable {
             these: group.act_as.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect(),
             act_as: Vec::new(),
-            reason:
-                "nobody knows where the instruments stand: what moves the whole machine acts as their places"
-                    .to_owned(),
+            reason: "the placement of the instruments is unknown: motions of the whole machine cannot \
+                 be told from it"
+                .to_owned(),
         }
     }));
     Ok(all)
@@ -64,7 +65,7 @@ impl Indistinguishable {
 }
 
 impl Indistinguishable {
-    /// `e_z1 acts as e_z2`.
+    /// Formats the combination as a sentence, such as `e_z1 acts as e_z2`.
     pub fn sentence(&self) -> String {
         let these = combination(&self.these);
         let verb = if self.these.len() == 1 { "acts" } else { "act" };
@@ -76,7 +77,7 @@ impl Indistinguishable {
     }
 }
 
-/// `e_r2 − 425 e_y2`.
+/// Formats a combination, such as `e_r2 − 425 e_y2`.
 fn combination(terms: &[(String, f64)]) -> String {
     let mut text = String::new();
     for (name, factor) in terms {
@@ -93,20 +94,22 @@ fn combination(terms: &[(String, f64)]) -> String {
     text
 }
 
-/// Why, with the names of the spec.
+/// Describes the reason with the names of the spec.
 fn reason(reason: Reason, description: &Description) -> String {
     let name = |variable: usize| &description.variables[variable].name;
     match reason {
         Reason::Commutes(variable) => match description.variables[variable].kind {
             VariableKind::Revolute => {
                 format!(
-                    "{} turns: turns about its axis and shifts along it stay what they are behind it",
+                    "{} is revolute: errors about and along its axis cannot be told from those of \
+                     the next frame",
                     name(variable)
                 )
             }
             VariableKind::Prismatic => {
                 format!(
-                    "{} slides: all shifts and turns about its direction stay what they are behind it",
+                    "{} is prismatic: translations, and rotations about its axis, cannot be told \
+                     from those of the next frame",
                     name(variable)
                 )
             }
@@ -115,7 +118,7 @@ fn reason(reason: Reason, description: &Description) -> String {
         Reason::Fixed(frame) => {
             format!("nothing moves at frame {} ({})", frame + 1, description.frames[frame].name)
         }
-        Reason::Tool => "the place of the target on the tool is unknown too".to_owned(),
+        Reason::Tool => "the mounting of the target on the tool is unknown".to_owned(),
         Reason::Unseen => "turns about a single target do not move it".to_owned(),
     }
 }

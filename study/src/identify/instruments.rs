@@ -1,4 +1,4 @@
-//! The uncertainty of every instrument: as stated, or estimated from the data.
+//! Uncertainty of every instrument, as stated or as estimated from the data.
 
 use abbe::identify::{Failure, Fit, Model, Options, VarianceComponent, fit, variance_components};
 use serde::Serialize;
@@ -7,29 +7,30 @@ use super::priors::Prior;
 use super::setup::Setup;
 use crate::data::{Data, Map};
 
-/// How often uncertainties are estimated anew, at most.
+/// Largest number of iterations of the estimation.
 const ROUNDS: usize = 25;
 
-/// An instrument and its residuals.
+/// Instrument and its residuals.
 #[derive(Clone, Debug, Serialize)]
 pub struct InstrumentFit {
-    /// What the map calls it.
+    /// Name in the map.
     pub name: String,
-    /// How many numbers it told.
+    /// Number of values that it measured.
     pub numbers: usize,
-    /// How many of them are left over to judge it by.
+    /// Degrees of freedom of its residuals.
     pub freedom: f64,
-    /// One standard deviation that it counted with.
+    /// Standard deviation used in the fit, in `unit`.
     pub uncertainty: f64,
-    /// The length unit, or rad.
+    /// Unit: the length unit, or rad.
     pub unit: &'static str,
-    /// Whether that was estimated from these data.
+    /// Is true if the uncertainty was estimated from these data.
     pub estimated: bool,
-    /// What it must be multiplied with to explain what is left of its numbers.
+    /// Factor of the uncertainty that explains its residuals.
     pub factor: f64,
 }
 
-/// Gives every instrument of unknown uncertainty the one that explains what constant errors leave of its own numbers.
+/// Estimates the uncertainty of every instrument without a stated one from its residuals after a
+/// fit of constant errors.
 pub(super) fn estimate(setup: &mut Setup, map: &Map, data: &Data, prior: Prior) -> Result<(), Failure> {
     let Some(all) = map.instruments() else { return Ok(()) };
     if all.list.iter().all(|instrument| instrument.uncertainty.is_some()) {
@@ -38,20 +39,20 @@ pub(super) fn estimate(setup: &mut Setup, map: &Map, data: &Data, prior: Prior) 
     let mut at = Vec::new();
     for _ in 0..ROUNDS {
         let model = setup.real.with(setup.constants());
-        let priors = prior.of_model(&model)?;
+        let priors = prior.for_model(&model)?;
         let expected = model.expected(&priors)?;
         let found = fit(&model, &data.observations, &Options { at, priors, expected, ..Options::default() })?;
         let factors = variance_components(&model, &data.observations, &found)?;
         at = found.x;
         let mut most: f64 = 0.0;
         for (i, component) in factors.iter().enumerate() {
-            // What has nothing left over says nothing of itself.
+            // Without degrees of freedom there is no estimate.
             if all.list[i].uncertainty.is_some() || component.freedom < 1.0 || component.factor == 0.0 {
                 continue;
             }
             most = most.max(component.factor.ln().abs());
             for model in [&mut setup.ideal, &mut setup.real] {
-                let own = model.readings.iter_mut().filter(|reading| reading.instrument == i);
+                let own = model.observables.iter_mut().filter(|reading| reading.instrument == i);
                 own.for_each(|reading| reading.uncertainty *= component.factor);
             }
         }
@@ -62,7 +63,7 @@ pub(super) fn estimate(setup: &mut Setup, map: &Map, data: &Data, prior: Prior) 
     Ok(())
 }
 
-/// What is left of the numbers of every instrument.
+/// Returns the residual statistics of every instrument; empty if the map has no instruments.
 pub(super) fn instrument_fits(
     model: &Model,
     map: &Map,
@@ -72,18 +73,18 @@ pub(super) fn instrument_fits(
     let Some(all) = map.instruments() else { return Ok(Vec::new()) };
     let components = variance_components(model, &data.observations, found)?;
     let length = model.manipulator.description().length.symbol();
-    let told = all.list.iter().zip(components).map(|(instrument, component)| {
+    let fits = all.list.iter().zip(components).map(|(instrument, component)| {
         let VarianceComponent { numbers, freedom, factor } = component;
-        let reading = &model.readings[instrument.readings.start];
+        let reading = &model.observables[instrument.observables.start];
         InstrumentFit {
             name: instrument.name.clone(),
             numbers,
             freedom,
             uncertainty: reading.uncertainty,
-            unit: if reading.gauge.is_angle() { "rad" } else { length },
+            unit: if reading.kind.is_angle { "rad" } else { length },
             estimated: instrument.uncertainty.is_none(),
             factor,
         }
     });
-    Ok(told.collect())
+    Ok(fits.collect())
 }

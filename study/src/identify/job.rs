@@ -1,12 +1,12 @@
-//! What is asked, and the way to what comes out.
+//! Identification job, from data to report.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
 
 use abbe::LengthUnit;
 use abbe::identify::{
-    Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Place, Selection,
-    Unknown, deviation_beyond, drift, student_factor,
+    Comparison, Configurations, Distances, Failure, Figures, Fit, FixtureGeometry, Independent, Model,
+    Selection, Unknown, deviation_beyond, drift, student_factor,
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
@@ -21,14 +21,14 @@ use super::drift::ResidualDrift;
 use super::extended::extended;
 use super::extrapolation::Extrapolation;
 use super::families::{Family, Harmonics};
-use super::found::FoundModel;
+use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
 use super::instruments::{estimate, instrument_fits};
+use super::interpretation_check::check_interpretation;
 use super::magnitude::{OwnMagnitude, own_magnitudes};
-use super::misread::check_interpretation;
 use super::options::Settings;
 use super::plausibility::check_plausibility;
-use super::point_residuals::{PointResidual, Valued};
+use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::report::{
     Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
     TermGain,
@@ -37,55 +37,59 @@ use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::{Solved, solve};
 use super::terms::Term;
-use super::train_test_overlap::{sentence, train_test_overlap};
+use super::train_test_overlap::{overlap_warning, train_test_overlap};
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Data, Map, Summary};
 use crate::number::digits;
 use crate::{Acceptance, Machine, Notes, finite, mistake, number};
 
-/// Which errors has this machine?
+/// Identification of the errors of a machine from measurements.
 pub struct Identify {
-    /// The nominal machine.
+    /// Nominal machine.
     pub machine: Machine,
-    /// What the columns of the data are.
+    /// Meaning of the columns of the data.
     pub map: Map,
-    /// The measurements.
+    /// Measurements to fit.
     pub data: Data,
-    /// Measurements to judge by: nothing is chosen after them.
+    /// Test data, used for the assessment only.
     pub test: Option<Data>,
-    /// Richer terms to try beside constant errors; those stay that help on rows left out in turn.
+    /// Families of richer terms to try beside constant errors. Terms are accepted by
+    /// cross-validation.
     pub terms: Vec<Family>,
-    /// Gear ratios: how often per turn of a joint errors are looked for as well.
+    /// Gear ratios: additional numbers of periods per turn.
     pub harmonics: Vec<Harmonics>,
-    /// How it is done.
+    /// Settings of the fit.
     pub settings: Settings,
-    /// Limits for rows that nothing was fitted to.
+    /// Limits on the position errors of rows that were not fitted.
     pub accept: Acceptance,
 }
 
 impl Identify {
-    /// Fits, judges and chooses on the data alone; then judges by the test data, if there are any.
+    /// Fits the data and selects terms on them alone, then assesses the result on the test data, if
+    /// there are any.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        self.on(Cow::Borrowed(&self.data), self.test.as_ref().map(Cow::Borrowed), notes)
+        self.run_on(Cow::Borrowed(&self.data), self.test.as_ref().map(Cow::Borrowed), notes)
     }
 
-    /// The same for data that nobody needs afterwards: they are used up, and never there twice.
+    /// Runs the identification and consumes the data, so that they are never in memory twice.
     pub fn run_once(&mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let (data, test) = (std::mem::take(&mut self.data), self.test.take());
-        self.on(Cow::Owned(data), test.map(Cow::Owned), notes)
+        self.run_on(Cow::Owned(data), test.map(Cow::Owned), notes)
     }
 
-    fn on(
+    fn run_on(
         &self,
         data: Cow<'_, Data>,
         test: Option<Cow<'_, Data>>,
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
         let Self { machine, map, settings, .. } = self;
-        let known = test.as_deref().map_or(0, |test| train_test_overlap(&data, test));
-        if let Some(said) = test.as_deref().and_then(|test| sentence(known, test.observations.len())) {
+        let overlap = test.as_deref().map_or(0, |test| train_test_overlap(&data, test));
+        if let Some(warning) =
+            test.as_deref().and_then(|test| overlap_warning(overlap, test.observations.len()))
+        {
             notes.warn(&format!(
-                "{said}; measure others, or give no test: rows of the fit are left out in turn"
+                "{warning}; measure others, or give no test: rows of the fit are left out in turn"
             ));
         }
         let derived = derived(&machine.spec, map, &self.terms, data.observations.len());
@@ -115,45 +119,54 @@ impl Identify {
         estimate(&mut setup, map, &data, settings.prior)
             .map_err(|failure| mistake::whole(&data.file, &failure))?;
         let mut solved = solve(&setup, &data, &own, &terms, settings, notes)?;
-        let crossed = Crossed::new(std::mem::take(&mut solved.crossed), &solved, &chosen, &data);
+        let cross_validated =
+            CrossValidated::new(std::mem::take(&mut solved.cross_validated), &solved, &chosen, &data);
         let test = test.map(|test| completed(test, false));
-        let identified =
-            Identified { setup: &setup, solved: &solved, crossed, chosen: &chosen, derived: &derived, known };
+        let identified = Identified {
+            setup: &setup,
+            solved: &solved,
+            cross_validated,
+            chosen: &chosen,
+            derived: &derived,
+            overlap,
+        };
         finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
 }
 
-/// What was found, and on what.
+/// Result of the fit and of the selection.
 struct Identified<'a> {
     setup: &'a Setup<'a>,
     solved: &'a Solved<'a>,
-    crossed: Crossed,
+    cross_validated: CrossValidated,
     chosen: &'a Chosen,
     derived: &'a [Derived],
-    /// How many rows of the test are rows of the fit.
-    known: usize,
+    /// Number of test rows that are also rows of the fit.
+    overlap: usize,
 }
 
-/// How good it is on rows left out in turn, and how much better than constants alone, if richer terms were tried.
+/// Position errors of the cross-validation, and the improvement over constant errors alone if
+/// richer terms were tried.
 #[derive(Clone, Copy)]
-struct Crossed {
+struct CrossValidated {
     figures: Figures,
     gain: Option<Comparison>,
 }
 
-impl Crossed {
-    fn new(crossed: Distances, solved: &Solved, chosen: &Chosen, data: &Data) -> Self {
+impl CrossValidated {
+    fn new(cross_validated: Distances, solved: &Solved, chosen: &Chosen, data: &Data) -> Self {
         let rejected = || solved.fit.rejected(&data.observations).map(|row| row.line);
-        // Other gross errors make other rows.
+        // A comparison needs the same rows, hence the same outliers.
         let constant =
             chosen.constant.as_ref().filter(|constant| rejected().eq(constant.rejected.iter().copied()));
-        let gain = constant.map(|constant| crossed.compared_with(&constant.crossed));
-        Self { figures: crossed.into_figures(), gain }
+        let gain = constant.map(|constant| cross_validated.compared_with(&constant.cross_validated));
+        Self { figures: cross_validated.into_figures(), gain }
     }
 }
 
-/// By how much of what is left the machine may be another one when it is said in numbers of the chain.
-const SAME: f64 = 0.01;
+/// Largest change of the machine by first-order conversion to numbers of the chain, as a share of
+/// the residual.
+const CONVERSION_TOLERANCE: f64 = 0.01;
 
 fn report(
     job: &Identify,
@@ -165,10 +178,10 @@ fn report(
     let Identified {
         setup,
         solved,
-        crossed: Crossed { figures: crossed, gain: of_terms },
+        cross_validated: CrossValidated { figures: cross_validated, gain: gain_of_terms },
         chosen,
         derived,
-        known,
+        overlap,
     } = *identified;
     let spec = &machine.spec;
     let Solved { model, fit, .. } = solved;
@@ -177,40 +190,40 @@ fn report(
     let rows = &data.observations;
     let fail = |failure: Failure| mistake::whole(&data.file, &failure);
     let scale = scale_note(&setup.ideal, rows, &setup.moved(rows)).map_err(fail)?;
-    let alike = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose)
+    let groups = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, &error))?;
-    let compared_fit = compared(solved, &setup.delivered, data, |i| fit.is_kept(i))?;
+    let compared_fit = compare(solved, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup, map)?;
     let o = identifiable.observability;
     let length = map.uncertainty.length;
-    let at_stations = |test| Data::at_stations(test, data).map_err(|name| elsewhere(test, &name));
+    let at_stations = |test| Data::at_stations(test, data).map_err(|name| unknown_station(test, &name));
     let test = test.map(at_stations).transpose()?;
     let test = test.as_deref();
-    let judged = |test: &Data| compared(solved, &setup.delivered, test, |_| true);
-    let test_sizes = test.map(judged).transpose()?;
+    let assess = |test: &Data| compare(solved, &setup.delivered, test, |_| true);
+    let test_sizes = test.map(assess).transpose()?;
     let accepted = match &test_sizes {
-        Some(test) => job.accept.judge("the test rows", &test.after),
-        None => job.accept.judge("rows left out in turn", &crossed.into()),
+        Some(test) => job.accept.verdict("the test rows", &test.after),
+        None => job.accept.verdict("cross-validation", &cross_validated.into()),
     };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
     let joint_errors = AsJointErrors::new(spec, model, fit);
     let left = compared_fit.after.rms;
-    let apart = joint_errors.difference(spec, setup, solved, rows);
-    let apart = apart.map_err(|failure| mistake::whole(&data.file, &failure))?;
-    let same = Some(&joint_errors).filter(|_| apart <= SAME * left);
+    let difference = joint_errors.difference(spec, setup, solved, rows);
+    let difference = difference.map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let converted = Some(&joint_errors).filter(|_| difference <= CONVERSION_TOLERANCE * left);
     let found = FoundModel {
         derived: derived.to_vec(),
-        ..FoundModel::new(spec, solved, same, data, setup.pose, [left, crossed.rms])
+        ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
-    let order = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
-    let order = order.map_err(|failure| mistake::whole(&data.file, &failure))?;
-    let outside = |test: &Data| {
-        let outside = Extrapolation::new(solved, &found.fitted, rows, &test.observations);
-        outside.map_err(|failure| mistake::whole(&test.file, &failure))
+    let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
+    let drift_test = drift_test.map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let extrapolation = |test: &Data| {
+        let extrapolation = Extrapolation::new(solved, &found.fitted, rows, &test.observations);
+        extrapolation.map_err(|failure| mistake::whole(&test.file, &failure))
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
-    let outside = test.map(outside).transpose()?.flatten();
+    let extrapolation = test.map(extrapolation).transpose()?.flatten();
     let points = if settings.points { points(solved, data, test)? } else { Vec::new() };
     Ok(Report {
         name: spec.name.clone(),
@@ -223,9 +236,9 @@ fn report(
         condition: o.condition,
         observability: Indices { o1: o.o1, o2: o.o2, o3: o.o3, o4: o.o4, o5: o.o5 },
         unexplained: (model.unknowns.len() - identifiable.rank)
-            .saturating_sub(alike.len() + identifiable.weak.len()),
+            .saturating_sub(groups.len() + identifiable.weak.len()),
         not_known: WeaklyDetermined::all(model, identifiable, spec.length),
-        groups: alike,
+        groups,
         meanings: joint_errors.joint_errors(spec, model, fit),
         magnitudes: magnitudes(spec, solved),
         parameters,
@@ -248,15 +261,15 @@ fn report(
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
         test: test_sizes,
-        test_rows_of_the_fit: known,
+        test_rows_of_the_fit: overlap,
         accepted,
-        outside,
+        outside: extrapolation,
         cross_validation: CrossValidation {
             folds: settings.folds.clamp(2, Configurations::new(rows).count.max(2)),
-            configurations: crossed.configurations,
-            constant: chosen.constant.as_ref().map(|constant| constant.crossed.figures().into()),
-            after: crossed.into(),
-            gain: of_terms.map(Into::into),
+            configurations: cross_validated.configurations,
+            constant: chosen.constant.as_ref().map(|constant| constant.cross_validated.figures().into()),
+            after: cross_validated.into(),
+            gain: gain_of_terms.map(Into::into),
         },
         terms: chosen
             .groups
@@ -264,7 +277,7 @@ fn report(
             .map(|(terms, selection)| gain(spec, &found, terms, selection, length))
             .collect(),
         tried: chosen.tried,
-        order: order.map(|drift| ResidualDrift::new(drift, setup.description.length)),
+        drift: drift_test.map(|drift| ResidualDrift::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).collect(),
@@ -275,7 +288,8 @@ fn report(
     })
 }
 
-/// A fit that ends worse than it began has nothing to say: the model cannot be that of these data.
+/// Returns an error if the fit ends worse than it began: the model then does not describe these
+/// data.
 fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup, map: &Map) -> Result<(), Diagnostics> {
     let (before, after) = (compared.before.rms, compared.after.rms);
     if after <= 1.5 * before || after <= 10.0 * map.uncertainty.length {
@@ -283,29 +297,31 @@ fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup, map: &Map) -> R
     }
     let length = |value| number::length(value, setup.description.length);
     let message = format!(
-        "the fit ends worse than it began: the machine as its spec has it misses the positions by {} (root mean square), \
-         the fitted one by {}",
+        "the fit is worse than its start: the machine of the spec misses the positions by {} \
+         (root mean square), the fitted one by {}",
         length(before),
         length(after)
     );
     let help = match setup.pose {
         true => {
-            "positions and orientations contradict each other: is the orientation read as it was written, and `angle_uncertainty` right?"
+            "positions and orientations contradict each other: check the orientation convention \
+             and `angle_uncertainty`"
         }
-        false => "is `uncertainty` right, and are these measurements of this machine?",
+        false => "check `uncertainty`, and that these are measurements of this machine",
     };
     Err(mistake::with_help(&data.file, message, help))
 }
 
-/// `length` is the instrument's uncertainty.
+/// Describes the improvement by a group of terms. `length` is the uncertainty of the instrument in
+/// the length unit.
 fn gain(spec: &Spec, found: &FoundModel, terms: &[Term], selection: &Selection, length: f64) -> TermGain {
     let whole = with_inputs(spec, &found.derived);
     let of_group = || found.terms.iter().filter(|one| terms.contains(&one.term));
     TermGain {
         name: terms.first().map_or(String::new(), |term| term.group(&whole)),
         lines: of_group().map(|one| found.lines(spec, one)).collect(),
-        written: of_group().all(|one| found.is_written(spec, one)),
-        // Of a coordinate; of a point it is √3 as much.
+        written: of_group().all(|one| found.is_expressible(spec, one)),
+        // Root mean square of a coordinate; that of a point is √3 times as large.
         before: selection.before * length,
         after: selection.after * length,
         f: selection.test.f,
@@ -313,7 +329,7 @@ fn gain(spec: &Spec, found: &FoundModel, terms: &[Term], selection: &Selection, 
     }
 }
 
-/// Of the sources of the spec: what was found of their magnitudes.
+/// Returns the identified magnitudes of the sources of the spec.
 fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
     let Solved { model, fit, own, .. } = solved;
     let deviations = fit.standard_deviations();
@@ -329,8 +345,9 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
             None => digits(declared, 3),
         };
         let sentence = match standard_deviation {
-            Some(deviation) if k.is_some_and(|k| fit.hardly_known().contains(&k)) => format!(
-                "the magnitude of {source} is {} ± {}, of which these data say less than the spec: {before}",
+            Some(deviation) if k.is_some_and(|k| fit.weakly_determined().contains(&k)) => format!(
+                "the magnitude of {source} is {} ± {}, which these data determine less well than \
+                 the spec: {before}",
                 digits(value, 3),
                 digits(deviation, 2)
             ),
@@ -340,7 +357,8 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
                 digits(deviation, 2)
             ),
             None => format!(
-                "the magnitude of {source} cannot be told from other errors by these data; in the spec: {before}"
+                "the magnitude of {source} is indistinguishable from other errors in these data; \
+                 in the spec: {before}"
             ),
         };
         Magnitude { source, declared, declared_deviation, value, standard_deviation, sentence }
@@ -348,10 +366,10 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
     own.iter().map(one).collect()
 }
 
-/// What is left of every point, for pictures.
+/// Returns the residuals of every point, for plots.
 fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<PointResidual>, Diagnostics> {
     let Solved { simple, simple_x, model, fit, .. } = solved;
-    let (mut before, mut after) = (Valued::new(simple, simple_x), Valued::new(model, &fit.x));
+    let (mut before, mut after) = (EvaluatedModel::new(simple, simple_x), EvaluatedModel::new(model, &fit.x));
     let rejected: HashSet<u64> = fit.rejected(&data.observations).map(|row| row.line).collect();
     let mut points = Vec::new();
     for (data, is_test) in [(data, false)].into_iter().chain(test.map(|test| (test, true))) {
@@ -366,7 +384,7 @@ fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<Point
 
 fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Parameter> {
     let Solved { model, fit, .. } = solved;
-    let (deviations, hardly) = (fit.standard_deviations(), fit.hardly_known());
+    let (deviations, hardly) = (fit.standard_deviations(), fit.weakly_determined());
     let parameter = |k: &usize| {
         let unknown = model.unknowns[*k];
         let (frame, rotation) = match unknown {
@@ -374,9 +392,9 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
             Unknown::Error(frame, component) => (Some(frame + 1), component.is_rotation()),
             Unknown::Tool(component) => (None, component.is_rotation()),
             Unknown::Fixture(fixture, _) => {
-                (None, matches!(model.fixtures[fixture].place, Place::Direction(_)))
+                (None, matches!(model.fixtures[fixture].geometry, FixtureGeometry::Direction(_)))
             }
-            Unknown::Zero(reading) => (None, model.readings[reading].gauge.is_angle()),
+            Unknown::Zero(reading) => (None, model.observables[reading].kind.is_angle),
             Unknown::Target(..) | Unknown::Magnitude(_) => (None, false),
         };
         let frame_name =
@@ -404,13 +422,13 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
     fit.identifiable.kept.iter().map(parameter).collect()
 }
 
-fn elsewhere(test: &Data, name: &str) -> Diagnostics {
-    let message = format!("rows of station `{}`, where none of the data was measured", name.escape_debug());
-    let help = "`abbe measure --station new` finds a station for the machine that is identified";
+fn unknown_station(test: &Data, name: &str) -> Diagnostics {
+    let message = format!("rows of station `{}`, which the data does not have", name.escape_debug());
+    let help = "`abbe measure --station new` fits a station for the identified machine";
     mistake::with_help(&test.file, message, help)
 }
 
-fn compared(
+fn compare(
     solved: &Solved,
     delivered: &Model,
     data: &Data,
@@ -418,10 +436,10 @@ fn compared(
 ) -> Result<Compared, Diagnostics> {
     let rows = &data.observations;
     let distances = |model: &Model, x: &[f64]| {
-        let distances = model.distances_of(rows, |i| used(i).then_some(x));
+        let distances = model.distances_where(rows, |i| used(i).then_some(x));
         distances.map_err(|failure| mistake::whole(&data.file, &failure))
     };
-    // One after the other: of a million rows no more are there at a time than must be.
+    // One model at a time, to limit the memory for a million rows.
     let before = distances(delivered, &[])?.into_figures();
     let simple = distances(&solved.simple, &solved.simple_x)?;
     let after = distances(&solved.model, &solved.fit.x)?;

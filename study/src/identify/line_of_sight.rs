@@ -1,16 +1,22 @@
 //! Configurations at which the instruments of a map can be read.
 
-use abbe::identify::{Failure, Fixture, Gauge, Measurement, Model, Observation, Place, Reading, touched};
+use abbe::identify::{
+    CONTACT, Failure, Fixture, FixtureGeometry, Measurement, Model, Observable, Observation, joints_at_values,
+};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::setup::Setup;
-use crate::data::{Instruments, Kind, Map};
+use crate::data::{Instruments, Map};
 use crate::mistake;
 
-/// The same configurations, each in one setup after the other and moved to where the ideal machine touches what it is to
-/// touch, stands at an indicator, and has readings within their ranges. Those that cannot are left out; `most` are enough.
+/// Returns the configurations at which the instruments can be read, alternating between the setups.
 ///
-/// Without instruments, or with such as are read anywhere, nothing is changed.
+/// Each configuration is moved to where the ideal machine touches its target, stands at an
+/// indicator, and gives readings within their ranges. Configurations where this fails are left out;
+/// the search ends after `most`.
+///
+/// Without instruments, or with instruments that can be read anywhere, the configurations stay
+/// unchanged.
 pub(crate) fn readable_configurations(
     setup: &Setup,
     map: &Map,
@@ -29,14 +35,14 @@ pub(crate) fn readable_configurations(
         if readable.len() == most {
             break;
         }
-        // The next setup when the last one has its row; not in turn, for the bases of Halton's sequence are turns as well, and a
-        // setup would see one half of a joint's travel.
+        // Setups are not taken strictly in turn: the bases of Halton's sequence are periodic too,
+        // and a setup would then see only half of a joint's travel.
         let turn = (readable.len() as f64 * std::f64::consts::SQRT_2).fract();
         let sight = &sights[((turn * sights.len() as f64) as usize).min(sights.len() - 1)];
-        // The golden ratio spreads readings evenly over their ranges.
+        // The golden ratio spreads the readings evenly over their ranges.
         let share = (0.5 + (i / sights.len()) as f64 * 0.618_033_988_749_895).fract();
         let wanted: Vec<Option<f64>> = sight.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
-        if let Some(q) = touched(&sight.model, &configuration, &[], &wanted, &moved)? {
+        if let Some(q) = joints_at_values(&sight.model, &configuration, &[], &wanted, &moved)? {
             let measured = Measurement::Readings(sight.unread.clone());
             readable.push(Observation { q: q.into(), measured, ..configuration });
         }
@@ -44,40 +50,41 @@ pub(crate) fn readable_configurations(
     Ok(readable)
 }
 
-/// The conditions under which the instruments of a setup can be read.
+/// Conditions under which the instruments of a setup can be read.
 struct LineOfSight<'a> {
-    /// The ideal machine, with a reading for each condition.
+    /// Ideal machine, with a reading for each condition.
     model: Model<'a>,
-    /// Between what each is to be.
+    /// Range of each condition's reading.
     wanted: Vec<[f64; 2]>,
-    /// The readings that are made.
+    /// Readings of the setup, still without values.
     unread: Vec<Option<f64>>,
 }
 
 impl<'a> LineOfSight<'a> {
     fn new(setup: &Setup<'a>, all: &Instruments, read: &[usize]) -> Self {
-        let mut model = Model { readings: Vec::new(), ..setup.ideal.clone() };
+        let mut model = Model { observables: Vec::new(), ..setup.ideal.clone() };
         let mut wanted = Vec::new();
         for instrument in read.iter().map(|i| &all.list[*i]) {
-            let readings = &all.readings[instrument.readings.clone()];
+            let kind = instrument.kind;
+            let observables = &all.observables[instrument.observables.clone()];
+            let geometry = observables[0].fixture.map(|fixture| all.fixtures[fixture].geometry);
             let [lower, upper] = instrument.range.unwrap_or_default();
-            match (instrument.kind, instrument.at) {
-                (Kind::Indicator, Some(at)) => {
-                    // Not only along the direction: the target must be before the tip.
-                    let Gauge::Along { target, direction, .. } = readings[0].gauge else { continue };
-                    let Place::Direction(n) = all.fixtures[direction].place else { continue };
+            match geometry {
+                Some(FixtureGeometry::Direction(n)) if kind.has("at") && !kind.is_touched() => {
+                    // All three coordinates: the target must be in front of the tip.
                     let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-                    let from = model.fixtures.len();
-                    model.fixtures.push(Fixture { name: instrument.name.clone(), place: Place::Point(at) });
+                    let fixture = Some(model.fixtures.len());
+                    let geometry = FixtureGeometry::Point(observables[0].at);
+                    model.fixtures.push(Fixture { name: instrument.name.clone(), geometry });
                     for (axis, n) in n.iter().enumerate() {
-                        let gauge = Gauge::Apart { target, from, axis };
-                        model.readings.push(Reading { gauge, zero: 0.0, ..readings[0].clone() });
+                        let contact = Observable { kind: &CONTACT, axis, fixture, ..observables[0].clone() };
+                        model.observables.push(Observable { zero: 0.0, ..contact });
                         wanted.push([lower, upper].map(|reading| reading * n / length));
                     }
                 }
-                _ if instrument.kind.is_touched() || instrument.range.is_some() => {
-                    model.readings.extend(readings.iter().cloned());
-                    wanted.extend(readings.iter().map(|_| [lower, upper]));
+                _ if kind.is_touched() || instrument.range.is_some() => {
+                    model.observables.extend(observables.iter().cloned());
+                    wanted.extend(observables.iter().map(|_| [lower, upper]));
                 }
                 _ => {}
             }
@@ -86,12 +93,12 @@ impl<'a> LineOfSight<'a> {
     }
 }
 
-/// The mistake that no configuration can be measured.
+/// Returns the error that the instruments can be read at no configuration.
 pub(crate) fn nothing_readable(map: &str) -> Diagnostics {
-    let help = "is `at` a place that the tool reaches, in F_0? can `range` be met there?";
+    let help = "check that the tool reaches `at` (in F_0) and that `range` can be met there";
     mistake::with_help(
         map,
-        "within the limits of the joints, no configuration was found at which these instruments can be read",
+        "no configuration within the joint limits was found at which these instruments can be read",
         help,
     )
 }

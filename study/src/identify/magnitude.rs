@@ -1,22 +1,22 @@
-//! Sources of the spec whose magnitude is to be found.
+//! Sources of the spec with an unknown magnitude.
 //!
-//! Such a source is there as the spec has it, `m₀` times its expression; beside it stands the expression once more, and
-//! the unknown x that this is multiplied with is what the magnitude is more than `m₀`. The spec's standard deviation is the
-//! prior of x about 0.
+//! The model contains such a source as declared, `m₀` times its expression, and a copy of the
+//! expression. The factor of the copy is the unknown x, the difference between the actual magnitude
+//! and `m₀`. The standard deviation in the spec is the prior of x about 0.
 
 use abbe::Class;
 use abbe_spec::{Magnitude, Source, Spec};
 
-/// A source of the spec whose magnitude is to be found.
+/// Source of the spec with an unknown magnitude.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OwnMagnitude {
-    /// Which one, among all sources of the spec.
+    /// Index among all sources of the spec.
     pub(super) source: usize,
-    /// What the spec says of its magnitude.
+    /// Magnitude declared in the spec.
     pub(super) declared: Magnitude,
 }
 
-/// Those of a spec that take part, in its order.
+/// Returns the enabled repeatable sources with a declared magnitude, in the order of the spec.
 pub(super) fn own_magnitudes(spec: &Spec) -> Vec<OwnMagnitude> {
     let sources = spec.sources.iter().enumerate();
     let known = sources.filter(|(_, source)| source.enabled && source.class == Class::Repeatable);
@@ -24,7 +24,7 @@ pub(super) fn own_magnitudes(spec: &Spec) -> Vec<OwnMagnitude> {
 }
 
 impl OwnMagnitude {
-    /// The source with magnitude 1.
+    /// Returns the source with magnitude 1.
     pub(super) fn unit(self, spec: &Spec) -> Source {
         Source { magnitude: None, ..spec.sources[self.source].clone() }
     }

@@ -1,33 +1,33 @@
-//! The map of the identified machine: that of its data, with where it stands, what is mounted on its tool, and the inputs that
-//! follow from the rows.
+//! Writes the map of the identified machine: the map of the data with the identified placement and
+//! the inputs derived from rows.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::{Document, Section};
 
 use super::derived::{Derived, with_inputs};
-use super::found::FoundModel;
-use super::placed::Placed;
+use super::found_model::FoundModel;
+use super::found_placement::FoundPlacement;
 use crate::data::{Map, quaternion};
 use crate::toml_text::quoted;
 
 impl FoundModel {
-    /// The map that the data were read with, with what was found; `path` is the name of its file. What an earlier
-    /// identification said of it is left out.
+    /// Returns the map of the data with the identified placement. `path` is the name of its file.
+    /// Results of an earlier identification are replaced.
     ///
-    /// What is written is a map of the found spec, or it is not written.
+    /// The text is parsed again; the function fails if it is not a map of the identified spec.
     pub fn identified_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String, Diagnostics> {
         let (whole, needed) = (with_inputs(spec, &self.derived), self.needed(spec));
-        let text = with_from_rows(&without_places(map.text()), &whole, &needed);
-        let places = self.placed.text(spec.length.symbol());
-        let text = format!("{}\n\n{HEAD}# {}\n{places}", text.trim_end(), self.reference);
+        let text = with_from_rows(&without_placement(map.text()), &whole, &needed);
+        let placement = self.placed.text(spec.length.symbol());
+        let text = format!("{}\n\n{HEAD}# {}\n{placement}", text.trim_end(), self.reference);
         let text = text.trim_end().to_owned() + "\n";
         Map::parse(path, &text, &whole)?;
         Ok(text)
     }
 }
 
-/// A map with inputs that follow from the rows.
+/// Adds inputs derived from rows to a map.
 fn with_from_rows(text: &str, spec: &Spec, needed: &[&Derived]) -> String {
     let lines = needed.iter().filter_map(|one| Some((&one.name, one.from_rows()?.lines(spec))));
     let mut document = Document::new("", text);
@@ -50,60 +50,61 @@ fn with_from_rows(text: &str, spec: &Spec, needed: &[&Derived]) -> String {
     }
 }
 
-impl Placed {
-    /// As tables of a map; `unit` is that of lengths.
+impl FoundPlacement {
+    /// Formats the placement as tables of a map. `unit` is the length unit.
     fn text(&self, unit: &str) -> String {
         let mut text = String::new();
         let place = |pose: &[[f64; 4]; 4]| {
             let [x, y, z] = [0, 1, 2].map(|axis| pose[axis][3]);
             let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| pose[i][j]));
-            let [w, a, b, c] = quaternion(&columns).map(number);
-            format!("position = {}\nquaternion = [{w}, {a}, {b}, {c}]\n", lengths([x, y, z], unit))
+            let [w, a, b, c] = quaternion(&columns).map(format_number);
+            format!("position = {}\nquaternion = [{w}, {a}, {b}, {c}]\n", format_lengths([x, y, z], unit))
         };
         for station in &self.stations {
             let name = match &station.name[..] {
                 "" => String::new(),
                 name => format!("name = {}\n", quoted(name)),
             };
-            let covariance = matrix(station.covariance.iter().map(|row| &row[..]));
+            let covariance = format_covariance(station.covariance.iter().map(|row| &row[..]));
             text += &format!("[[station]]\n{name}{}{covariance}\n", place(&station.pose));
         }
         if !self.exact {
-            let covariance = matrix(self.covariance.iter().map(|row| &row[..]));
-            let places = match &self.mounting {
+            let covariance = format_covariance(self.covariance.iter().map(|row| &row[..]));
+            let placement = match &self.mounting {
                 Some(pose) => place(pose),
                 None => {
                     let targets =
-                        self.targets.iter().map(|target| format!("  {},\n", lengths(*target, unit)));
+                        self.targets.iter().map(|target| format!("  {},\n", format_lengths(*target, unit)));
                     format!("targets = [\n{}]\n", targets.collect::<String>())
                 }
             };
-            text += &format!("[placement]\n{places}{covariance}");
+            text += &format!("[placement]\n{placement}{covariance}");
         }
         for place in &self.instruments {
             text += &format!("\n[[place]]\nname = {}\n", quoted(&place.name));
             if let Some(position) = place.position {
-                text += &format!("position = {}\n", lengths(position, unit));
+                text += &format!("position = {}\n", format_lengths(position, unit));
             }
             if let Some(direction) = place.direction {
-                let [x, y, z] = direction.map(number);
+                let [x, y, z] = direction.map(format_number);
                 text += &format!("direction = [{x}, {y}, {z}]\n");
             }
             if let Some(zero) = place.zero {
                 let unit = if place.is_angle { "rad" } else { unit };
-                text += &format!("zero = \"{} {unit}\"\n", number(zero));
+                text += &format!("zero = \"{} {unit}\"\n", format_number(zero));
             }
-            text += &matrix(place.covariance.iter().map(|row| &row[..]));
+            text += &format_covariance(place.covariance.iter().map(|row| &row[..]));
         }
         text
     }
 }
 
 const HEAD: &str =
-    "# Where the machine stands and what is mounted on its tool, as found: no errors of the machine.\n";
+    "# Identified placement of the machine and of its tool; these are no errors of the machine.\n";
 
-/// A map without the tables that `[[station]]`, `[placement]` and `[[place]]` are, and without what is said above them.
-fn without_places(text: &str) -> String {
+/// Removes the tables `[[station]]`, `[placement]` and `[[place]]` with the comment above them from
+/// a map.
+fn without_placement(text: &str) -> String {
     let mut inside = false;
     let kept = text.split_inclusive('\n').filter(|line| {
         if line.starts_with('[') {
@@ -115,12 +116,12 @@ fn without_places(text: &str) -> String {
     kept.collect()
 }
 
-fn lengths(values: [f64; 3], unit: &str) -> String {
-    let [x, y, z] = values.map(|value| format!("\"{} {unit}\"", number(value)));
+fn format_lengths(values: [f64; 3], unit: &str) -> String {
+    let [x, y, z] = values.map(|value| format!("\"{} {unit}\"", format_number(value)));
     format!("[{x}, {y}, {z}]")
 }
 
-fn matrix<'r>(rows: impl Iterator<Item = &'r [f64]>) -> String {
+fn format_covariance<'r>(rows: impl Iterator<Item = &'r [f64]>) -> String {
     let row = |row: &[f64]| {
         let numbers: Vec<String> = row.iter().map(|value| format!("{:e}", rounded(*value, 4))).collect();
         format!("  [{}],\n", numbers.join(", "))
@@ -128,8 +129,8 @@ fn matrix<'r>(rows: impl Iterator<Item = &'r [f64]>) -> String {
     format!("covariance = [\n{}]\n", rows.map(row).collect::<String>())
 }
 
-/// Digits enough for a nanometre at ten metres.
-fn number(value: f64) -> String {
+/// Formats a number with 12 digits, enough for a nanometre at ten metres.
+fn format_number(value: f64) -> String {
     format!("{:e}", rounded(value, 11))
 }
 

@@ -1,18 +1,21 @@
-//! The generalized errors of a real machine, from measurements.
+//! Identifies the generalized errors of a real machine from measurements.
 //!
-//! `options` are what can be chosen. `setup` places the machine before the instrument, `line_of_sight` moves it to where instruments can be read, `instruments` fits
-//! their uncertainties. `misread` tests whether the data are read as they are meant, against what the map has `stated`;
-//! `plausibility` finds errors that no machine has, `train_test_overlap` test rows that were fitted.
+//! `options` are the user's settings. `setup` places the machine relative to the instrument,
+//! `line_of_sight` moves it to where instruments can be read, and `instruments` estimates their
+//! uncertainties. `interpretation_check` tests the `map_interpretation`, `plausibility` finds
+//! errors too large for a machine, and `train_test_overlap` counts test rows that were fitted.
 //!
-//! `solve` fits and judges on the data alone, with `priors`; `outliers` looks for gross errors; `magnitude` are sources of the spec that
-//! are fitted with the constants. `terms` are errors that richer models have, `families` and `candidates` those that are tried,
-//! `derived` the inputs that follow from the order of the rows; `choose` takes in those that help, `extended` is the spec that has
-//! them.
+//! `solve` fits and cross-validates with `priors`, `outliers` warns of gross errors, and
+//! `magnitude` are sources of the spec fitted with the constants. `terms` are errors of richer
+//! models, `families` and `candidates` those that are tried, and `derived` the inputs computed from
+//! the row order. `choose` selects the terms that help, `extended` adds them to the spec.
 //!
-//! `found` is the identified machine, `placed` where it stands and what is mounted on its tool. `spec_writer` writes its spec,
-//! `compliance_writer` full compliances, `covariance_writer` the covariance, `map_writer` the map. The `report` has `counts`,
-//! `as_joint_errors` (the errors as zeros and lengths of the chain), what is `indistinguishable` or `weakly_determined`, `drift`,
-//! `extrapolation`, the `scale`, and `point_residuals` for pictures. `job` is the way from one to the other.
+//! `found_model` is the identified machine, `found_placement` its placement and that of the
+//! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
+//! `covariance_writer` the covariance, and `map_writer` the map. The `report` contains `counts`,
+//! `as_joint_errors` (errors as zeros and lengths of the chain), what is `indistinguishable` or
+//! `weakly_determined`, `drift`, `extrapolation`, the `scale`, and `point_residuals` for plots.
+//! `job` runs all of it.
 
 mod as_joint_errors;
 mod candidates;
@@ -25,17 +28,18 @@ mod drift;
 mod extended;
 mod extrapolation;
 mod families;
-mod found;
+mod found_model;
+mod found_placement;
 mod indistinguishable;
 mod instruments;
+mod interpretation_check;
 mod job;
 mod line_of_sight;
 mod magnitude;
+mod map_interpretation;
 mod map_writer;
-mod misread;
 pub mod options;
 mod outliers;
-mod placed;
 mod plausibility;
 mod point_residuals;
 mod priors;
@@ -44,7 +48,6 @@ mod scale;
 mod setup;
 mod solve;
 mod spec_writer;
-mod stated;
 mod terms;
 mod train_test_overlap;
 mod weakly_determined;
@@ -57,13 +60,13 @@ pub use drift::ResidualDrift;
 pub use extended::extended;
 pub use extrapolation::Extrapolation;
 pub use families::{Family, Harmonics};
-pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
+pub use found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
+pub use found_placement::{FoundInstrument, FoundPlacement, FoundStation};
 pub use indistinguishable::Indistinguishable;
 pub use instruments::InstrumentFit;
 pub use job::Identify;
 pub use options::Settings;
 pub use outliers::shown_lines;
-pub use placed::{Placed, PlacedInstrument, PlacedStation};
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
@@ -78,8 +81,8 @@ pub use crate::sizes::Sizes;
 
 pub(crate) use as_joint_errors::chain_errors;
 pub(crate) use indistinguishable::indistinguishable;
+pub(crate) use interpretation_check::check_interpretation;
 pub(crate) use line_of_sight::{nothing_readable, readable_configurations};
-pub(crate) use misread::check_interpretation;
 pub(crate) use plausibility::{check_plausibility, too_large};
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;

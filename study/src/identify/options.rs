@@ -1,4 +1,4 @@
-//! The options of an identification.
+//! Options of an identification.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,12 +8,12 @@ use abbe::identify::Loss;
 
 use super::families::Family;
 use super::priors::Prior;
-use crate::options::{Choices, Number, share};
+use crate::options::{Choices, NumericOption, share};
 
 /// Number of parts for cross-validation.
-pub const FOLDS: Number<usize> = Number { default: 10, range: 2..=1000 };
+pub const FOLDS: NumericOption<usize> = NumericOption { default: 10, range: 2..=1000 };
 
-/// What a residual costs.
+/// Loss functions for residuals.
 pub const LOSSES: Choices<Loss> =
     Choices(&[(Loss::Squares, "none", ""), (Loss::Huber, "huber", ""), (Loss::Tukey, "tukey", "")]);
 
@@ -40,19 +40,19 @@ pub const TERMS: Choices<&[Family]> = Choices(&[
     ),
 ]);
 
-/// How an identification is done.
+/// Settings of an identification.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// What a residual costs.
+    /// Loss function for residuals.
     pub loss: Loss,
-    /// How large errors are expected to be.
+    /// Expected size of errors.
     pub prior: Prior,
-    /// Into how many parts the rows are dealt, each left out in turn.
+    /// Number of parts for cross-validation.
     pub folds: usize,
-    /// How long richer terms are tried; then no further ones are, and what comes out depends on the computer. As long as it
-    /// takes if there is none.
+    /// Time limit for trying richer terms. The result then depends on the computer. No limit if
+    /// none.
     pub time: Option<Duration>,
-    /// Whether what is left of every point is kept, for pictures.
+    /// Keeps the residuals of every point, for plots.
     pub points: bool,
 }
 
@@ -63,13 +63,13 @@ impl Default for Settings {
 }
 
 impl Default for Prior {
-    /// A hundredth of the arm's length, and 0.01 rad.
+    /// Returns the default: a hundredth of the arm length, and 0.01 rad.
     fn default() -> Self {
         Self::Share(Self::DEFAULT_SHARE)
     }
 }
 
-/// `spec`, `auto`, or a share from 0 to 1.
+/// Parses `spec`, `auto`, or a share from 0 to 1.
 impl FromStr for Prior {
     type Err = String;
 

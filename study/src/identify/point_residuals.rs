@@ -1,53 +1,54 @@
-//! What is left of every point, for pictures.
+//! Residuals of every point, for plots.
 
-use abbe::identify::{Failure, Model, Observation, Room};
+use abbe::identify::{Failure, Model, Observation, Scratch};
 
-/// A measured point, and by how much the models miss it.
+/// Residuals of a measured point, in the frame of the instrument and the length unit.
 #[derive(Clone, Debug)]
 pub struct PointResidual {
-    /// The line of its row.
+    /// Line of its row.
     pub line: u64,
-    /// The joints of its row.
+    /// Joint values of its row, in the length unit and rad.
     pub q: Vec<f64>,
-    /// The tool point as the identified model has it, as the instrument sees it.
+    /// Tool point predicted by the identified model.
     pub point: [f64; 3],
-    /// Measured minus model with base and tool fitted.
+    /// Measurement minus model with only base and tool fitted.
     pub before: [f64; 3],
-    /// Measured minus the identified model.
+    /// Measurement minus identified model.
     pub after: [f64; 3],
-    /// Whether it was for judging alone.
+    /// Is true for a test row.
     pub is_test: bool,
-    /// Whether it was left out as a gross error.
+    /// Is true for a row rejected as an outlier.
     pub is_rejected: bool,
 }
 
-/// A model and the values of its unknowns.
-pub(super) struct Valued<'m> {
+/// Model with values of its unknowns.
+pub(super) struct EvaluatedModel<'m> {
     model: &'m Model<'m>,
     x: &'m [f64],
-    room: Room,
+    scratch: Scratch,
 }
 
-impl<'m> Valued<'m> {
+impl<'m> EvaluatedModel<'m> {
     pub(super) fn new(model: &'m Model<'m>, x: &'m [f64]) -> Self {
-        Self { model, x, room: model.room() }
+        Self { model, x, scratch: model.scratch() }
     }
 
-    fn missed(&mut self, row: &Observation) -> Result<Vec<[f64; 3]>, Failure> {
-        let points = self.model.deviations(&mut self.room, row, self.x)?;
+    fn deviations(&mut self, row: &Observation) -> Result<Vec<[f64; 3]>, Failure> {
+        let points = self.model.deviations(&mut self.scratch, row, self.x)?;
         Ok(points.into_iter().map(|point| point.map(|v| -v)).collect())
     }
 
-    /// The points of a row; `self` is the identified model.
+    /// Returns the residuals of a row. `self` is the identified model, `before` the one with only
+    /// base and tool fitted.
     pub(super) fn residuals(
         &mut self,
-        before: &mut Valued,
+        before: &mut EvaluatedModel,
         row: &Observation,
         is_test: bool,
         is_rejected: bool,
     ) -> Result<Vec<PointResidual>, Failure> {
-        let point = self.model.pose(&mut self.room, row, self.x)?.position();
-        let both = before.missed(row)?.into_iter().zip(self.missed(row)?);
+        let point = self.model.pose(&mut self.scratch, row, self.x)?.position();
+        let both = before.deviations(row)?.into_iter().zip(self.deviations(row)?);
         let one = |(before, after)| PointResidual {
             line: row.line,
             q: row.q.to_vec(),

@@ -1,31 +1,32 @@
-//! What is known of a machine before it is measured.
+//! Prior knowledge of a machine before it is measured.
 
 use abbe::analysis::variance;
 use abbe::identify::{Failure, Fit, Model, Observation, Unknown, cross_validate};
 use abbe::{Class, Manipulator};
 
-/// How large errors are expected to be.
+/// Expected size of errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prior {
-    /// As a share of the arm's length, and in rad; 0 for no expectation.
+    /// Share of the arm length for lengths, and the same number in rad for angles; 0 for no prior.
     Share(f64),
-    /// As the random sources of the spec have it at the frame, joint or parameter; a hundredth where they say nothing.
+    /// Standard deviation of the spec's random sources at each error; the default share where there
+    /// is none.
     Spec,
-    /// The share with which rows that are left out in turn fit best.
+    /// Share with the smallest error in cross-validation.
     Auto,
 }
 
-/// The shares that are tried.
+/// Shares that `Auto` tries.
 const SHARES: [f64; 6] = [3e-2, Prior::DEFAULT_SHARE, 3e-3, 1e-3, 3e-4, 1e-4];
 
-/// Another share is better if rows left out are by more than this.
+/// Relative improvement of the cross-validation error by which a smaller share must be better.
 const BETTER: f64 = 0.01;
 
 impl Prior {
-    /// What is expected if nothing is said, as a share of the arm's length and in rad.
+    /// Default share of the arm length, and angle in rad.
     pub(crate) const DEFAULT_SHARE: f64 = 0.01;
 
-    /// What is expected of errors of which nothing else is said; 0 for no expectation.
+    /// Returns the share for errors without a more specific prior; 0 for no prior.
     pub(super) fn share(self) -> f64 {
         match self {
             Self::Share(share) => share,
@@ -33,20 +34,20 @@ impl Prior {
         }
     }
 
-    /// As standard deviations about zero, for the unknowns of a model.
-    pub(super) fn of_model(self, model: &Model) -> Result<Vec<Option<f64>>, Failure> {
+    /// Returns standard deviations about zero for the unknowns of a model.
+    pub(super) fn for_model(self, model: &Model) -> Result<Vec<Option<f64>>, Failure> {
         match self {
             Self::Share(share) if share > 0.0 => model.priors(share),
             Self::Share(_) => Ok(Vec::new()),
             Self::Auto => model.priors(Self::DEFAULT_SHARE),
             Self::Spec => {
                 let mut priors = model.priors(Self::DEFAULT_SHARE)?;
-                let stated = stated(model.manipulator, &model.s).map_err(Failure::Machine)?;
+                let spec_variances = spec_variances(model.manipulator, &model.s).map_err(Failure::Machine)?;
                 for (unknown, prior) in model.unknowns.iter().zip(&mut priors) {
                     if let Unknown::Error(frame, component) = unknown
-                        && stated[*frame][component.index()] > 0.0
+                        && spec_variances[*frame][component.index()] > 0.0
                     {
-                        *prior = Some(stated[*frame][component.index()].sqrt());
+                        *prior = Some(spec_variances[*frame][component.index()].sqrt());
                     }
                 }
                 Ok(priors)
@@ -54,9 +55,10 @@ impl Prior {
         }
     }
 
-    /// The share that fits rows best that are left out in turn, if it is to be chosen: of those that are about as good the
-    /// largest, which says least. `fitted` fits the model with one.
-    pub(super) fn chosen(
+    /// Resolves `Auto` to the share with the smallest cross-validation error, and returns any other
+    /// prior unchanged. Of shares that are about as good, the largest is chosen because it assumes
+    /// least. `fitted` fits the model with a prior.
+    pub(super) fn resolve(
         self,
         model: &Model,
         rows: &[Observation],
@@ -78,8 +80,9 @@ impl Prior {
     }
 }
 
-/// The variance of every error at home that the random sources of a spec make, drawing tolerances for example.
-fn stated(manipulator: &dyn Manipulator, s: &[f64]) -> Result<Vec<[f64; 6]>, abbe::Error> {
+/// Computes the variance of every generalized error of every frame at home that the random sources
+/// of a spec cause.
+fn spec_variances(manipulator: &dyn Manipulator, s: &[f64]) -> Result<Vec<[f64; 6]>, abbe::Error> {
     let description = manipulator.description();
     let q: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
     let u: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();

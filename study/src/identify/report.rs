@@ -1,4 +1,4 @@
-//! What comes out of an identification.
+//! Report of an identification.
 
 use abbe::identify::Comparison;
 use serde::Serialize;
@@ -7,114 +7,120 @@ use super::as_joint_errors::JointError;
 use super::counts::Counts;
 use super::drift::ResidualDrift;
 use super::extrapolation::Extrapolation;
-use super::found::FoundModel;
+use super::found_model::FoundModel;
+use super::found_placement::FoundPlacement;
 use super::indistinguishable::Indistinguishable;
 use super::instruments::InstrumentFit;
-use super::placed::Placed;
 use super::point_residuals::PointResidual;
 use super::weakly_determined::WeaklyDetermined;
-use crate::Accepted;
+use crate::AcceptanceVerdict;
 use crate::data::{Summary, Unusable};
 use crate::sizes::Sizes;
 
-/// What is found, how well it is known, and how good it is.
+/// Identified errors, their uncertainty, and the accuracy of the identified machine.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The machine's name.
+    /// Name of the machine.
     pub name: String,
-    /// The length unit of everything.
+    /// Length unit of all values.
     pub length: &'static str,
-    /// What the map is called.
+    /// Title of the map.
     pub title: String,
-    /// How many combinations of the unknowns these data determine.
+    /// Number of combinations of unknowns that the data determine.
     pub rank: usize,
-    /// Of how many unknowns.
+    /// Number of unknowns.
     pub unknowns: usize,
-    /// Of base and frames alone, without the targets on the tool.
+    /// Number of identifiable errors of base and frames alone, without targets on the tool.
     pub machine: Counts,
-    /// The smallest singular value that counts over the largest that does not; none if all count.
+    /// Ratio of the smallest significant singular value to the largest insignificant one; none if
+    /// all are significant.
     pub gap: Option<f64>,
-    /// The condition number of the kept columns, each of unit length.
+    /// Condition number of the kept columns of the design matrix, each scaled to unit length.
     pub condition: f64,
-    /// Indices of observability.
+    /// Observability indices.
     pub observability: Indices,
-    /// What cannot be told apart, and why.
+    /// Combinations of unknowns that cannot be distinguished, with the reason.
     pub groups: Vec<Indistinguishable>,
-    /// What stays unknown for other reasons than the groups say: 0 if they explain it all.
+    /// Number of undetermined combinations that `groups` and `not_known` do not explain; normally
+    /// 0.
     pub unexplained: usize,
-    /// The unknowns that stand for the combinations that are known.
+    /// Kept unknowns, which stand for the identifiable combinations.
     pub parameters: Vec<Parameter>,
-    /// Joints' zeros, parameters and Denavit-Hartenberg numbers that can stand in the place of some of these.
+    /// Significant errors expressed as errors of joint zeros, parameters and Denavit-Hartenberg
+    /// numbers.
     pub meanings: Vec<JointError>,
-    /// Errors of which these data tell too little beside what is known before; they are held at zero.
+    /// Errors that these data determine poorly compared with their prior; they are fixed at zero.
     pub not_known: Vec<WeaklyDetermined>,
-    /// The magnitudes of sources of the spec that are to be found.
+    /// Magnitudes of sources of the spec that were unknown.
     pub magnitudes: Vec<Magnitude>,
-    /// The others.
+    /// Unknowns that are fixed at zero because they are equivalent to kept ones.
     pub held: Vec<Held>,
-    /// Parameters that are correlated by more than 0.9, either sign.
+    /// Pairs of parameters with an absolute correlation above 0.9.
     pub correlations: Vec<Pair>,
-    /// What the stated uncertainty must be multiplied with to explain what is left.
+    /// Factor of the stated uncertainty that explains the residuals.
     pub uncertainty_factor: f64,
-    /// How sure all standard deviations are.
+    /// Basis of all standard deviations.
     pub certainty: Certainty,
-    /// Instruments that are read one by one, each with what is left of its own numbers.
+    /// Instruments that are read one by one, with statistics of their residuals.
     pub instruments: Vec<InstrumentFit>,
-    /// Where `F_0` stands as the instrument sees it, errors of the base aside: rows of a homogeneous matrix.
+    /// Initial pose of `F_0` in the frame of the instrument at the first station, without
+    /// identified errors of the base, as rows of a homogeneous matrix.
     pub base: [[f64; 4]; 4],
-    /// Where the machine stands and what is mounted on its tool, as found.
-    pub placed: Placed,
-    /// How good it is on the data, gross errors left out.
+    /// Identified placement of the machine and of what is mounted on its tool.
+    pub placed: FoundPlacement,
+    /// Position errors of the fitted rows, without outliers.
     pub fit: Compared,
-    /// How good it is on the test data.
+    /// Position errors of the test rows.
     pub test: Option<Compared>,
-    /// How many of the test rows are rows of the fit, digit by digit: by them nothing is judged.
+    /// Number of test rows that are identical to fitted rows. They cannot assess the fit.
     pub test_rows_of_the_fit: usize,
-    /// Test rows outside the ranges of joints and inputs that were fitted; none if there are no such rows.
+    /// Test rows outside the fitted ranges of joints and inputs; none if there are no such rows.
     pub outside: Option<Extrapolation>,
-    /// How good it is on rows left out in turn.
+    /// Position errors of cross-validation.
     pub cross_validation: CrossValidation,
-    /// Whether it is within the limits that were declared, if any were.
-    pub accepted: Option<Accepted>,
-    /// The richer terms that were taken in, in the order in which they were.
+    /// Verdict on the declared limits, if there are any.
+    pub accepted: Option<AcceptanceVerdict>,
+    /// Richer terms that were accepted, in the order of acceptance.
     pub terms: Vec<TermGain>,
-    /// How many groups of terms were tried.
+    /// Number of groups of terms that were tried.
     pub tried: usize,
-    /// Whether what is left follows the order of the rows; none for too few rows to tell.
-    pub order: Option<ResidualDrift>,
+    /// Drift of the residuals with the row order; none if there are too few rows for the test.
+    #[serde(rename = "order")]
+    pub drift: Option<ResidualDrift>,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,
-    /// Lines that a robust loss left out.
+    /// Lines rejected as outliers by a robust loss.
     pub rejected: Vec<u64>,
-    /// What must be said.
+    /// Notes for the user.
     pub notes: Vec<String>,
-    /// The files: the data, and the test data if there are any.
+    /// Files of the data and of the test data.
     #[serde(skip)]
     pub files: Vec<Summary>,
-    /// What is left of every point, if the settings ask for it: of the data, then of the test data.
+    /// Residuals of every point of the data, then of the test data, if the settings request them.
     #[serde(skip)]
     pub points: Vec<PointResidual>,
-    /// The identified machine.
+    /// Identified machine.
     #[serde(skip)]
     pub found: FoundModel,
 }
 
-/// What stands behind the standard deviations.
+/// Basis of the standard deviations.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Certainty {
-    /// How many independent configurations.
+    /// Number of independent configurations.
     pub configurations: usize,
-    /// What was counted: `numbers`, all measured ones; `points`, those of a configuration once; or `configurations`.
+    /// Unit of counting for degrees of freedom: `numbers` for every measured value, `points` for
+    /// one point per configuration, or `configurations`.
     pub counted: &'static str,
-    /// Degrees of freedom that are left.
+    /// Residual degrees of freedom.
     pub freedom: f64,
-    /// What a standard deviation is multiplied with for 95 %: Student's t.
+    /// Coverage factor for 95 %, from Student's t.
     pub factor_95: f64,
-    /// How likely an uncertainty factor as far from 1 is by chance.
+    /// Probability of an uncertainty factor at least as far from 1 by chance.
     pub p_of_factor: f64,
 }
 
-/// Indices of observability; see [`abbe::identify::Observability`].
+/// Observability indices; see [`abbe::identify::Observability`].
 #[derive(Clone, Copy, Debug, Serialize)]
 #[expect(missing_docs, reason = "their meaning is that of the literature")]
 pub struct Indices {
@@ -125,144 +131,150 @@ pub struct Indices {
     pub o5: f64,
 }
 
-/// What an unknown belongs to.
+/// Object that an unknown belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// The machine: it goes into the spec.
+    /// Machine: the value goes into the spec.
     Machine,
-    /// Where the machine stands.
+    /// Placement of the machine.
     Station,
-    /// What is mounted on its tool.
+    /// Placement of what is mounted on the tool.
     Placement,
 }
 
-/// An unknown that stands for a combination that is known.
+/// Kept unknown, which stands for an identifiable combination.
 #[derive(Clone, Debug, Serialize)]
 pub struct Parameter {
-    /// `e_x1`, of the base `e_x0`.
+    /// Name: `e_x1`, or `e_x0` for the base.
     pub name: String,
-    /// Whether it is an error of the machine, where it stands, or what is mounted on its tool.
+    /// Object that the unknown belongs to.
     pub kind: Kind,
-    /// The frame of an error, from 1; 0 is the base.
+    /// Frame of an error, from 1; 0 is the base. None for other unknowns.
     pub frame: Option<usize>,
-    /// What that is called.
+    /// Name of that frame.
     pub frame_name: Option<String>,
-    /// What was found.
+    /// Identified value.
     pub value: f64,
-    /// How well.
+    /// Standard deviation of the value.
     pub standard_deviation: f64,
-    /// The length unit, rad, or nothing.
+    /// Unit: the length unit, rad, or empty.
     pub unit: &'static str,
-    /// Whether the data say less of it than was known before.
+    /// Is true if the standard deviation exceeds half of the prior's: the data contribute little.
     pub hardly_known: bool,
 }
 
-/// The magnitude of a source of the spec.
+/// Identified magnitude of a source of the spec.
 #[derive(Clone, Debug, Serialize)]
 pub struct Magnitude {
-    /// The source.
+    /// Name of the source.
     pub source: String,
-    /// What the spec says.
+    /// Magnitude declared in the spec.
     pub declared: f64,
-    /// How well that was known, if the spec says so.
+    /// Standard deviation declared in the spec, if there is one.
     pub declared_deviation: Option<f64>,
-    /// What was found; what the spec says if these data do not tell.
+    /// Identified magnitude; the declared one if the data do not determine it.
     pub value: f64,
-    /// How well it is known; nothing if these data do not tell.
+    /// Standard deviation of the magnitude; none if the data do not determine it.
     pub standard_deviation: Option<f64>,
-    /// All this as a sentence.
+    /// Statement of the result in one sentence.
     pub sentence: String,
 }
 
-/// An unknown that is held at zero, and what it acts as.
+/// Unknown that is fixed at zero, and the combination it is equivalent to.
 #[derive(Clone, Debug, Serialize)]
 pub struct Held {
-    /// The unknown.
+    /// Name of the unknown.
     pub name: String,
-    /// Names of parameters and factors.
+    /// Names and factors of the equivalent combination of parameters; empty if the unknown has no
+    /// effect.
     pub acts_as: Vec<(String, f64)>,
 }
 
-/// Two parameters.
+/// Two correlated parameters.
 #[derive(Clone, Debug, Serialize)]
 pub struct Pair {
-    /// Their names.
+    /// Names of the parameters.
     pub of: [String; 2],
-    /// Their correlation.
+    /// Correlation coefficient.
     pub correlation: f64,
 }
 
-/// Position errors of some rows.
+/// Position errors of a set of rows.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Compared {
-    /// How many rows.
+    /// Number of rows.
     pub rows: usize,
-    /// How many independent configurations they are of.
+    /// Number of independent configurations among them.
     pub configurations: usize,
-    /// As delivered: with the sources that the spec has itself.
+    /// Errors as delivered: with the sources of the spec.
     pub before: Sizes,
-    /// With base and tool fitted.
+    /// Errors with base and tool fitted.
     pub base_and_tool: Sizes,
-    /// With everything.
+    /// Errors with the identified model.
     pub after: Sizes,
-    /// By how much everything is better than base and tool alone.
+    /// Improvement of the identified model over base and tool alone.
     pub gain: Gain,
 }
 
-/// By how much one model's position errors are smaller than another's, at the same points.
+/// Difference between the position errors of two models at the same points.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Gain {
-    /// The mean of the differences; below 0 it is worse.
+    /// Mean reduction of the error, in the length unit; negative if the second model is worse.
     pub mean: f64,
-    /// The standard error of that, configurations counted; none if there is only one.
+    /// Standard error of the mean, with configurations as independent samples; none for a single
+    /// configuration.
     pub standard_error: Option<f64>,
-    /// How likely a mean so far from 0 is by chance if both are as good: paired, Student's t.
+    /// Probability of a mean at least as far from 0 by chance if both models are equally good:
+    /// paired t-test.
     pub p: f64,
 }
 
-/// Position errors of rows that are left out in turn.
+/// Position errors of k-fold cross-validation.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct CrossValidation {
-    /// In how many parts.
+    /// Number of parts.
     pub folds: usize,
-    /// How many independent configurations are dealt to them.
+    /// Number of independent configurations distributed over the parts.
     pub configurations: usize,
-    /// With constants alone, if richer terms were tried.
+    /// Errors with constants alone, if richer terms were tried.
     pub constant: Option<Sizes>,
-    /// With everything.
+    /// Errors with the complete model.
     pub after: Sizes,
-    /// By how much the richer terms are better than constants alone, if they were tried.
+    /// Improvement by the richer terms over constants alone, if they were tried.
     pub gain: Option<Gain>,
 }
 
-/// A group of terms that earned its place.
+/// Accepted group of terms.
 #[derive(Clone, Debug, Serialize)]
 pub struct TermGain {
-    /// What it is called.
+    /// Name of the group.
     pub name: String,
-    /// Its terms as a spec reads, with what was found: a source's effect each.
+    /// Terms of the group as lines of a spec with the identified magnitudes, one source effect
+    /// each.
     pub lines: Vec<String>,
-    /// Whether a spec can say it.
+    /// Is true if a spec can contain these terms.
     pub written: bool,
-    /// Root mean square of a coordinate on rows left out, the length unit, before it.
+    /// Root mean square residual of a coordinate in cross-validation without the group, in the
+    /// length unit.
     pub before: f64,
-    /// … and with it.
+    /// Root mean square residual of a coordinate in cross-validation with the group, in the length
+    /// unit.
     pub after: f64,
-    /// The F-test of it, with configurations as what is independent.
+    /// F statistic of the group, with configurations as independent samples.
     pub f: f64,
-    /// How likely so large an F is by chance.
+    /// Probability of an F at least as large by chance.
     pub p: f64,
 }
 
-/// A row that cannot be used.
+/// Row that cannot be used.
 #[derive(Clone, Debug, Serialize)]
 pub struct LeftOut {
-    /// Its file.
+    /// File of the row.
     pub file: String,
-    /// Its line there.
+    /// Line of the row in the file.
     pub line: u64,
-    /// Why not.
+    /// Reason, in words.
     pub reason: String,
 }
 

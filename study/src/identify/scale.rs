@@ -1,46 +1,47 @@
-//! Whether readings tell how large a machine is.
+//! Determines how well readings define the scale of a machine.
 //!
-//! A machine that is larger in all its lengths by a share s, together with all that stands still, has readings larger by s times
-//! their gauge: what touches still touches, and an unknown zero takes on what is the same in all rows. What joints slide is
-//! known, and tells the size.
+//! If all lengths of a machine and of its fixtures grow by a share s, every reading grows by s
+//! times its gauge value: contacts stay in contact, and an unknown zero absorbs whatever is the
+//! same in all rows. Prismatic joints have known travel and so define the scale.
 
 use abbe::VariableKind;
-use abbe::identify::{Failure, Gauge, Measurement, Model, Observation};
+use abbe::identify::{Failure, Measurement, Model, Observation, SizeInformation};
 
 use crate::number::digits;
 
-/// How well these readings tell the scale at best: one standard deviation, as a share; infinite if not at all.
+/// Computes the smallest possible standard deviation of the scale, as a share, with all other
+/// unknowns known; infinite if the readings do not define it.
 ///
-/// `moved` are the joints that these rows move. All other unknowns would have to be known for this.
+/// `moved` are the joints that move in these rows.
 fn scale_uncertainty(ideal: &Model, rows: &[Observation], moved: &[usize]) -> Result<f64, Failure> {
     let variables = &ideal.manipulator.description().variables;
     if moved.iter().any(|j| variables[*j].kind == VariableKind::Prismatic) {
         return Ok(0.0);
     }
-    let mut room = ideal.room();
-    let mut all: Vec<Vec<f64>> = vec![Vec::new(); ideal.readings.len()];
+    let mut scratch = ideal.scratch();
+    let mut all: Vec<Vec<f64>> = vec![Vec::new(); ideal.observables.len()];
     for row in rows {
         let Measurement::Readings(read) = &row.measured else { continue };
-        let values = ideal.values(&mut room, row, &[])?;
+        let values = ideal.values(&mut scratch, row, &[])?;
         for (i, value) in values.into_iter().enumerate().filter(|(i, _)| read[*i].is_some()) {
-            all[i].push(value - ideal.readings[i].zero);
+            all[i].push(value - ideal.observables[i].zero);
         }
     }
     let mut information = 0.0;
-    for (values, reading) in all.iter().zip(&ideal.readings).filter(|(values, _)| !values.is_empty()) {
+    for (values, observable) in all.iter().zip(&ideal.observables).filter(|(values, _)| !values.is_empty()) {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let told = match reading.gauge {
-            Gauge::Lean { .. } | Gauge::Apart { .. } => continue,
-            _ if reading.touched && !reading.zero_known => continue,
-            Gauge::Distance { .. } | Gauge::Between { .. } | Gauge::Moved { .. } if reading.zero_known => 0.0,
+        let absorbed = match observable.kind.size {
+            SizeInformation::None => continue,
+            _ if observable.kind.is_touched() && !observable.zero_known => continue,
+            SizeInformation::Length if observable.zero_known => 0.0,
             _ => mean,
         };
-        information += values.iter().map(|v| ((v - told) / reading.uncertainty).powi(2)).sum::<f64>();
+        information += values.iter().map(|v| ((v - absorbed) / observable.uncertainty).powi(2)).sum::<f64>();
     }
     Ok(1.0 / information.sqrt())
 }
 
-/// What is to be said of that; nothing where there are no readings.
+/// Returns a note on the scale; none without readings or with a well-defined scale.
 pub(crate) fn scale_note(
     ideal: &Model,
     rows: &[Observation],
@@ -48,15 +49,16 @@ pub(crate) fn scale_note(
 ) -> Result<Option<String>, Failure> {
     let deviation = scale_uncertainty(ideal, rows, moved)?;
     Ok(match deviation {
-        _ if ideal.readings.is_empty() || deviation == 0.0 => None,
+        _ if ideal.observables.is_empty() || deviation == 0.0 => None,
         _ if deviation > 0.1 => Some(
-            "These readings cannot tell how large the machine is: with all its lengths larger by the same share it would \
-             give the same ones. A length that is known tells it: a bar that is calibrated, or a wire that is drawn out."
+            "These measurements do not determine the scale of the machine: scaling all its \
+             lengths does not change them. A known length determines it: a calibrated bar, or a \
+             draw-wire sensor."
                 .to_owned(),
         ),
         _ => Some(format!(
-            "How large the machine is, all its lengths together, these readings tell to {} mm per metre at best (one \
-             standard deviation).",
+            "These measurements determine the scale of the machine to {} mm per metre at best \
+             (one standard deviation).",
             digits(1e3 * deviation, 2)
         )),
     })

@@ -1,9 +1,9 @@
-//! The models that measurements are compared with.
+//! Models that measurements are compared with.
 
 use abbe::analysis::sampling;
 use abbe::identify::{
-    Failure, Fixture, Gauge, Measurement, Model, Observation, Options, Place, Role, Station, Unknown, fit,
-    register, register_pairs,
+    Failure, Fixture, FixtureGeometry, Measurement, Model, Observable, Observation, Options, Role, Station,
+    Unknown, fit, register, register_pairs,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_spec::diagnostic::Diagnostics;
@@ -11,62 +11,64 @@ use abbe_spec::diagnostic::Diagnostics;
 use crate::data::{Base, Data, Map};
 use crate::mistake;
 
-/// A manipulator, and where the instrument sees it.
+/// Manipulator and its placement relative to the instrument.
 pub(crate) struct Setup<'a> {
     pub(crate) description: &'a Description,
-    /// Whether whole poses are measured.
+    /// Is true if whole poses are measured.
     pub(crate) pose: bool,
-    /// Whether nothing of what is mounted on the tool is unknown.
+    /// Is true if the placement on the tool is known exactly.
     placement: bool,
-    /// The ideal chain, without any source.
+    /// Ideal chain, without any source.
     pub(crate) ideal: Model<'a>,
-    /// The chain with the repeatable sources of its spec.
+    /// Chain with the repeatable sources of its spec.
     pub(crate) real: Model<'a>,
-    /// The same before a far start was brought near.
+    /// The real chain before [`Setup::come_near`] improved its placement.
     pub(crate) delivered: Model<'a>,
-    /// The sum of the lengths of the chain.
+    /// Sum of the lengths of the chain, in the length unit.
     pub(crate) arm: f64,
-    /// How many sources the spec itself has.
+    /// Number of sources of the spec itself.
     pub(crate) declared: usize,
 }
 
 impl<'a> Setup<'a> {
-    /// Seen from where the map and the data say that the instrument stands. The last `terms` sources of the manipulator are
-    /// no part of the machine: their magnitudes may become unknowns.
+    /// Places the manipulator at the stations that the map and the data state.
+    ///
+    /// The last `terms` sources of the manipulator are not part of the machine: their magnitudes
+    /// may become unknowns.
     pub(crate) fn new(
         manipulator: &'a dyn Manipulator,
         map: &Map,
         data: &Data,
         terms: usize,
     ) -> Result<Self, Diagnostics> {
-        let mut setup = Self::placed(manipulator, map, terms)?;
+        let mut setup = Self::without_stations(manipulator, map, terms)?;
         let unnamed = [String::new()];
         let names = if data.stations.is_empty() { &unnamed[..] } else { &data.stations };
         let stations = names.iter().enumerate().map(|(i, name)| {
             let pose = match (map.stations.pose(name), map.base) {
                 (Some(pose), _) => pose,
                 (None, Base::Known | Base::Exact) if !map.stations.stated.is_empty() => {
-                    return Err(unstated(map, data, name));
+                    return Err(missing_station(map, data, name));
                 }
                 (None, Base::Known | Base::Exact) => Pose::IDENTITY,
                 (None, Base::Unknown) => registered(&setup.real, &data.observations, i)
                     .map_err(|failure| mistake::whole(&data.file, &failure))?
-                    .ok_or_else(|| in_line(data, name))?,
+                    .ok_or_else(|| collinear(data, name))?,
             };
             Ok(Station { name: name.clone(), pose, exact: map.base == Base::Exact })
         });
         let stations = stations.collect::<Result<Vec<_>, Diagnostics>>()?;
-        setup.stand_at(&stations);
+        setup.set_stations(&stations);
         Ok(setup)
     }
 
-    /// Seen from where the map says, or from `F_0` itself.
+    /// Places the manipulator as the map states, or at `F_0` of the instrument.
     pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self, Diagnostics> {
-        Self::standing(manipulator, map, map.station_names())
+        Self::with_stations(manipulator, map, map.station_names())
     }
 
-    /// The same for rows that are to be simulated, from every station that they name. An error if the map states some, and not
-    /// that one.
+    /// Places the manipulator at every station named in rows that are to be simulated. Returns an
+    /// error if the map states some stations, but not one of these.
     pub(crate) fn at_stations_of(
         manipulator: &'a dyn Manipulator,
         map: &Map,
@@ -74,29 +76,33 @@ impl<'a> Setup<'a> {
     ) -> Result<Self, Diagnostics> {
         let is_unstated = |name: &&String| map.stations.pose(name).is_none();
         match data.stations.iter().find(is_unstated) {
-            Some(name) if !map.stations.stated.is_empty() => Err(unstated(map, data, name)),
+            Some(name) if !map.stations.stated.is_empty() => Err(missing_station(map, data, name)),
             _ if data.stations.is_empty() => Self::at_home(manipulator, map),
-            _ => Self::standing(manipulator, map, data.stations.clone()),
+            _ => Self::with_stations(manipulator, map, data.stations.clone()),
         }
     }
 
-    fn standing(
+    fn with_stations(
         manipulator: &'a dyn Manipulator,
         map: &Map,
         names: Vec<String>,
     ) -> Result<Self, Diagnostics> {
-        let mut setup = Self::placed(manipulator, map, 0)?;
+        let mut setup = Self::without_stations(manipulator, map, 0)?;
         let station = |name: String| Station {
             pose: map.stations.pose(&name).unwrap_or(Pose::IDENTITY),
             name,
             exact: map.base == Base::Exact,
         };
-        setup.stand_at(&names.into_iter().map(station).collect::<Vec<_>>());
+        setup.set_stations(&names.into_iter().map(station).collect::<Vec<_>>());
         Ok(setup)
     }
 
-    fn placed(manipulator: &'a dyn Manipulator, map: &Map, terms: usize) -> Result<Self, Diagnostics> {
-        let ideal = Model { mounting: map.mounting(), ..ideal(manipulator, map) };
+    fn without_stations(
+        manipulator: &'a dyn Manipulator,
+        map: &Map,
+        terms: usize,
+    ) -> Result<Self, Diagnostics> {
+        let ideal = Model { mounting: map.mounting(), ..ideal_model(manipulator, map) };
         let description = ideal.manipulator.description();
         let mut real = ideal.clone();
         let declared = description.sources.len() - terms;
@@ -110,14 +116,16 @@ impl<'a> Setup<'a> {
         Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm, declared })
     }
 
-    fn stand_at(&mut self, stations: &[Station]) {
+    fn set_stations(&mut self, stations: &[Station]) {
         for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
             model.stations = stations.to_vec();
         }
     }
 
-    /// Brings a start near that the data miss by far, in closed form: where the machine stands and what is mounted on its tool
-    /// in turn, each the rigid motion that explains the data best beside the other.
+    /// Improves a placement that is far from the data, in closed form.
+    ///
+    /// The station poses and the placement on the tool are registered in turn: each is the rigid
+    /// motion that explains the data best given the other.
     pub(crate) fn come_near(&mut self, data: &Data) -> Result<(), Failure> {
         let rows = &data.observations;
         let far = |model: &Model| Ok(model.figures(rows, &[])?.rms > FAR * self.arm);
@@ -134,7 +142,7 @@ impl<'a> Setup<'a> {
                 }
             }
             if !self.placement {
-                mount(&mut near, rows, self.arm)?;
+                register_tool(&mut near, rows, self.arm)?;
             }
             if !far(&near)? {
                 break;
@@ -148,8 +156,8 @@ impl<'a> Setup<'a> {
         Ok(())
     }
 
-    /// Finds the stations that the map does not state, and the places of what its instruments look at that were not found before,
-    /// for the machine as its spec has it.
+    /// Fits the stations that the map does not state and the fixtures and zeros that were not
+    /// identified before, for the machine as specified. Returns false if there was nothing to fit.
     pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<bool, Diagnostics> {
         let open =
             |station: &Station| map.base == Base::Unknown && map.stations.pose(&station.name).is_none();
@@ -162,50 +170,50 @@ impl<'a> Setup<'a> {
         let model = self.real.with(unknowns);
         let fit = fit(&model, &data.observations, &Options::default());
         let fit = fit.map_err(|failure| mistake::whole(&data.file, &failure))?;
-        self.stand_at(&found_stations(&model, &fit.x));
+        self.set_stations(&fitted_stations(&model, &fit.x));
         let fixtures = (0..model.fixtures.len())
-            .map(|i| Fixture { place: found_place(&model, &fit.x, i), ..model.fixtures[i].clone() });
+            .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });
         let fixtures: Vec<Fixture> = fixtures.collect();
-        let zeros: Vec<f64> = (0..model.readings.len()).map(|i| found_zero(&model, &fit.x, i)).collect();
+        let zeros: Vec<f64> = (0..model.observables.len()).map(|i| fitted_zero(&model, &fit.x, i)).collect();
         for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
             model.fixtures.clone_from(&fixtures);
-            model.readings.iter_mut().zip(&zeros).for_each(|(reading, zero)| reading.zero = *zero);
+            model.observables.iter_mut().zip(&zeros).for_each(|(reading, zero)| reading.zero = *zero);
         }
         Ok(true)
     }
 
-    /// The unknowns of what instruments look at that were not found before.
+    /// Returns the unknowns of fixtures and zeros that were not identified before.
     fn fixtures_to_find(&self, map: &Map) -> Vec<Unknown> {
         let Some(all) = map.instruments() else { return Vec::new() };
         let open = (0..all.list.len()).filter(|i| !all.found.contains(i));
         let unknowns = open.flat_map(|i| {
             let place = all.fixture_of(i).into_iter().flat_map(|fixture| {
-                let count = self.real.fixtures[fixture].place.unknowns();
+                let count = self.real.fixtures[fixture].geometry.unknowns();
                 (0..count).map(move |coordinate| Unknown::Fixture(fixture, coordinate))
             });
             let zeros =
-                all.list[i].readings.clone().filter(|reading| !self.real.readings[*reading].zero_known);
+                all.list[i].observables.clone().filter(|reading| !self.real.observables[*reading].zero_known);
             place.chain(zeros.map(Unknown::Zero)).collect::<Vec<_>>()
         });
         unknowns.collect()
     }
 
-    /// What is unknown of base and tool.
+    /// Returns the unknowns of base and tool.
     pub(crate) fn base_and_tool(&self) -> Vec<Unknown> {
-        self.but_exact(self.ideal.base_and_tool(self.pose))
+        self.without_exact(self.ideal.base_and_tool(self.pose))
     }
 
-    /// What is unknown of base, frames and tool.
+    /// Returns the unknowns of base, frames and tool.
     pub(crate) fn constants(&self) -> Vec<Unknown> {
-        self.but_exact(self.ideal.constants(self.pose))
+        self.without_exact(self.ideal.constants(self.pose))
     }
 
-    fn but_exact(&self, mut unknowns: Vec<Unknown>) -> Vec<Unknown> {
+    fn without_exact(&self, mut unknowns: Vec<Unknown>) -> Vec<Unknown> {
         unknowns.retain(|unknown| !(self.placement && unknown.is_tool()));
         unknowns
     }
 
-    /// The variables that the data move.
+    /// Returns the indices of the variables that move in the data.
     pub(crate) fn moved(&self, data: &[Observation]) -> Vec<usize> {
         let moves = |i: &usize| {
             let values = data.iter().map(|row| row.q[*i]);
@@ -221,25 +229,27 @@ impl<'a> Setup<'a> {
     }
 }
 
-/// The ideal chain, and what the instruments of a map look at.
-fn ideal<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
+/// Returns the ideal chain with the fixtures and readings of a map.
+fn ideal_model<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
     let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
     match map.instruments() {
-        Some(all) => Model { fixtures: all.fixtures.clone(), readings: all.readings.clone(), ..ideal },
+        Some(all) => Model { fixtures: all.fixtures.clone(), observables: all.observables.clone(), ..ideal },
         None => ideal,
     }
 }
 
-/// The points that were measured of every target, none of those that were not.
+/// Returns the measured point of every target, in the frame of the instrument; none for targets
+/// that were not measured.
 fn points(model: &Model, observation: &Observation) -> Vec<Option<[f64; 3]>> {
     match &observation.measured {
         Measurement::Points(points) => points.to_vec(),
         Measurement::Pose(_) => Vec::new(),
         Measurement::Readings(values) => {
             let coordinate = |j: usize, k: usize| {
-                let is_it = |gauge: Gauge| gauge == Gauge::Coordinate { target: j, axis: k };
-                let mut of_it = model.readings.iter().zip(values).filter(|(reading, _)| is_it(reading.gauge));
-                of_it.find_map(|(_, value)| *value)
+                let is_it = |o: &Observable| o.kind.sees_base && (o.targets[0], o.axis) == (j, k);
+                let mut own =
+                    model.observables.iter().zip(values).filter(|(observable, _)| is_it(observable));
+                own.find_map(|(_, value)| *value)
             };
             let point = |j: usize| Some([coordinate(j, 0)?, coordinate(j, 1)?, coordinate(j, 2)?]);
             (0..model.targets.len()).map(point).collect()
@@ -247,21 +257,22 @@ fn points(model: &Model, observation: &Observation) -> Vec<Option<[f64; 3]>> {
     }
 }
 
-/// A start that misses by more than this share of the arm is far.
+/// Residual, as a share of the arm length, above which an initial placement is far.
 const FAR: f64 = 0.01;
 
-/// How often station and tool are found in turn.
+/// Largest number of alternating registrations of stations and tool.
 const ROUNDS: usize = 50;
 
-/// Puts on the tool what explains the data best: targets at their mean place, or the motion of the frame that is seen.
-fn mount(model: &mut Model, rows: &[Observation], arm: f64) -> Result<(), Failure> {
-    let mut room = model.room();
+/// Registers the placement on the tool: targets at their mean position, or the pose of the measured
+/// frame.
+fn register_tool(model: &mut Model, rows: &[Observation], arm: f64) -> Result<(), Failure> {
+    let mut scratch = model.scratch();
     let corners = [[0.0; 3], [arm, 0.0, 0.0], [0.0, arm, 0.0], [0.0, 0.0, arm]];
     let bare = Model { mounting: Pose::IDENTITY, ..model.clone() };
     let (mut from, mut to) = (Vec::new(), Vec::new());
     let mut sums = vec![([0.0; 3], 0.0); model.targets.len()];
     for row in rows {
-        let back = bare.pose(&mut room, row, &[])?.inverse();
+        let back = bare.pose(&mut scratch, row, &[])?.inverse();
         for ((sum, count), point) in sums.iter_mut().zip(points(model, row)) {
             let Some(point) = point else { continue };
             let place = back.apply(point);
@@ -285,40 +296,45 @@ fn mount(model: &mut Model, rows: &[Observation], arm: f64) -> Result<(), Failur
     Ok(())
 }
 
-/// The stations of a model with what was found of them.
-pub(super) fn found_stations(model: &Model, x: &[f64]) -> Vec<Station> {
+/// Returns the stations of a model with their identified poses.
+pub(super) fn fitted_stations(model: &Model, x: &[f64]) -> Vec<Station> {
     let mut stations = model.stations.clone();
     for (i, station) in stations.iter_mut().enumerate() {
         let of = |component| Unknown::Base(i, component);
-        station.pose = station.pose.then(&displaced(model, x, of));
+        station.pose = station.pose.then(&error_pose(model, x, of));
     }
     stations
 }
 
-/// Where a fixture of a model was found.
-pub(super) fn found_place(model: &Model, x: &[f64], fixture: usize) -> Place {
+/// Returns the identified place of a fixture.
+pub(super) fn fitted_fixture(model: &Model, x: &[f64], fixture: usize) -> FixtureGeometry {
     let by = |coordinate| value(model, x, Unknown::Fixture(fixture, coordinate));
-    model.fixtures[fixture].place.moved(&[by(0), by(1), by(2)])
+    model.fixtures[fixture].geometry.displaced(&[by(0), by(1), by(2)])
 }
 
-/// The zero of a reading as it was found.
-pub(super) fn found_zero(model: &Model, x: &[f64], reading: usize) -> f64 {
-    model.readings[reading].zero + value(model, x, Unknown::Zero(reading))
+/// Returns the identified zero of a reading.
+pub(super) fn fitted_zero(model: &Model, x: &[f64], reading: usize) -> f64 {
+    model.observables[reading].zero + value(model, x, Unknown::Zero(reading))
 }
 
-/// What was found of an unknown; 0 if it is none of the model's.
+/// Returns the value of an unknown; 0 if the model does not have it.
 fn value(model: &Model, x: &[f64], unknown: Unknown) -> f64 {
     model.unknowns.iter().position(|one| *one == unknown).map_or(0.0, |k| x[k])
 }
 
-/// The motion that six unknowns are.
-pub(super) fn displaced(model: &Model, x: &[f64], of: impl Fn(Component) -> Unknown) -> Pose {
+/// Returns the rigid motion given by six unknown errors.
+pub(super) fn error_pose(model: &Model, x: &[f64], of: impl Fn(Component) -> Unknown) -> Pose {
     let errors = Component::ALL.map(|component| value(model, x, of(component)));
     real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[errors])
 }
 
-/// Every point that was measured with its target, none for the position of a pose.
-pub(super) fn seen(model: &Model, observation: &Observation, mut take: impl FnMut(Option<usize>, [f64; 3])) {
+/// Calls `take` with every measured point and its target; the target is none for the position of a
+/// pose.
+pub(super) fn for_each_point(
+    model: &Model,
+    observation: &Observation,
+    mut take: impl FnMut(Option<usize>, [f64; 3]),
+) {
     if let Measurement::Pose(measured) = &observation.measured {
         take(None, measured.position());
     }
@@ -329,28 +345,28 @@ pub(super) fn seen(model: &Model, observation: &Observation, mut take: impl FnMu
     }
 }
 
-/// Where `F_0` is as the instrument sees it from a station, from all points that were measured there: the rigid motion from
-/// where they should be. None if they are in line.
+/// Registers a station: returns the pose of `F_0` in the frame of the instrument that maps the
+/// predicted points onto all points measured there. None if the points are collinear.
 pub(super) fn registered(
     model: &Model,
     data: &[Observation],
     station: usize,
 ) -> Result<Option<Pose>, Failure> {
-    let mut room = model.room();
+    let mut scratch = model.scratch();
     let model = Model { stations: vec![Station::at(Pose::IDENTITY); station + 1], ..model.clone() };
     let rows = data.iter().filter(|row| row.station as usize == station);
-    // The places alone are kept: what was measured is in the rows.
+    // The measured points stay in the rows; only the predicted ones are stored.
     let (mut from, x) = (Vec::new(), vec![0.0; model.unknowns.len()]);
     for observation in rows.clone() {
-        let pose = model.pose(&mut room, observation, &x)?;
+        let pose = model.pose(&mut scratch, observation, &x)?;
         let place = |target: Option<usize>| {
             target.map_or_else(|| pose.position(), |target| pose.apply(model.targets[target]))
         };
-        seen(&model, observation, |target, _| from.push(place(target)));
+        for_each_point(&model, observation, |target, _| from.push(place(target)));
     }
     let to = rows.flat_map(|observation| {
         let mut to = Vec::new();
-        seen(&model, observation, |_, point| to.push(point));
+        for_each_point(&model, observation, |_, point| to.push(point));
         to
     });
     Ok(register_pairs(from.iter().copied().zip(to))
@@ -358,8 +374,8 @@ pub(super) fn registered(
         .map(|found| found.pose))
 }
 
-/// The map says where some stations are, and nothing of this one.
-fn unstated(map: &Map, data: &Data, name: &str) -> Diagnostics {
+/// Returns the error that the map states some stations, but not this one.
+fn missing_station(map: &Map, data: &Data, name: &str) -> Diagnostics {
     let stated = map.stations.stated.iter().map(|station| format!("`{}`", station.name.escape_debug()));
     let stated = stated.collect::<Vec<_>>().join(", ");
     let message = match name {
@@ -367,15 +383,15 @@ fn unstated(map: &Map, data: &Data, name: &str) -> Diagnostics {
         name => format!("rows of station `{}`: the map does not say where it is", name.escape_debug()),
     };
     let help = format!(
-        "the map states {stated}: add a [[station]], or let these rows tell it by `base = \"unknown\"`, with `abbe measure` by \
-         `--station new`"
+        "the map states {stated}: add a [[station]], or fit it to these rows by `base = \
+         \"unknown\"` (in `abbe measure` by `--station new`)"
     );
     mistake::with_help(&data.file, message, help)
 }
 
-fn in_line(data: &Data, name: &str) -> Diagnostics {
+fn collinear(data: &Data, name: &str) -> Diagnostics {
     let at = if name.is_empty() { String::new() } else { format!(" (station `{name}`)") };
-    let message = format!("where the instrument stands needs three points that are not in line{at}");
-    let help = "measure more, or say `base = \"known\"` in the map if it sees in F_0";
+    let message = format!("the station of the instrument needs three points that are not collinear{at}");
+    let help = "measure more points, or set `base = \"known\"` in the map if it measures in F_0";
     mistake::with_help(&data.file, message, help)
 }

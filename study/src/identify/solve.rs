@@ -1,4 +1,4 @@
-//! Fitted and judged: by the data alone.
+//! Fit and cross-validation on the data alone.
 
 use abbe::VariableKind;
 use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
@@ -15,25 +15,27 @@ use crate::data::Data;
 use crate::number::digits;
 use crate::{Notes, mistake};
 
-/// What the data say.
+/// Result of the fit.
 pub(super) struct Solved<'a> {
-    /// Base and tool alone.
+    /// Model with only base and tool unknown, and its solution.
     pub(super) simple: Model<'a>,
     pub(super) simple_x: Vec<f64>,
-    /// Everything.
+    /// Complete model and its fit.
     pub(super) model: Model<'a>,
     pub(super) fit: Fit,
-    /// On rows left out in turn.
-    pub(super) crossed: Distances,
-    /// Sources of the spec whose magnitudes are unknowns of the model.
+    /// Position errors of the cross-validation.
+    pub(super) cross_validated: Distances,
+    /// Sources of the spec whose magnitudes are unknowns of the model, its first ones.
     pub(super) own: Vec<OwnMagnitude>,
-    /// The terms whose magnitudes are the last unknowns of the model.
+    /// Terms whose magnitudes are the last unknowns of the model.
     pub(super) terms: Vec<Term>,
-    /// What must be said.
+    /// Notes for the report.
     pub(super) notes: Vec<String>,
 }
 
-/// Behind the sources of the spec the manipulator has `own` ones of them once more, and then `terms`.
+/// Fits the complete model and cross-validates it.
+///
+/// The manipulator has the sources of the spec, then copies of the `own` ones, then the `terms`.
 pub(super) fn solve<'a>(
     setup: &Setup<'a>,
     data: &Data,
@@ -43,19 +45,20 @@ pub(super) fn solve<'a>(
     notes: &mut dyn Notes,
 ) -> Result<Solved<'a>, Diagnostics> {
     let rows = &data.observations;
-    let explained = |cause: Failure| explained(&cause, data);
+    let diagnose = |cause: Failure| diagnose(&cause, data);
     let options = Options { loss: settings.loss, ..Options::default() };
     let simple = setup.real.with(setup.base_and_tool());
-    let expected = simple.expected(&[]).map_err(explained)?;
-    let simple_x = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(explained)?.x;
+    let expected = simple.expected(&[]).map_err(diagnose)?;
+    let simple_x = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(diagnose)?.x;
 
     let mut magnitudes = (setup.declared..).map(Unknown::Magnitude);
     let of_own: Vec<Unknown> = magnitudes.by_ref().take(own.len()).collect();
     let of_terms = magnitudes.take(terms.len());
-    // What somebody has named is kept before errors of frames that act alike, what was tried behind them.
+    // Of equivalent unknowns, magnitudes named in the spec are kept before errors of frames, and
+    // terms after them.
     let model = setup.real.with(of_own.into_iter().chain(setup.constants()).chain(of_terms).collect());
     let fitted = |model: &Model, prior: Prior| -> Result<Fit, Failure> {
-        let mut priors = prior.of_model(model)?;
+        let mut priors = prior.for_model(model)?;
         let share = prior.share();
         priors.resize(model.unknowns.len(), None);
         for (prior, own) in priors.iter_mut().zip(own) {
@@ -69,9 +72,9 @@ pub(super) fn solve<'a>(
         let expected = model.expected(&priors)?;
         fit(model, rows, &Options { at, priors, expected, ..options.clone() })
     };
-    let crossed =
-        |model: &Model, fit: &Fit| cross_validate(model, rows, fit, settings.folds).map_err(explained);
-    let prior = settings.prior.chosen(&model, rows, settings.folds, fitted).map_err(explained)?;
+    let cross_validated =
+        |model: &Model, fit: &Fit| cross_validate(model, rows, fit, settings.folds).map_err(diagnose);
+    let prior = settings.prior.resolve(&model, rows, settings.folds, fitted).map_err(diagnose)?;
     let found = fitted(&model, prior);
     let warning = match settings.loss {
         Loss::Squares => outliers::warning(&model, data, found.as_ref().ok()),
@@ -80,9 +83,9 @@ pub(super) fn solve<'a>(
     if let (Err(_), Some(warning)) = (&found, &warning) {
         notes.note(warning);
     }
-    let fit = found.map_err(explained)?;
+    let fit = found.map_err(diagnose)?;
     let mut solved = Solved {
-        crossed: crossed(&model, &fit)?,
+        cross_validated: cross_validated(&model, &fit)?,
         simple: simple.clone(),
         simple_x: simple_x.clone(),
         model,
@@ -93,8 +96,8 @@ pub(super) fn solve<'a>(
     };
     if let (Prior::Auto, Prior::Share(share)) = (settings.prior, prior) {
         solved.notes.push(format!(
-            "note: errors are expected to be {} % of the arm's length: of all that was tried, rows left out in turn fit \
-             best with it, or as well as with less",
+            "note: prior standard deviation of the errors: {} % of the length of the arm, chosen \
+             by cross-validation",
             digits(100.0 * share, 2)
         ));
     }
@@ -102,17 +105,18 @@ pub(super) fn solve<'a>(
 }
 
 impl Solved<'_> {
-    /// The magnitude of a source of the spec that an unknown is about, if it is about one: which one, and what the spec says.
+    /// Returns the source and the declared magnitude of an unknown; none if the unknown is not a
+    /// magnitude of the spec.
     pub(super) fn own_magnitude(&self, unknown: usize) -> Option<OwnMagnitude> {
         self.own.get(unknown).copied()
     }
 }
 
 impl Term {
-    /// The magnitude of an error as large as the arm is long, or of 1 rad; of a compliance, by the weight of 1 kg at the end
-    /// of the arm.
+    /// Returns the magnitude of an error as large as the arm length, or of 1 rad; for a compliance,
+    /// that of 1 rad by the weight of 1 kg at the end of the arm.
     fn scale(self, setup: &Setup) -> f64 {
-        let is_angle = match self.place {
+        let is_angle = match self.site {
             ErrorSite::Joint(joint) => setup.description.variables[joint].kind == VariableKind::Revolute,
             ErrorSite::Frame(_, component) | ErrorSite::Base(component) => component.is_rotation(),
             ErrorSite::DenavitHartenberg(_, number) => number.motion().0 == Motion::Rotation,
@@ -126,28 +130,29 @@ impl Term {
     }
 }
 
-/// The values of one model's unknowns in the order of another's.
+/// Returns the values of one model's unknowns in the order of another's, 0 for unknowns it lacks.
 fn embedded(from: &Model, x: &[f64], to: &Model) -> Vec<f64> {
     let value = |unknown| from.unknowns.iter().position(|u| u == unknown).map_or(0.0, |k| x[k]);
     to.unknowns.iter().map(value).collect()
 }
 
-pub(super) fn explained(failure: &Failure, data: &Data) -> Diagnostics {
+pub(super) fn diagnose(failure: &Failure, data: &Data) -> Diagnostics {
     match failure {
         Failure::Observation { .. } | Failure::Machine(_) | Failure::Untouched { .. } => {
             mistake::whole(&data.file, failure)
         }
         Failure::TooFew { numbers, configurations, rank } => {
             let message = format!(
-                "{numbers} independent numbers were measured, at {configurations} configurations, for {rank} or more \
-                 unknowns: nothing is left to judge the result by"
+                "{numbers} independent values at {configurations} configurations for {rank} or \
+                 more unknowns: no degrees of freedom remain for a test"
             );
-            let help = "measure at more configurations, until there are twice as many numbers as unknowns; visits of the same \
-                        configuration do not count";
+            let help = "measure at more configurations, until there are twice as many values as unknowns; \
+             repeated visits do not count";
             mistake::with_help(&data.file, message, help)
         }
         Failure::NotConverged { .. } => {
-            let help = "gross errors in the data? `--robust tukey` can do without them";
+            let help = "if the data have outliers, try `--robust tukey`; if joint zeros or units may be \
+             wrong, try `abbe doctor`";
             mistake::with_help(&data.file, failure, help)
         }
     }

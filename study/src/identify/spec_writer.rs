@@ -1,4 +1,5 @@
-//! The identified machine as a spec: the nominal one, comments and all, with the errors found as repeatable sources.
+//! Writes the identified machine as a spec: the nominal text with its comments, and the identified
+//! errors as repeatable sources.
 
 use std::path::Path;
 
@@ -9,23 +10,24 @@ use abbe_spec::expr::{Motion, Symbol};
 use abbe_spec::{Fitted, Spec};
 
 use super::derived::{Derived, with_inputs};
-use super::found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
+use super::found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 use super::terms::{Basis, ErrorSite, Term};
 use crate::number::digits;
 
-/// A spec to be written.
+/// Spec of an identified machine.
 #[derive(Clone, Debug)]
 pub struct IdentifiedSpec {
-    /// All of it.
+    /// Complete text.
     pub text: String,
-    /// What was added to the nominal one.
+    /// Text that was added to the nominal spec.
     pub added: String,
 }
 
 impl FoundModel {
-    /// The nominal spec, whose text this is, with what was found; `path` is the name of its file.
+    /// Adds the identified errors to `text`, the nominal spec. `path` is the name of the new file.
     ///
-    /// What is written is a spec, or it is not written: files of tables must be where they are looked for from there.
+    /// The result is parsed again; the function fails if it is not a valid spec. Table files are
+    /// resolved relative to `path`.
     pub fn identified_spec(
         &self,
         spec: &Spec,
@@ -35,7 +37,7 @@ impl FoundModel {
         let base = free_name(spec, "ground");
         let sources = self.sources(spec, &base) + &self.inputs(spec);
         let (kept, changed) = with_magnitudes(&without_fitted(text), spec, &self.magnitudes);
-        let ground = match self.terms.iter().any(|found| matches!(found.term.place, ErrorSite::Base(_))) {
+        let ground = match self.terms.iter().any(|found| matches!(found.term.site, ErrorSite::Base(_))) {
             true => format!("[[frame]]\nname = {base:?}\norigin = {{ xyz = [0, 0, 0] }}\n\n"),
             false => String::new(),
         };
@@ -58,34 +60,35 @@ impl FoundModel {
     fn sources(&self, spec: &Spec, base: &str) -> String {
         let names = spec.frames.iter().map(|frame| frame.name.as_str());
         let constants = names.zip(&self.frames).filter(|(_, errors)| !errors.is_empty());
-        let constants = constants.map(|(frame, errors)| self.constant(spec, frame, errors));
-        let numbers = self.numbers.iter().map(|found| self.term(spec, found, base));
-        let terms = self.terms.iter().filter(|found| self.is_written(spec, found));
-        let terms = terms.filter(|found| !self.is_of_full_compliance(found));
-        let terms = numbers.chain(constants).chain(terms.map(|found| self.term(spec, found, base)));
+        let constants = constants.map(|(frame, errors)| self.constant_source(spec, frame, errors));
+        let numbers = self.numbers.iter().map(|found| self.term_source(spec, found, base));
+        let terms = self.terms.iter().filter(|found| self.is_expressible(spec, found));
+        let terms = terms.filter(|found| !self.is_in_full_compliance(found));
+        let terms = numbers.chain(constants).chain(terms.map(|found| self.term_source(spec, found, base)));
         terms.chain([self.full_compliances(spec, base)]).collect()
     }
 
-    /// The input of a term that follows from the rows, if it has such a one.
+    /// Returns the derived input of a term, if it has one.
     fn derived(&self, spec: &Spec, found: &FoundTerm) -> Option<&Derived> {
         let Basis::Input(input) = found.term.basis else { return None };
         self.derived.get(input.checked_sub(spec.inputs.len())?)
     }
 
-    /// Whether a spec can say a term: not what is of the rows of one file.
-    pub fn is_written(&self, spec: &Spec, found: &FoundTerm) -> bool {
+    /// Returns true if a spec can contain a term: its input must not depend on the rows of one
+    /// file.
+    pub fn is_expressible(&self, spec: &Spec, found: &FoundTerm) -> bool {
         self.derived(spec, found).is_none_or(|one| one.from_rows().is_some())
     }
 
-    /// A term as lines of a spec, of the machine with the inputs that follow from the rows.
+    /// Formats a term as lines of a spec that has the derived inputs.
     pub fn lines(&self, spec: &Spec, found: &FoundTerm) -> String {
-        effect(&with_inputs(spec, &self.derived), &found.term, found.magnitude, "F_0")
+        effect_lines(&with_inputs(spec, &self.derived), &found.term, found.magnitude, "F_0")
     }
 
-    /// The inputs that the terms that are written need beside those of the spec.
+    /// Returns the derived inputs that the written terms need.
     pub(super) fn needed(&self, spec: &Spec) -> Vec<&Derived> {
         let mut needed: Vec<&Derived> = Vec::new();
-        for found in self.terms.iter().filter(|found| self.is_written(spec, found)) {
+        for found in self.terms.iter().filter(|found| self.is_expressible(spec, found)) {
             needed.extend(self.derived(spec, found).filter(|one| !needed.contains(one)));
         }
         needed
@@ -99,7 +102,7 @@ impl FoundModel {
         self.needed(spec).into_iter().map(input).collect()
     }
 
-    /// Where all this was fitted.
+    /// Returns the `[fitted]` table, the fitted ranges of joints and inputs.
     fn fitted_table(&self, spec: &Spec) -> String {
         let line = |fitted: &Fitted| {
             let unit = match fitted.symbol {
@@ -108,19 +111,19 @@ impl FoundModel {
                 _ => spec.length.symbol(),
             };
             let [lower, upper] =
-                fitted.range.map(|end| format!("{} {unit}", number(end)).trim_end().to_owned());
+                fitted.range.map(|end| format!("{} {unit}", format_number(end)).trim_end().to_owned());
             format!("{} = [{lower:?}, {upper:?}]\n", spec.name_of(fitted.symbol))
         };
         let lines = self.fitted.iter().map(line).collect::<String>();
         format!("{}[fitted]\n{lines}", ABOVE[0])
     }
 
-    fn constant(&self, spec: &Spec, frame: &str, errors: &[FoundError]) -> String {
+    fn constant_source(&self, spec: &Spec, frame: &str, errors: &[FoundError]) -> String {
         let (mut lines, mut deviations) = (String::new(), Vec::new());
         for error in errors {
             let name = error.component.name();
             let unit = if error.component.is_rotation() { "rad" } else { spec.length.symbol() };
-            lines += &format!("{name} = \"{} {unit}\"\n", number(error.value));
+            lines += &format!("{name} = \"{} {unit}\"\n", format_number(error.value));
             deviations.push(format!("{name} {} {unit}", digits(error.standard_deviation, 2)));
         }
         format!(
@@ -131,17 +134,17 @@ impl FoundModel {
         )
     }
 
-    /// The source of a term.
+    /// Returns the name of a term's source.
     pub(super) fn term_name(&self, spec: &Spec, found: &FoundTerm) -> String {
         let spec = &with_inputs(spec, &self.derived);
         source_name(spec, &format!("identified: {}", found.term.name(spec)))
     }
 
-    fn term(&self, spec: &Spec, found: &FoundTerm, base: &str) -> String {
+    fn term_source(&self, spec: &Spec, found: &FoundTerm, base: &str) -> String {
         let FoundTerm { term, magnitude, standard_deviation, .. } = found;
         let name = self.term_name(spec, found);
         let spec = &with_inputs(spec, &self.derived);
-        // No body has a negative compliance: as a number of its own it would be refused.
+        // The spec refuses a negative compliance; the sign goes into the magnitude.
         let is_reversed = term.basis == Basis::Moment && *magnitude < 0.0;
         let (size, reversed, remark) = match is_reversed {
             true => {
@@ -152,7 +155,7 @@ impl FoundModel {
             false => (*magnitude, String::new(), ""),
         };
         let deviation = match term.basis {
-            Basis::One => format!("{} {}", digits(*standard_deviation, 2), term.place.unit(spec)),
+            Basis::One => format!("{} {}", digits(*standard_deviation, 2), term.site.unit(spec)),
             _ => format!("{} of it", digits((standard_deviation / magnitude).abs(), 2)),
         };
         format!(
@@ -160,24 +163,24 @@ impl FoundModel {
             name,
             format!("Standard deviation: {deviation}{remark}"),
             self.reference,
-            effect(spec, term, size, base),
+            effect_lines(spec, term, size, base),
         )
     }
 }
 
-/// What stands above the tables of an identification.
+/// Comments above the tables of an identification.
 pub(super) const ABOVE: [&str; 2] = [
     "# The ranges of joints and inputs on which the errors were fitted.\n",
     "# The covariance of the errors that were fitted.\n",
 ];
 
-/// The source of the constant errors of a frame.
+/// Returns the name of the source with the constant errors of a frame.
 pub(super) fn constant_name(spec: &Spec, frame: &str) -> String {
     source_name(spec, &format!("identified: {frame}"))
 }
 
 impl ErrorSite {
-    /// The unit of an error there: one that a spec understands.
+    /// Returns the unit of an error at this site, as a spec writes it.
     fn unit(self, spec: &Spec) -> &str {
         let length = spec.length.symbol();
         let of = |is_angle: bool| if is_angle { "rad" } else { length };
@@ -190,9 +193,9 @@ impl ErrorSite {
     }
 }
 
-/// What a term is an error of, and which; `base` is the frame where `F_0` is.
-fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
-    let (factor, basis, unit) = (number(magnitude), term.basis.text(spec), term.place.unit(spec));
+/// Formats the effect of a term. `base` is the name of the frame at `F_0`.
+fn effect_lines(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
+    let (factor, basis, unit) = (format_number(magnitude), term.basis.text(spec), term.site.unit(spec));
     let error = match (term.basis, unit) {
         (Basis::One, unit) => format!("\"{factor} {unit}\"").replace(" \"", "\""),
         (_, "" | "rad") => format!("\"{factor} * ({basis})\""),
@@ -217,7 +220,7 @@ fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
         };
         format!("frame = {name:?}\n{error}")
     };
-    match term.place {
+    match term.site {
         ErrorSite::Joint(joint) => format!("joint = {:?}\nerror = {error}", spec.variables[joint].name),
         ErrorSite::Parameter(parameter) => {
             format!("parameter = {:?}\nerror = {error}", spec.parameters[parameter].name)
@@ -230,7 +233,7 @@ fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
     }
 }
 
-/// A spec with the magnitudes of its sources, and what was changed.
+/// Replaces the magnitudes of a spec's sources. Returns the new text and a summary of the changes.
 fn with_magnitudes(text: &str, spec: &Spec, magnitudes: &[FoundMagnitude]) -> (String, String) {
     let mut document = Document::new("", text);
     let tables = document.tables(text);
@@ -246,9 +249,11 @@ fn with_magnitudes(text: &str, spec: &Spec, magnitudes: &[FoundMagnitude]) -> (S
             edits.push((item.span(), table));
             continue;
         }
-        // A table with a header of its own, or dotted keys: number by number.
+        // The magnitude is a table with its own header, or dotted keys: each number is edited
+        // separately.
         let Some(inside) = document.section(&item) else { continue };
-        let new = [("value", number(*magnitude)), ("standard_deviation", digits(*standard_deviation, 3))];
+        let new =
+            [("value", format_number(*magnitude)), ("standard_deviation", digits(*standard_deviation, 3))];
         let present = new.iter().find_map(|(key, _)| inside.get(key));
         for (key, value) in new {
             match (inside.get(key), &present) {
@@ -273,15 +278,19 @@ fn with_magnitudes(text: &str, spec: &Spec, magnitudes: &[FoundMagnitude]) -> (S
 }
 
 fn magnitude_table(magnitude: f64, standard_deviation: f64) -> String {
-    format!("{{ value = {}, standard_deviation = {} }}", number(magnitude), digits(standard_deviation, 3))
+    format!(
+        "{{ value = {}, standard_deviation = {} }}",
+        format_number(magnitude),
+        digits(standard_deviation, 3)
+    )
 }
 
-/// A number that a spec understands, to seven digits.
-pub(super) fn number(value: f64) -> String {
+/// Formats a number of a spec with seven digits.
+pub(super) fn format_number(value: f64) -> String {
     format!("{:e}", format!("{value:.6e}").parse::<f64>().unwrap_or(value) + 0.0)
 }
 
-/// What compliances need beside their sources: a load and gravity, if the spec has none.
+/// Returns the load and the gravity that compliances need, each empty if the spec has one.
 fn weight(spec: &Spec) -> [String; 2] {
     let last = spec.frames.last().map_or("", |frame| frame.name.as_str());
     let load = format!(
@@ -294,7 +303,7 @@ fn weight(spec: &Spec) -> [String; 2] {
     ]
 }
 
-/// A spec without what an earlier identification says of its ranges and its covariance.
+/// Removes the ranges and the covariance of an earlier identification from a spec.
 fn without_fitted(text: &str) -> String {
     let mut inside = false;
     let kept = text.split_inclusive('\n').filter(|line| {
@@ -306,14 +315,14 @@ fn without_fitted(text: &str) -> String {
     kept.collect()
 }
 
-/// A name that no frame has.
+/// Returns a name that no frame has.
 fn free_name(spec: &Spec, name: &str) -> String {
     let taken = |name: &str| spec.frames.iter().any(|frame| frame.name == name);
     let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} {i}")));
     names.into_iter().find(|name| !taken(name)).unwrap_or_default()
 }
 
-/// A name that no source has.
+/// Returns a name that no source has.
 pub(super) fn source_name(spec: &Spec, name: &str) -> String {
     let taken = |name: &str| spec.sources.iter().any(|source| source.name == name);
     let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} ({i})")));

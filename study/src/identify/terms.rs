@@ -1,79 +1,81 @@
-//! Terms of richer models: errors of one unit each, whose magnitudes are unknown.
+//! Terms of richer models: error functions with an unknown magnitude each.
 
 use abbe::Component;
 use abbe_spec::{ChainNumber, DhNumber, Spec};
 
-/// An error in proportion to a basis; its magnitude is to be found.
+/// Error in proportion to a basis, with an unknown magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
-    /// What it is an error of.
-    pub place: ErrorSite,
-    /// What it is in proportion to.
+    /// Quantity with the error.
+    pub site: ErrorSite,
+    /// Function that the error is proportional to.
     pub basis: Basis,
 }
 
-/// What a term is an error of.
+/// Quantity with an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ErrorSite {
-    /// A joint, wherever transforms depend on it.
+    /// Joint, in all transforms that depend on it.
     Joint(usize),
-    /// A structural parameter, likewise.
+    /// Structural parameter, in all transforms that depend on it.
     Parameter(usize),
-    /// One of the four numbers of a Denavit-Hartenberg frame, from 0.
+    /// One of the four numbers of a Denavit-Hartenberg frame; frames from 0.
     DenavitHartenberg(usize, DhNumber),
-    /// One of the six errors of a frame, from 0.
+    /// Generalized error of a frame; frames from 0.
     Frame(usize, Component),
-    /// One of the six errors of the base, in `F_0`.
+    /// Generalized error of the base, in `F_0`.
     Base(Component),
 }
 
-/// What an error is in proportion to. Of magnitude 1 it is one length unit or 1 rad, times this.
+/// Function that an error is proportional to. An error of magnitude 1 is one length unit or 1 rad
+/// times its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Basis {
-    /// Nothing: it is always the same.
+    /// Constant 1.
     One,
-    /// A number that changes with the joints.
+    /// Function of the joints.
     Wave(Wave),
-    /// The product of two.
+    /// Product of two functions of the joints.
     Product(Wave, Wave),
-    /// An input, in its unit.
+    /// Input, in its unit.
     Input(usize),
-    /// The moment that weights have about the frame, in 10⁶ N times the length unit: a compliance.
+    /// Moment of the loads about the error's own axis, a diagonal compliance: magnitude 1 is 1 µrad
+    /// per N times the length unit.
     Moment,
-    /// The moment about another axis, and the other way round, by reciprocity: what a compliance has off its diagonal, in the same
-    /// unit.
+    /// Moment of the loads about another axis, and the symmetric entry by reciprocity: an
+    /// off-diagonal compliance in the same unit.
     Coupled(Component),
 }
 
-/// A number that changes with the joints.
+/// Function of the joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wave {
-    /// The sine of an angle.
+    /// Sine of an angle.
     Sine(Angle),
-    /// The cosine.
+    /// Cosine of an angle.
     Cosine(Angle),
-    /// A power of a joint's travel, in 1000 length units.
+    /// Power of a joint's travel, in 1000 length units.
     Power {
-        /// The prismatic joint.
+        /// Index of the prismatic joint.
         variable: usize,
-        /// The exponent.
+        /// Exponent.
         exponent: u8,
     },
 }
 
-/// So many times a joint angle, or the sum or difference of two.
+/// Multiple of a joint angle, or its sum or difference with another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle {
-    /// The revolute joint.
+    /// Index of the revolute joint.
     pub variable: usize,
-    /// How many periods a turn of it has.
+    /// Number of periods per turn.
     pub times: u16,
-    /// Another revolute joint, added or (`false`) taken off.
+    /// Another revolute joint, added (`true`) or subtracted (`false`).
     pub other: Option<(usize, bool)>,
 }
 
 impl Angle {
-    /// So many times one joint angle.
+    /// Returns a multiple of one joint angle.
     pub fn times(variable: usize, times: u16) -> Self {
         Self { variable, times, other: None }
     }
@@ -87,7 +89,7 @@ impl Angle {
         }
     }
 
-    /// As a spec has it.
+    /// Formats the angle as an expression of a spec.
     fn text(self, spec: &Spec) -> String {
         let name = |variable: usize| spec.variables[variable].name.as_str();
         let one = match self.times {
@@ -103,7 +105,7 @@ impl Angle {
 }
 
 impl Wave {
-    /// At joint values, of a spec whose length unit makes 1000 of them one.
+    /// Evaluates the function at joint values in rad and the spec's length unit.
     pub(super) fn value(self, q: &[f64]) -> f64 {
         match self {
             Self::Sine(angle) => angle.value(q).sin(),
@@ -123,7 +125,7 @@ impl Wave {
         }
     }
 
-    /// Of a group of terms: once per turn of a joint, in proportion to it, with a sum of two.
+    /// Describes the function for the name of a group of terms.
     fn kind(self, spec: &Spec) -> String {
         let name = |variable: usize| &spec.variables[variable].name;
         match self {
@@ -144,12 +146,12 @@ impl Wave {
 }
 
 impl Basis {
-    /// The sine and cosine of an angle.
+    /// Returns the sine and the cosine of an angle.
     pub(super) fn waves(angle: Angle) -> Vec<Self> {
         vec![Self::Wave(Wave::Sine(angle)), Self::Wave(Wave::Cosine(angle))]
     }
 
-    /// Its value where joints and inputs are these; 1 of what is no factor of an error but its cause.
+    /// Evaluates the basis at joint values and inputs; 1 for a compliance, which is not a factor.
     pub(super) fn value(self, q: &[f64], u: &[f64]) -> f64 {
         match self {
             Self::One | Self::Moment | Self::Coupled(_) => 1.0,
@@ -159,12 +161,12 @@ impl Basis {
         }
     }
 
-    /// Whether it is a compliance.
+    /// Returns true for a compliance.
     pub(super) fn is_elastic(self) -> bool {
         matches!(self, Self::Moment | Self::Coupled(_))
     }
 
-    /// As an expression of a spec; a compliance is none, it is one per this.
+    /// Formats the basis as an expression of a spec; for a compliance, its unit.
     pub(super) fn text(self, spec: &Spec) -> String {
         match self {
             Self::One => "1".to_owned(),
@@ -181,16 +183,16 @@ impl Basis {
 }
 
 impl Term {
-    /// The error that its basis is a factor of, by itself: a compliance is its own.
+    /// Returns the constant term that the basis multiplies. A compliance is its own carrier.
     pub(super) fn carrier(self) -> Self {
         if self.basis.is_elastic() { self } else { Self { basis: Basis::One, ..self } }
     }
 
-    /// What it is called: a name that no other term has.
+    /// Returns a name that no other term has.
     pub fn name(&self, spec: &Spec) -> String {
-        let (owner, error) = self.place.names(spec);
+        let (owner, error) = self.site.names(spec);
         match self.basis {
-            Basis::One => match self.place {
+            Basis::One => match self.site {
                 ErrorSite::Joint(_) => format!("zero of {owner}"),
                 ErrorSite::Parameter(_) => owner.to_owned(),
                 _ => format!("{error} of {owner}"),
@@ -207,9 +209,9 @@ impl Term {
         }
     }
 
-    /// What the group is called that it comes in.
+    /// Returns the name of the group of terms that this term belongs to.
     pub fn group(&self, spec: &Spec) -> String {
-        let (owner, error) = self.place.names(spec);
+        let (owner, error) = self.site.names(spec);
         match self.basis {
             Basis::Wave(wave) => format!("{owner}: {}, {error}", wave.kind(spec)),
             Basis::Product(one, other) => {
@@ -221,8 +223,8 @@ impl Term {
 }
 
 impl ErrorSite {
-    /// A number of the chain.
-    pub(super) fn of_number(number: ChainNumber) -> Self {
+    /// Returns the site of an error of a number of the chain.
+    pub(super) fn from_chain_number(number: ChainNumber) -> Self {
         match number {
             ChainNumber::Joint(joint) => Self::Joint(joint),
             ChainNumber::Parameter(parameter) => Self::Parameter(parameter),
@@ -230,7 +232,7 @@ impl ErrorSite {
         }
     }
 
-    /// What the term belongs to, and which of its errors it is.
+    /// Returns the name of the quantity and the kind of its error.
     fn names(self, spec: &Spec) -> (&str, &'static str) {
         match self {
             Self::Joint(joint) => (&spec.variables[joint].name, "joint error"),

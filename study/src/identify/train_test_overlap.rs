@@ -1,4 +1,4 @@
-//! Test rows that were fitted: they cannot judge the fit.
+//! Detects test rows that were also fitted and therefore cannot assess the fit.
 
 use std::collections::HashSet;
 use std::hash::{Hash, Hasher};
@@ -8,21 +8,21 @@ use abbe::identify::{Measurement, Observation};
 use super::report::Report;
 use crate::data::Data;
 
-/// A row by its numbers: joints, inputs and what was measured.
-struct Numbers<'a>(&'a Observation);
+/// Row compared by its values: joints, inputs and measurement.
+struct RowKey<'a>(&'a Observation);
 
-impl PartialEq for Numbers<'_> {
+impl PartialEq for RowKey<'_> {
     fn eq(&self, other: &Self) -> bool {
         let (Self(own), Self(other)) = (self, other);
         own.q == other.q && own.u == other.u && own.measured == other.measured
     }
 }
 
-impl Eq for Numbers<'_> {}
+impl Eq for RowKey<'_> {}
 
-impl Hash for Numbers<'_> {
+impl Hash for RowKey<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        // No zero is another one by its sign.
+        // Adding 0 turns −0 into +0, so that both have the same hash.
         let mut add = |number: &f64| (number + 0.0).to_bits().hash(state);
         let Self(row) = self;
         row.q.iter().chain(&*row.u).for_each(&mut add);
@@ -34,27 +34,25 @@ impl Hash for Numbers<'_> {
     }
 }
 
-/// Counts the test rows that were fitted, digit by digit.
+/// Counts the test rows whose values are identical to those of a fitted row.
 pub(super) fn train_test_overlap(fit: &Data, test: &Data) -> usize {
-    let of_test: HashSet<Numbers<'_>> = test.observations.iter().map(Numbers).collect();
-    let of_both = fit.observations.iter().map(Numbers).filter(|row| of_test.contains(row));
-    let of_both: HashSet<Numbers<'_>> = of_both.collect();
-    test.observations.iter().filter(|row| of_both.contains(&Numbers(row))).count()
+    let test_keys: HashSet<RowKey<'_>> = test.observations.iter().map(RowKey).collect();
+    let common = fit.observations.iter().map(RowKey).filter(|row| test_keys.contains(row));
+    let common: HashSet<RowKey<'_>> = common.collect();
+    test.observations.iter().filter(|row| common.contains(&RowKey(row))).count()
 }
 
-/// Returns a sentence on them, if there are any.
-pub(super) fn sentence(known: usize, rows: usize) -> Option<String> {
-    let (are, them) = if known == 1 { ("is a row", "it") } else { ("are rows", "them") };
-    (known > 0).then(|| {
-        format!(
-            "{known} of the {rows} test rows {are} of the fit, digit by digit: by {them} nothing is judged"
-        )
+/// Returns a warning about these rows, if there are any.
+pub(super) fn overlap_warning(overlap: usize, rows: usize) -> Option<String> {
+    let (are, they) = if overlap == 1 { ("is a row", "it") } else { ("are rows", "they") };
+    (overlap > 0).then(|| {
+        format!("{overlap} of the {rows} test rows {are} of the fit: {they} cannot validate the model")
     })
 }
 
 impl Report {
-    /// Returns a sentence on test rows that were fitted, if there are any.
-    pub fn on_train_test_overlap(&self) -> Option<String> {
-        sentence(self.test_rows_of_the_fit, self.test.as_ref()?.rows)
+    /// Returns a warning about test rows that were fitted, if there are any.
+    pub fn train_test_overlap_warning(&self) -> Option<String> {
+        overlap_warning(self.test_rows_of_the_fit, self.test.as_ref()?.rows)
     }
 }

@@ -1,29 +1,30 @@
-//! Errors that the data determine too weakly; they are held at zero.
+//! Errors that the data determine too weakly; they are fixed at zero.
 
 use abbe::LengthUnit;
 use abbe::identify::{Identifiable, Model, Unknown};
 use serde::Serialize;
 
-/// An error that these data determine no better than to half of what is expected of it: it is held at zero and not written.
+/// Error whose standard deviation exceeds half of the prior's. It is fixed at zero and not written
+/// to the spec.
 #[derive(Clone, Debug, Serialize)]
 pub struct WeaklyDetermined {
-    /// The error.
+    /// Name of the error.
     pub name: String,
-    /// The standard deviation that the data alone would give it, beside all that is found.
+    /// Standard deviation from the data alone, beside all kept unknowns, in `unit`.
     pub told: f64,
-    /// What is expected of it before: a standard deviation about zero.
+    /// Standard deviation of the prior about zero, in `unit`.
     pub expected: f64,
-    /// The length unit, or rad.
+    /// Unit: the length unit, rad, or empty.
     pub unit: &'static str,
 }
 
 impl WeaklyDetermined {
     pub(crate) fn all(model: &Model, identifiable: &Identifiable, length: LengthUnit) -> Vec<Self> {
-        // Of an instrument's direction no more need be known than is expected of it.
+        // A fixture or a zero need not be known better than its prior.
         let matters = |k: usize| !matches!(model.unknowns[k], Unknown::Fixture(..) | Unknown::Zero(_));
         let weak = identifiable.weak.iter();
         let weak = weak.filter(|weak| weak.expected.is_finite() && matters(weak.unknown));
-        let not_known = weak.map(|weak| {
+        let determined_weakly = weak.map(|weak| {
             let unknown = model.unknowns[weak.unknown];
             let rotation = match unknown {
                 Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
@@ -35,7 +36,7 @@ impl WeaklyDetermined {
             };
             Self {
                 name: model.name(unknown),
-                told: weak.told,
+                told: weak.deviation,
                 expected: weak.expected,
                 unit: match unknown {
                     Unknown::Magnitude(_) => "",
@@ -44,6 +45,6 @@ impl WeaklyDetermined {
                 },
             }
         });
-        not_known.collect()
+        determined_weakly.collect()
     }
 }

@@ -1,75 +1,76 @@
-//! One way in which the rows differ from what the spec or the map states.
+//! Difference between the rows and the statements of the spec or the map.
 
 use serde::Serialize;
 
-/// One difference. Joints count from 0 in the order of the spec. Columns are put into order first, then signs are applied, then
-/// couplings, then zeros.
+/// Single difference. Joints are indexed from 0 in the order of the spec. Columns are reordered
+/// first, then signs, couplings and zeros are applied.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Change {
-    /// The columns stand in another order: that of joint `i` is the one of the place `order[i]`.
+    /// Different order of the columns: joint `i` is in column `order[i]`.
     Order(Vec<usize>),
-    /// These joints count the other way round.
+    /// Opposite sign of these joints.
     Reversed(Vec<usize>),
-    /// A column is relative to another joint: `by` times that joint is added, 1 or −1.
+    /// Column relative to another joint: `by` times that joint must be added.
     Coupled {
-        /// The joint whose column it is.
+        /// Joint of the column.
         joint: usize,
-        /// The joint that is added.
+        /// Joint to add.
         to: usize,
-        /// 1 or −1.
+        /// Factor, 1 or −1.
         by: f64,
     },
-    /// The zero of a joint: this much is added to its value, in rad or in the spec's length unit.
+    /// Offset of a joint's zero, in rad or in the spec's length unit.
     Zero {
-        /// The joint.
+        /// Joint with the offset.
         joint: usize,
-        /// What is added.
+        /// Value to add.
         offset: f64,
     },
-    /// Denavit-Hartenberg numbers are of the other convention than the spec says.
+    /// Other Denavit-Hartenberg convention than in the spec.
     Convention,
-    /// The tool of the spec is the other way round.
+    /// Inverse of the spec's tool transform.
     ToolInverted,
-    /// The poses are those of the last frame, without the tool.
+    /// Poses of the last frame, without the tool.
     ToolLeftOut,
-    /// The fixed frames at the base are the other way round.
+    /// Inverse of the fixed transforms at the base.
     BaseInverted,
-    /// The poses are seen from the first frame that moves.
+    /// Poses relative to the first moving frame.
     BaseLeftOut,
-    /// Base and tool are exchanged.
+    /// Base and tool exchanged.
     EndsExchanged,
-    /// The poses are those of the base as the tool sees it.
+    /// Poses of the base in the tool frame.
     PoseInverted,
-    /// The poses are seen from another place, which is fitted.
+    /// Poses relative to another frame, which is fitted.
     BaseElsewhere,
-    /// The poses are those of another point of the end effector, which is fitted.
+    /// Poses of another point of the end effector, which is fitted.
     ToolElsewhere,
-    /// Two of the columns x, y and z are exchanged, or one has the wrong sign. Every such case is this one and a rotation of the base.
+    /// Two of the columns x, y and z exchanged, or one with the wrong sign. Every such case equals
+    /// an exchange of x and y followed by a rotation of the base.
     Mirrored,
-    /// The orientations are those of `F_0` as the tool sees it; the positions are as stated.
+    /// Orientations of `F_0` in the tool frame; positions as stated.
     OrientationInverted,
 }
 
 impl Change {
-    /// The columns of two of `count` joints are exchanged.
+    /// Returns the exchange of the columns of two of `count` joints.
     pub(crate) fn exchanged(i: usize, j: usize, count: usize) -> Self {
         let mut order: Vec<usize> = (0..count).collect();
         order.swap(i, j);
         Self::Order(order)
     }
 
-    /// Number of single differences that it counts for.
+    /// Counts the single differences that this change stands for.
     pub(super) fn cost(&self) -> usize {
         match self {
             Self::Reversed(joints) => joints.len(),
-            // Six numbers are fitted.
+            // Six parameters are fitted.
             Self::BaseElsewhere | Self::ToolElsewhere => 2,
             _ => 1,
         }
     }
 
-    /// Number of parameters fitted to poses, or to positions alone.
+    /// Counts the parameters fitted to poses, or to positions alone.
     pub(super) fn fitted(&self, oriented: bool) -> usize {
         match self {
             Self::Zero { .. } => 1,
@@ -85,7 +86,7 @@ impl Change {
         }
     }
 
-    /// Compares two changes without their fitted values.
+    /// Compares two changes, ignoring their fitted values.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Zero { joint, .. }, Self::Zero { joint: other, .. }) => joint == other,

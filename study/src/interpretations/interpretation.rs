@@ -1,27 +1,28 @@
-//! What the numbers of a file mean.
+//! Interpretation of the numbers of a file.
 
 use serde::Serialize;
 
 use super::change::Change;
 use super::pose_format::PoseFormat;
 
-/// What the numbers of a file mean.
+/// Units, format and differences from the spec with which the numbers of a file are read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Interpretation {
-    /// Whether angles of joints are in degrees; none if no joint turns.
+    /// Is true if revolute joints are in degrees, false for radians; none if there are no revolute
+    /// joints.
     pub joints_in_degrees: Option<bool>,
-    /// The unit of joints that slide; none if none does.
+    /// Unit of prismatic joints; none if there are none.
     pub slides_in: Option<&'static str>,
-    /// The unit of positions.
+    /// Unit of positions.
     pub lengths_in: &'static str,
-    /// How poses are written.
+    /// Format of the poses.
     pub layout: PoseFormat,
-    /// What is other than the spec has it.
+    /// Differences from the spec.
     pub changes: Vec<Change>,
 }
 
 impl Interpretation {
-    /// Number of differences: from the spec, and from units and format that a map states.
+    /// Counts the differences from the spec, and from units and format stated by a map.
     pub(super) fn cost(&self, stated: Option<&Self>) -> usize {
         let units = stated.map_or(0, |stated| {
             usize::from(self.joints_in_degrees != stated.joints_in_degrees)
@@ -32,7 +33,7 @@ impl Interpretation {
         self.changes.iter().map(Change::cost).sum::<usize>() + units
     }
 
-    /// Tells whether this is the other one with some changes left out.
+    /// Returns true if this interpretation is the other one without some of its changes.
     pub(super) fn is_part_of(&self, other: &Self) -> bool {
         let same = self.joints_in_degrees == other.joints_in_degrees
             && self.slides_in == other.slides_in

@@ -1,4 +1,4 @@
-//! The columns of joints: their units, their configurations and the values that they stand for.
+//! Columns of joints: their units, configurations and joint values.
 
 use std::f64::consts::PI;
 
@@ -6,23 +6,24 @@ use abbe::VariableKind;
 
 use super::change::Change;
 
-/// A unit of length: its symbol and its metres.
+/// Unit of length: its symbol and its value in metres.
 pub(crate) type Length = (&'static str, f64);
 
-/// The units of length that are tried.
+/// Units of length that are tried.
 pub(crate) const LENGTHS: [Length; 2] = [("mm", 1e-3), ("m", 1.0)];
 
-/// Units of joints: what makes angles and travels coherent.
+/// Units of joints, with the factors to coherent units.
 #[derive(Clone, Copy)]
 pub(super) struct JointUnits {
     pub(super) degrees: bool,
     pub(super) slides: &'static str,
-    /// Of angles, of travels.
+    /// Factors of angles and of travels.
     pub(super) factors: [f64; 2],
 }
 
 impl JointUnits {
-    /// Units that columns can be in: angles beyond two turns are no radians. `metres` is the length unit of the spec.
+    /// Returns the plausible units of the columns. Values beyond two turns are not radians.
+    /// `metres` is the length unit of the spec in metres.
     pub(super) fn all(
         kinds: &[VariableKind],
         metres: f64,
@@ -49,12 +50,13 @@ impl JointUnits {
     }
 }
 
-/// One of an angle in rad.
+/// Returns the value in rad of one unit of an angle.
 pub(crate) fn angle(degrees: bool) -> f64 {
     if degrees { PI / 180.0 } else { 1.0 }
 }
 
-/// The values of the joints by the numbers of their columns, zeros left out. `factors` are those of angles and of travels.
+/// Computes joint values, without offsets of zeros, from the numbers of the columns. `factors` are
+/// those of angles and of travels.
 pub(crate) fn joint_values(
     columns: &[f64],
     kinds: &[VariableKind],
@@ -85,7 +87,8 @@ pub(crate) fn joint_values(
     q
 }
 
-/// Number of rows that differ from all before them in a joint, by more than a thousandth of the largest value of its column.
+/// Counts the distinct configurations. Two rows differ if a joint differs by more than a thousandth
+/// of the largest value in its column.
 pub(crate) fn configurations(rows: &[Vec<f64>]) -> usize {
     let count = rows.first().map_or(0, Vec::len);
     let largest = |joint: usize| rows.iter().fold(0.0_f64, |most, row| most.max(row[joint].abs()));

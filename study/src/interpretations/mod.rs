@@ -1,9 +1,11 @@
-//! Are these rows read as they are meant? One search answers that where nothing is stated (`doctor`) and where a map states how a
-//! file is to be read (`identify`, `measure`, `monitor`).
+//! Searches the interpretation of rows that fits the nominal machine: without any statement
+//! (`doctor`), or as a test of what a map states (`identify`, `measure`, `monitor`).
 //!
-//! An `interpretation` is units, a `pose_format` and `change`s. `joints` applies it to the columns of joints, `observed` to what was
-//! measured. `search` computes the `residual` of each, with zeros (`zeros`), base and tool (`registration`) fitted in closed form;
-//! `ranked` keeps those that nothing simpler explains; `words` states them and asks for them.
+//! An `interpretation` consists of units, a `pose_format` and `change`s. `joints` applies it to the
+//! columns of joints, `observed` to the measurements. `search` computes the `residual` of each
+//! interpretation with zeros (`zeros`), base and tool (`registration`) fitted in closed form.
+//! `ranked` selects those that no simpler one explains, and `words` describes them and formats
+//! questions.
 
 mod change;
 mod interpretation;

@@ -1,4 +1,4 @@
-//! What the rows say of the tool, in one format and unit.
+//! Poses of the tool as given by the rows, in one format and unit.
 
 use abbe::Pose;
 
@@ -6,20 +6,20 @@ use super::change::Change;
 use super::joints::Length;
 use super::pose_format::{PoseFormat, transposed};
 
-/// The poses of the rows by one interpretation of their numbers.
+/// Poses of the rows for one interpretation of their numbers.
 pub(crate) struct Observed {
     pub(super) layout: PoseFormat,
     pub(super) unit: &'static str,
-    /// What is read otherwise than stated.
+    /// Changes of the measured columns.
     pub(super) changes: Vec<Change>,
     pub(super) poses: Vec<Pose>,
-    /// The root mean square distance of the positions from their mean.
+    /// Root mean square distance of the positions from their mean.
     pub(super) spread: f64,
 }
 
 impl Observed {
-    /// Reads rows of numbers in each of the formats and units, with each of the changes; those are left out in which a row is no
-    /// pose. `metres` is the length unit of the spec.
+    /// Reads the rows in every combination of format, unit and change. Combinations in which a row
+    /// is not a pose are left out. `metres` is the length unit of the spec in metres.
     pub(crate) fn all(
         rows: &[Vec<f64>],
         layouts: &[PoseFormat],
@@ -46,7 +46,7 @@ impl Observed {
     }
 }
 
-/// A pose with a change of what was observed; other changes are of the machine.
+/// Applies a change of the measurement to a pose. Changes of the machine have no effect.
 pub(crate) fn changed(pose: &Pose, change: &Change) -> Pose {
     let Pose([x, y, z, position]) = *pose;
     match change {
@@ -59,12 +59,12 @@ pub(crate) fn changed(pose: &Pose, change: &Change) -> Pose {
     }
 }
 
-/// A point with x and y exchanged.
+/// Exchanges x and y of a point.
 pub(crate) fn mirrored([x, y, z]: [f64; 3]) -> [f64; 3] {
     [y, x, z]
 }
 
-/// The root mean square distance of positions from their mean.
+/// Computes the root mean square distance of positions from their mean.
 pub(super) fn spread(poses: &[Pose]) -> f64 {
     let count = poses.len() as f64;
     let middle: [f64; 3] =

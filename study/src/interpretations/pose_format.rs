@@ -1,57 +1,57 @@
-//! How the numbers of a row are a position or a pose.
+//! Formats of a position or a pose in the numbers of a row.
 
 use abbe::Pose;
 use serde::Serialize;
 
 use crate::data::{EULER_ORDERS, Rotation, from_euler, from_quaternion, from_rotation_vector, is_rotation};
 
-/// The tolerance to which the numbers of a file are a rotation matrix.
+/// Tolerance of the test that numbers are a rotation matrix.
 const MATRIX: f64 = 0.02;
 
-/// How a pose is written.
+/// Format of a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PoseFormat {
-    /// x, y and z alone.
+    /// Position x, y, z.
     Position,
-    /// Where the tool should be, then the difference from where it is.
+    /// Target position followed by a position difference.
     Difference {
-        /// Whether the difference is target − actual; actual − target if not.
+        /// Is true if the difference is target − actual, false for actual − target.
         target_minus_actual: bool,
     },
-    /// x, y, z and three angles.
+    /// Position and three angles.
     Euler {
-        /// The axes, 0 = x, in the order of the columns.
+        /// Axes, 0 = x, in the order of the columns.
         axes: [usize; 3],
-        /// Whether the axes stay where they are; they turn with the tool if not: `R = R_1 R_2 R_3`.
+        /// Is true for fixed axes, false for moving axes: `R = R_1 R_2 R_3`.
         fixed: bool,
-        /// Whether the angles are in degrees.
+        /// Is true if the angles are in degrees, false for radians.
         degrees: bool,
     },
-    /// x, y, z and an axis times its angle.
+    /// Position and a rotation vector (axis times angle).
     RotationVector {
-        /// Whether the angle is in degrees.
+        /// Is true if the angle is in degrees, false for radians.
         degrees: bool,
     },
-    /// x, y, z and a quaternion.
+    /// Position and a quaternion.
     Quaternion {
-        /// Whether the scalar stands first.
+        /// Is true if the scalar is the first component, false for the last.
         scalar_first: bool,
     },
-    /// x, y, z and a rotation matrix.
+    /// Position and a rotation matrix.
     Matrix {
-        /// Whether it stands row by row; column by column if not.
+        /// Is true for row-major order, false for column-major.
         by_rows: bool,
     },
-    /// The upper three rows, or all four, of a homogeneous matrix.
+    /// Upper three rows, or all four, of a homogeneous matrix.
     Homogeneous {
-        /// Whether it stands row by row; column by column if not.
+        /// Is true for row-major order, false for column-major.
         by_rows: bool,
     },
 }
 
 impl PoseFormat {
-    /// All formats of so many numbers.
+    /// Returns all formats with `count` numbers.
     pub(crate) fn all(count: usize) -> Vec<Self> {
         match count {
             3 => vec![Self::Position],
@@ -77,12 +77,13 @@ impl PoseFormat {
         }
     }
 
-    /// Tells whether it has an orientation.
+    /// Returns true if the format contains an orientation.
     pub(crate) fn is_oriented(self) -> bool {
         !matches!(self, Self::Position | Self::Difference { .. })
     }
 
-    /// The pose of a row, lengths times a factor; none if the numbers are no rotation.
+    /// Returns the pose of a row, with lengths multiplied by `factor`; none if the numbers are not
+    /// a rotation.
     pub(crate) fn pose(self, numbers: &[f64], factor: f64) -> Option<Pose> {
         let three = |at: usize| -> Option<[f64; 3]> { numbers.get(at..at + 3)?.try_into().ok() };
         let position = three(0)?.map(|x| x * factor);

@@ -1,26 +1,28 @@
-//! Interpretations in order: the fewest differences first, then the smallest residual.
+//! Ranking of interpretations by number of differences, then by residual.
 
 use super::interpretation::Interpretation;
 use super::residual::{Residual, squares};
 use super::search::{Candidate, Tolerance};
 
-/// Without noise, residuals of this share of the spread are nothing.
+/// Residual, as a share of the spread, below which data are free of noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Number of the others that are shown.
+/// Number of other interpretations that are reported.
 const OTHERS: usize = 5;
 
-/// Interpretations in order.
+/// Ranked interpretations.
 pub(crate) struct Ranked {
-    /// Those that fit and cannot be told apart, the simplest first.
+    /// Indistinguishable interpretations that fit, the simplest first.
     pub(crate) found: Vec<Candidate>,
-    /// The first with less in it, where that leaves little as well, but more than noise does.
+    /// First simpler version of the best interpretation that is within the tolerance but worse than
+    /// noise explains.
     pub(crate) simpler: Option<Candidate>,
-    /// The nearest of the others.
+    /// Nearest of the other interpretations.
     pub(crate) others: Vec<Candidate>,
 }
 
-/// Ranks candidates; differences are counted from the spec, and from units and format that a map states.
+/// Ranks candidates. Differences are counted from the spec, and from units and format stated by a
+/// map.
 pub(crate) fn ranked(
     mut candidates: Vec<Candidate>,
     tolerance: &Tolerance,
@@ -33,11 +35,11 @@ pub(crate) fn ranked(
             .unwrap_or(std::cmp::Ordering::Equal)
     });
     let best = best(candidates.iter().filter(|one| one.fits(tolerance)));
-    // Whoever says what may be left is content with that.
+    // With a tolerance given by the user, any residual within it is accepted.
     let is_content =
         |one: &Candidate| tolerance.within.is_some() || one.residual.both <= ROUNDING * one.spread;
     let fits = |one: &Candidate| {
-        one.fits(tolerance) && (is_content(one) || !best.iter().any(|best| one.residual.is_beyond(best)))
+        one.fits(tolerance) && (is_content(one) || !best.iter().any(|best| one.residual.exceeds(best)))
     };
     let mut found: Vec<Candidate> = Vec::new();
     let mut others: Vec<Candidate> = Vec::new();
@@ -48,7 +50,8 @@ pub(crate) fn ranked(
             found.push(candidate);
         }
     }
-    // Of those that fit, what has the poses of the first stands beside it; what has others but fits as well, too.
+    // Of those that fit, keeps every one with the poses of the first, and others only if they are
+    // about as simple.
     if let Some(first) = found.first().map(|first| first.predicted.clone()) {
         let rows = first.len() as f64;
         let apart = |one: &Candidate| {
@@ -66,7 +69,7 @@ pub(crate) fn ranked(
     };
     let simpler = others.iter().find(is_simpler).cloned();
     others.sort_by(|a, b| a.share(tolerance).total_cmp(&b.share(tolerance)));
-    // Not the same with more and more changes.
+    // Leaves out candidates that only add changes to a listed one.
     let mut shown: Vec<Candidate> = Vec::new();
     for candidate in others {
         if shown.len() < OTHERS
@@ -81,7 +84,7 @@ pub(crate) fn ranked(
     Ranked { found, simpler, others: shown }
 }
 
-/// The smallest residual by number of fitted parameters.
+/// Returns the smallest residual for each number of degrees of freedom.
 fn best<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Vec<Residual> {
     let mut best: Vec<Residual> = Vec::new();
     for Candidate { residual, .. } in candidates {

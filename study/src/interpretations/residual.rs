@@ -1,25 +1,27 @@
-//! How far two lists of poses are from each other.
+//! Distance between two lists of poses.
 
 use abbe::Pose;
 use abbe::identify::f_test;
 
-/// What is left, as root mean squares.
+/// Residuals as root mean squares.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Residual {
     pub(crate) position: f64,
-    /// None if orientations were not seen.
+    /// Residual of orientations in rad; none if they were not measured.
     pub(crate) angle: Option<f64>,
-    /// Both as a length, angles times a lever: as it would be if nothing had been fitted.
+    /// Position and angle combined as a length, with angles times a lever, corrected for the number
+    /// of fitted parameters.
     pub(crate) both: f64,
-    /// How many numbers more were seen than fitted.
+    /// Degrees of freedom: number of measured values minus number of fitted parameters.
     pub(super) freedom: f64,
 }
 
-/// The sum over all rows of `|Δp|²`, and of `½ |ΔR|²`, which is the square of a small angle.
-pub(super) fn squares(predicted: &[Pose], seen: &[Pose], oriented: bool) -> [f64; 2] {
+/// Returns the sums over all rows of `|Δp|²` and of `½ |ΔR|²`, which is the square of a small
+/// angle.
+pub(super) fn squares(predicted: &[Pose], measured: &[Pose], oriented: bool) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    for (predicted, seen) in predicted.iter().zip(seen) {
-        let (a, b) = (&predicted.0, &seen.0);
+    for (predicted, measured) in predicted.iter().zip(measured) {
+        let (a, b) = (&predicted.0, &measured.0);
         sums[0] += square(a[3], b[3]);
         if oriented {
             sums[1] += 0.5 * (square(a[0], b[0]) + square(a[1], b[1]) + square(a[2], b[2]));
@@ -34,7 +36,8 @@ fn square(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 impl Residual {
-    /// Of so many rows, angles with this lever; of the numbers that were seen, so many are fitted.
+    /// Computes the residual from sums of squares over `rows`, with angles times `lever`; the last
+    /// argument is the numbers of measured values and of fitted parameters.
     pub(super) fn new(
         [positions, angles]: [f64; 2],
         rows: usize,
@@ -52,9 +55,12 @@ impl Residual {
         }
     }
 
-    /// Whether this is more than noise makes of what leaves so little, by an F-test of their variances. A rule: angles are
-    /// taken for as noisy as positions, and the best of many interpretations is best by chance, too.
-    pub(super) fn is_beyond(&self, other: &Self) -> bool {
+    /// Tests by an F-test of the variances whether this residual exceeds the other by more than
+    /// noise.
+    ///
+    /// The test is a rule of thumb: it takes angles to be as noisy as positions, and it ignores
+    /// that the best of many interpretations is partly best by chance.
+    pub(super) fn exceeds(&self, other: &Self) -> bool {
         let squares = |residual: &Self| residual.both.powi(2) * residual.freedom;
         let (own, least) = (squares(self), squares(other));
         f_test(own + least, least, self.freedom as usize, other.freedom as usize).p < 1e-6

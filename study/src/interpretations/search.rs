@@ -1,4 +1,4 @@
-//! Tries interpretations one by one, and computes the residual of each.
+//! Evaluates interpretations and their residuals.
 
 use abbe::{Error, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
@@ -9,89 +9,92 @@ use super::joints::{JointUnits, Length, configurations, joint_values};
 use super::observed::{Observed, spread};
 use super::registration::registered;
 use super::residual::{Residual, squares};
-use super::zeros::{Form, least};
+use super::zeros::{ZeroForm, minimum};
 use crate::{Notes, mistake};
 
-/// The lever of angles, as a share of the spread of the positions.
+/// Lever of angles, as a share of the spread of the positions.
 const LEVER: f64 = 0.3;
 
-/// A residual beyond this share of the spread of the positions is no fit, whatever tolerance is asked for.
+/// Residual, as a share of the spread of the positions, above which nothing fits, whatever
+/// tolerance is given.
 pub(crate) const MOST: f64 = 0.1;
 
-/// Interpretations that leave this many times the tolerance are kept.
+/// Residual, in tolerances, up to which interpretations are kept.
 const NEAR: f64 = 2.0;
 
-/// Number of interpretations that do not fit and are kept.
+/// Number of interpretations kept beyond that.
 const KEPT: usize = 30;
 
-/// Base, chain and tool: what stands before everything that moves, what moves, and the tool.
+/// Base, chain and tool: the transform before all moving frames, the moving frames, and the tool.
 pub(crate) type Parts = [Pose; 3];
 
-/// The nominal manipulator as the search needs it.
+/// Nominal manipulator as the search needs it.
 pub(crate) trait Chain {
-    /// The kinds of the joints.
+    /// Returns the kinds of the joints.
     fn kinds(&self) -> &[VariableKind];
 
-    /// The length unit, in metres.
+    /// Returns the length unit in metres.
     fn metres(&self) -> f64;
 
-    /// Evaluates base, chain and tool at `q`; by the other Denavit-Hartenberg convention if that is asked for and there is one.
+    /// Evaluates base, chain and tool at `q`, with the other Denavit-Hartenberg convention if
+    /// `other_convention` is set and there is one.
     fn parts(&self, q: &[f64], other_convention: bool) -> Result<Parts, Error>;
 }
 
-/// An interpretation and its residual.
+/// Interpretation and its residual.
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
     pub(crate) interpretation: Interpretation,
     pub(crate) residual: Residual,
-    /// The poses that the spec has then.
+    /// Poses predicted by the spec for this interpretation.
     pub(super) predicted: Vec<Pose>,
-    /// The tool in the frame of the one of the spec, if it is fitted.
+    /// Pose of the fitted tool in the tool frame of the spec, if it is fitted.
     pub(crate) tool: Option<Pose>,
-    /// The spread of the observed positions.
+    /// Spread of the observed positions.
     pub(crate) spread: f64,
 }
 
 impl Candidate {
-    /// The residual as a share of the tolerance: units that make everything small are no better for it.
+    /// Returns the residual as a share of the tolerance, which is invariant to the unit of the
+    /// positions.
     pub(super) fn share(&self, tolerance: &Tolerance) -> f64 {
         self.residual.both / tolerance.limit(self.spread)
     }
 
-    /// Tells whether positions and orientations are within the tolerance.
+    /// Returns true if positions and orientations are within the tolerance.
     pub(super) fn fits(&self, tolerance: &Tolerance) -> bool {
         self.share(tolerance) <= 1.0
     }
 }
 
-/// The residual up to which an interpretation fits.
+/// Largest residual of an interpretation that fits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
-    /// The largest residual in the length unit, if it is asked for.
+    /// Largest residual in the length unit, if given.
     pub(crate) within: Option<f64>,
-    /// The largest share of the spread of the positions otherwise.
+    /// Largest share of the spread of the positions otherwise.
     pub(crate) share: f64,
-    /// The share of the tolerance at which the next stage is not tried.
+    /// Residual, as a share of the tolerance, at which no further stage is tried.
     pub(crate) enough: f64,
 }
 
 impl Tolerance {
-    /// The largest residual of positions with this spread.
+    /// Returns the largest residual for positions with this spread.
     pub(crate) fn limit(&self, spread: f64) -> f64 {
         self.within.map_or(self.share * spread, |within| within.min(MOST * spread))
     }
 }
 
-/// Changes of the joints, and the changes of base, tool and poses that are tried with them.
+/// Changes of the joints, with the changes of base, tool and poses to try with them.
 pub(crate) struct Trial {
     pub(crate) joints: Vec<Change>,
     pub(crate) ends: Vec<Vec<Change>>,
 }
 
-/// The rows, and all that is tried on them.
+/// Rows, and everything to try on them.
 pub(crate) struct Search<'a> {
     chain: &'a dyn Chain,
-    /// The columns of joints, row by row.
+    /// Columns of joints, row by row.
     joints: &'a [Vec<f64>],
     configurations: usize,
     units: Vec<JointUnits>,
@@ -100,7 +103,7 @@ pub(crate) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// `lengths` are the units of travels that are tried.
+    /// Prepares a search. `lengths` are the units of travel to try.
     pub(crate) fn new(
         chain: &'a dyn Chain,
         joints: &'a [Vec<f64>],
@@ -112,7 +115,8 @@ impl<'a> Search<'a> {
         Self { chain, joints, configurations: configurations(joints), units, observed, tolerance }
     }
 
-    /// Returns the interpretations that fit, and the nearest of the others. A stage is tried if nothing before it fits.
+    /// Returns the interpretations that fit and the nearest of the others. A stage is tried only if
+    /// no earlier one fits.
     pub(crate) fn run(
         &self,
         stages: impl IntoIterator<Item = Vec<Trial>>,
@@ -152,7 +156,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// The parts of the chain at every node of the zeros that are free.
+    /// Evaluates the parts of the chain at every node of the free zeros.
     fn nodes(&self, units: JointUnits, joints: &[Change]) -> Option<Vec<Vec<Parts>>> {
         let mut offsets = vec![Vec::new()];
         for (joint, form) in self.zeros(joints) {
@@ -164,18 +168,18 @@ impl<'a> Search<'a> {
         offsets.iter().map(|offsets| self.parts(units, joints, offsets)).collect()
     }
 
-    fn zeros(&self, joints: &[Change]) -> Vec<(usize, Form)> {
+    fn zeros(&self, joints: &[Change]) -> Vec<(usize, ZeroForm)> {
         let zero = |change: &Change| match change {
             Change::Zero { joint, .. } => Some(match self.chain.kinds()[*joint] {
-                VariableKind::Revolute => (*joint, Form::Circle),
-                VariableKind::Prismatic => (*joint, Form::Line(0.1 / self.chain.metres())),
+                VariableKind::Revolute => (*joint, ZeroForm::Circle),
+                VariableKind::Prismatic => (*joint, ZeroForm::Line(0.1 / self.chain.metres())),
             }),
             _ => None,
         };
         joints.iter().filter_map(zero).collect()
     }
 
-    /// Row by row; none where the chain has no finite value.
+    /// Evaluates the parts row by row; returns none if the chain has no finite value.
     fn parts(&self, units: JointUnits, joints: &[Change], offsets: &[(usize, f64)]) -> Option<Vec<Parts>> {
         let other = joints.contains(&Change::Convention);
         let row = |columns: &Vec<f64>| {
@@ -198,18 +202,18 @@ impl<'a> Search<'a> {
         let predicted: Vec<Vec<Pose>> = nodes.iter().map(|rows| self.with_ends(rows, ends)).collect();
         let of_machine = predicted.first().map_or(0.0, |poses| spread(poses));
         let zeros = self.zeros(joints);
-        let forms: Vec<Form> = zeros.iter().map(|(_, form)| *form).collect();
+        let forms: Vec<ZeroForm> = zeros.iter().map(|(_, form)| *form).collect();
         let free = [Change::BaseElsewhere, Change::ToolElsewhere].map(|change| ends.contains(&change));
         let rows = self.joints.len();
         for seen in &self.observed {
             let (oriented, lever) = (seen.layout.is_oriented(), LEVER * seen.spread);
             let numbers = self.configurations * if oriented { 6 } else { 3 };
             let fitted = joints.iter().chain(ends).map(|change| change.fitted(oriented)).sum::<usize>();
-            // So few numbers fit anything.
+            // So few values fit anything.
             if numbers < 2 * fitted {
                 continue;
             }
-            // A position alone has no base that is seen from it.
+            // A position alone cannot be inverted.
             if !oriented && ends.contains(&Change::PoseInverted) {
                 continue;
             }
@@ -219,11 +223,11 @@ impl<'a> Search<'a> {
                 let values: Vec<f64> =
                     predicted.iter().map(|poses| both(squares(poses, &seen.poses, oriented))).collect();
                 let far = |sum: f64, times: f64| (sum.max(0.0) / rows as f64).sqrt() > times * limit;
-                // Few turns tell whether more of them are worth it.
-                if far(least(&forms, &values, 15).1, 20.0) {
+                // A few iterations tell whether more are worthwhile.
+                if far(minimum(&forms, &values, 15).1, 20.0) {
                     continue;
                 }
-                let (offsets, sum) = least(&forms, &values, 2000);
+                let (offsets, sum) = minimum(&forms, &values, 2000);
                 if far(sum, 3.0) {
                     continue;
                 }
@@ -263,7 +267,8 @@ impl<'a> Search<'a> {
             };
             let candidate = Candidate { interpretation, residual, predicted, tool, spread: seen.spread };
             let share = candidate.share(&self.tolerance);
-            // Nor is a unit that makes all that was seen far larger than the machine.
+            // A unit that makes the measurements far larger than the machine is not a candidate
+            // either.
             let is_one = || share <= cut && residual.both <= 2.0 * of_machine;
             if share <= NEAR || is_one() {
                 candidates.push(candidate);
@@ -271,7 +276,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Keeps those that may fit and the nearest of the others; what is farther than these is not needed.
+    /// Keeps candidates that may fit and the nearest of the others. Returns the share beyond which
+    /// candidates are dropped.
     fn keep(&self, candidates: &mut Vec<Candidate>) -> f64 {
         let share = |candidate: &Candidate| candidate.share(&self.tolerance);
         candidates.sort_by(|a, b| share(a).total_cmp(&share(b)));
@@ -309,8 +315,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Tells whether base or tool can be fitted: the angle of a turn between rows depends on neither, distances between positions not on
-/// the base.
+/// Returns true if a fit of base or tool can succeed. The rotation angle between rows depends on
+/// neither, and distances between positions do not depend on the base.
 fn can_be_fitted(predicted: &[Pose], seen: &[Pose], oriented: bool, tool: bool, limit: f64) -> bool {
     let [mut turns, mut distances] = [0.0; 2];
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -1,4 +1,4 @@
-//! Interpretations in words: as a statement, and as questions about a map.
+//! Describes interpretations as statements, and as questions about a map.
 
 use abbe::VariableKind;
 use abbe_spec::Spec;
@@ -10,7 +10,7 @@ use crate::number::digits;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// States an interpretation: units, then the differences from the spec.
+/// Describes an interpretation: units, then the differences from the spec.
 pub(crate) fn interpretation(interpretation: &Interpretation, spec: &Spec) -> String {
     let mut parts = Vec::new();
     match (interpretation.joints_in_degrees, interpretation.slides_in) {
@@ -22,7 +22,7 @@ pub(crate) fn interpretation(interpretation: &Interpretation, spec: &Spec) -> St
     parts.push(format!("positions in {}", interpretation.lengths_in));
     parts.extend(layout(interpretation.layout));
     match &interpretation.changes[..] {
-        [] => parts.push("all else as in the spec".to_owned()),
+        [] => parts.push("otherwise as in the spec".to_owned()),
         changes => parts.extend(changes.iter().map(|one| change(one, spec))),
     }
     parts.join("; ")
@@ -47,16 +47,16 @@ fn layout(layout: PoseFormat) -> Option<String> {
         PoseFormat::RotationVector { degrees } => format!("rotation vectors in {}", angle(degrees)),
         PoseFormat::Quaternion { scalar_first: true } => "quaternions w, x, y, z".to_owned(),
         PoseFormat::Quaternion { scalar_first: false } => "quaternions x, y, z, w".to_owned(),
-        PoseFormat::Matrix { by_rows } => format!("rotation matrices {}", by(by_rows)),
-        PoseFormat::Homogeneous { by_rows } => format!("homogeneous matrices {}", by(by_rows)),
+        PoseFormat::Matrix { by_rows } => format!("rotation matrices {}", matrix_order(by_rows)),
+        PoseFormat::Homogeneous { by_rows } => format!("homogeneous matrices {}", matrix_order(by_rows)),
     })
 }
 
-fn by(rows: bool) -> &'static str {
+fn matrix_order(rows: bool) -> &'static str {
     if rows { "row by row" } else { "column by column" }
 }
 
-/// States a difference from the spec.
+/// Describes a difference from the spec.
 pub(crate) fn change(change: &Change, spec: &Spec) -> String {
     let name = |i: usize| spec.variables[i].name.as_str();
     match change {
@@ -75,7 +75,7 @@ pub(crate) fn change(change: &Change, spec: &Spec) -> String {
         Change::Reversed(joints) => {
             let names: Vec<&str> = joints.iter().map(|joint| name(*joint)).collect();
             let verb = if joints.len() == 1 { "counts" } else { "count" };
-            format!("{} {verb} the other way round", names.join(", "))
+            format!("{} {verb} in the opposite direction", names.join(", "))
         }
         Change::Coupled { joint, to, by } => {
             let sign = if *by > 0.0 { "+" } else { "−" };
@@ -86,26 +86,30 @@ pub(crate) fn change(change: &Change, spec: &Spec) -> String {
                 VariableKind::Revolute => format!("{:+.2}°", offset.to_degrees()),
                 VariableKind::Prismatic => format!("{} {}", digits(*offset, 4), spec.length.symbol()),
             };
-            format!("the zero of {} is elsewhere: add {amount}", name(*joint))
+            format!("the zero of {} is offset: add {amount}", name(*joint))
         }
         Change::Convention => "the Denavit-Hartenberg numbers are of the other convention".to_owned(),
-        Change::ToolInverted => "the tool is the other way round".to_owned(),
+        Change::ToolInverted => "the tool transform is inverted".to_owned(),
         Change::ToolLeftOut => "the poses are those of the flange, without the tool".to_owned(),
-        Change::BaseInverted => "the base is the other way round".to_owned(),
-        Change::BaseLeftOut => "the poses are seen from the foot, without the base of the spec".to_owned(),
+        Change::BaseInverted => "the base transform is inverted".to_owned(),
+        Change::BaseLeftOut => {
+            "the poses are relative to the robot's foot, without the base of the spec".to_owned()
+        }
         Change::EndsExchanged => "base and tool are exchanged".to_owned(),
-        Change::PoseInverted => "the poses are those of the base as the tool sees it".to_owned(),
-        Change::BaseElsewhere => "the poses are seen from another place".to_owned(),
+        Change::PoseInverted => "the poses are inverted: the base in the frame of the tool".to_owned(),
+        Change::BaseElsewhere => "the poses are in another reference frame".to_owned(),
         Change::ToolElsewhere => "the poses are those of another point of the end effector".to_owned(),
         Change::Mirrored => {
             "two of the columns x, y and z are exchanged, or one has the wrong sign".to_owned()
         }
-        Change::OrientationInverted => "the orientations are those of F_0 as the tool sees it".to_owned(),
+        Change::OrientationInverted => {
+            "the orientations are inverted: F_0 in the frame of the tool".to_owned()
+        }
     }
 }
 
-/// Asks about the differences from what a map states, and says what to change in the map; none if there are none. `names` are those of
-/// the joints.
+/// Formats the differences from a map as questions that say what to change in the map; empty if
+/// there are none. `names` are those of the joints.
 pub(crate) fn questions(found: &Interpretation, stated: &Interpretation, names: &[&str]) -> Vec<String> {
     let mut all = Vec::new();
     if found.lengths_in != stated.lengths_in {
@@ -131,7 +135,7 @@ pub(crate) fn questions(found: &Interpretation, stated: &Interpretation, names: 
     all
 }
 
-/// Asks about a change that a map can hold, or the file.
+/// Formats a change that concerns the map or the file as a question.
 fn question(change: &Change, names: &[&str]) -> Option<String> {
     let name = |i: usize| format!("`{}`", names[i]);
     Some(match change {
@@ -142,14 +146,13 @@ fn question(change: &Change, names: &[&str]) -> Option<String> {
         Change::Reversed(joints) => {
             let verb = if joints.len() == 1 { "does" } else { "do" };
             let names: Vec<String> = joints.iter().map(|i| name(*i)).collect();
-            format!("{verb} {} count the other way round? set `sign = -1` there", names.join(", "))
+            format!("{verb} {} count in the opposite direction? set `sign = -1` there", names.join(", "))
         }
         Change::Mirrored => {
             "are two of the measured columns x, y and z swapped, or has one the wrong sign?".to_owned()
         }
         Change::OrientationInverted => {
-            "are the orientations the other way round, of F_0 as the tool sees it? turn them round in the file"
-                .to_owned()
+            "are the orientations inverted (F_0 in the frame of the tool)? invert them in the file".to_owned()
         }
         _ => return None,
     })
@@ -171,7 +174,8 @@ fn questions_on_format(found: PoseFormat, stated: PoseFormat) -> Vec<String> {
                 true => {
                     let reversed: String = order.chars().rev().collect();
                     format!(
-                        "are these angles about fixed axes, `{order}`? give the columns the other way round, and `order = \"{reversed}\"`"
+                        "are these angles about fixed axes, `{order}`? reverse the columns, with \
+                         `order = \"{reversed}\"`"
                     )
                 }
             });

@@ -1,6 +1,6 @@
-//! ΔX of every row, equation (5): measured minus ideal.
+//! ΔX of each row, equation (5): measured minus ideal.
 
-use abbe::identify::{Failure, Measurement, Model, Observation, Room, register};
+use abbe::identify::{Failure, Measurement, Model, Observation, Scratch, register};
 use abbe::{Orientation, Pose, deviation};
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -8,26 +8,27 @@ use crate::data::Data;
 use crate::identify::Setup;
 use crate::mistake;
 
-/// A row, and by how much the tool was not where it should be.
+/// A row and its error.
 #[derive(Clone, Debug)]
 pub struct RowError {
-    /// What was commanded and measured.
+    /// Command and measurement.
     pub observation: Observation,
-    /// x, y, z of the tool point, then the rotation vector where orientations were measured, in the instrument's axes.
+    /// x, y, z of the tool point, then the rotation vector if orientations were measured, in the
+    /// axes of the instrument.
     pub error: [f64; 6],
-    /// The tool point as measured.
+    /// Measured tool point.
     pub point: [f64; 3],
 }
 
-/// A row of a configuration that is visited again.
+/// A visit of a configuration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visit {
     pub(super) configuration: u32,
-    /// From which direction, as a number.
+    /// Number of the direction of approach.
     pub(super) direction: u32,
-    /// When; 0 where nobody says.
+    /// Time; 0 if unknown.
     pub(super) time: f64,
-    /// As in [`RowError`].
+    /// Error as in [`RowError`].
     pub(super) error: [f64; 6],
     pub(super) point: [f64; 3],
 }
@@ -40,13 +41,14 @@ impl Visit {
 }
 
 impl RowError {
-    /// The norm of the position error.
+    /// Returns the norm of the position error.
     pub fn distance(&self) -> f64 {
         norm([self.error[0], self.error[1], self.error[2]])
     }
 }
 
-/// The model whose tool point is the target, if that is the only one: its place on the tool is no error.
+/// Moves the tool point of a model to its target, if that is the only one: the position of the
+/// target is not an error.
 pub(super) fn at_single_target<'a>(model: &Model<'a>) -> Model<'a> {
     let [target] = model.targets[..] else { return model.clone() };
     let mut mounting = model.mounting;
@@ -54,36 +56,37 @@ pub(super) fn at_single_target<'a>(model: &Model<'a>) -> Model<'a> {
     Model { mounting, targets: vec![[0.0; 3]], ..model.clone() }
 }
 
-/// x, y, z and the turn by which the tool was off, and the tool point as measured.
+/// Error (position, then rotation vector) and measured tool point.
 type Seen = ([f64; 6], [f64; 3]);
 
-/// The errors of rows, one after the other: they are not kept.
+/// Computes the errors of rows one at a time.
 pub(super) struct Errors<'a> {
-    seen: Model<'a>,
-    room: Room,
+    model: Model<'a>,
+    scratch: Scratch,
 }
 
 impl<'a> Errors<'a> {
     pub(super) fn new(setup: &Setup<'a>) -> Self {
-        let seen = at_single_target(&setup.ideal);
-        Self { room: seen.room(), seen }
+        let model = at_single_target(&setup.ideal);
+        Self { scratch: model.scratch(), model }
     }
 
-    /// The error of a row, and the tool point as measured; none if it shows too little of the tool.
+    /// Returns the error and the measured tool point of a row; none if fewer than three targets are
+    /// visible.
     pub(super) fn at(&mut self, row: &Observation) -> Result<Option<Seen>, Failure> {
-        let ideal = self.seen.pose(&mut self.room, row, &[])?;
-        let real = pose(&self.seen.targets, &row.measured, &ideal);
+        let ideal = self.model.pose(&mut self.scratch, row, &[])?;
+        let real = pose(&self.model.targets, &row.measured, &ideal);
         Ok(real.map(|real| (deviation(Orientation::RotationVector, &ideal, &real), real.position())))
     }
 
-    /// The same with its row, of which it is known that it shows enough.
-    pub(super) fn of(&mut self, row: &Observation) -> Result<RowError, Failure> {
+    /// Returns the error of a row that shows the tool.
+    pub(super) fn row_error(&mut self, row: &Observation) -> Result<RowError, Failure> {
         let (error, point) = self.at(row)?.unwrap_or_default();
         Ok(RowError { observation: row.clone(), error, point })
     }
 }
 
-/// Moves rows that show too little of the tool to the unusable ones.
+/// Moves rows that do not determine the pose of the tool to the unusable ones.
 pub(super) fn leave_out(setup: &Setup, data: &mut Data) -> Result<(), Diagnostics> {
     let mut errors = Errors::new(setup);
     let (mut failed, mut hidden) = (None, Vec::new());
@@ -115,7 +118,7 @@ pub(super) fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// The pose of the tool, as it was measured; a single point has the orientation that it should have.
+/// Returns the measured pose of the tool; a single point takes the ideal orientation.
 pub(super) fn pose(targets: &[[f64; 3]], measured: &Measurement, ideal: &Pose) -> Option<Pose> {
     match measured {
         Measurement::Pose(pose) => Some(**pose),

@@ -1,4 +1,4 @@
-//! What was measured against what the sources of the spec predict.
+//! Measured errors compared with the prediction by the sources of the spec.
 
 use abbe::Class;
 use abbe::identify::{Chance, Failure, Figures, Observation, Unknown, simulate};
@@ -7,35 +7,36 @@ use serde::Serialize;
 use super::errors::{Errors, at_single_target, pose};
 use crate::identify::Setup;
 
-/// How far the sources of the spec go.
+/// Agreement of measurement and prediction.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Explained {
-    /// The mean norm of what is left when the repeatable sources are taken off, of every point that was measured.
+    /// Mean norm of the errors minus the repeatable sources, over all measured points.
     pub left_mean: f64,
-    /// The root mean square of that.
+    /// Root mean square of these norms.
     pub left_rms: f64,
-    /// What 95 % of them do not exceed.
+    /// 95th percentile of these norms.
     pub left_p95: f64,
-    /// The largest.
+    /// Maximum of these norms.
     pub left_max: f64,
-    /// Which share of the sum of squares the repeatable sources explain; below 0 they make it worse.
+    /// Share of the sum of squares explained by the repeatable sources; negative if they increase
+    /// it.
     pub share: f64,
-    /// Which share of the rows is within the region in which 95 % of the rows of a machine as the spec says are: its random
-    /// sources drawn anew in every row, and the noise of the instrument.
+    /// Share of the rows within the 95 % prediction region of the spec: random sources drawn anew
+    /// in each row, and the noise of the instrument.
     ///
-    /// None of readings.
+    /// None for readings.
     pub inside: Option<f64>,
-    /// Between which shares 99 % of such machines are with as many rows.
+    /// 99 % interval of that share for a machine as specified, with as many rows.
     pub likely: Option<[f64; 2]>,
-    /// How many repeatable sources there are.
+    /// Number of repeatable sources.
     pub repeatable: usize,
-    /// How many random ones.
+    /// Number of random sources.
     pub random: usize,
 }
 
-/// What the region contains.
+/// Content of the prediction region.
 const CONTENT: f64 = 0.95;
-/// So many rows are simulated to find it: its content is then within ±0.3 % (two standard deviations).
+/// Number of simulated rows; the content is then within ±0.3 % (two standard deviations).
 const SIMULATED: usize = 20_000;
 
 pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained, Failure> {
@@ -46,17 +47,17 @@ pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained
             Class::Repeatable => None,
         })
         .collect();
-    let judge = Judge { setup, random: &random };
-    let edge = judge.edge(rows)?;
+    let region = PredictionRegion { setup, random: &random };
+    let boundary = region.boundary(rows)?;
     let (mut before, mut left, mut inside) = (0.0, Vec::new(), 0);
-    let (mut room, mut errors) = (judge.room(), Errors::new(setup));
+    let (mut scratch, mut errors) = (region.scratch(), Errors::new(setup));
     for row in rows {
         let (_, point) = errors.at(row)?.unwrap_or_default();
-        inside += usize::from(judge.judged(&mut room, row, point)? <= edge);
-        // Where it was measured: at every target.
-        let Room { room, .. } = &mut room;
-        left.extend(setup.real.distances(room, row, &[])?);
-        before += setup.ideal.distances(room, row, &[])?.iter().map(|v| v * v).sum::<f64>();
+        inside += usize::from(region.distance(&mut scratch, row, point)? <= boundary);
+        // At each target, where the measurement was made.
+        let Scratch { scratch, .. } = &mut scratch;
+        left.extend(setup.real.distances(scratch, row, &[])?);
+        before += setup.ideal.distances(scratch, row, &[])?.iter().map(|v| v * v).sum::<f64>();
     }
     let share = 1.0 - left.iter().map(|v| v * v).sum::<f64>() / before.max(f64::MIN_POSITIVE);
     let figures = Figures::from_norms(left);
@@ -74,7 +75,8 @@ pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained
 }
 
 impl Explained {
-    /// Of readings, of which lengths have figures; `share` is that of the numbers by their uncertainty.
+    /// Compares readings; figures cover lengths alone, and `share` weights all readings by their
+    /// uncertainty.
     pub(super) fn of_readings(setup: &Setup, rows: &[Observation], share: f64) -> Result<Self, Failure> {
         let figures = setup.real.figures(rows, &[])?;
         let random = setup.description.sources.iter().filter(|source| source.class != Class::Repeatable);
@@ -92,34 +94,35 @@ impl Explained {
     }
 }
 
-/// What is left of a row, and how far that is in units of what chance explains.
-struct Judge<'a> {
+/// Prediction region of the residual of a row.
+struct PredictionRegion<'a> {
     setup: &'a Setup<'a>,
     /// Random sources with the variance of their magnitudes.
     random: &'a [(usize, f64)],
 }
 
-/// The model with the magnitudes of the random sources, and room for it.
-struct Room<'a> {
+/// A model with the magnitudes of the random sources, and its scratch memory.
+struct Scratch<'a> {
     model: abbe::identify::Model<'a>,
-    room: abbe::identify::Room,
+    scratch: abbe::identify::Scratch,
 }
 
-impl<'a> Judge<'a> {
-    fn room(&self) -> Room<'a> {
+impl<'a> PredictionRegion<'a> {
+    fn scratch(&self) -> Scratch<'a> {
         let magnitudes = self.random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect();
         let model = at_single_target(&self.setup.real).with(magnitudes);
-        Room { room: model.room(), model }
+        Scratch { scratch: model.scratch(), model }
     }
 
-    /// `√(eᵀ C⁻¹ e)` of what is left, with `C = Σ variance · m mᵀ + σ²`, m what a source of magnitude 1 moves.
-    fn judged(
+    /// Returns the Mahalanobis distance `√(eᵀ C⁻¹ e)` of a residual, with
+    /// `C = Σ variance · m mᵀ + σ²` and m the displacement by a source of magnitude 1.
+    fn distance(
         &self,
-        Room { model, room }: &mut Room<'a>,
+        Scratch { model, scratch }: &mut Scratch<'a>,
         row: &Observation,
         point: [f64; 3],
     ) -> Result<f64, Failure> {
-        let (ideal, moves) = model.tool(room, row, &vec![0.0; self.random.len()])?;
+        let (ideal, moves) = model.tool(scratch, row, &vec![0.0; self.random.len()])?;
         let rest: [f64; 3] = std::array::from_fn(|k| point[k] - ideal.position()[k]);
         let noise = model.uncertainty.length.powi(2) / row.weight;
         let mut covariance = [[noise, 0.0, 0.0], [0.0, noise, 0.0], [0.0, 0.0, noise]];
@@ -128,25 +131,25 @@ impl<'a> Judge<'a> {
                 (0..3).for_each(|j| row[j] += moved[i] * moved[j] * variance);
             }
         }
-        Ok(distance(covariance, rest))
+        Ok(mahalanobis(covariance, rest))
     }
 
-    /// The distance that 95 % of the rows do not exceed where the machine is as the spec says: the same rows simulated on the
-    /// exact chain, as they would be measured.
-    fn edge(&self, rows: &[Observation]) -> Result<f64, Failure> {
+    /// Returns the 95th percentile of the distance for a machine as specified, from simulation of
+    /// the same rows on the exact chain.
+    fn boundary(&self, rows: &[Observation]) -> Result<f64, Failure> {
         let step = rows.len().div_ceil(SIMULATED).max(1);
         let list: Vec<Observation> = rows.iter().step_by(step).cloned().collect();
-        let mut room = self.room();
+        let mut scratch = self.scratch();
         let ideal = at_single_target(&self.setup.ideal);
-        let mut ideal_room = ideal.room();
+        let mut ideal_scratch = ideal.scratch();
         let mut distances = Vec::new();
         for seed in 0..(SIMULATED / list.len().max(1)).max(1) as u64 {
             let noise = self.setup.real.uncertainty;
-            let chance = Chance { noise, outliers: 0.0, gross: 0.0, random_sources: true, seed };
-            for seen in simulate(&self.setup.real, &list, &chance)? {
-                let pose_of_ideal = ideal.pose(&mut ideal_room, &seen, &[])?;
-                if let Some(real) = pose(&ideal.targets, &seen.measured, &pose_of_ideal) {
-                    distances.push(self.judged(&mut room, &seen, real.position())?);
+            let chance = Chance { noise, outliers: 0.0, outlier_size: 0.0, random_sources: true, seed };
+            for row in simulate(&self.setup.real, &list, &chance)? {
+                let pose_of_ideal = ideal.pose(&mut ideal_scratch, &row, &[])?;
+                if let Some(real) = pose(&ideal.targets, &row.measured, &pose_of_ideal) {
+                    distances.push(self.distance(&mut scratch, &row, real.position())?);
                 }
             }
         }
@@ -156,8 +159,9 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// `√(eᵀ C⁻¹ e)`: with the rows a, b, c of C, `det C = a · b × c`, and `C⁻¹` has the columns b × c, c × a, a × b over it.
-fn distance([a, b, c]: [[f64; 3]; 3], error: [f64; 3]) -> f64 {
+/// Computes `√(eᵀ C⁻¹ e)`: with the rows a, b, c of C, `det C = a · b × c`, and `C⁻¹` has the
+/// columns b × c, c × a, a × b divided by it.
+fn mahalanobis([a, b, c]: [[f64; 3]; 3], error: [f64; 3]) -> f64 {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let columns = [cross(b, c), cross(c, a), cross(a, b)];
     let square = (0..3).map(|i| error[i] * dot(columns[i], error)).sum::<f64>() / dot(a, columns[0]);
@@ -168,18 +172,18 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The shares that 0.5 % of the machines are below, and 0.5 % above: quantiles of the binomial distribution.
+/// Returns the 0.5 and 99.5 % quantiles of the share, from the binomial distribution.
 fn likely(rows: usize) -> [f64; 2] {
     let n = rows as f64;
     if rows > 1000 {
         let half = 2.5758 * (CONTENT * (1.0 - CONTENT) / n).sqrt();
         return [CONTENT - half, CONTENT + half];
     }
-    // P(k of n), from k = n down.
+    // P(k of n), from k = n downwards.
     let mut probability = CONTENT.powi(rows as i32);
     let (mut above, mut low, mut high) = (0.0, 0, rows);
     for k in (0..=rows).rev() {
-        // So many or more.
+        // Upper tail.
         if above + probability < 0.005 {
             high = k.saturating_sub(1);
         }
@@ -194,17 +198,19 @@ fn likely(rows: usize) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{distance, likely};
+    use super::{likely, mahalanobis};
 
-    /// C = diag(1, 4, 9) + 1 1ᵀ, e = (1, 2, 3): by Sherman and Morrison eᵀC⁻¹e = 3 − (11/6)²/(1 + 49/36).
+    /// C = diag(1, 4, 9) + 1 1ᵀ, e = (1, 2, 3): by Sherman and Morrison eᵀC⁻¹e = 3 − (11/6)²/(1 +
+    /// 49/36).
     #[test]
     fn distances_are_in_units_of_the_covariance() {
         let covariance = [[2.0, 1.0, 1.0], [1.0, 5.0, 1.0], [1.0, 1.0, 10.0]];
         let expected = 3.0 - (11.0_f64 / 6.0).powi(2) / (1.0 + 49.0 / 36.0);
-        assert!((distance(covariance, [1.0, 2.0, 3.0]) - expected.sqrt()).abs() < 1e-14);
+        assert!((mahalanobis(covariance, [1.0, 2.0, 3.0]) - expected.sqrt()).abs() < 1e-14);
     }
 
-    /// Sums of the binomial distribution, computed apart: of 20 rows, P(≤ 15) = 0.0026 and P(≤ 16) = 0.016; P(20) = 0.36.
+    /// Sums of the binomial distribution, computed independently: of 20 rows, P(≤ 15) = 0.0026 and
+    /// P(≤ 16) = 0.016; P(20) = 0.36.
     #[test]
     fn likely_shares_are_those_of_the_binomial_distribution() {
         assert_eq!(likely(20), [16.0 / 20.0, 1.0]);

@@ -1,7 +1,8 @@
-//! How good a machine is: accuracy, repeatability, and what the sources of its spec explain.
+//! The job `measure`: accuracy, repeatability, and the share explained by the sources of the spec.
 //!
-//! `errors` are ΔX of every row; `iso9283` what the standard says of configurations that were visited again; `explained`
-//! compares with the prediction; `readings` are the same of instruments that are read one by one.
+//! `errors` computes ΔX of each row; `iso9283` the characteristics of repeated visits; `explained`
+//! compares with the prediction; `readings` does the same for instruments that are read one number
+//! at a time.
 
 mod errors;
 mod explained;
@@ -17,9 +18,9 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Data, Instruments, Map, Summary, Table};
-use crate::extrapolated::{Extrapolated, extrapolated};
+use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
-use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake};
+use crate::{Acceptance, AcceptanceVerdict, Machine, Notes, finite, mistake};
 
 pub use errors::RowError;
 use errors::{Errors, Visit};
@@ -29,68 +30,70 @@ pub use explained::Explained;
 pub use iso9283::{Directions, Distances, Drift, MeanAndMax, Repeated};
 pub use readings::{InstrumentErrors, ReadingErrors, RowReadings};
 
-/// How good is this machine?
+/// Options of `measure`.
 pub struct Measure {
-    /// The machine as its spec has it.
+    /// The machine.
     pub machine: Machine,
-    /// What the columns of the data are.
+    /// Map of the data.
     pub map: Map,
-    /// The measurements.
+    /// Measurements.
     pub data: Data,
-    /// Limits for what the sources of the spec leave.
+    /// Limits for the errors minus the repeatable sources.
     pub accept: Acceptance,
 }
 
-/// What was measured.
+/// Result of `measure`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The machine's name.
+    /// Name of the machine.
     pub name: String,
-    /// The length unit of everything.
+    /// Length unit of all lengths.
     pub length: &'static str,
-    /// What the map is called.
+    /// Title of the map.
     pub title: String,
-    /// How many rows could be used.
+    /// Number of usable rows.
     pub rows: usize,
-    /// ΔX = measured − ideal: along x, y, z and as norm; of poses the turns about x, y, z as well.
+    /// ΔX = measured − ideal: along x, y, z and its norm; for poses, also about x, y, z.
     pub errors: Vec<Size>,
-    /// Instruments that are read one by one, each with reading minus prediction in its own unit.
+    /// Reading minus prediction of each instrument, in its own unit.
     pub instruments: Vec<InstrumentErrors>,
-    /// What the sources of the spec explain of it.
+    /// Comparison with the prediction by the sources of the spec.
     pub explained: Explained,
-    /// Configurations that were visited again.
+    /// Characteristics of repeated visits.
     pub repeated: Repeated,
-    /// Whether what the spec leaves is within the limits that were declared, if any were.
-    pub accepted: Option<Accepted>,
-    /// Rows outside the ranges that were fitted, and how well the machine is known there; nothing if there are none.
-    pub extrapolated: Option<Extrapolated>,
-    /// How many independent configurations the rows are of.
+    /// Verdict on the declared limits, if any.
+    pub accepted: Option<AcceptanceVerdict>,
+    /// Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no
+    /// such rows.
+    pub extrapolated: Option<Extrapolation>,
+    /// Number of independent configurations.
     pub configurations: usize,
-    /// The standard error of the mean norm of ΔX, configurations counted; none if there is only one.
+    /// Cluster-robust standard error of the mean norm of ΔX; none for a single configuration.
     pub standard_error: Option<f64>,
-    /// Whether what the sources do not explain follows the order of the rows; none for too few rows to tell.
-    pub order: Option<ResidualDrift>,
-    /// How many rows could not be used.
+    /// Drift test of the errors minus the repeatable sources; none for too few rows.
+    #[serde(rename = "order")]
+    pub drift: Option<ResidualDrift>,
+    /// Number of unusable rows.
     pub unusable: usize,
-    /// The length unit as such.
+    /// Length unit as a value.
     #[serde(skip)]
     pub unit: LengthUnit,
-    /// The file.
+    /// Summary of the file.
     #[serde(skip)]
     pub file: Summary,
-    /// Whether it was fitted where the instrument stands.
+    /// The pose of the base or the fixtures were fitted.
     #[serde(skip)]
     pub base_fitted: bool,
-    /// ΔX of every row.
+    /// ΔX of each row.
     #[serde(skip)]
     pub row_errors: Vec<RowError>,
-    /// What is left of every number of every row, where instruments are read.
+    /// Reading minus prediction of each row.
     #[serde(skip)]
     pub row_readings: Vec<RowReadings>,
-    /// What these numbers are called: by their instrument, and by the axis if it reads three.
+    /// Names of the readings: those of the instruments, with the axis where there are three.
     #[serde(skip)]
     pub numbers: Vec<String>,
-    /// The points of visits of the same configuration about their barycentre, for pictures.
+    /// Points of repeated visits relative to their barycentre, for figures.
     #[serde(skip)]
     pub about_barycentres: Vec<[f64; 3]>,
 }
@@ -106,13 +109,13 @@ pub struct Size {
     pub mean: f64,
     /// The root mean square.
     pub rms: f64,
-    /// The largest, either sign.
+    /// The largest absolute value.
     pub max: f64,
     /// Three standard deviations about the mean.
     pub three_sigma: f64,
 }
 
-/// Values that come one after the other, for their [`Size`]. Sums about the mean so far: Welford, 1962.
+/// Running sums for a [`Size`], about the current mean (Welford, 1962).
 #[derive(Clone, Copy, Default)]
 struct Sums {
     count: f64,
@@ -144,10 +147,10 @@ impl Sums {
     }
 }
 
-/// How often it is said how far the work is.
-const TOLD: usize = 1000;
+/// Number of rows between reports of progress.
+const PROGRESS_STEP: usize = 1000;
 
-/// By number of a configuration, whether more than one row is a visit of it.
+/// Returns whether each configuration has more than one row.
 fn visited_again(rows: &[Observation]) -> Vec<bool> {
     let count = rows.iter().map(|row| row.configuration as usize + 1).max().unwrap_or_default();
     let (mut once, mut again) = (vec![false; count], vec![false; count]);
@@ -160,18 +163,18 @@ fn visited_again(rows: &[Observation]) -> Vec<bool> {
 }
 
 impl Measure {
-    /// Compares every row with the ideal machine and with the predicted one.
+    /// Compares each row with the ideal machine and with the predicted one.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        self.judged(self.data.clone(), true, notes)
+        self.evaluate(self.data.clone(), true, notes)
     }
 
-    /// The same without ΔX row by row, for a table or pictures: of a million rows there is not much more than these.
+    /// Computes the report without ΔX of each row, with little memory beyond the data.
     pub fn figures(mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let data = std::mem::take(&mut self.data);
-        self.judged(data, false, notes)
+        self.evaluate(data, false, notes)
     }
 
-    fn judged(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    fn evaluate(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, accept, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let data = match data.completed(map, &interpreter, &machine.spec) {
@@ -181,67 +184,69 @@ impl Measure {
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
         let fitted = check_interpretation(&setup, map, &data)?;
         let base_fitted = setup.find_places(map, &data)?;
-        let mut seen = match map.instruments() {
-            Some(all) => Seen::of_readings(&setup, all, data)?,
-            None => Seen::of_points(&setup, data, keep, notes)?,
+        let mut evaluated = match map.instruments() {
+            Some(all) => Evaluated::of_readings(&setup, all, data)?,
+            None => Evaluated::of_points(&setup, data, keep, notes)?,
         };
-        let rows = &seen.data.observations;
+        let rows = &evaluated.data.observations;
         let places = rows.iter().map(|row| (&row.q[..], &row.u[..]));
-        let extrapolated = extrapolated(&machine.spec, &interpreter, "rows", places, notes);
-        let Figures { rms, configurations, standard_error, .. } = seen.norms;
-        if let Some(said) = too_large(rms, fitted, &setup) {
-            notes.warn(&said);
+        let extrapolated = warn_of_extrapolation(&machine.spec, &interpreter, "rows", places, notes);
+        let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
+        if let Some(warning) = too_large(rms, fitted, &setup) {
+            notes.warn(&warning);
         }
-        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = seen.explained;
-        let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
+        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } =
+            evaluated.explained;
+        let accepted = accept.verdict("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
         notes.go_on()?;
-        let order = drift(&setup.real, rows, &[]);
-        let order = order.map_err(|failure| mistake::whole(&seen.data.file, &failure))?;
-        let file = seen.data.file.clone();
+        let residual_drift = drift(&setup.real, rows, &[]);
+        let residual_drift =
+            residual_drift.map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
+        let file = evaluated.data.file.clone();
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
             unit: machine.spec.length,
             title: map.title.clone(),
             rows: rows.len(),
-            errors: std::mem::take(&mut seen.errors),
-            instruments: std::mem::take(&mut seen.instruments),
-            explained: seen.explained,
+            errors: std::mem::take(&mut evaluated.errors),
+            instruments: std::mem::take(&mut evaluated.instruments),
+            explained: evaluated.explained,
             accepted,
             extrapolated,
-            repeated: iso9283::repeated(&seen.visits, setup.pose || setup.ideal.targets.len() > 1),
+            repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets.len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
-            order: order.map(|drift| ResidualDrift::new(drift, setup.description.length)),
-            unusable: seen.data.unusable.len(),
-            file: seen.data.summary(),
+            drift: residual_drift.map(|drift| ResidualDrift::new(drift, setup.description.length)),
+            unusable: evaluated.data.unusable.len(),
+            file: evaluated.data.summary(),
             base_fitted,
-            about_barycentres: if keep { iso9283::about_barycentres(&seen.visits) } else { Vec::new() },
-            row_errors: seen.rows,
-            row_readings: seen.row_readings,
+            about_barycentres: if keep { iso9283::about_barycentres(&evaluated.visits) } else { Vec::new() },
+            row_errors: evaluated.rows,
+            row_readings: evaluated.row_readings,
             numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
         };
         finite(file, report)
     }
 }
 
-/// What rows say of a machine, whatever they have.
-struct Seen {
+/// Results of either kind of measurement.
+struct Evaluated {
     errors: Vec<Size>,
     instruments: Vec<InstrumentErrors>,
     explained: Explained,
-    /// The norms of the errors.
+    /// Figures of the norms of the errors.
     norms: Figures,
-    /// Rows of configurations that were visited again.
+    /// Rows of configurations with repeated visits.
     visits: Vec<Visit>,
-    /// All rows, if they are kept.
+    /// The rows, if they are kept.
     rows: Vec<RowError>,
     row_readings: Vec<RowReadings>,
-    /// The rows that were used.
+    /// Usable rows.
     data: Data,
 }
 
-impl Seen {
+impl Evaluated {
     fn of_points(
         setup: &Setup,
         mut data: Data,
@@ -257,11 +262,11 @@ impl Seen {
         let again = visited_again(&data.observations);
         let (mut visits, mut rows) = (Vec::new(), Vec::new());
         for (i, row) in data.observations.iter().enumerate() {
-            if i.is_multiple_of(TOLD) {
+            if i.is_multiple_of(PROGRESS_STEP) {
                 notes.progress(i, data.observations.len());
                 notes.go_on()?;
             }
-            let row = errors.of(row).map_err(fail)?;
+            let row = errors.row_error(row).map_err(fail)?;
             let distance = row.distance();
             sizes[..numbers].iter_mut().zip(row.error).for_each(|(size, value)| size.add(value));
             sizes[numbers].add(distance);
@@ -310,7 +315,7 @@ impl Seen {
 }
 
 impl Report {
-    /// ΔX row by row, or what is left of every reading.
+    /// Returns the table of ΔX, or of reading minus prediction, row by row.
     pub fn table(&self) -> Table {
         if !self.instruments.is_empty() {
             return self.readings_table();

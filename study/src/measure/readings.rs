@@ -1,62 +1,62 @@
-//! Readings against what the machine predicts: instrument by instrument, each in its own unit.
+//! Readings compared with the prediction, for each instrument in its own unit.
 
 use abbe::identify::{Distances, Failure, Measurement, Model, Observation};
 use serde::Serialize;
 
 use super::explained::Explained;
-use crate::data::{Data, Instrument, Instruments, Kind};
+use crate::data::{Data, Instrument, Instruments};
 use crate::identify::Setup;
 
-/// An instrument, and how far its readings are from what is predicted.
+/// An instrument, and its readings minus prediction.
 #[derive(Clone, Debug, Serialize)]
 pub struct InstrumentErrors {
-    /// What the map calls it.
+    /// Name in the map.
     pub name: String,
-    /// The unit of the figures: that of its column.
+    /// Unit of the figures, that of its column.
     pub unit: String,
-    /// How often it was read.
+    /// Number of readings.
     pub count: usize,
-    /// At how many independent configurations.
+    /// Number of independent configurations.
     pub configurations: usize,
-    /// Whether it reads angles.
+    /// Readings are angles.
     #[serde(skip)]
     pub(super) angle: bool,
-    /// One standard deviation of a number, as stated; none if the data were to tell it.
+    /// Stated standard deviation of a reading; none if it was estimated from the data.
     pub uncertainty: Option<f64>,
-    /// From what the ideal machine would show.
+    /// Reading minus the ideal machine.
     pub ideal: ReadingErrors,
-    /// From what the machine with the repeatable sources of its spec would show.
+    /// Reading minus the machine with the repeatable sources of the spec.
     pub left: ReadingErrors,
 }
 
-/// Reading minus prediction; of three coordinates that are read at once the norm.
+/// Figures of reading minus prediction; of the norm where an instrument reads three coordinates.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ReadingErrors {
     /// The mean.
     pub mean: f64,
-    /// The standard error of that, configurations counted; none if there is only one.
+    /// Cluster-robust standard error of the mean; none for a single configuration.
     pub standard_error: Option<f64>,
     /// The root mean square.
     pub rms: f64,
-    /// The largest, either sign.
+    /// The largest absolute value.
     pub max: f64,
 }
 
-/// What is left of every number of a row: reading minus prediction in the unit of its instrument, none where it was not read.
+/// Readings minus prediction of a row, in the units of the instruments.
 #[derive(Clone, Debug)]
 pub struct RowReadings {
-    /// Its line in the file.
+    /// Line in the file.
     pub line: u64,
-    /// Number by number, in the order of the instruments.
+    /// Differences in the order of the instruments; none where there is no reading.
     pub left: Vec<Option<f64>>,
 }
 
-/// All that readings say of a machine.
+/// Results for readings.
 pub(super) struct Readings {
     pub(super) instruments: Vec<InstrumentErrors>,
     pub(super) explained: Explained,
     pub(super) rows: Vec<RowReadings>,
-    /// The norms of what the ideal machine leaves of lengths.
+    /// Norms of reading minus ideal machine, for lengths.
     pub(super) norms: Distances,
 }
 
@@ -71,21 +71,21 @@ pub(super) fn readings(setup: &Setup, all: &Instruments, data: &Data) -> Result<
             unit: instrument.unit.clone(),
             count: read.count,
             configurations: read.configurations,
-            angle: instrument.kind == Kind::Angle,
+            angle: instrument.kind.is_angle,
             uncertainty: instrument.uncertainty.map(|sigma| sigma / instrument.factor),
             ideal: errors(&ideal),
             left: errors(&left),
         })
     });
-    // Numbers of all units count by their uncertainty.
+    // Normalized by uncertainty, so that all units add.
     let squares = |of: &[Vec<Option<f64>>]| -> f64 {
-        let numbers = of.iter().flat_map(|row| row.iter().zip(&setup.real.readings));
+        let numbers = of.iter().flat_map(|row| row.iter().zip(&setup.real.observables));
         numbers.filter_map(|(number, reading)| Some(((*number)? / reading.uncertainty).powi(2))).sum()
     };
     let share = 1.0 - squares(&left) / squares(&ideal).max(f64::MIN_POSITIVE);
     let norms = setup.ideal.all_distances(rows, &[])?;
     let in_units = |row: &[Option<f64>]| {
-        let numbers = row.iter().zip(&setup.real.readings);
+        let numbers = row.iter().zip(&setup.real.observables);
         let own = |reading: usize| all.list[reading].factor;
         numbers.map(|(number, reading)| Some((*number)? / own(reading.instrument))).collect()
     };
@@ -101,21 +101,22 @@ pub(super) fn readings(setup: &Setup, all: &Instruments, data: &Data) -> Result<
     })
 }
 
-/// Reading minus model, row by row and number by number.
+/// Returns reading minus model for each row.
 fn differences(model: &Model, rows: &[Observation]) -> Result<Vec<Vec<Option<f64>>>, Failure> {
-    let mut room = model.room();
+    let mut scratch = model.scratch();
     let difference = |row: &Observation| {
         let Measurement::Readings(readings) = &row.measured else { return Ok(Vec::new()) };
-        let values = model.values(&mut room, row, &[])?;
+        let values = model.values(&mut scratch, row, &[])?;
         Ok(readings.iter().zip(values).map(|(reading, value)| Some((*reading)? - value)).collect())
     };
     rows.iter().map(difference).collect()
 }
 
-/// Of one instrument, in its unit, each with its configuration: its number, or the norm of its three.
+/// Returns the differences of one instrument in its unit, with their configurations; the norm where
+/// it has three.
 fn of_instrument(instrument: &Instrument, rows: &[Observation], of: &[Vec<Option<f64>>]) -> Distances {
     let one = |(row, numbers): (&Observation, &Vec<Option<f64>>)| {
-        let own = &numbers[instrument.readings.clone()];
+        let own = &numbers[instrument.observables.clone()];
         let size = match own {
             [number] => (*number)?,
             several => several.iter().map(|number| Some((*number)?.powi(2))).sum::<Option<f64>>()?.sqrt(),
@@ -126,7 +127,7 @@ fn of_instrument(instrument: &Instrument, rows: &[Observation], of: &[Vec<Option
 }
 
 impl InstrumentErrors {
-    /// Whether it reads angles.
+    /// Returns whether the readings are angles.
     pub fn is_angle(&self) -> bool {
         self.angle
     }

@@ -1,55 +1,57 @@
-//! The control charts: a moving average for every error, and one for what is left.
+//! Control charts: an exponentially weighted moving average (EWMA) for every error, and one for the
+//! residual.
 
 use abbe::control::{SelfStarting, ewma_limit};
 use serde::Serialize;
 
-use super::numbers::Numbers;
+use super::check_values::CheckValues;
 use super::options::Settings;
 use super::single_errors::SingleErrors;
 use super::vectors::{norm, product};
 
-/// The chart of one error, or of what is left.
+/// Control chart of one error, or of the residual.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chart {
-    /// The error that it watches.
+    /// Name of the error, or `what is left` for the residual.
     pub name: String,
-    /// The unit of its values.
+    /// Unit of the values; empty for the residual.
     pub unit: &'static str,
-    /// Errors that act as it does at these configurations.
+    /// Errors that are indistinguishable from this one at the monitored configurations.
     pub alike: Vec<String>,
-    /// The error at every check, as if all others stayed what they are; of what is left its norm, in units of the instrument's
-    /// uncertainty.
+    /// Value at every check: the error under the assumption that all others are unchanged, in
+    /// `unit`; for the residual, its norm in units of the instrument's uncertainty.
     pub values: Vec<f64>,
-    /// The moving average at every check, as a share of the limit: an alarm beyond ±1, of what is left beyond 1.
+    /// EWMA at every check, as a share of the limit. An alarm is a value beyond ±1 for an error,
+    /// above 1 for the residual.
     pub average: Vec<f64>,
-    /// The first check that is beyond, from 0.
+    /// Index of the first check beyond the limit, from 0.
     pub alarm: Option<usize>,
 }
 
-/// Where averages alarm.
+/// Control limit of the moving averages.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Limit {
-    /// On average one false alarm in so many checks, at most, over all charts together.
+    /// Smallest mean number of checks between false alarms, over all charts together.
     pub checks_per_false_alarm: f64,
-    /// The weight of a new check in an average.
+    /// Weight of a new check in an average.
     pub lambda: f64,
-    /// In standard deviations of an average.
+    /// Limit in standard deviations of an average.
     pub limit: f64,
 }
 
 impl Limit {
-    /// For so many charts.
+    /// Computes the limit for a number of charts.
     ///
-    /// For Gaussian numbers, whatever correlation they have, the probability that no chart alarms is at least the product of those
-    /// of each (Royen's Gaussian correlation inequality, 2014): with `n` charts, each of `n` times the run length, there is no more
-    /// than one false alarm in a run length.
+    /// For Gaussian values of any correlation, the probability that no chart alarms is at least the
+    /// product of the probabilities of the single charts (Royen's Gaussian correlation inequality,
+    /// 2014). Each of `n` charts therefore has `n` times the required run length.
     pub(super) fn new(settings: &Settings, charts: usize) -> Self {
         let Settings { checks_per_false_alarm, lambda, .. } = *settings;
         let limit = ewma_limit(lambda, checks_per_false_alarm * charts.max(1) as f64);
         Self { checks_per_false_alarm, lambda, limit }
     }
 
-    /// The average as a share of the limit, from the standard normal numbers of a chart.
+    /// Computes the averages as shares of the limit from the standard normal values of a chart.
     fn averages(&self, standard: impl Iterator<Item = f64>) -> Vec<f64> {
         let most = self.limit * (self.lambda / (2.0 - self.lambda)).sqrt();
         let mut average = 0.0;
@@ -61,8 +63,8 @@ impl Limit {
     }
 }
 
-/// The charts of all errors, and that of what is left.
-pub(super) fn charts(errors: &SingleErrors, numbers: &Numbers, limit: &Limit) -> (Vec<Chart>, Chart) {
+/// Returns the charts of all errors and the chart of the residual.
+pub(super) fn charts(errors: &SingleErrors, numbers: &CheckValues, limit: &Limit) -> (Vec<Chart>, Chart) {
     let chart = |(first, others): &(usize, Vec<usize>)| {
         let single = &errors.list[*first];
         let values: Vec<f64> = numbers.checks.iter().map(|check| value(&single.column, check)).collect();
@@ -77,19 +79,19 @@ pub(super) fn charts(errors: &SingleErrors, numbers: &Numbers, limit: &Limit) ->
             average,
         }
     };
-    (errors.charts.iter().map(chart).collect(), left(numbers, limit))
+    (errors.charts.iter().map(chart).collect(), residual_chart(numbers, limit))
 }
 
-/// The least squares estimate of an error from the numbers of a check, as if it were the only one.
+/// Estimates an error from the values of a check by least squares, with all other errors unchanged.
 pub(super) fn value(column: &[f64], check: &[f64]) -> f64 {
     product(column, check) / product(column, column)
 }
 
-/// The norm of what differs from the checks before.
+/// Returns the chart of the norm of the deviation from the preceding checks.
 ///
-/// `w_k = √((k−1)/k) (r_k − r̄_{k−1})` are independent where the `r_k` are, and `|w|^{2/3}`, a cube root of a sum of squares, is
-/// nearly normal (Wilson and Hilferty, 1931).
-fn left(numbers: &Numbers, limit: &Limit) -> Chart {
+/// `w_k = √((k−1)/k) (r_k − r̄_{k−1})` are independent if the `r_k` are, and `|w|^{2/3}`, the cube
+/// root of a sum of squares, is nearly normal (Wilson and Hilferty, 1931).
+fn residual_chart(numbers: &CheckValues, limit: &Limit) -> Chart {
     let mut mean: Vec<f64> = Vec::new();
     let free = (numbers.free().max(1) as f64).sqrt();
     let mut norms = Vec::new();

@@ -1,4 +1,4 @@
-//! The checks, in the order of their dates.
+//! Checks of a machine in chronological order.
 
 use std::borrow::Cow;
 use std::mem::take;
@@ -11,21 +11,21 @@ use abbe_spec::diagnostic::Diagnostics;
 use crate::data::{Calendar, Data, Dated, Map, Source, in_name, parse_date};
 use crate::mistake;
 
-/// One visit to the machine with the instrument.
+/// Measurement of the machine at one date.
 #[derive(Clone, Debug)]
 pub struct Check {
-    /// When, as the calendar of all checks counts.
+    /// Time, as counted by the calendar of all checks.
     pub time: f64,
-    /// Its rows.
+    /// Measured rows.
     pub data: Data,
 }
 
-/// All checks, the first one first.
+/// Checks of a machine in chronological order.
 #[derive(Clone, Debug)]
 pub struct Checks {
-    /// What their times count.
+    /// Calendar of the times.
     pub calendar: Calendar,
-    /// The checks.
+    /// Checks, the earliest first.
     pub list: Vec<Check>,
 }
 
@@ -33,9 +33,10 @@ const DATES: &str =
     "a date is written 2026-03-14, with a time behind it or without, or it is a number of days";
 
 impl Checks {
-    /// Reads files or tables, each a check; one whose rows have several dates is as many checks.
+    /// Reads files or tables of checks. A source with rows of several dates becomes several checks.
     ///
-    /// Dates are those of the map's `[time]`, or else those in the names of the files; if these have none, checks are counted.
+    /// The dates come from the map's `[time]`, or else from the file names. Without either, the
+    /// checks are numbered.
     pub fn read<'a>(
         sources: impl IntoIterator<Item = impl Into<Source<'a>>>,
         map: &Map,
@@ -61,8 +62,11 @@ impl Checks {
         for pair in checks.windows(2) {
             let [(before, first), (calendar, check)] = pair else { continue };
             if before != calendar {
-                let message =
-                    format!("this counts in {}, the check before it in {}", name(*calendar), name(*before));
+                let message = format!(
+                    "this counts in {}, the check before it in {}",
+                    calendar_name(*calendar),
+                    calendar_name(*before)
+                );
                 return Err(mistake::with_help(
                     &check.data.file,
                     message,
@@ -83,7 +87,8 @@ impl Checks {
         Ok(Self { calendar, list: checks.into_iter().map(|(_, check)| check).collect() })
     }
 
-    /// The same checks with the inputs that follow from their rows; `manipulator` is that of the spec.
+    /// Returns the checks with the inputs derived from their rows. `manipulator` is the interpreter
+    /// of the spec.
     pub(super) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
         if !map.follows_from_rows() {
             return Cow::Borrowed(self);
@@ -95,7 +100,8 @@ impl Checks {
         Cow::Owned(Self { calendar: self.calendar, list: self.list.iter().map(one).collect() })
     }
 
-    /// Leaves out what was before a date; `option` is what mistakes are shown under.
+    /// Removes the checks before a date. `option` is the name of the command-line option for error
+    /// messages.
     pub fn since(&mut self, option: &str, date: &str) -> Result<(), Diagnostics> {
         let wrong = |message: String, help: &str| mistake::with_help(option, message, help);
         let (calendar, since) = match (parse_date(date), self.calendar) {
@@ -104,18 +110,22 @@ impl Checks {
             (None, _) => return Err(wrong(format!("`{}` is no date", date.escape_debug()), DATES)),
         };
         if calendar != self.calendar {
-            let message = format!("this counts in {}, the checks in {}", name(calendar), name(self.calendar));
-            return Err(wrong(message, "write it as the checks are counted"));
+            let message = format!(
+                "this counts in {}, the checks in {}",
+                calendar_name(calendar),
+                calendar_name(self.calendar)
+            );
+            return Err(wrong(message, "use the same kind of dates as in the checks"));
         }
         self.list.retain(|check| check.time >= since);
         match self.list.is_empty() {
-            true => Err(wrong("there is no check from then on".to_owned(), "give an earlier date")),
+            true => Err(wrong("there is no check after that date".to_owned(), "give an earlier date")),
             false => Ok(()),
         }
     }
 }
 
-fn name(calendar: Calendar) -> &'static str {
+fn calendar_name(calendar: Calendar) -> &'static str {
     match calendar {
         Calendar::Dates => "dates",
         Calendar::Days => "days",
@@ -123,18 +133,18 @@ fn name(calendar: Calendar) -> &'static str {
     }
 }
 
-/// The rows of every day.
+/// Splits the rows by day.
 fn split(mut data: Data, calendars: &[Calendar]) -> Vec<(Calendar, Check)> {
     let (mut rows, mut unusable) = (take(&mut data.observations), take(&mut data.unusable));
     let day = |row: &Observation| row.time().unwrap_or_default().floor();
     let begins = |i: &usize| *i == 0 || day(&rows[*i]) != day(&rows[i - 1]);
     let starts: Vec<usize> = (0..rows.len()).filter(begins).collect();
-    // From the last one on, what is taken off being given back: all rows are never there twice.
+    // Splitting from the end frees memory at each step, so that the rows are never in memory twice.
     let mut checks: Vec<(Calendar, Check)> = Vec::with_capacity(starts.len());
     for start in starts.into_iter().rev() {
         let observations = rows.split_off(start);
         rows.shrink_to_fit();
-        // The first check has those that cannot be used.
+        // The first check keeps the unusable rows.
         let unusable = if start == 0 { take(&mut unusable) } else { Vec::new() };
         let time = observations.first().and_then(Observation::time).unwrap_or_default();
         let data = Data { observations, unusable, ..data.clone() };

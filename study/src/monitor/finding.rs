@@ -1,77 +1,81 @@
-//! What has changed, since when, how fast, and when it is too much.
+//! Estimates which error has changed, since when, how fast, and when it exceeds the tolerance.
 
 use abbe::control::{Change, Kind};
 use serde::Serialize;
 
 use super::charts::value;
+use super::check_values::CheckValues;
 use super::checks::Checks;
-use super::numbers::Numbers;
 use super::single_errors::{SingleError, SingleErrors};
 
-/// Errors that explain the numbers as well as this: within a likelihood ratio of e².
-const AS_WELL: f64 = 2.0;
+/// Largest log-likelihood difference to the best explanation for equally good ones: a likelihood
+/// ratio of e².
+const EQUALLY_GOOD: f64 = 2.0;
 
-/// The change of one error that explains the numbers best.
+/// Change of one error that explains the measurements best.
 #[derive(Clone, Debug, Serialize)]
 pub struct Finding {
-    /// The error.
+    /// Name of the error.
     pub name: String,
-    /// Errors that explain the numbers as well.
+    /// Errors that explain the measurements equally well.
     pub as_well: Vec<String>,
-    /// Whether it, or one of those, belongs to the station or to what is mounted on the tool, and not to the machine.
+    /// Is true if this error, or an equally good one, belongs to the station or to what is mounted
+    /// on the tool instead of the machine.
     pub may_be_outside: bool,
-    /// `drift` or `jump`.
+    /// Kind of change: `drift` or `jump`.
     pub kind: &'static str,
-    /// Since when.
+    /// Time of the change, or of the beginning of the drift.
     pub since: f64,
-    /// The same as a date.
+    /// Date of that time.
     pub since_date: String,
-    /// Between when and when, with 95 % probability; nothing before the first check if it may have been before that.
+    /// Interval of that time with 95 % probability; an end is none if it lies before the first
+    /// check.
     pub between: [Option<f64>; 2],
-    /// The same as dates.
+    /// Dates of the interval.
     pub between_dates: [Option<String>; 2],
-    /// Its speed per day (or check), or the jump: the length unit, or rad.
+    /// Rate per day (or check) of a drift, or height of a jump, in `unit`.
     pub size: f64,
-    /// One standard deviation of that.
+    /// Standard deviation of the size.
     pub standard_deviation: f64,
-    /// The unit of the error.
+    /// Unit of the error: the length unit, or rad.
     pub unit: &'static str,
-    /// How far a unit of it moves the tool point where that is most. The length unit.
+    /// Largest displacement of the tool point per unit of the error, in the length unit.
     pub effect: f64,
-    /// By how much the tool point has moved there until the last check. The length unit.
+    /// Displacement of the tool point at that configuration until the last check, in the length
+    /// unit.
     pub moved: f64,
-    /// When the tolerance is left, if there is a tolerance and a drift.
-    pub leaves: Option<Leaving>,
-    /// The error at every check that it explains best, and what the change says of it.
+    /// Time at which the tolerance is exceeded, if there are a tolerance and a drift.
+    pub leaves: Option<Exceedance>,
+    /// Value of the error at every check, and the value predicted by the change.
     #[serde(skip)]
     pub series: Vec<[f64; 2]>,
 }
 
-/// When a drift has used a tolerance up.
+/// Predicted time at which a drift exceeds the tolerance.
 #[derive(Clone, Debug, Serialize)]
-pub struct Leaving {
-    /// When.
+pub struct Exceedance {
+    /// Time, as counted by the calendar of the checks.
     pub time: f64,
-    /// The same as a date.
+    /// Date of that time.
     pub date: String,
-    /// One standard deviation, in days (or checks).
+    /// Standard deviation, in days (or checks).
     pub standard_deviation: f64,
 }
 
-/// A change of one error.
+/// Change of one error.
 struct Candidate<'e> {
     error: &'e SingleError,
     change: Change,
     values: Vec<f64>,
-    /// By how much it makes the sum of squares smaller, in units of the instrument's uncertainty.
+    /// Reduction of the sum of squares, in units of the instrument's uncertainty.
     explained: f64,
     scatter: f64,
 }
 
-/// The best explanation by a change of one error, if there are checks enough.
+/// Returns the best explanation by a change of one error, if there are enough checks.
 pub(super) fn finding(
     errors: &SingleErrors,
-    numbers: &Numbers,
+    numbers: &CheckValues,
     checks: &Checks,
     tolerance: Option<f64>,
 ) -> Option<Finding> {
@@ -84,13 +88,13 @@ pub(super) fn finding(
     let behind = |other: &Candidate| {
         (best.explained - other.explained) / (2.0 * best.scatter * best.scatter).max(1e-300)
     };
-    let as_well: Vec<&Candidate> = all[1..].iter().filter(|other| behind(other) < AS_WELL).collect();
+    let as_well: Vec<&Candidate> = all[1..].iter().filter(|other| behind(other) < EQUALLY_GOOD).collect();
     let show = |time: f64| checks.calendar.show(time);
     let last = *times.last()?;
     let leaves = tolerance.and_then(|tolerance| change.reaches(tolerance / error.effect));
     Some(Finding {
         name: error.name.clone(),
-        may_be_outside: error.outside || as_well.iter().any(|other| other.error.outside),
+        may_be_outside: error.is_placement || as_well.iter().any(|other| other.error.is_placement),
         as_well: as_well.iter().map(|other| other.error.name.clone()).collect(),
         kind: if change.kind == Kind::Drift { "drift" } else { "jump" },
         since: change.since,
@@ -102,7 +106,7 @@ pub(super) fn finding(
         unit: error.unit,
         effect: error.effect,
         moved: change.moved(last).abs() * error.effect,
-        leaves: leaves.map(|(time, standard_deviation)| Leaving {
+        leaves: leaves.map(|(time, standard_deviation)| Exceedance {
             time,
             date: show(time),
             standard_deviation,
@@ -115,7 +119,7 @@ pub(super) fn finding(
     })
 }
 
-fn candidate<'e>(error: &'e SingleError, numbers: &Numbers, times: &[f64]) -> Option<Candidate<'e>> {
+fn candidate<'e>(error: &'e SingleError, numbers: &CheckValues, times: &[f64]) -> Option<Candidate<'e>> {
     let values: Vec<f64> = numbers.checks.iter().map(|check| value(&error.column, check)).collect();
     let change = Change::fit(times, &values)?;
     let square: f64 = error.column.iter().map(|v| v * v).sum();

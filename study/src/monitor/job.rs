@@ -1,44 +1,44 @@
-//! The job: numbers, single errors, charts, and what has changed.
+//! Monitoring job: measurements, single errors, charts, and the change found.
 
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::charts::{Chart, Limit, charts};
+use super::check_values::CheckValues;
 use super::checks::Checks;
 use super::finding::finding;
-use super::numbers::Numbers;
 use super::options::Settings;
 use super::report::{Alarm, Report};
 use super::single_errors::SingleErrors;
 use crate::data::Map;
 use crate::{Machine, Notes, finite};
 
-/// Is this machine still what it was?
+/// Monitoring of a machine by repeated checks.
 pub struct Monitor {
-    /// The machine as its spec has it: with the errors that were identified, if they were.
+    /// Machine with the errors in its spec, identified ones included.
     pub machine: Machine,
-    /// What the columns of the data are.
+    /// Meaning of the columns of the data.
     pub map: Map,
-    /// The checks.
+    /// Checks to evaluate.
     pub checks: Checks,
-    /// How it is watched.
+    /// Settings of the charts.
     pub settings: Settings,
 }
 
 impl Monitor {
-    /// Watches from the first check to the last.
+    /// Evaluates all checks in chronological order.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, checks, settings } = self;
         let spec = &machine.spec;
         let interpreter = Interpreter::new(spec.clone());
         let checks = &checks.completed(map, &interpreter, spec);
-        let (numbers, model) = Numbers::new(&interpreter, map, checks, notes)?;
+        let (numbers, model) = CheckValues::new(&interpreter, map, checks, notes)?;
         let errors = SingleErrors::new(spec, &model, &numbers);
         let limit = Limit::new(settings, errors.charts.len() + 1);
         let (charts, left) = charts(&errors, &numbers, &limit);
         let date = |check: usize| checks.calendar.show(checks.list[check].time);
         let alarm = alarm(&charts, &left, date);
-        let tolerance = settings.tolerance.or(map.accept.largest());
+        let tolerance = settings.tolerance.or(map.accept.largest_error());
         let found = alarm.as_ref().and_then(|_| finding(&errors, &numbers, checks, tolerance));
         let report = Report {
             name: spec.name.clone(),

@@ -1,19 +1,19 @@
-//! The options of monitoring.
+//! Options of monitoring.
 
-use crate::options::Number;
+use crate::options::NumericOption;
 
-/// Number of checks in which there is one false alarm on average.
-pub const FALSE_ALARM: Number<usize> = Number { default: 365, range: 10..=100_000 };
+/// Mean number of checks between false alarms.
+pub const FALSE_ALARM: NumericOption<usize> = NumericOption { default: 365, range: 10..=100_000 };
 
-/// How a machine is watched.
+/// Settings of monitoring.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// On average one false alarm in so many checks, at most, over all charts together.
+    /// Smallest mean number of checks between false alarms, over all charts together.
     pub checks_per_false_alarm: f64,
-    /// The weight of a new check in a moving average.
+    /// Weight of a new check in a moving average.
     pub lambda: f64,
-    /// How far the tool point may move from where it was at first, in the length unit; if not given, the largest error
-    /// that the map accepts, if it says one.
+    /// Largest permitted displacement of the tool point from its initial position, in the length
+    /// unit. If none, the largest error that the map accepts, if there is one.
     pub tolerance: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What comes out.
+//! Report of monitoring.
 
 use serde::Serialize;
 
@@ -6,61 +6,63 @@ use super::charts::{Chart, Limit};
 use super::finding::Finding;
 use crate::data::{Calendar, Summary};
 
-/// What the checks say.
+/// Result of monitoring: charts, alarm and the change found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The machine's name.
+    /// Name of the machine.
     pub name: String,
-    /// The length unit of everything.
+    /// Length unit of all lengths.
     pub length: &'static str,
-    /// What the map is called.
+    /// Title of the map.
     pub title: String,
-    /// What times count.
+    /// Calendar of the times.
     pub calendar: Calendar,
-    /// The time of every check.
+    /// Time of every check.
     pub times: Vec<f64>,
-    /// The same as dates.
+    /// Dates of the checks.
     pub dates: Vec<String>,
-    /// How many configurations every check has.
+    /// Number of configurations common to all checks.
     pub configurations: usize,
-    /// How many more single checks have, which are not used.
+    /// Number of configurations that are not in all checks and therefore unused.
     pub left_out: usize,
-    /// How many numbers of a check are left when the station is known.
+    /// Number of independent values per check once the station is known.
     pub numbers: usize,
-    /// Whether the instrument stays where it is; else its place is unknown at every check.
+    /// Is true if the instrument stays in place between checks; otherwise its pose is unknown at
+    /// each check.
     pub fixed_station: bool,
-    /// Where charts alarm.
+    /// Control limit of the charts.
     pub limit: Limit,
-    /// A chart for every error, those that cannot be told apart together.
+    /// Charts of the errors, one per group of indistinguishable errors.
     pub charts: Vec<Chart>,
-    /// The chart of what differs from the checks before, whatever error it comes from.
+    /// Chart of the deviation from the preceding checks, from any cause.
     pub left: Chart,
-    /// Errors that cannot be told from where the instrument stands.
+    /// Errors that are indistinguishable from a displacement of the instrument.
     pub unseen: Vec<String>,
-    /// The first alarm, if there is one.
+    /// First alarm, if there is one.
     pub alarm: Option<Alarm>,
-    /// What has changed, if there is an alarm.
+    /// Change found, if there is an alarm.
     pub finding: Option<Finding>,
-    /// The tolerance.
+    /// Permitted displacement of the tool point, in the length unit; none if not given.
     pub tolerance: Option<f64>,
-    /// The files.
+    /// Files of the checks.
     #[serde(skip)]
     pub files: Vec<Summary>,
 }
 
-/// The first check at which a chart was beyond its limit.
+/// First check at which a chart exceeds its limit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Alarm {
-    /// Which, from 0.
+    /// Index of the check, from 0.
     pub check: usize,
-    /// When.
+    /// Date of the check.
     pub date: String,
-    /// The chart that was farthest beyond.
+    /// Name of the chart that is farthest beyond its limit.
     pub chart: String,
 }
 
 impl Report {
-    /// The charts of the errors: those that were beyond their limits, then all others, each the farthest from zero first.
+    /// Returns the charts of the errors: those with an alarm first, each group by descending
+    /// distance from zero.
     pub fn nearest_first(&self) -> Vec<&Chart> {
         let mut charts: Vec<&Chart> = self.charts.iter().collect();
         let now = |chart: &Chart| chart.average.last().map_or(0.0, |share| share.abs());

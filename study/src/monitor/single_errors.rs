@@ -1,64 +1,69 @@
-//! The errors that may have changed, each by itself, and what it does to the numbers that are measured.
+//! Errors that may have changed, each alone, with their effect on the measured values.
 
-use abbe::identify::{Model, Place, Unknown};
+use abbe::identify::{FixtureGeometry, Model, Unknown};
 use abbe::{Component, Description};
 use abbe_spec::Spec;
 
-use super::numbers::Numbers;
+use super::check_values::CheckValues;
 use super::vectors::{cosine, norm};
 use crate::identify::chain_errors;
 
-/// Beyond this cosine two errors count as one: what they do differs by less than a fifth of itself.
-const ALIKE: f64 = 0.98;
+/// Absolute cosine of two effects above which errors count as one: they differ by less than a
+/// fifth.
+const INDISTINGUISHABLE: f64 = 0.98;
 
-/// The share of an error that must be left when the station is taken off.
-const SEEN: f64 = 1e-3;
+/// Smallest share of an effect that must remain without the component of the station.
+const OBSERVABLE: f64 = 1e-3;
 
-/// What does less than this share of the error that does most does nothing.
+/// Effects smaller than this share of the largest one are rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// A number of the machine that may have changed, all others staying what they are.
+/// Error of the machine that may have changed while all others are unchanged.
 #[derive(Clone, Debug)]
 pub(super) struct SingleError {
-    /// `zero of q2`, `e_y3 (elbow)`, `station e_x`.
+    /// Name: `zero of q2`, `e_y3 (elbow)`, `station e_x`.
     pub(super) name: String,
-    /// `rad`, or a length.
+    /// Unit: `rad`, or the length unit.
     pub(super) unit: &'static str,
-    /// Whether it belongs to the station or to what is mounted on the tool, and not to the machine.
-    pub(super) outside: bool,
-    /// What a unit of it does to every number, in units of the instrument's uncertainty; the station taken off.
+    /// Is true if the error belongs to the station or to what is mounted on the tool instead of the
+    /// machine.
+    pub(super) is_placement: bool,
+    /// Derivative of every value, in units of the instrument's uncertainty, without the component
+    /// of the station.
     pub(super) column: Vec<f64>,
-    /// How far a unit of it moves the tool point, at the configuration where that is most. The length unit.
+    /// Largest displacement of the tool point per unit of the error over the configurations, in the
+    /// length unit.
     pub(super) effect: f64,
 }
 
-/// All errors of a machine, those that cannot be told apart together.
+/// Errors of a machine, grouped by indistinguishability.
 pub(super) struct SingleErrors {
-    /// Every error that can be seen.
+    /// Every observable error.
     pub(super) list: Vec<SingleError>,
-    /// By index: the error that a chart is of, and those that act as it does.
+    /// Groups of indistinguishable errors: the index of the one with the chart, and those of the
+    /// others.
     pub(super) charts: Vec<(usize, Vec<usize>)>,
-    /// The names of those that cannot be told from where the instrument stands.
+    /// Names of the errors that are indistinguishable from a displacement of the instrument.
     pub(super) unseen: Vec<String>,
 }
 
 impl SingleErrors {
-    /// Zeros of joints first, then numbers of the chain, errors of the frames, of the station if it stays where it is, and of
-    /// the targets: of those that act alike the first has the chart.
-    pub(super) fn new(spec: &Spec, model: &Model, numbers: &Numbers) -> Self {
+    /// Collects zeros of joints, other numbers of the chain, errors of the frames, of a fixed
+    /// station, and of the targets. The first of a group of indistinguishable errors has the chart.
+    pub(super) fn new(spec: &Spec, model: &Model, numbers: &CheckValues) -> Self {
         let mut all = Self { list: Vec::new(), charts: Vec::new(), unseen: Vec::new() };
         let candidates = candidates(spec, model, numbers);
         let rounding = ROUNDING * candidates.iter().map(|(_, before)| *before).fold(0.0, f64::max);
         for (single, before) in candidates {
-            if norm(&single.column) <= SEEN * before || before <= rounding {
+            if norm(&single.column) <= OBSERVABLE * before || before <= rounding {
                 all.unseen.push(single.name);
                 continue;
             }
             let index = all.list.len();
-            let alike = |(first, _): &&mut (usize, Vec<usize>)| {
-                cosine(&all.list[*first].column, &single.column).abs() > ALIKE
+            let is_indistinguishable = |(first, _): &&mut (usize, Vec<usize>)| {
+                cosine(&all.list[*first].column, &single.column).abs() > INDISTINGUISHABLE
             };
-            match all.charts.iter_mut().find(alike) {
+            match all.charts.iter_mut().find(is_indistinguishable) {
                 Some((_, others)) => others.push(index),
                 None => all.charts.push((index, Vec::new())),
             }
@@ -68,40 +73,41 @@ impl SingleErrors {
     }
 }
 
-/// With the length of the column before the station is taken off.
-fn candidates(spec: &Spec, model: &Model, numbers: &Numbers) -> Vec<(SingleError, f64)> {
-    let place = |unknown: Unknown| model.unknowns.iter().position(|other| *other == unknown);
+/// Returns all errors, each with the norm of its column before the component of the station is
+/// removed.
+fn candidates(spec: &Spec, model: &Model, numbers: &CheckValues) -> Vec<(SingleError, f64)> {
+    let index_of = |unknown: Unknown| model.unknowns.iter().position(|other| *other == unknown);
     let length = spec.length.symbol();
-    let one = |name: String, rotation: bool, outside: bool, parts: &[(usize, f64)]| {
+    let one = |name: String, rotation: bool, is_placement: bool, parts: &[(usize, f64)]| {
         let column = numbers.column(parts);
         let before = norm(&column);
         let unit = if rotation { "rad" } else { length };
         let effect = numbers.effect(parts);
-        (SingleError { name, unit, outside, column: numbers.without_station(column), effect }, before)
+        (SingleError { name, unit, is_placement, column: numbers.without_station(column), effect }, before)
     };
     let mut all = Vec::new();
     for number in chain_errors(spec) {
         let parts = Component::ALL.into_iter().zip(number.errors).filter(|(_, error)| *error != 0.0);
         let parts: Option<Vec<(usize, f64)>> = parts
-            .map(|(component, error)| Some((place(Unknown::Error(number.frame, component))?, error)))
+            .map(|(component, error)| Some((index_of(Unknown::Error(number.frame, component))?, error)))
             .collect();
         all.extend(parts.map(|parts| one(number.name, number.is_angle, false, &parts)));
     }
     let description = model.manipulator.description();
     for (k, unknown) in model.unknowns.iter().enumerate() {
-        let (rotation, outside) = match unknown {
+        let (rotation, is_placement) = match unknown {
             Unknown::Error(_, component) => (component.is_rotation(), false),
             Unknown::Base(_, component) if numbers.fixed_station => (component.is_rotation(), true),
             Unknown::Base(..) | Unknown::Magnitude(_) => continue,
             Unknown::Tool(component) => (component.is_rotation(), true),
             Unknown::Target(..) => (false, true),
             Unknown::Fixture(fixture, _) => {
-                (matches!(model.fixtures[*fixture].place, Place::Direction(_)), true)
+                (matches!(model.fixtures[*fixture].geometry, FixtureGeometry::Direction(_)), true)
             }
-            Unknown::Zero(reading) => (model.readings[*reading].gauge.is_angle(), true),
+            Unknown::Zero(reading) => (model.observables[*reading].kind.is_angle, true),
         };
-        let (single, before) = one(name(model, *unknown, description), rotation, outside, &[(k, 1.0)]);
-        // What is mounted on the tool moves what is measured, and not the tool point.
+        let (single, before) = one(name(model, *unknown, description), rotation, is_placement, &[(k, 1.0)]);
+        // An offset of what is mounted on the tool moves the measured point, not the tool point.
         let effect = if single.effect > 0.0 || rotation { single.effect } else { 1.0 };
         all.push((SingleError { effect, ..single }, before));
     }

@@ -1,4 +1,4 @@
-//! Vectors of as many entries as there are numbers in a check.
+//! Operations on vectors with an entry per value of a check.
 
 /// Returns the Euclidean norm.
 pub(super) fn norm(v: &[f64]) -> f64 {

@@ -1,4 +1,4 @@
-//! Every key of a plan, but for those of its workspaces.
+//! Keys of a plan file, except those of its workspaces.
 
 abbe_spec::tables! {
     FILE: ["the file"], ["plan", "set", "inputs"];

@@ -1,4 +1,5 @@
-//! Where to measure, and how well the errors of the machine will then be known where it is used.
+//! Plans a measurement and predicts how well it determines the errors of the machine in its
+//! workspace of use.
 
 mod keys;
 pub mod options;
@@ -23,56 +24,58 @@ use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, finite, mistake};
 
 pub use keys::TABLES;
-pub use report::{Input, Predicted, Report, Unseen};
-pub use sets::{Counted, Sets};
+pub use report::{Input, Predicted, Report, UndeterminedError};
+pub use sets::{SetSize, Sets};
 
-/// The most configurations of the workspace of use that are looked at.
+/// Largest number of configurations of the workspace of use that are evaluated.
 const USED: usize = 1000;
 
-/// Where should this machine be measured?
+/// Planning of a measurement.
 pub struct Plan {
-    /// The nominal machine.
+    /// Nominal machine.
     pub machine: Machine,
-    /// What will be measured, and how well.
+    /// Quantities to be measured, and their uncertainty.
     pub map: Map,
-    /// How the configurations are chosen.
+    /// Selection of the configurations.
     pub choice: Choice,
-    /// Where the machine is to be used: the workspace of this study.
+    /// Study whose workspace is the workspace of use.
     pub study: Study,
-    /// What the identified model will leave of the tool point by itself, as the root mean square of its distance in the length
-    /// unit: what an earlier fit has left beside the instrument's noise. Independent from configuration to configuration.
+    /// Error of the identified model itself: root mean square position error in the length unit
+    /// that remains beside the noise of the instrument, known from an earlier fit. It is taken as
+    /// independent between configurations.
     pub model_error: f64,
-    /// The seed of the samples that are chosen from, which are spread evenly without one, and of the study's random samples.
+    /// Seed for random candidates and for the random samples of the study; without it, candidates
+    /// follow a low-discrepancy sequence.
     pub seed: Option<u64>,
 }
 
-/// How configurations are chosen.
+/// Selection of configurations.
 #[derive(Clone, Debug)]
 pub enum Choice {
-    /// Those of a plan file.
+    /// Sets of a plan file.
     Sets(Sets),
-    /// The configurations that tell most.
+    /// Optimal design.
     Optimal {
-        /// What is made small or large.
+        /// Optimality criterion.
         criterion: Criterion,
-        /// How many.
+        /// Number of configurations.
         count: usize,
-        /// From how many samples within the limits.
+        /// Number of candidate samples within the joint limits.
         candidates: usize,
     },
 }
 
-/// What is to be measured, by title and sets, and what it determines.
+/// Selected rows by title and sets, and what they determine.
 struct Chosen {
     title: String,
-    sets: Vec<Counted>,
+    sets: Vec<SetSize>,
     rows: Vec<Observation>,
     identifiable: Identifiable,
     design: Option<Design>,
 }
 
 impl Plan {
-    /// Chooses the configurations and predicts what they will tell.
+    /// Selects the configurations and predicts the uncertainty after the measurement.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
@@ -80,9 +83,9 @@ impl Plan {
         let setup = Setup::at_home(&interpreter, map)?;
         let model = setup.ideal.with(setup.constants());
         let fail = |failure: Failure| mistake::whole(&machine.origin, &failure);
-        let used = self.used(&interpreter, description)?;
+        let used = self.configurations_of_use(&interpreter, description)?;
         let tool_points = model.tool_points(&used).map_err(fail)?;
-        // The same along each axis.
+        // Per coordinate.
         let model_error = self.model_error / 3.0_f64.sqrt();
         let objective = Objective { criterion: Criterion::Variance, used: &tool_points, model_error };
         let Chosen { title, sets, rows, identifiable, design } =
@@ -90,39 +93,43 @@ impl Plan {
         let numbers = rows.iter().map(Observation::count).sum::<usize>();
         let Some(design) = design.filter(|_| numbers > identifiable.rank) else {
             let rank = identifiable.rank;
-            let message = format!("so few configurations cannot determine {rank} combinations of errors");
+            let message = format!("too few configurations to determine {rank} combinations of errors");
             return Err(mistake::with_help(&machine.origin, message, "plan more of them"));
         };
         let own = self.model_error;
-        // What these rows tell, as an identification will judge it: sets were not chosen from anything else.
-        let (observed, told) = match &self.choice {
+        // An optimal design is assessed again on its own rows, as an identification would do it.
+        // Sets need no second assessment.
+        let (observed, own_design) = match &self.choice {
             Choice::Sets(_) => (identifiable.clone(), Some(design.clone())),
             Choice::Optimal { .. } => {
-                let observed = determined(&model, &rows).map_err(fail)?;
-                let told = whole(&model, &rows, &observed, &objective, &mut |_, _| {}).map_err(fail)?;
-                (observed, told)
+                let observed = identifiable_from(&model, &rows).map_err(fail)?;
+                let own_design = whole(&model, &rows, &observed, &objective, &mut |_, _| {}).map_err(fail)?;
+                (observed, own_design)
             }
         };
-        let (judged, covariance) = match &told {
-            Some(told) => (&observed, &told.covariance),
+        let (assessed, covariance) = match &own_design {
+            Some(own_design) => (&observed, &own_design.covariance),
             None => (&identifiable, &design.covariance),
         };
-        let spread = tool_points.deviations(judged, covariance);
+        let spread = tool_points.deviations(assessed, covariance);
         let spread = Figures::from_norms(spread.into_iter().map(|deviation| deviation.hypot(own)).collect());
         let sizes = model.priors(Prior::DEFAULT_SHARE).map_err(fail)?;
-        let unseen = tool_points.unseen(judged, |k| sizes[k].unwrap_or(1.0));
-        // A millionth of what the instrument can tell is rounding.
+        let unseen = tool_points.unseen(assessed, |k| sizes[k].unwrap_or(1.0));
+        // Effects below a millionth of the instrument's uncertainty are rounding errors.
         let matters =
             |(k, moves): &(usize, f64)| moves * sizes[*k].unwrap_or(1.0) > 1e-6 * map.uncertainty.length;
-        let unseen =
-            unseen.into_iter().filter(matters).map(|(k, moves)| Unseen::new(&model, k, moves)).collect();
+        let unseen = unseen
+            .into_iter()
+            .filter(matters)
+            .map(|(k, moves)| UndeterminedError::new(&model, k, moves))
+            .collect();
         let moved = setup.moved(&rows);
         if let Some(note) = scale_note(&setup.ideal, &rows, &moved).map_err(fail)? {
             notes.note(&note);
         }
-        let alike =
+        let groups =
             rows.first().map_or(Ok(Vec::new()), |row| indistinguishable(&model, &row.q, &moved, setup.pose));
-        let alike = alike.map_err(|error| mistake::whole(&machine.origin, &error))?;
+        let groups = groups.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
@@ -141,17 +148,17 @@ impl Plan {
             unseen,
             used: used.len(),
             predicted: Predicted { mean: spread.mean, rms: spread.rms, max: spread.max, p95: spread.p95 },
-            groups: alike,
+            groups,
             observations: rows,
         };
         finite(&machine.origin, report)
     }
 
-    fn aimed(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
+    fn readable(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
         let most = list.len();
-        let aimed = readable_configurations(setup, &self.map, list, most);
-        let aimed = aimed.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
-        if aimed.is_empty() { Err(nothing_readable(self.map.path())) } else { Ok(aimed) }
+        let readable = readable_configurations(setup, &self.map, list, most);
+        let readable = readable.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
+        if readable.is_empty() { Err(nothing_readable(self.map.path())) } else { Ok(readable) }
     }
 
     fn choose(
@@ -166,22 +173,22 @@ impl Plan {
         let fail = |failure: Failure| mistake::whole(&self.machine.origin, &failure);
         match &self.choice {
             Choice::Sets(sets) => {
-                let (asked, counts) = sets.rows(manipulator, description, notes)?;
-                let rows = (1..).zip(asked).map(|(line, asked): (u64, Configuration)| {
-                    let u = asked.u.clone();
-                    Observation { u: u.into(), ..self.map.planned(line, asked) }
+                let (configurations, counts) = sets.rows(manipulator, description, notes)?;
+                let rows = (1..).zip(configurations).map(|(line, configuration): (u64, Configuration)| {
+                    let u = configuration.u.clone();
+                    Observation { u: u.into(), ..self.map.planned(line, configuration) }
                 });
-                let rows = self.map.in_sequence(self.aimed(setup, rows.collect())?);
-                let rows = seen_nominally(model, rows.into_iter()).map_err(fail)?;
-                let identifiable = determined(model, &rows).map_err(fail)?;
+                let rows = self.map.in_sequence(self.readable(setup, rows.collect())?);
+                let rows = with_nominal_measurements(model, rows.into_iter()).map_err(fail)?;
+                let identifiable = identifiable_from(model, &rows).map_err(fail)?;
                 let progress = &mut |done, total| notes.progress(done, total);
                 let design = whole(model, &rows, &identifiable, &objective, progress).map_err(fail)?;
                 Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
             }
             Choice::Optimal { criterion, count, candidates } => {
-                if self.map.instruments().is_some_and(Instruments::count_from_before) {
-                    let message = "what is read as a displacement depends on the row before: single configurations cannot be chosen";
-                    let help = "plan rows in an order of your own with `--sets`";
+                if self.map.instruments().is_some_and(Instruments::depend_on_previous_row) {
+                    let message = "a reading relative to the row before depends on that row: single configurations cannot be chosen";
+                    let help = "plan ordered rows with `--sets`";
                     return Err(mistake::with_help(self.map.path(), message, help));
                 }
                 let moved: Vec<usize> = self.map.moved().collect();
@@ -194,15 +201,15 @@ impl Plan {
                 let samples =
                     samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
                 let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
-                let list = self.aimed(setup, list.collect())?;
+                let list = self.readable(setup, list.collect())?;
                 if *count > list.len() {
                     let message =
                         format!("{count} configurations cannot be chosen from {} samples", list.len());
                     let help = "each is chosen once at most: ask for more `--candidates`, or for fewer configurations";
                     return Err(mistake::with_help(&self.machine.origin, message, help));
                 }
-                let list = seen_nominally(model, list.into_iter()).map_err(fail)?;
-                let identifiable = determined(model, &list).map_err(fail)?;
+                let list = with_nominal_measurements(model, list.into_iter()).map_err(fail)?;
+                let identifiable = identifiable_from(model, &list).map_err(fail)?;
                 let objective = Objective { criterion: *criterion, ..objective };
                 let progress = &mut |done, total| notes.progress(done, total);
                 let design =
@@ -219,7 +226,7 @@ impl Plan {
         }
     }
 
-    /// Where the inputs are in these rows.
+    /// Returns the range of each input over these rows.
     fn inputs(&self, rows: &[Observation]) -> Vec<Input> {
         let inputs = self.machine.spec.inputs.iter().enumerate().filter(|(_, input)| has_range(input));
         let inputs = inputs.map(|(i, input)| {
@@ -232,8 +239,8 @@ impl Plan {
         inputs.collect()
     }
 
-    /// Where the machine is to be used: nothing is measured there.
-    fn used(
+    /// Returns the configurations of the workspace of use, without measurements.
+    fn configurations_of_use(
         &self,
         manipulator: &dyn Manipulator,
         description: &Description,
@@ -243,28 +250,31 @@ impl Plan {
         region.fix(self.machine.fixed_inputs());
         let workspace = region.workspace(manipulator, self.seed).map_err(fail)?;
         let step = workspace.len().div_ceil(USED).max(1);
-        let places = (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
-        let mut places: Vec<_> = places.collect();
-        if places.is_empty() {
+        let configurations =
+            (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
+        let mut configurations: Vec<_> = configurations.collect();
+        if configurations.is_empty() {
             let every: Vec<usize> = (0..description.variables.len()).collect();
-            places = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
+            configurations = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
         }
         let nothing = || Measurement::Points(Vec::new().into());
-        let rows = (1..).zip(places).map(|(line, place)| Observation::new(line, place.q, place.u, nothing()));
+        let rows = (1..)
+            .zip(configurations)
+            .map(|(line, configuration)| Observation::new(line, configuration.q, configuration.u, nothing()));
         Ok(rows.collect())
     }
 }
 
-fn determined(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
+fn identifiable_from(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
     let expected = model.expected(&model.priors(Prior::DEFAULT_SHARE)?)?;
     knowable(model, rows, &vec![0.0; model.unknowns.len()], &expected, 1.0)
 }
 
-/// As the nominal machine would be seen.
-fn seen_nominally(
+/// Fills in the measurements of the nominal machine.
+fn with_nominal_measurements(
     model: &Model,
     rows: impl Iterator<Item = Observation>,
 ) -> Result<Vec<Observation>, Failure> {
-    let mut room = model.room();
-    rows.map(|row| model.nominally_seen(&mut room, &row)).collect()
+    let mut scratch = model.scratch();
+    rows.map(|row| model.nominally_seen(&mut scratch, &row)).collect()
 }

@@ -1,20 +1,20 @@
-//! The options of a plan.
+//! Options of a plan.
 
 use abbe::identify::Criterion;
 
-use crate::options::{Choices, Number};
+use crate::options::{Choices, NumericOption};
 
-/// Number of configurations that are chosen.
-pub const COUNT: Number<usize> = Number { default: 50, range: 1..=5000 };
+/// Number of configurations to select.
+pub const COUNT: NumericOption<usize> = NumericOption { default: 50, range: 1..=5000 };
 
-/// Number of samples that they are chosen from.
-pub const CANDIDATES: Number<usize> = Number { default: 500, range: 1..=1_000_000 };
+/// Number of candidate samples to select from.
+pub const CANDIDATES: NumericOption<usize> = NumericOption { default: 500, range: 1..=1_000_000 };
 
-/// What is made small or large.
+/// Optimality criteria.
 pub const CRITERIA: Choices<Criterion> = Choices(&[
-    (Criterion::Variance, "v", "V-optimal: the tool point is known best where it is used"),
+    (Criterion::Variance, "v", "V-optimal: smallest variance of the tool point at the configurations of use"),
     (Criterion::Determinant, "d", "D-optimal"),
 ]);
 
-/// What is optimal if nothing is said.
+/// Default optimality criterion.
 pub const CRITERION: Criterion = Criterion::Variance;

@@ -1,93 +1,97 @@
-//! What is to be measured, and what it will tell.
+//! Report of a plan.
 
 use abbe::identify::{Model, Observation, Unknown};
 use serde::Serialize;
 
-use super::sets::Counted;
+use super::sets::SetSize;
 use crate::data::{Map, Table};
 use crate::identify::{Counts, Indistinguishable, WeaklyDetermined};
 
-/// What is to be measured, and what it will tell.
+/// Planned measurement, and the uncertainty predicted for it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// The machine's name.
+    /// Name of the machine.
     pub name: String,
-    /// The length unit of everything.
+    /// Length unit of all lengths.
     pub length: &'static str,
-    /// What the plan is called.
+    /// Title of the plan.
     pub title: String,
-    /// How many rows are to be measured.
+    /// Number of rows to measure.
     pub rows: usize,
-    /// Set by set.
-    pub sets: Vec<Counted>,
-    /// Where the inputs are that have a range.
+    /// Number of rows of each set.
+    pub sets: Vec<SetSize>,
+    /// Range of each variable input over the rows.
     pub inputs: Vec<Input>,
-    /// How many combinations of the unknowns they determine.
+    /// Rank of the identification Jacobian: the number of identifiable combinations of unknowns.
     pub rank: usize,
-    /// Of how many unknowns.
+    /// Number of unknowns.
     pub unknowns: usize,
-    /// Of base and frames alone, without the targets on the tool.
+    /// Number of identifiable errors of base and frames alone, without targets on the tool.
     pub machine: Counts,
-    /// Errors of which these rows will tell too little beside what is known before.
+    /// Errors that these rows will determine poorly compared with their prior.
     pub not_known: Vec<WeaklyDetermined>,
-    /// The condition number.
+    /// Condition number of the kept columns of the design matrix, each scaled to unit length.
     pub condition: f64,
-    /// `ln det` of the information of columns of unit length.
+    /// `ln det` of the information matrix of columns scaled to unit length.
     pub log_det: f64,
-    /// How many exchanges led to an optimal plan.
+    /// Number of exchanges of the optimization.
     pub exchanges: usize,
-    /// What the model itself is taken to leave of the tool point: root mean square distance, the length unit.
+    /// Assumed error of the identified model itself: root mean square position error in the length
+    /// unit.
     pub model_error: f64,
-    /// How many configurations of use were looked at.
+    /// Number of evaluated configurations of use.
     pub used: usize,
-    /// Standard deviation of the identified tool point there, with the model's own error, the length unit.
+    /// Predicted standard deviation of the identified tool point at these configurations, with the
+    /// model error, in the length unit.
     pub predicted: Predicted,
-    /// What the rows cannot tell, though it moves the tool point there: it is not in these figures.
-    pub unseen: Vec<Unseen>,
-    /// What cannot be told apart, and why.
+    /// Errors that move the tool point at these configurations but that the rows cannot determine.
+    /// `predicted` excludes them.
+    pub unseen: Vec<UndeterminedError>,
+    /// Combinations of unknowns that cannot be distinguished, with the reason.
     #[serde(skip)]
     pub groups: Vec<Indistinguishable>,
-    /// What is to be measured.
+    /// Rows to measure.
     #[serde(skip)]
     pub observations: Vec<Observation>,
 }
 
-/// Where an input that has a range is in the rows of a plan.
+/// Range of an input over the rows of a plan.
 #[derive(Clone, Debug, Serialize)]
 pub struct Input {
-    /// Its name.
+    /// Name of the input.
     pub name: String,
-    /// Its coherent unit, empty for a pure number or an angle.
+    /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,
-    /// Its least and its largest value: the same of one that stays where it is.
+    /// Smallest and largest value; equal for a constant input.
     pub between: [f64; 2],
 }
 
-/// Figures of a standard deviation.
+/// Statistics of a standard deviation over the configurations of use.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Predicted {
-    /// The mean.
+    /// Mean.
     pub mean: f64,
-    /// The root mean square.
+    /// Root mean square.
     pub rms: f64,
-    /// The largest.
+    /// Maximum.
     pub max: f64,
-    /// What 95 % do not exceed.
+    /// 95 % quantile.
     pub p95: f64,
 }
 
-/// An error that the rows cannot tell, though it moves the tool point where the machine is used.
+/// Error that moves the tool point where the machine is used, but that the rows cannot determine.
 #[derive(Clone, Debug, Serialize)]
-pub struct Unseen {
-    /// Its name: `e_r3`.
+pub struct UndeterminedError {
+    /// Name: `e_r3`.
     pub name: String,
-    /// How far it moves the tool point there, root mean square, beside what stands for it: by mrad, or by length unit.
+    /// Root mean square displacement of the tool point per `per`, beyond the equivalent kept
+    /// errors, in the length unit.
     pub moves: f64,
-    /// What it is counted in: `mrad`, or the length unit.
+    /// Unit of the error: `mrad`, or the length unit.
     pub per: &'static str,
 }
 
-impl Unseen {
+impl UndeterminedError {
     pub(super) fn new(model: &Model, k: usize, moves: f64) -> Self {
         let unknown = model.unknowns[k];
         let turn = match unknown {
@@ -103,7 +107,7 @@ impl Unseen {
 }
 
 impl Report {
-    /// What is to be measured, in the columns and units of the map.
+    /// Returns the rows to measure in the columns and units of the map.
     pub fn table(&self, map: &Map) -> Table {
         let rows = self.observations.iter().map(|row| map.numbers(row, [0.0; 3], false));
         let labels = map.labels(&self.observations, &map.station_names());

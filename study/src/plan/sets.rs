@@ -1,6 +1,6 @@
-//! Sets of configurations to be measured: a plan file.
+//! Reads a plan file: sets of configurations to measure.
 //!
-//! `docs/reference/plan.md` has every key.
+//! `docs/reference/plan.md` describes every key.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,17 +16,17 @@ use super::keys;
 use crate::workspace::{Candidates, Region, count, read_region};
 use crate::{Notes, mistake, named};
 
-/// The most rows of a set.
+/// Largest number of rows of a plan.
 const MOST_ROWS: usize = 1_000_000;
 
-/// A plan, read and checked.
+/// Plan file, read and checked.
 #[derive(Clone, Debug)]
 pub struct Sets {
     pub(super) title: String,
     repeat: usize,
     sets: Vec<Set>,
     inputs: Vec<Axis>,
-    /// The files it was read from: its own, and those of paths; none if it is shipped.
+    /// Files that were read: the plan itself and those of paths; none for a shipped plan.
     pub(crate) files: Vec<PathBuf>,
 }
 
@@ -43,17 +43,17 @@ enum Content {
     Axes(Vec<Axis>),
 }
 
-/// How many rows a set has.
+/// Number of rows of a set.
 #[derive(Clone, Debug, Serialize)]
-pub struct Counted {
-    /// Its name.
+pub struct SetSize {
+    /// Name of the set.
     pub name: String,
-    /// How many.
+    /// Number of rows.
     pub rows: usize,
 }
 
 impl Sets {
-    /// The plan in a file, or the one shipped under that name.
+    /// Reads the plan in a file, or the shipped one with that name.
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
         let mut document =
             named::document("--sets", argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
@@ -63,21 +63,21 @@ impl Sets {
         document.finish(sets)
     }
 
-    /// Every row, and how many each set has.
+    /// Returns all rows, and the number of rows of each set.
     pub(super) fn rows(
         &self,
         manipulator: &dyn Manipulator,
         description: &Description,
         notes: &mut dyn Notes,
-    ) -> Result<(Vec<Configuration>, Vec<Counted>), Diagnostics> {
+    ) -> Result<(Vec<Configuration>, Vec<SetSize>), Diagnostics> {
         let home = Configuration::home(description);
-        // Every combination of the plan's inputs, each by index and value.
+        // All combinations of the plan's inputs, each a list of indices and values.
         let mut combinations: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
         let sizes = self.inputs.iter().map(|axis| axis.values.len());
         let count = sizes.chain([self.repeat]).fold(1, usize::saturating_mul);
         let few_enough = |more: usize| match count.saturating_mul(more) {
             rows if rows > MOST_ROWS => {
-                let message = format!("this plan has more rows than can be worked with: {MOST_ROWS}");
+                let message = format!("this plan has too many rows; the limit is {MOST_ROWS}");
                 let help = "give fewer values of inputs, fewer configurations, or a smaller `repeat`";
                 Err(mistake::with_help(&self.title, message, help))
             }
@@ -125,7 +125,7 @@ impl Sets {
                     }));
                 }
             }
-            counts.push(Counted { name: set.name.clone(), rows: rows.len() - before });
+            counts.push(SetSize { name: set.name.clone(), rows: rows.len() - before });
         }
         Ok((rows, counts))
     }

@@ -1,4 +1,4 @@
-//! Measurements of a machine whose errors are known.
+//! The job `simulate`: measurements of a machine with known errors.
 
 pub mod options;
 
@@ -18,62 +18,62 @@ use crate::number::quantity;
 use crate::workspace::has_range;
 use crate::{Machine, Notes, finite, mistake};
 
-/// How many configurations are tried for one at which instruments can be read.
+/// Number of random configurations tried for each one at which instruments can be read.
 const TRIES: usize = 20;
 
-/// What would an instrument measure of this machine?
+/// Options of `simulate`.
 pub struct Simulate {
-    /// The machine: its repeatable sources are its errors.
+    /// The machine; its repeatable sources are its errors.
     pub machine: Machine,
-    /// What is measured.
+    /// Map of the measurements.
     pub map: Map,
-    /// Where.
+    /// Configurations.
     pub at: Places,
-    /// One standard deviation of a coordinate, in the length unit; that of the map if there is none.
+    /// Standard deviation of a coordinate, in the length unit; that of the map if none.
     pub noise: Option<f64>,
-    /// Which share of the rows is grossly wrong.
+    /// Share of rows that are outliers.
     pub outliers: f64,
-    /// Whether the random sources of the spec are drawn too, anew in every row.
+    /// Draw the random sources of the spec anew in each row.
     pub random: bool,
-    /// Where the random numbers begin.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// Where is measured.
+/// Configurations of a simulation.
 #[derive(Clone, Debug)]
 pub enum Places {
-    /// At the commands of a file.
+    /// Commands of a file.
     Rows(Data),
-    /// At so many random configurations within the limits, with inputs within their ranges; what the map holds fixed
-    /// stays so.
+    /// Number of random configurations within the limits of joints and ranges of inputs; constants
+    /// of the map stay fixed.
     Samples(usize),
 }
 
 /// Simulated measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// In the columns and units of the map.
+    /// Measurements in the columns and units of the map.
     pub table: Table,
-    /// The same as values.
+    /// Measurements as values.
     #[serde(skip)]
     pub observations: Vec<Observation>,
 }
 
-/// A row of them.
+/// A simulated row.
 pub struct Row<'r> {
-    /// What was measured.
+    /// Command and measurement.
     pub observation: Observation,
-    /// The name of its station, if there is a column of these.
+    /// Name of its station, if there is a column of stations.
     pub label: Option<&'r str>,
-    /// Its numbers in the columns and units of the map.
+    /// Numbers in the columns and units of the map.
     pub numbers: Vec<Option<f64>>,
 }
 
-/// How often it is said how far the work is.
-const TOLD: usize = 1000;
+/// Number of rows between reports of progress.
+const PROGRESS_STEP: usize = 1000;
 
 impl Simulate {
-    /// Measures row by row.
+    /// Simulates all rows.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Heading { names: heading, .. } = self.heading();
         let mut table = Table { heading, ..Table::default() };
@@ -87,13 +87,13 @@ impl Simulate {
         Ok(Report { table, observations })
     }
 
-    /// What stands above the rows.
+    /// Returns the heading of the table.
     pub fn heading(&self) -> Heading {
         let labels = if self.map.stations.column.is_some() { self.stations() } else { Vec::new() };
         Heading { names: self.map.heading(true), labels }
     }
 
-    /// The names of the stations.
+    /// Returns the names of the stations.
     fn stations(&self) -> Vec<String> {
         match &self.at {
             Places::Rows(data) if !data.stations.is_empty() => data.stations.clone(),
@@ -101,7 +101,8 @@ impl Simulate {
         }
     }
 
-    /// Measures row by row, and gives each away: no matter how many there are. How many there were.
+    /// Simulates row by row and passes each to `take`, with memory independent of their number;
+    /// returns that number.
     pub fn each<E: From<Diagnostics>>(
         &self,
         notes: &mut dyn Notes,
@@ -117,7 +118,7 @@ impl Simulate {
         if let Places::Samples(_) = &self.at {
             self.note_fixed_inputs(notes);
         }
-        let asked = self.asked(&interpreter, &setup)?;
+        let planned = self.planned(&interpreter, &setup)?;
         let file = match &self.at {
             Places::Rows(data) => &data.file,
             Places::Samples(_) => "--samples",
@@ -127,7 +128,7 @@ impl Simulate {
         let chance = Chance {
             noise: Uncertainty { length: noise, angle: angle * noise / length },
             outliers: self.outliers,
-            gross: 0.05 * setup.arm,
+            outlier_size: 0.05 * setup.arm,
             random_sources: self.random,
             seed: self.seed,
         };
@@ -142,47 +143,47 @@ impl Simulate {
             failure => mistake::whole(file, &failure),
         };
         if let Some(all) = map.instruments()
-            && all.count_from_before()
+            && all.depend_on_previous_row()
             && all.list.iter().any(|instrument| instrument.kind.is_touched())
         {
             let message =
-                "displacements from row to row cannot be simulated beside instruments that are touched";
+                "readings relative to the row before cannot be simulated beside instruments that are touched";
             let help = "simulate them in a map of their own";
             return Err(mistake::with_help(map.path(), message, help).into());
         }
         let stations = self.stations();
-        let listed = match &asked {
-            Asked::Listed(rows) => rows,
-            Asked::Sampled { .. } => &[][..],
+        let listed = match &planned {
+            Planned::Listed(rows) => rows,
+            Planned::Sampled { .. } => &[][..],
         };
         let mut simulated = Simulated::new(&setup.real, listed, &chance);
-        let mut room = setup.ideal.room();
-        for i in 0..asked.len() {
-            if i.is_multiple_of(TOLD) {
-                notes.progress(i, asked.len());
+        let mut scratch = setup.ideal.scratch();
+        for i in 0..planned.len() {
+            if i.is_multiple_of(PROGRESS_STEP) {
+                notes.progress(i, planned.len());
                 notes.go_on()?;
             }
-            let observation = simulated.row(i, &asked.row(i, map)).map_err(fail)?;
-            let ideal = setup.ideal.pose(&mut room, &observation, &[]).map_err(fail)?.position();
+            let observation = simulated.row(i, &planned.row(i, map)).map_err(fail)?;
+            let ideal = setup.ideal.pose(&mut scratch, &observation, &[]).map_err(fail)?.position();
             let numbers = map.numbers(&observation, ideal, true);
             let numbers = finite(format!("{file}: {}", place(observation.line)), numbers)?;
             let label = map.stations.column.is_some();
             let label = label.then(|| stations.get(observation.station as usize).map_or("", |name| name));
             take(Row { observation, label, numbers })?;
         }
-        notes.progress(asked.len(), asked.len());
-        Ok(asked.len())
+        notes.progress(planned.len(), planned.len());
+        Ok(planned.len())
     }
 
-    /// Where is measured: random configurations are made one by one where each is a row.
-    fn asked<'s>(&'s self, interpreter: &Interpreter, setup: &Setup) -> Result<Asked<'s>, Diagnostics> {
+    /// Returns the configurations; random ones are generated on demand where each becomes a row.
+    fn planned<'s>(&'s self, interpreter: &Interpreter, setup: &Setup) -> Result<Planned<'s>, Diagnostics> {
         let Self { machine, map, .. } = self;
         let list = match &self.at {
             Places::Rows(data) => Cow::Borrowed(data),
             Places::Samples(count) => {
                 if map.instruments().is_none() && !map.follows_from_rows() {
                     let (samples, stations) = (self.samples(interpreter, *count)?, map.station_names().len());
-                    return Ok(Asked::Sampled { samples, stations });
+                    return Ok(Planned::Sampled { samples, stations });
                 }
                 Cow::Owned(self.sampled(interpreter, setup, *count)?)
             }
@@ -196,7 +197,7 @@ impl Simulate {
                 Cow::Owned(data.completed(map, interpreter, &machine.spec).into_owned().observations)
             }
         };
-        Ok(Asked::Listed(match map.instruments().is_some_and(Instruments::count_from_before) {
+        Ok(Planned::Listed(match map.instruments().is_some_and(Instruments::depend_on_previous_row) {
             true => Cow::Owned(map.in_sequence(rows.into_owned())),
             false => rows,
         }))
@@ -210,7 +211,7 @@ impl Simulate {
             .map_err(|error| mistake::whole(&self.machine.origin, &error))
     }
 
-    /// Says which inputs could be drawn within their ranges if the map had a column for them.
+    /// Notes the inputs that would be drawn within their ranges if the map had a column for them.
     fn note_fixed_inputs(&self, notes: &mut dyn Notes) {
         let Self { machine, map, .. } = self;
         let drawn = map.moved_inputs(machine);
@@ -231,7 +232,7 @@ impl Simulate {
         }
     }
 
-    /// Where instruments must be aimed, as many as that leads to.
+    /// Finds configurations at which the instruments can be read, up to `count`.
     fn sampled(
         &self,
         manipulator: &dyn Manipulator,
@@ -240,7 +241,7 @@ impl Simulate {
     ) -> Result<Data, Diagnostics> {
         let tries = if self.map.instruments().is_some() { TRIES * count } else { count };
         let stations = self.map.station_names();
-        let tried = Asked::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
+        let tried = Planned::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
         let rows = (0..tried.len()).map(|i| tried.row(i, &self.map).into_owned());
         let observations = readable_configurations(setup, &self.map, rows.collect(), count)
             .map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
@@ -252,17 +253,17 @@ impl Simulate {
     }
 }
 
-/// The rows that are measured.
-enum Asked<'a> {
+/// Configurations to be measured.
+enum Planned<'a> {
     Listed(Cow<'a, [Observation]>),
-    /// One after the other at as many stations.
+    /// Random samples, distributed over the stations.
     Sampled {
         samples: JointSamples,
         stations: usize,
     },
 }
 
-impl Asked<'_> {
+impl Planned<'_> {
     fn len(&self) -> usize {
         match self {
             Self::Listed(rows) => rows.len(),
@@ -275,7 +276,7 @@ impl Asked<'_> {
             Self::Listed(rows) => Cow::Borrowed(&rows[i]),
             Self::Sampled { samples, stations } => {
                 let mut place = samples.home().clone();
-                // Samples of joints can all be had.
+                // Samples of joints always exist.
                 let _ = samples.fill(i, &mut place);
                 let station = (i % stations) as u32;
                 Cow::Owned(Observation { station, ..map.planned(i as u64 + 1, place) })

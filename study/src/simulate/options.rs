@@ -1,9 +1,9 @@
-//! The options of a simulation.
+//! Options of a simulation.
 
-use crate::options::Number;
+use crate::options::NumericOption;
 
-/// Number of random configurations, where no file has them.
-pub const SAMPLES: Number<usize> = Number { default: 100, range: 1..=10_000_000 };
+/// Number of random configurations, without a file of commands.
+pub const SAMPLES: NumericOption<usize> = NumericOption { default: 100, range: 1..=10_000_000 };
 
-/// Share of rows that are grossly wrong.
-pub const OUTLIERS: Number<f64> = Number { default: 0.0, range: 0.0..=1.0 };
+/// Share of rows that are outliers.
+pub const OUTLIERS: NumericOption<f64> = NumericOption { default: 0.0, range: 0.0..=1.0 };

@@ -1,4 +1,4 @@
-//! `[compensation]`: what compensation leaves of the repeatable sources.
+//! Reads `[compensation]`: the residual of the repeatable sources after compensation.
 
 use abbe::analysis::Residual;
 use abbe::{Class, Description};
@@ -10,17 +10,17 @@ use abbe_spec::value::find_name;
 
 use super::keys;
 
-/// What compensation leaves.
+/// Residuals after compensation.
 #[derive(Clone, Debug)]
 pub struct Compensated {
     default: Residual,
-    /// Of some sources, by name.
+    /// Residuals of single sources, by name.
     named: Vec<(String, Residual)>,
 }
 
 impl Compensated {
-    /// What is left of every source; none of random ones, which cannot be compensated.
-    pub fn of(&self, description: &Description) -> Vec<Option<Residual>> {
+    /// Returns the residual of every source; none for random sources, which cannot be compensated.
+    pub fn residuals(&self, description: &Description) -> Vec<Option<Residual>> {
         let residual = |name: &str| {
             let named = self.named.iter().find(|(known, _)| known == name);
             named.map_or(self.default, |(_, residual)| *residual)
@@ -30,7 +30,7 @@ impl Compensated {
     }
 }
 
-/// Reads `default` (all of the error if there is none) and a residual for each source that is named.
+/// Reads `default` (the whole error if missing) and a residual for each named source.
 pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Compensated> {
     let section = document.section(item)?;
     let mut compensated = Compensated { default: Residual::Share(1.0), named: Vec::new() };
@@ -54,7 +54,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     Some(compensated)
 }
 
-/// A share from 0 to 1, or a length.
+/// Reads a share from 0 to 1, or a length.
 fn residual(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Residual> {
     let scope = Scope::new(spec.length);
     let entry = Entry { dimension: None, what: "a residual", names: Allowed::Nothing };

@@ -1,20 +1,20 @@
-//! The figures that a study asks for: `[[figure]]`.
+//! Reads `[[figure]]`: the figures of a study.
 //!
 //! ```toml
 //! [[figure]]
-//! kind = "travel"                          # the error against the travel of a variable, parameter or input
-//! source = "base rail curvature"           # if not given: all repeatable sources together
+//! kind = "travel"                          # error over a variable, parameter or input
+//! source = "base rail curvature"           # default: all repeatable sources together
 //! over = "d1"
-//! paper = "Figure 8"                       # the figure of the paper that this one stands for
-//! caption = "What it shows, and what is known of it"
-//! # kind = "surface", over = ["z", "q4"]   the worst error over two of them
-//! # rows = "orientation"                  what turns the tool, in mrad, instead of where its point is
-//! # kind = "cloud"                         the errors in space, and the sphere around them
-//! # kind = "histogram"                     how often which error occurs
+//! paper = "Figure 8"                       # the figure of the paper that this one reproduces
+//! caption = "Error over the base rail"
+//! # kind = "surface", over = ["z", "q4"]   the largest error over two of them
+//! # rows = "orientation"                  orientation errors, in mrad, instead of position errors
+//! # kind = "cloud"                         the errors in space, and their enclosing sphere
+//! # kind = "histogram"                     frequency of errors by size
 //! # kind = "pareto"                        the share of each source
 //! # kind = "manipulator", up = "y"         the frames at home
 //!
-//! [figure.workspace.grid]                  # its own workspace, as that of the study; else that of the study
+//! [figure.workspace.grid]                  # its own workspace; default: that of the study
 //! d1 = { from = "0 mm", to = "2256 mm", count = 200 }
 //! ```
 
@@ -29,52 +29,52 @@ use serde::{Serialize, Serializer};
 use super::keys;
 use crate::workspace::{Form, Region, read_region};
 
-/// A figure to draw.
+/// Figure to draw.
 #[derive(Clone, Debug, Serialize)]
 pub struct Figure {
-    /// What it shows.
+    /// Content of the figure.
     pub content: Content,
-    /// The source that it is about; all together if there is none.
+    /// Source that the figure shows; none for all sources together.
     pub source: Option<String>,
-    /// Whether it shows position or orientation.
+    /// Shows position or orientation errors.
     #[serde(serialize_with = "rows")]
     pub measurand: Measurand,
-    /// What the study says of it.
+    /// Caption in the study.
     pub caption: String,
-    /// Which figure of the paper it stands for, if any.
+    /// Figure of the paper that this one reproduces; empty if none.
     pub paper: String,
-    /// Its own workspace, if it is not that of the study.
+    /// Workspace of the figure; none for that of the study.
     #[serde(skip)]
     pub region: Option<Region>,
 }
 
-/// What a figure shows.
+/// Content of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Content {
-    /// The error against the travel of something.
+    /// Error against the travel of one symbol.
     Travel(Over),
-    /// The worst error over two travels.
+    /// Largest error over the travel of two symbols.
     Surface([Over; 2]),
-    /// The errors in space.
+    /// Errors in space.
     Cloud,
-    /// How often which error occurs.
+    /// Frequency of errors by size.
     Histogram,
-    /// The share of each source.
+    /// Share of each source.
     Pareto,
-    /// The frames at home, with the index of the axis of `F_0` that points up.
+    /// Frames at home, with the index of the axis of `F_0` that points up.
     Manipulator(usize),
 }
 
-/// What errors are drawn over.
+/// Symbol that errors are plotted against.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Over {
-    /// A variable, by its index.
+    /// Variable, by its index.
     Variable(usize),
-    /// A parameter, by its index.
+    /// Parameter, by its index.
     Parameter(usize),
-    /// An input, by its index.
+    /// Input, by its index.
     Input(usize),
 }
 
@@ -97,16 +97,16 @@ const KINDS: [(&str, Kind); 6] = [
     ("manipulator", Kind::Manipulator),
 ];
 
-/// Where z is up, as on most machines.
+/// Index of the upward axis of most machines, z.
 const UP: usize = 2;
 
 impl Figure {
-    fn of(content: Content) -> Self {
+    fn new(content: Content) -> Self {
         let measurand = Measurand::Position;
         Self { content, source: None, measurand, caption: String::new(), paper: String::new(), region: None }
     }
 
-    /// Whether it is drawn over one of these inputs.
+    /// Returns true if the figure is plotted over one of these inputs.
     pub(super) fn is_over(&self, inputs: &[usize]) -> bool {
         let over = match &self.content {
             Content::Travel(over) => std::slice::from_ref(over),
@@ -116,7 +116,8 @@ impl Figure {
         over.iter().any(|over| matches!(over, Over::Input(i) if inputs.contains(i)))
     }
 
-    /// Those of a study that asks for none: everything together, over each variable and input that moves.
+    /// Returns the figures of a study that defines none: all content of the whole machine, and the
+    /// error over each moving variable and input.
     pub(super) fn defaults(region: &Region) -> Vec<Self> {
         let moved = match &region.form {
             Form::Presented(presentation) => {
@@ -133,11 +134,11 @@ impl Figure {
         let over = over.chain(region.moving_inputs().into_iter().map(Over::Input));
         let travels = over.map(Content::Travel);
         let whole = [Content::Manipulator(UP), Content::Pareto, Content::Cloud, Content::Histogram];
-        whole.into_iter().chain(travels).map(Self::of).collect()
+        whole.into_iter().chain(travels).map(Self::new).collect()
     }
 }
 
-/// Every `[[figure]]`; the defaults if there is none.
+/// Reads every `[[figure]]`; returns the defaults if there is none.
 pub(super) fn read_figures(
     root: &Section<'_>,
     document: &mut Document,
@@ -195,7 +196,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
             Content::Manipulator(up.unwrap_or(Some(UP))?)
         }
     };
-    let mut figure = Figure::of(content);
+    let mut figure = Figure::new(content);
     if let Some(item) = section.get("source") {
         let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
         let name = document.string(&item)?;

@@ -1,4 +1,4 @@
-//! Every key of a study, but for those of its workspaces.
+//! Keys of a study file, except those of its workspaces.
 
 abbe_spec::tables! {
     FILE: ["the file"], ["study", "workspace", "published", "compensated", "compensation", "figure"];

@@ -1,11 +1,11 @@
-//! Study files: what to do with a manipulator.
+//! Reads study files, which define the analysis of a manipulator.
 //!
-//! `docs/reference/study.md` has every key.
+//! `docs/reference/study.md` describes every key.
 //!
-//! `study` is what a study says, `read` reads a file from top to bottom, `published` the figures that somebody printed,
-//! `figure` those to draw, `compensation` what compensation leaves,
-//! `tolerance` how large errors may be. Everything is checked against the spec, and mistakes are
-//! shown as those of a spec.
+//! `study` is the content of a study and `read` reads a file from top to bottom. `published` are
+//! figures from a publication, `figure` the figures to draw, `compensation` the residuals after
+//! compensation, and `tolerance` the permitted errors. Everything is checked against the spec, and
+//! mistakes are reported like those of a spec.
 
 mod compensation;
 mod figure;

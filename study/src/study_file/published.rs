@@ -1,4 +1,4 @@
-//! The figures that somebody printed, to stand beside ours.
+//! Published figures for comparison with the computed ones.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
@@ -10,19 +10,19 @@ use serde::Serialize;
 use super::keys;
 use crate::workspace::{constant, positive_length};
 
-/// What a figure of a single source is.
+/// Metric of a published figure of a single source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
-    /// The largest error.
+    /// Largest error.
     PlainMaximum,
-    /// Half of what the error varies by.
+    /// Half of the range of the error.
     HalfPeakToPeak,
-    /// The largest difference from the error at home.
+    /// Largest difference from the error at home.
     RelativeToHome,
 }
 
 impl Metric {
-    /// All of them, with their names.
+    /// Metrics with their names in a study file.
     pub const ALL: [(&'static str, Self); 3] = [
         ("plain maximum", Self::PlainMaximum),
         ("half peak-to-peak", Self::HalfPeakToPeak),
@@ -30,60 +30,61 @@ impl Metric {
     ];
 }
 
-/// What a figure of all sources together is.
+/// Published figure of all sources together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CombinedFigure {
-    /// The repeatable sources, summed with their signs.
+    /// Sum of the repeatable sources with their signs.
     Repeatable,
-    /// The random sources, root sum of squares.
+    /// Root sum of squares of the random sources.
     Random,
-    /// Both norms, added.
+    /// Sum of the repeatable and the random norm.
     Both,
 }
 
 impl CombinedFigure {
-    /// All of them, with their names.
+    /// Figures with their names in a study file.
     pub const ALL: [(&'static str, Self); 3] =
         [("repeatable radius", Self::Repeatable), ("random radius", Self::Random), ("radius", Self::Both)];
 }
 
-/// What a figure is about.
+/// Quantity that a published figure states.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
-    /// One source alone, in one metric.
+    /// One source in one metric.
     Source(String, Metric),
-    /// All sources together.
+    /// Combination of all sources.
     Combined(CombinedFigure),
 }
 
-/// Printed figures.
+/// Published figures of one quantity.
 #[derive(Clone, Debug)]
 pub struct Published {
-    /// What they are about.
+    /// Quantity of the figures.
     pub subject: Subject,
-    /// Along x, y, z and of the norm, as far as they are printed.
+    /// Values along x, y, z and of the norm, in the length unit; none if not published.
     pub figures: [Option<f64>; 4],
-    /// How near is equal: half a unit of the last printed digit.
+    /// Largest difference that counts as agreement: half a unit of the last published digit, in the
+    /// length unit.
     pub within: f64,
-    /// Where they stand.
+    /// Place in the publication.
     pub reference: String,
 }
 
-/// What is left after compensation, as printed.
+/// Published errors after compensation, in the length unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct PublishedResidual {
-    /// What compensation leaves of the repeatable errors.
+    /// Repeatable residual after compensation.
     pub residual: f64,
-    /// The random errors.
+    /// Random errors.
     pub random: f64,
-    /// Both, added.
+    /// Sum of both.
     pub total: f64,
-    /// Where they stand.
+    /// Place in the publication.
     #[serde(skip)]
     pub reference: String,
 }
 
-/// Every `[[published]]`.
+/// Reads every `[[published]]`.
 pub(super) fn read_published(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Vec<Published> {
     let items = root.get("published").and_then(|item| document.array(&item, "tables, each a [[published]]"));
     let mut read: Vec<Published> = Vec::new();
@@ -137,7 +138,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     Some(Published { subject: subject?, figures, within: within?, reference })
 }
 
-/// `[compensated]`.
+/// Reads `[compensated]`.
 pub(super) fn read_compensated(
     item: &Item<'_>,
     document: &mut Document,

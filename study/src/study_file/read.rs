@@ -20,8 +20,8 @@ use crate::machine::Machine;
 use crate::workspace::{Region, constant, read_region};
 
 impl Study {
-    /// The study of that file, or else the one [beside the spec](Self::beside) or shipped with the manipulator, or else joint
-    /// samples.
+    /// Returns the study in `file`; or else the one [beside the spec](Self::beside), the one
+    /// shipped with the manipulator, or joint samples.
     pub fn find(file: Option<&Path>, machine: &Machine) -> Result<Self, Diagnostics> {
         let beside = Self::beside(machine);
         match (file.or(beside.as_deref()), machine.shipped.and_then(|shipped| shipped.study)) {
@@ -33,13 +33,14 @@ impl Study {
         }
     }
 
-    /// The file beside a spec of one's own that is its study by its name: `arm.study.toml` beside `arm.toml`.
+    /// Returns the study file beside a user's spec, if it exists: `arm.study.toml` beside
+    /// `arm.toml`.
     pub fn beside(machine: &Machine) -> Option<PathBuf> {
         let file = machine.file.as_ref()?.with_extension("study.toml");
         file.exists().then_some(file)
     }
 
-    /// Reads and checks a study of the manipulator of that spec.
+    /// Reads a study and checks it against the spec of its manipulator.
     pub fn read(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
@@ -83,19 +84,20 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         compensated,
         compensation,
         figures,
-        file: Some(identify(document)),
+        file: Some(name_and_hash(document)),
         files: document.files.clone(),
     })
 }
 
-/// The file's name without its folder, and the SHA-256 of its text.
-fn identify(document: &Document) -> (String, String) {
+/// Returns the file name without its folder, and the SHA-256 of the text.
+fn name_and_hash(document: &Document) -> (String, String) {
     let name = Path::new(&document.path).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let hash = Sha256::digest(document.text.as_bytes());
     (name, hash.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// What `set`, `enable` and `disable` change; `moved` are the inputs that the workspace names.
+/// Reads the changes by `set`, `enable` and `disable`. `moved` are the inputs that the workspace
+/// names.
 fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec, moved: &[usize]) -> Changes {
     let mut changes = Changes::default();
     if let Some(section) = head.get("set").and_then(|item| document.section(&item)) {
@@ -125,7 +127,7 @@ fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec, moved:
     changes
 }
 
-/// Texts, each in one line.
+/// Reads a list of texts and joins the lines of each.
 fn texts(item: &Item<'_>, document: &mut Document) -> Vec<String> {
     let items = document.array(item, "a list of texts").unwrap_or_default();
     let texts = items.iter().filter_map(|item| document.string(item));

@@ -1,4 +1,4 @@
-//! What a study says.
+//! Content of a study.
 
 use std::path::PathBuf;
 
@@ -11,42 +11,43 @@ use super::tolerance::Tolerance;
 use crate::changes::Changes;
 use crate::workspace::Region;
 
-/// What to do with a manipulator.
+/// Analysis to perform on a manipulator.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// What it is called.
+    /// Title of the study.
     pub title: String,
-    /// Who printed the published figures.
+    /// Author of the published figures.
     pub publisher: String,
-    /// How large the error of the tool point may be.
+    /// Permitted position error of the tool point, in the length unit.
     pub tolerance: Option<f64>,
-    /// How large the norm of rows 4–6 may be, rad.
+    /// Permitted norm of rows 4–6, in rad.
     pub orientation_tolerance: Option<f64>,
-    /// With which probability a tolerance must be met.
+    /// Probability with which a tolerance must be met.
     pub probability: f64,
-    /// What differs from the spec.
+    /// Changes of the spec.
     pub changes: Changes,
-    /// The configurations to look at.
+    /// Workspace to analyze.
     pub region: Region,
-    /// The figures that somebody printed.
+    /// Published figures.
     pub published: Vec<Published>,
-    /// What somebody printed of the errors after compensation.
+    /// Published errors after compensation.
     pub compensated: Option<PublishedResidual>,
-    /// What compensation is to leave.
+    /// Residuals after compensation.
     pub compensation: Option<Compensated>,
-    /// What cannot be reproduced of what was printed, one sentence each.
+    /// Published results that cannot be reproduced, one sentence each.
     pub not_reproducible: Vec<String>,
-    /// The figures to gather and to draw.
+    /// Figures to compute and draw.
     pub figures: Vec<Figure>,
-    /// Its file and the SHA-256 of the text; none if there is no study.
+    /// File name and SHA-256 of the text; none without a study.
     pub file: Option<(String, String)>,
-    /// The files it was read from: its own, and those of paths.
+    /// Files that were read: the study itself and those of paths.
     pub files: Vec<PathBuf>,
 }
 
 impl Study {
-    /// Leaves out what others printed: the machine is not theirs any more. Whether there was anything.
-    pub fn forget_published(&mut self) -> bool {
+    /// Removes all published results, because the machine has changed. Returns true if there were
+    /// any.
+    pub fn remove_published(&mut self) -> bool {
         let any = !self.published.is_empty() || self.compensated.is_some();
         self.published.clear();
         self.compensated = None;
@@ -54,7 +55,7 @@ impl Study {
         any
     }
 
-    /// Keeps inputs nominal in its workspaces, whatever is said of them there; figures over them are left out.
+    /// Keeps inputs nominal in all workspaces, and removes figures over them.
     pub fn fix(&mut self, inputs: &[usize]) {
         self.region.fix(inputs);
         self.figures.retain(|figure| !figure.is_over(inputs));
@@ -64,7 +65,8 @@ impl Study {
             .for_each(|region| region.fix(inputs));
     }
 
-    /// That of a manipulator without one: a thousand samples of the joints with both ends of every input, and no tolerance.
+    /// Returns the default study: a thousand joint samples with both ends of every input, and no
+    /// tolerance.
     pub fn joint_samples(spec: &Spec) -> Self {
         let region = Region::samples(spec);
         Self {

@@ -1,4 +1,4 @@
-//! `tolerance`: how large the error of the tool may be, and how sure that must be.
+//! Reads `tolerance`: the permitted errors of the tool, and the probability of meeting them.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
@@ -8,14 +8,14 @@ use abbe_spec::expr::Dimension;
 use super::keys;
 use crate::workspace::{constant, positive_length};
 
-/// How large the error may be.
+/// Permitted errors of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tolerance {
-    /// Of the tool point, in the length unit.
+    /// Permitted position error of the tool point, in the length unit.
     pub(super) position: Option<f64>,
-    /// Of rows 4–6, rad.
+    /// Permitted norm of rows 4–6, in rad.
     pub(super) orientation: Option<f64>,
-    /// The probability with which it must be met: 0.95 if not said.
+    /// Probability with which the tolerance must be met; 0.95 by default.
     pub(super) probability: f64,
 }
 
@@ -25,7 +25,7 @@ impl Default for Tolerance {
     }
 }
 
-/// A length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.
+/// Reads a length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.
 pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Tolerance> {
     if !item.is_table() {
         let position = positive_length(item, document, spec)?;
@@ -58,7 +58,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
         );
         return None;
     }
-    // What was given but could not be read was said to be a mistake.
+    // A value that is present but invalid has already been reported.
     let unread = |given: Option<Option<f64>>| given == Some(None);
     if unread(position) || unread(orientation) || unread(probability) {
         return None;

@@ -1,4 +1,4 @@
-//! The values that a variable, a parameter or an input goes through.
+//! Values of a variable, a parameter or an input.
 
 use std::ops::Range;
 
@@ -15,33 +15,33 @@ use crate::number;
 use super::constant::{constant, count};
 use super::keys;
 
-/// The most values of an axis: they are stored.
+/// Largest number of values of an axis, because they are stored.
 const VALUES: usize = 10_000_000;
 
-/// What can be an axis.
+/// Symbols that can be an axis.
 pub struct Candidates<'a> {
-    /// `variable`, `parameter` or `input`.
+    /// Kind of the symbols: `variable`, `parameter` or `input`.
     pub(super) what: &'static str,
     list: Vec<Candidate<'a>>,
 }
 
-/// One of them.
+/// Symbol that can be an axis.
 struct Candidate<'a> {
     name: &'a str,
     dimension: Dimension,
     unit: Unit<'a>,
-    /// `limits` or `range`, and its ends; infinite where there is none.
+    /// `limits` or `range`, and its ends; infinite if there are none.
     within: (&'static str, [f64; 2]),
 }
 
-/// How its values are shown.
+/// Unit for the display of values.
 enum Unit<'a> {
     Joint(VariableKind, LengthUnit),
     Coherent(&'a str),
 }
 
 impl<'a> Candidates<'a> {
-    /// The variables of a spec.
+    /// Returns the variables of a spec.
     pub fn variables(spec: &'a Spec) -> Self {
         let list = spec.variables.iter().map(|variable| Candidate {
             name: &variable.name,
@@ -65,7 +65,7 @@ impl<'a> Candidates<'a> {
         Self { what: "parameter", list: list.collect() }
     }
 
-    /// The inputs of a spec.
+    /// Returns the inputs of a spec.
     pub fn inputs(spec: &'a Spec) -> Self {
         let list = spec.inputs.iter().map(|input| Candidate {
             name: &input.name,
@@ -76,7 +76,7 @@ impl<'a> Candidates<'a> {
         Self { what: "input", list: list.collect() }
     }
 
-    /// The variables of a spec, then its inputs.
+    /// Returns the variables of a spec, then its inputs.
     pub(super) fn variables_and_inputs(spec: &'a Spec) -> Self {
         let mut all = Self::variables(spec);
         all.list.extend(Self::inputs(spec).list);
@@ -84,7 +84,7 @@ impl<'a> Candidates<'a> {
         Self { what, ..all }
     }
 
-    /// The same without limits: what lies beyond them is counted as unreachable.
+    /// Removes the limits: values beyond them count as unreachable instead of invalid.
     pub(super) fn unlimited(mut self) -> Self {
         self.list.iter_mut().for_each(|candidate| candidate.within.1 = [f64::NEG_INFINITY, f64::INFINITY]);
         self
@@ -95,7 +95,7 @@ impl<'a> Candidates<'a> {
         find_name(document, span, name, &names, self.what)
     }
 
-    /// A table of axes, `NAME = VALUES` each.
+    /// Reads a table of axes, `NAME = VALUES` each.
     pub fn axes(&self, item: &Item<'_>, document: &mut Document, spec: &Spec) -> Vec<Axis> {
         let Some(section) = document.section(item) else { return Vec::new() };
         let mut axes = Vec::new();
@@ -111,7 +111,7 @@ impl<'a> Candidates<'a> {
         axes
     }
 
-    /// A list of names, as indices.
+    /// Reads a list of names as indices.
     pub(super) fn list(&self, item: &Item<'_>, document: &mut Document) -> Vec<usize> {
         let items =
             document.array(item, &format!("a list of names, each a {}", self.what)).unwrap_or_default();
@@ -132,7 +132,8 @@ impl<'a> Candidates<'a> {
 }
 
 impl Candidate<'_> {
-    /// Takes what is an end but for rounding as that end: `-0.0908884 m` is not `-90.8884 mm` to the last digit.
+    /// Replaces values that differ from an end only by rounding: `-0.0908884 m` is not
+    /// `-90.8884 mm` to the last digit.
     fn round_to_ends(&self, values: &mut [f64]) {
         for value in values {
             for end in self.within.1 {
@@ -143,7 +144,8 @@ impl Candidate<'_> {
         }
     }
 
-    /// A mistake if a value is outside the limits or the range: that is not where the machine works.
+    /// Reports values outside the limits or the range as a mistake, because the machine does not
+    /// work there.
     fn require_within(&self, values: &[f64], item: &Item<'_>, document: &mut Document) {
         let (what, [lower, upper]) = self.within;
         let Some(outside) = values.iter().find(|value| !(lower..=upper).contains(*value)) else { return };
@@ -165,7 +167,7 @@ impl Candidate<'_> {
     }
 }
 
-/// `[1, 2, 5]`, `{ from = 0, to = 10, count = 3 }` or `{ from = 0, to = 10, step = 5 }`.
+/// Reads `[1, 2, 5]`, `{ from = 0, to = 10, count = 3 }` or `{ from = 0, to = 10, step = 5 }`.
 pub(super) fn values(
     item: &Item<'_>,
     document: &mut Document,
@@ -210,7 +212,7 @@ pub(super) fn values(
     }
 }
 
-/// From one end to the other in equal steps, both ends included.
+/// Returns equal steps from one end to the other, both ends included.
 fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>, document: &mut Document) -> Option<Vec<f64>> {
     let steps = ((to - from) / step).abs();
     let mistake = if step <= 0.0 {

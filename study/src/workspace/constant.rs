@@ -1,11 +1,11 @@
-//! Constants in a file: with units, converted into the coherent system of the spec.
+//! Reads constants with units and converts them to the coherent units of the spec.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 
-/// A constant in the coherent system of the spec.
+/// Reads a constant of a dimension.
 pub fn constant(
     item: &Item<'_>,
     document: &mut Document,
@@ -18,7 +18,7 @@ pub fn constant(
     document.constant(item, &scope, entry).map(|(value, _)| value)
 }
 
-/// A length that is more than zero.
+/// Reads a length above zero.
 pub fn positive_length(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<f64> {
     let value = constant(item, document, spec, Dimension::LENGTH, &format!("`{}`", item.key))?;
     if value > 0.0 {
@@ -32,12 +32,12 @@ pub fn positive_length(item: &Item<'_>, document: &mut Document, spec: &Spec) ->
     None
 }
 
-/// A whole number of things, at least one.
+/// Reads a whole number from 1 to `largest`.
 pub fn count(item: &Item<'_>, largest: usize, document: &mut Document, spec: &Spec) -> Option<usize> {
     whole(item, [1, largest], document, spec)
 }
 
-/// A whole number.
+/// Reads a whole number within limits.
 pub fn whole(
     item: &Item<'_>,
     [least, largest]: [usize; 2],

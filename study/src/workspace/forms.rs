@@ -1,4 +1,4 @@
-//! The forms that the workspace of a study can have.
+//! Reads the forms of a workspace.
 
 use abbe::analysis::{Axis, BaseBox, Presentation, ToolOrientation};
 use abbe_spec::Spec;
@@ -12,7 +12,8 @@ use super::keys::{self, BESIDE, WORKSPACE};
 use super::path;
 use super::region::{Form, LARGEST, Region, has_range};
 
-/// `[workspace]`: one of the forms, and `inputs` with values of their own. Inputs that are not named stay nominal.
+/// Reads `[workspace]`: one of the forms, and `inputs` with their own values. Inputs without a name
+/// there stay nominal.
 pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
     let mut section = document.section(item)?;
     section.name = "[workspace]".to_owned();
@@ -50,7 +51,7 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     Some(region)
 }
 
-/// Reads the form of that key.
+/// Reads the form with this key.
 fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
     if form.key == "grid" {
         return Some(grid(form, document, spec));
@@ -65,7 +66,7 @@ fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Re
     }
 }
 
-/// `[workspace.grid]`: values of variables and inputs.
+/// Reads `[workspace.grid]`: values of variables and inputs.
 fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Region {
     let mut region = Region::new(Form::Grid(Vec::new()));
     let Form::Grid(axes) = &mut region.form else { return region };
@@ -78,7 +79,7 @@ fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Region {
     region
 }
 
-/// `[workspace.presented]`: tool points, each brought to one point of the room.
+/// Reads `[workspace.presented]`: tool points, each moved to one point in space.
 fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Presentation> {
     section.check_keys(&[&keys::PRESENTED], document);
     let point = section.required("point", document).and_then(|item| point(&item, document, spec));
@@ -90,7 +91,7 @@ fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opt
     let (approaches, span) = approaches.unwrap_or_default();
     let solved = section.required("solve", document).map(|item| variables.list(&item, document))?;
     if let Some(both) = approaches.iter().find(|axis| solved.contains(&axis.index)) {
-        let message = format!("`{}` cannot be held and solved for", spec.variables[both.index].name);
+        let message = format!("`{}` cannot be both fixed and solved for", spec.variables[both.index].name);
         document
             .mistake(Diagnostic::new(span, message).help("take it out of `approaches` or out of `solve`"));
     }
@@ -104,7 +105,8 @@ fn point(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<[f64; 
     Some([x?, y?, z?])
 }
 
-/// `[workspace.box]`: a grid of points in `F_0`; all variables are solved for if `solve` does not say otherwise.
+/// Reads `[workspace.box]`: a grid of points in `F_0`. All variables are solved for unless `solve`
+/// lists some.
 fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<BaseBox> {
     section.check_keys(&[&keys::BOX], document);
     let points = ["x", "y", "z"].map(|axis| {
@@ -124,8 +126,8 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     Some(BaseBox { points: [x?, y?, z?], orientation: orientation?, solved })
 }
 
-/// `[workspace.joints]` or `[workspace.random]`: samples within the limits; all variables move if `moved` does not
-/// say otherwise.
+/// Reads `[workspace.joints]` or `[workspace.random]`: samples within the limits. All variables
+/// move unless `moved` lists some.
 fn samples(section: &Section<'_>, document: &mut Document, spec: &Spec, random: bool) -> Option<Region> {
     let known = [&keys::SAMPLES, &keys::RANDOM];
     section.check_keys(if random { &known } else { &known[..1] }, document);

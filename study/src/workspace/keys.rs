@@ -1,4 +1,4 @@
-//! Every key of a workspace.
+//! Keys of a workspace.
 
 abbe_spec::tables! {
     WORKSPACE: ["[workspace]"], ["presented", "grid", "joints", "random", "box", "path"];

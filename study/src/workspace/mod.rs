@@ -1,7 +1,8 @@
-//! The configurations that a study or a plan asks for: `[workspace]`.
+//! Configurations of a study or a plan: `[workspace]`.
 //!
-//! `region` is what is asked for; `forms` reads its forms, `axis` the values of a variable or parameter, `path` a file of
-//! configurations, `constant` single values; `span` is the box that contains them all.
+//! `region` is the definition of a workspace. `forms` reads its forms, `axis` the values of a
+//! variable or parameter, `path` a file of configurations, and `constant` single values. `span`
+//! computes the enclosing box.
 
 mod axis;
 mod constant;
@@ -17,4 +18,4 @@ pub use forms::read_region;
 pub use keys::TABLES;
 pub use path::Path;
 pub use region::{Form, Region, has_range};
-pub use span::{Span, name};
+pub use span::Span;

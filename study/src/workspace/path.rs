@@ -1,12 +1,12 @@
-//! `[workspace.path]`: configurations from a CSV file, one in every line.
+//! Reads `[workspace.path]`: configurations from a CSV file, one per line.
 //!
 //! ```text
 //! d1 (mm),q4 (deg),x (mm)
 //! 38,-90,250
 //! ```
 //!
-//! Columns are named like variables, parameters and inputs, each with the unit of its numbers; without one they are in the
-//! spec's length unit or in rad. What has no column stays at home.
+//! Columns are named like variables, parameters and inputs, with a unit in parentheses. Without
+//! a unit they are in the spec's length unit or in rad. Symbols without a column stay at home.
 
 use std::path;
 
@@ -22,94 +22,82 @@ use abbe_spec::{Input, Spec};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::keys;
-use crate::lines::Watched;
+use crate::lines::RecordedReader;
 use crate::number::quantity;
 
-/// The largest file that is read, in bytes.
+/// Largest size of a file, in bytes.
 const LARGEST_FILE: u64 = 1 << 30;
 
-/// The most configurations of a file.
+/// Largest number of configurations in a file.
 const MOST_ROWS: usize = 2_000_000;
 
 /// Configurations from a file.
 #[derive(Clone, Debug)]
 pub struct Path {
-    /// The file, as the study names it.
+    /// Name of the file in the study.
     pub(super) file: String,
     columns: Vec<Column>,
-    /// Line by line, the value of every column: the length unit or rad, coherent units.
+    /// Values of every column, line by line, in the length unit, rad or coherent units.
     pub(super) configurations: Vec<Vec<f64>>,
 }
 
-/// What a column holds, and its unit in the coherent system.
+/// Symbol of a column, and its unit in coherent units.
 #[derive(Clone, Debug)]
 struct Column {
-    place: Place,
+    symbol: Symbol,
     unit: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Place {
-    Variable(usize),
-    Parameter(usize),
-    Input(usize),
-}
-
 impl Path {
-    /// The parameters that have a column.
+    /// Returns the parameters that have a column.
     pub fn parameters(&self) -> impl Iterator<Item = usize> {
-        self.columns.iter().filter_map(|column| match column.place {
-            Place::Parameter(i) => Some(i),
-            Place::Variable(_) | Place::Input(_) => None,
+        self.columns.iter().filter_map(|column| match column.symbol {
+            Symbol::Parameter(i) => Some(i),
+            _ => None,
         })
     }
 
-    /// The variables that have a column.
+    /// Returns the variables that have a column.
     pub fn variables(&self) -> impl Iterator<Item = usize> {
-        self.columns.iter().filter_map(|column| match column.place {
-            Place::Variable(i) => Some(i),
-            Place::Parameter(_) | Place::Input(_) => None,
+        self.columns.iter().filter_map(|column| match column.symbol {
+            Symbol::Variable(i) => Some(i),
+            _ => None,
         })
     }
 
-    /// The inputs that have a column.
+    /// Returns the inputs that have a column.
     pub fn inputs(&self) -> impl Iterator<Item = usize> {
-        self.columns.iter().filter_map(|column| match column.place {
-            Place::Input(i) => Some(i),
-            Place::Variable(_) | Place::Parameter(_) => None,
+        self.columns.iter().filter_map(|column| match column.symbol {
+            Symbol::Input(i) => Some(i),
+            _ => None,
         })
     }
 
-    /// What has a column, and its values.
+    /// Returns the symbols that have a column, with their values.
     pub(super) fn columns(&self) -> impl Iterator<Item = (Symbol, Vec<f64>)> {
-        self.columns.iter().enumerate().map(|(k, column)| {
-            let symbol = match column.place {
-                Place::Variable(i) => Symbol::Variable(i),
-                Place::Parameter(i) => Symbol::Parameter(i),
-                Place::Input(i) => Symbol::Input(i),
-            };
-            (symbol, self.configurations.iter().map(|values| values[k]).collect())
-        })
+        let values = |k: usize| self.configurations.iter().map(move |values| values[k]).collect();
+        self.columns.iter().enumerate().map(move |(k, column)| (column.symbol, values(k)))
     }
 
-    /// Takes the column of an input away, if it has one.
-    pub(super) fn forget_input(&mut self, input: usize) {
-        if let Some(column) = self.columns.iter().position(|column| column.place == Place::Input(input)) {
+    /// Removes the column of an input, if it has one.
+    pub(super) fn remove_input(&mut self, input: usize) {
+        if let Some(column) = self.columns.iter().position(|column| column.symbol == Symbol::Input(input)) {
             self.columns.remove(column);
             self.configurations.iter_mut().for_each(|values| _ = values.remove(column));
         }
     }
 
-    /// The configurations of that manipulator.
+    /// Returns the configurations of a manipulator.
     pub(super) fn configurations(&self, manipulator: &dyn Manipulator) -> Vec<Configuration> {
         let home = Configuration::home(manipulator.description());
         let configuration = |values: &Vec<f64>| {
             let mut configuration = home.clone();
             for (column, value) in self.columns.iter().zip(values) {
-                match column.place {
-                    Place::Variable(i) => configuration.q[i] = *value,
-                    Place::Parameter(i) => configuration.s[i] = *value,
-                    Place::Input(i) => configuration.u[i] = *value,
+                match column.symbol {
+                    Symbol::Variable(i) => configuration.q[i] = *value,
+                    Symbol::Parameter(i) => configuration.s[i] = *value,
+                    Symbol::Input(i) => configuration.u[i] = *value,
+                    _ => {}
                 }
             }
             configuration
@@ -118,7 +106,7 @@ impl Path {
     }
 }
 
-/// Reads `file`, which stands beside the study.
+/// Reads `file`, relative to the folder of the study.
 pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Path> {
     section.check_keys(&[&keys::PATH], document);
     let item = section.required("file", document)?;
@@ -140,26 +128,26 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
 }
 
 fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64>>), String> {
-    let input = Bounded::open(file, LARGEST_FILE).map_err(|error| in_words(&error.into()))?;
-    let (watched, mut lines) = Watched::new(input);
+    let input = Bounded::open(file, LARGEST_FILE).map_err(|error| describe_error(&error.into()))?;
+    let (watched, mut lines) = RecordedReader::new(input);
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(watched);
-    let heading = reader.headers().map_err(|error| in_words(&error))?;
+    let heading = reader.headers().map_err(|error| describe_error(&error))?;
     if let Some(unfit) = not_text(heading.as_byte_record().as_slice()) {
         return Err(format!("{}; {}", unfit.message, unfit.help));
     }
     let columns = heading.iter().map(|name| column(meant(name), spec)).collect::<Result<Vec<_>, _>>()?;
     for (i, column) in columns.iter().enumerate() {
-        if columns[..i].iter().any(|other| other.place == column.place) {
+        if columns[..i].iter().any(|other| other.symbol == column.symbol) {
             return Err(format!("the column `{}` stands there twice", &heading[i]));
         }
     }
     let mut configurations = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| in_words(&error))?;
+        let record = record.map_err(|error| describe_error(&error))?;
         if configurations.len() == MOST_ROWS {
             return Err(format!("it has more than {MOST_ROWS} lines; take fewer configurations"));
         }
-        let line = record.position().map_or(0, |position| lines.of_record(position.byte()));
+        let line = record.position().map_or(0, |position| lines.record_line(position.byte()));
         configurations.push(values(&record, line, &columns, spec)?);
     }
     if configurations.is_empty() {
@@ -168,8 +156,8 @@ fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64
     Ok((columns, configurations))
 }
 
-/// What is wrong with the form of a file.
-fn in_words(error: &csv::Error) -> String {
+/// Describes an error in the format of a file.
+fn describe_error(error: &csv::Error) -> String {
     match error.kind() {
         csv::ErrorKind::Io(error) => {
             let Unfit { message, help } = Unfit::from_error(error, "");
@@ -191,8 +179,8 @@ fn values(record: &StringRecord, line: u64, columns: &[Column], spec: &Spec) -> 
                 field.escape_debug()
             ));
         }
-        match column.place {
-            Place::Input(i) if !within(value, spec.inputs[i].range) => {
+        match column.symbol {
+            Symbol::Input(i) if !within(value, spec.inputs[i].range) => {
                 let Input { name, unit, range: [lower, upper], .. } = &spec.inputs[i];
                 let [value, lower, upper] = [value, *lower, *upper].map(|value| quantity(value, unit));
                 Err(format!("line {line}: `{name}` is {value}, outside its range {lower} … {upper}"))
@@ -207,7 +195,7 @@ fn within(value: f64, [lower, upper]: [f64; 2]) -> bool {
     (lower..=upper).contains(&value)
 }
 
-/// `d1`, or `d1 (mm)`.
+/// Parses a heading, `d1` or `d1 (mm)`.
 fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
     let (name, unit) = match heading.strip_suffix(')').and_then(|heading| heading.split_once('(')) {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),
@@ -218,26 +206,26 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
         VariableKind::Prismatic => Dimension::LENGTH,
     };
     let variables = spec.variables.iter().enumerate();
-    let variables = variables.map(|(i, v)| (v.name.as_str(), Place::Variable(i), dimension(v.kind)));
+    let variables = variables.map(|(i, v)| (v.name.as_str(), Symbol::Variable(i), dimension(v.kind)));
     let parameters = spec.parameters.iter().enumerate();
-    let parameters = parameters.map(|(i, p)| (p.name.as_str(), Place::Parameter(i), p.dimension));
+    let parameters = parameters.map(|(i, p)| (p.name.as_str(), Symbol::Parameter(i), p.dimension));
     let inputs = spec.inputs.iter().enumerate();
-    let inputs = inputs.map(|(i, u)| (u.name.as_str(), Place::Input(i), u.dimension));
+    let inputs = inputs.map(|(i, u)| (u.name.as_str(), Symbol::Input(i), u.dimension));
     let all = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
     let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
 
     let mut document = Document::new("", name);
     let what = if spec.inputs.is_empty() { "variable or parameter" } else { "variable, parameter or input" };
     let found = find_name(&mut document, 0..name.len(), name, &names, what);
-    let (_, place, dimension) = found.map(|found| all[found]).ok_or_else(|| mistake(&document))?;
+    let (_, symbol, dimension) = found.map(|found| all[found]).ok_or_else(|| mistake(&document))?;
     let text = format!("1 {}", unit.unwrap_or_default());
     let mut document = Document::new("", text.as_str());
     let what = format!("the unit of the column `{name}`");
     let unit = parse_value(&mut document, 0..text.trim_end().len(), spec.length, dimension, &what);
-    Ok(Column { place, unit: unit.ok_or_else(|| mistake(&document))? })
+    Ok(Column { symbol, unit: unit.ok_or_else(|| mistake(&document))? })
 }
 
-/// What is wrong, in one line.
+/// Returns the first mistake of a document in one line.
 fn mistake(document: &Document) -> String {
     let mistake = document.found.first();
     let said = mistake.map(|mistake| match &mistake.help {

@@ -1,4 +1,4 @@
-//! The workspace of a study.
+//! Workspace of a study.
 
 use abbe::analysis::{
     Axis, BaseBox, JointSamples, Presentation, ToolOrientation, Workspace, base_box, joint_grid,
@@ -10,55 +10,59 @@ use abbe_spec::{Input, Spec};
 use super::path::Path;
 use crate::number;
 
-/// How many joint samples are looked at if nobody says.
+/// Default number of joint samples.
 const SAMPLES: usize = 1000;
 
-/// The most configurations that are analyzed: none is stored, but time is finite.
+/// Largest number of configurations of a workspace, to limit the computing time.
 pub(super) const LARGEST: usize = 1_000_000_000;
 
-/// How many inputs at most are looked at in every combination of their ends if nobody says; more are sampled.
+/// Largest number of inputs for which every combination of their ends is the default; more inputs
+/// are sampled.
 const COMBINED: usize = 6;
 
-/// Which configurations are looked at.
+/// Set of configurations.
 #[derive(Clone, Debug)]
 pub struct Region {
-    /// Those of joints and parameters.
+    /// Configurations of joints and parameters.
     pub form: Form,
-    /// Inputs with values of their own: every configuration is looked at with every combination of them.
+    /// Inputs with their own values: every configuration is combined with every combination of
+    /// them.
     pub inputs: Vec<Axis>,
-    /// Inputs that move with the joints, within their ranges: forms with samples only.
+    /// Inputs sampled together with the joints, within their ranges; used by forms with samples
+    /// only.
     pub sampled_inputs: Vec<usize>,
 }
 
-/// Which configurations of joints and parameters.
+/// Set of configurations of joints and parameters.
 #[derive(Clone, Debug)]
 pub enum Form {
-    /// A volume of tool points, each presented at a point of the room.
+    /// Volume of tool points, each presented at one point in space.
     Presented(Presentation),
     /// Every combination of values of some variables.
     Grid(Vec<Axis>),
-    /// Samples of some variables within their limits: random ones if there is a seed.
+    /// Samples of some variables within their limits: random with a seed, a low-discrepancy
+    /// sequence without.
     Samples {
         /// Indices of the variables that move.
         moved: Vec<usize>,
-        /// How many samples.
+        /// Number of samples.
         count: usize,
-        /// The seed of random ones.
+        /// Seed of random samples.
         seed: Option<u64>,
     },
-    /// A box of points in the base frame.
+    /// Box of points in the base frame.
     Box(BaseBox),
     /// Configurations from a file.
     Path(Path),
 }
 
 impl Region {
-    /// A form, and nominal inputs.
+    /// Returns a form with nominal inputs.
     pub(super) fn new(form: Form) -> Self {
         Self { form, inputs: Vec::new(), sampled_inputs: Vec::new() }
     }
 
-    /// All variables, sampled, with every combination of both ends of the inputs' ranges.
+    /// Returns samples of all variables, with every combination of both ends of the inputs' ranges.
     pub fn samples(spec: &Spec) -> Self {
         let moved = (0..spec.variables.len()).collect();
         let mut region = Self::new(Form::Samples { moved, count: SAMPLES, seed: None });
@@ -69,8 +73,8 @@ impl Region {
         region
     }
 
-    /// Moves every input that has a range and of which nothing is said: samples of it where there are samples, elsewhere
-    /// both ends.
+    /// Varies every input that has a range and is not mentioned: sampled in forms with samples, at
+    /// both ends in others.
     pub fn over_ranges(&mut self, spec: &Spec) {
         let named = self.moving_inputs();
         for i in (0..spec.inputs.len()).filter(|i| !named.contains(i)) {
@@ -82,16 +86,16 @@ impl Region {
         }
     }
 
-    /// Keeps inputs nominal, whatever was said of them.
+    /// Keeps inputs nominal, regardless of the definition.
     pub fn fix(&mut self, inputs: &[usize]) {
         self.inputs.retain(|axis| !inputs.contains(&axis.index));
         self.sampled_inputs.retain(|i| !inputs.contains(i));
         if let Form::Path(path) = &mut self.form {
-            inputs.iter().for_each(|input| path.forget_input(*input));
+            inputs.iter().for_each(|input| path.remove_input(*input));
         }
     }
 
-    /// The inputs that are not nominal everywhere.
+    /// Returns the indices of the inputs that are not constant at their nominal value.
     pub fn moving_inputs(&self) -> Vec<usize> {
         let own = self.inputs.iter().map(|axis| axis.index).chain(self.sampled_inputs.iter().copied());
         let mut moving: Vec<usize> = match &self.form {
@@ -102,7 +106,7 @@ impl Region {
         moving
     }
 
-    /// How many configurations are asked for, if they are not too many.
+    /// Returns the number of configurations, or none if there are too many.
     pub(super) fn count(&self) -> Option<usize> {
         let sizes: Vec<usize> = match &self.form {
             Form::Presented(Presentation { tool_points, approaches, .. }) => {
@@ -117,7 +121,7 @@ impl Region {
         sizes.into_iter().try_fold(1, usize::checked_mul).filter(|count| *count <= LARGEST)
     }
 
-    /// The configurations; a seed replaces that of the study.
+    /// Returns the configurations. `seed` replaces the seed of the study.
     pub fn workspace<'a>(
         &self,
         manipulator: &'a dyn Manipulator,
@@ -143,7 +147,7 @@ impl Region {
         })
     }
 
-    /// The parameters that are not nominal everywhere.
+    /// Returns the indices of the parameters that are not constant at their nominal value.
     pub fn varying(&self, spec: &Spec) -> Vec<usize> {
         let mut varying = match &self.form {
             Form::Presented(Presentation { tool_points, .. }) => {
@@ -158,7 +162,7 @@ impl Region {
         varying
     }
 
-    /// The workspace in a sentence.
+    /// Describes the workspace in one sentence.
     pub fn describe(&self, spec: &Spec) -> String {
         let sentence = self.describe_form(spec);
         if self.inputs.is_empty() {
@@ -215,19 +219,19 @@ impl Region {
     }
 }
 
-/// Whether an input has a range to go through.
+/// Returns true if an input has a range of non-zero width.
 pub fn has_range(input: &Input) -> bool {
     let [lower, upper] = input.range;
     lower.is_finite() && upper.is_finite() && lower < upper
 }
 
-/// Both ends of an input's range, if it has one.
+/// Returns both ends of an input's range as an axis, if it has a range.
 fn ends(index: usize, spec: &Spec) -> Option<Axis> {
     let input = &spec.inputs[index];
     has_range(input).then(|| Axis { index, values: input.range.to_vec() })
 }
 
-/// `payload = 0 kg and 5 kg`, or `payload = 0 kg … 5 kg (11 values)`.
+/// Formats an axis as `payload = 0 kg and 5 kg`, or `payload = 0 kg … 5 kg (11 values)`.
 fn describe_input(axis: &Axis, spec: &Spec) -> String {
     let Input { name, unit, .. } = &spec.inputs[axis.index];
     let show = |value: &f64| number::quantity(*value, unit);

@@ -1,4 +1,4 @@
-//! From where to where a workspace goes: the box that contains it.
+//! Computes the box that encloses a workspace.
 
 use abbe::analysis::{Axis, BaseBox, Presentation};
 use abbe_spec::Spec;
@@ -8,20 +8,22 @@ use abbe_spec::expr::Symbol;
 use super::region::{Form, Region};
 use crate::mistake;
 
-/// From where to where a variable, parameter or input goes.
+/// Range of a variable, parameter or input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Which.
+    /// Symbol with the range.
     pub symbol: Symbol,
-    /// Both ends.
+    /// Lower and upper end.
     pub range: [f64; 2],
 }
 
 impl Region {
-    /// The box of joints, parameters and inputs that contains every configuration; what is not named stays at home and nominal.
+    /// Returns the box of joints, parameters and inputs that contains every configuration. Symbols
+    /// without a span stay at home or nominal.
     ///
-    /// Joints that are solved for go through all of their limits, since nothing is known of them before. An error if one of
-    /// those, or of the ones that are sampled, has no limits; `origin` is what messages call the spec.
+    /// Joints that are solved for span their whole limits, because their values are not known in
+    /// advance. Returns an error if such a joint, or one that is sampled, has no limits. `origin`
+    /// is the name of the spec in messages.
     pub fn spans(&self, spec: &Spec, origin: &str) -> Result<Vec<Span>, Diagnostics> {
         let limits = |i: &usize| Span { symbol: Symbol::Variable(*i), range: spec.variables[*i].limits };
         let over = |symbol: fn(usize) -> Symbol| move |axis: &Axis| hull(symbol(axis.index), &axis.values);
@@ -43,25 +45,16 @@ impl Region {
             None => Ok(spans),
             Some(endless) => Err(mistake::with_help(
                 origin,
-                format!("`{}` has no limits: no box contains its values", name(endless.symbol, spec)),
+                format!("`{}` has no limits: no box contains its values", spec.name_of(endless.symbol)),
                 "give it `limits` in the spec, or a study whose workspace is a `grid`",
             )),
         }
     }
 
-    /// Whether every value of the box is one that the workspace asks for, or lies between two of them.
+    /// Returns true if the workspace fills its box: every value of the box is in the workspace, or
+    /// between two values of it.
     pub fn is_box(&self) -> bool {
         matches!(self.form, Form::Grid(_) | Form::Samples { .. })
-    }
-}
-
-/// The name of a variable, parameter or input.
-pub fn name(symbol: Symbol, spec: &Spec) -> &str {
-    match symbol {
-        Symbol::Variable(i) => &spec.variables[i].name,
-        Symbol::Parameter(i) => &spec.parameters[i].name,
-        Symbol::Input(i) => &spec.inputs[i].name,
-        _ => "",
     }
 }
 

@@ -1,4 +1,5 @@
-//! Backlash goes round: what `identify` finds by the order of rows, or by their poses, `measure` finds again.
+//! Round trip of backlash: inputs that `identify` derives from the row order or from poses are
+//! found again by `measure`.
 
 use abbe::identify::Loss;
 use abbe_spec::Spec;
@@ -8,7 +9,8 @@ use abbe_study::measure::Measure;
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine};
 
-/// A shoulder that rests on one side of its play as it came, an elbow as the weight of what is behind it pulls.
+/// Backlash of the shoulder by direction of approach, and of the elbow by direction of the gravity
+/// moment.
 const PLAY: &str = r#"
 [inputs.shoulder_from]
 value = 0
@@ -50,7 +52,8 @@ fn map(machine: &Machine, more: &str) -> Map {
     Map::parse("map.toml", &text, &machine.spec).unwrap()
 }
 
-/// Measurements of the machine with play; the file does not say on which side it was.
+/// Simulates measurements of the machine with backlash; the data do not contain the side of the
+/// contact.
 fn measured(samples: usize, seed: u64) -> Data {
     let real = machine("real.toml", &format!("{}{PLAY}", ur5().text().unwrap()));
     let map = map(&real, FOLLOWS);
@@ -82,7 +85,7 @@ fn identified(map: &Map, test: &Data) -> Report {
 }
 
 #[test]
-fn backlash_goes_round() {
+fn backlash_survives_a_round_trip() {
     let (nominal, test) = (ur5(), measured(60, 2));
     let guess = map(&nominal, "");
     let report = identified(&guess, &test);
@@ -105,15 +108,15 @@ fn backlash_goes_round() {
     };
     let again = left(&text);
     assert!((again - after.mean).abs() < 0.01 * after.mean, "{again} {after:?}");
-    // Without what the rows say it is another machine.
+    // Without the derived inputs the machine fits badly.
     let silent = text.replace("approach = ", "value = 0 # ").replace("gravity_moment = ", "value = 0 # ");
     let silent = silent.replace("frame = \"", "# frame = \"");
     assert!(left(&silent) > 2.0 * after.mean, "{} {after:?}", left(&silent));
 }
 
-/// The map that is read may have its inputs in one line.
+/// Inputs in an inline table of the map are kept.
 #[test]
-fn inputs_in_one_line_are_kept() {
+fn inline_inputs_are_kept() {
     let text = PLAY.replace("[[source]]", "[[source]]\nenabled = false");
     let nominal = machine("nominal.toml", &format!("{}{text}", ur5().text().unwrap()));
     let table = map(&nominal, FOLLOWS);
@@ -138,7 +141,7 @@ fn inputs_in_one_line_are_kept() {
         accept: Acceptance::default(),
     };
     let report = job.run(&mut ()).unwrap();
-    // The spec has inputs for both: no other one stands for them.
+    // The spec has inputs for both effects, so that no derived input replaces them.
     let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
     assert!(names.contains(&"q2: joint error with shoulder_from"), "{names:?}");
     assert!(!names.iter().any(|name| name.contains("q2_direction")), "{names:?}");

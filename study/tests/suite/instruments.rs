@@ -1,4 +1,5 @@
-//! Instruments that are read one by one: what they tell of a machine whose errors are known, and what they cannot tell.
+//! Instruments that are read one by one: what they determine of a machine with known errors, and
+//! what they cannot.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +11,7 @@ use abbe_study::plan::{Choice, Plan};
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
 
-/// What is wrong with the UR5 of these tests: by name, in mm and rad.
+/// Errors of the simulated UR5 by name, in mm and rad.
 const TRUTH: [(&str, f64); 6] =
     [("e_x2", 0.6), ("e_s2", 0.8e-3), ("e_y3", -0.5), ("e_p3", -1.1e-3), ("e_z4", 0.4), ("e_r5", 0.7e-3)];
 
@@ -32,7 +33,7 @@ fn real() -> Machine {
     Machine::of_spec(Spec::parse("real.toml", &text).unwrap(), "real.toml")
 }
 
-/// A map with a ball beside the last axis, and these instruments.
+/// Returns a map with a ball beside the last axis and the given instruments.
 fn map(instruments: &str) -> Map {
     let joints: String =
         (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
@@ -41,7 +42,7 @@ fn map(instruments: &str) -> Map {
     Map::parse("map.toml", &text, &nominal().spec).unwrap_or_else(|mistake| panic!("{mistake}"))
 }
 
-/// An instrument in each of several setups.
+/// Returns one instrument per setup.
 fn in_setups(kind: &str, rest: &[&str]) -> String {
     let one = |(i, rest): (usize, &&str)| {
         let n = i + 1;
@@ -109,7 +110,7 @@ fn simulated(map: &Map, samples: usize, seed: u64) -> Data {
         seed,
     };
     let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
-    // Through the file, as measurements come.
+    // The data go through a file, as real measurements do.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("data.csv");
     std::fs::write(&path, report.table.csv()).unwrap();
@@ -141,7 +142,8 @@ fn identified_with(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Rep
     job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"))
 }
 
-/// How far what was found is from what it must be, in its standard deviations: the truth, and what is held acts as.
+/// Returns identified minus true value in standard deviations. True errors that are held at zero
+/// contribute to the kept ones they are equivalent to.
 fn z_scores(report: &Report) -> Vec<(String, f64)> {
     let mut expected: BTreeMap<&str, f64> = TRUTH.into_iter().collect();
     for held in &report.held {
@@ -157,11 +159,13 @@ fn z_scores(report: &Report) -> Vec<(String, f64)> {
     report.parameters.iter().map(z).collect()
 }
 
-/// Every kind finds the machine again to within four of the standard deviations that it states.
+/// Every kind of instrument identifies the machine within four of the stated standard deviations.
 #[test]
-fn every_kind_finds_the_machine() {
+fn every_kind_identifies_the_machine() {
     let angle = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n\
                  [[instrument]]\nname = \"mirror\"\nkind = \"angle\"\ncolumn = \"lean\"\nunit = \"mrad\"\ndirection = [0.2, 1, 0]\nmirror = [1, 0, 0]\nuncertainty = \"0.02 mrad\"\n";
+    let rotation = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n\
+                    [[instrument]]\nname = \"calibrator\"\nkind = \"rotation\"\ncolumn = \"turned\"\nunit = \"deg\"\nuncertainty = \"5 urad\"\n";
     for (name, map) in [
         ("wire", distance("\"unknown\"", "")),
         ("bar", distance("0", "range = [\"299 mm\", \"301 mm\"]")),
@@ -170,6 +174,8 @@ fn every_kind_finds_the_machine() {
         ("sphere", sphere("\"200 mm\"")),
         ("indicators", indicators()),
         ("tracker and mirror", map(angle)),
+        ("tracker and rotary-axis calibrator", map(rotation)),
+        ("rotary-axis calibrator", map(&rotation[rotation.rfind("[[").unwrap()..])),
     ] {
         let report = identified(&map, simulated(&map, 240, 3), 0.002);
         let z = z_scores(&report);
@@ -181,24 +187,24 @@ fn every_kind_finds_the_machine() {
     }
 }
 
-/// The rank of a plan: six axes and a point of unknown place on the tool have 4 · 6 + 3 = 27 combinations, of which 6 are where
-/// the machine stands.
+/// Six axes and a point at an unknown place on the tool have 4 · 6 + 3 = 27 identifiable
+/// combinations, of which 6 are the pose of the machine.
 #[test]
-fn ranks_are_those_of_theory() {
+fn ranks_agree_with_theory() {
     let tracker = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n";
     for (name, map, expected) in [
         ("tracker", map(tracker), 27),
-        // Three places of the bar's end instead of six of the base; its length is known.
+        // Three coordinates of the bar's end replace six of the base; its length is known.
         ("bar", distance("0", "range = [\"299 mm\", \"301 mm\"]"), 24),
-        // Its zero is one more, and told: the lengths differ.
+        // The unknown zero adds one; different lengths determine it.
         ("wire", distance("\"unknown\"", ""), 25),
         ("sphere", sphere("\"200 mm\""), 24),
-        // One more to tell, and one less that is told: how large all is.
+        // The unknown radius adds one, and the unknown scale removes one.
         ("sphere of unknown radius", sphere("\"unknown\"\nnominal_radius = \"200 mm\""), 24),
-        // Four places, of which twelve coordinates; three turns of the base and the size cannot be told.
+        // Four fixtures add twelve coordinates; the base (six) and the scale remain undetermined.
         ("contacts", contacts(), 27 - 6 + 12 - 1),
         ("planes", planes(), 27 - 6 + 9 - 1),
-        // Twelve zeros; their directions are known better than readings near zero tell them.
+        // Twelve zeros; readings near zero determine the directions less well than the prior.
         ("indicators", indicators(), 27 - 6 + 12),
     ] {
         let machine = nominal();
@@ -216,7 +222,7 @@ fn ranks_are_those_of_theory() {
     }
 }
 
-/// Two instruments that say nothing of how good they are: the data do.
+/// Uncertainties of two instruments that state none are estimated from the data.
 #[test]
 fn uncertainties_are_estimated() {
     let both = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = UNCERTAIN1\n\
@@ -224,29 +230,39 @@ fn uncertainties_are_estimated() {
     let with = |a: &str, b: &str| map(&both.replace("UNCERTAIN1", a).replace("UNCERTAIN2", b));
     let data = simulated(&with("\"0.06 mm\"", "\"0.008 mm\""), 150, 11);
     let report = identified(&with("\"unknown\"", "\"unknown\""), data, 0.01);
-    let told: Vec<f64> = report.instruments.iter().map(|told| told.uncertainty).collect();
-    // 450 and 150 numbers, less what goes into the unknowns: 3.5 and 7 % at one standard deviation.
-    assert!((told[0] / 0.06 - 1.0).abs() < 0.12 && (told[1] / 0.008 - 1.0).abs() < 0.25, "{told:?}");
-    assert!(report.instruments.iter().all(|told| told.estimated && (told.factor - 1.0).abs() < 0.01));
+    let uncertainties: Vec<f64> =
+        report.instruments.iter().map(|instrument| instrument.uncertainty).collect();
+    // 450 and 150 values minus the unknowns: standard deviations of the estimates of 3.5 % and 7 %.
+    assert!(
+        (uncertainties[0] / 0.06 - 1.0).abs() < 0.12 && (uncertainties[1] / 0.008 - 1.0).abs() < 0.25,
+        "{uncertainties:?}"
+    );
+    assert!(
+        report
+            .instruments
+            .iter()
+            .all(|instrument| instrument.estimated && (instrument.factor - 1.0).abs() < 0.01)
+    );
 }
 
-/// What readings cannot tell of the size of the machine is said.
+/// A note says how well the readings determine the scale of the machine.
 #[test]
-fn the_size_is_told_or_not() {
+fn the_scale_is_reported() {
     let said = |map: Map| identified(&map, simulated(&map, 120, 5), 0.002).notes.join("\n");
-    assert!(said(contacts()).contains("cannot tell how large the machine is"));
+    assert!(said(contacts()).contains("do not determine the scale of the machine"));
     assert!(said(distance("0", "range = [\"299 mm\", \"301 mm\"]")).contains("mm per metre at best"));
 }
 
-/// What is found of the machine and of what instruments look at goes round: `measure` says of unseen rows what `identify` said,
-/// in the unit of every instrument.
+/// Round trip of machine and fixtures: `measure` reports the accuracy for test rows that `identify`
+/// reported, in the unit of every instrument.
 #[test]
-fn what_is_found_is_measured_again() {
+fn identified_fixtures_survive_a_round_trip() {
     let wire_in_um = distance("\"unknown\"", "").text().replace("unit = \"mm\"\nat", "unit = \"um\"\nat");
     let wire_in_um = Map::parse("map.toml", &wire_in_um, &nominal().spec).unwrap();
     let lean = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n\
                 [[instrument]]\nname = \"mirror\"\nkind = \"angle\"\ncolumn = \"lean\"\nunit = \"mrad\"\ndirection = [0.2, 1, 0]\nmirror = [1, 0, 0]\nuncertainty = \"0.02 mrad\"\n";
-    // Three coordinates have √3 of the noise, one number has it itself; the rest is what 240 rows do not tell.
+    // Three coordinates have √3 times the noise, a single value has it once; the rest is the error
+    // of identification from 240 rows.
     for (name, map, noise) in [
         ("wire", wire_in_um, vec![10.0]),
         ("contacts", contacts(), vec![0.01 * 3f64.sqrt(); 4]),
@@ -286,17 +302,18 @@ fn what_is_found_is_measured_again() {
             squares += one.count as f64 * (one.left.rms / noise).powi(2);
             count += one.count as f64;
         }
-        // Of 120 numbers at least the root mean square is within 13 % with two standard deviations.
+        // With at least 120 values the root mean square is within 13 % at two standard deviations.
         let share = f64::sqrt(squares / count);
         println!("{name}: {share:.3}");
         assert!((0.87..1.2).contains(&share), "{name}: {share} {:?}", measured.instruments);
-        // Set up anew, they are found for the machine as it is known: the rows tell more of them than of the machine.
+        // At a new station, the fixtures are fitted to the identified machine; the fit must not
+        // lose accuracy.
         let anew = measure(found.newly_stationed());
         assert!(anew.base_fitted && anew.explained.left_rms < 1.1 * measured.explained.left_rms, "{name}");
     }
 }
 
-/// Two balls on the table of a milling machine, one left of the middle of x and one right of it.
+/// Two balls on the table of a milling machine, left and right of the middle of x.
 const BARS: &str = r#"
 [data]
 setup = "setup"
@@ -328,9 +345,10 @@ fn mill() -> Machine {
     Machine::find("machine3").unwrap()
 }
 
-/// The candidates of a plan are a sequence by Halton, the first joint of which is left and right in turn; so must setups not be.
+/// Halton candidates place the first joint left and right alternately; setups must not alternate in
+/// the same rhythm.
 #[test]
-fn every_setup_is_measured_all_around() {
+fn every_setup_covers_the_workspace() {
     let (machine, map) = (mill(), Map::parse("bars.toml", BARS, &mill().spec).unwrap());
     let study = Study::find(None, &machine).unwrap();
     let criterion = abbe::identify::Criterion::Variance;
@@ -345,13 +363,14 @@ fn every_setup_is_measured_all_around() {
         let share = x.iter().filter(|x| **x > 0.0).count() as f64 / x.len() as f64;
         assert!((0.2..0.8).contains(&share), "setup {setup}: {share}");
     }
-    // Three squarenesses are all that constant errors of such a machine are.
+    // Three squareness errors are all constant errors of such a machine.
     assert_eq!((report.rank, report.machine.rank), (9, 3));
 }
 
-/// A laser between two poses, the second of one pair not the first of the next: it finds all that moves points against each other.
+/// A laser that measures displacements between separate pairs of poses identifies all errors that
+/// move points relative to each other.
 #[test]
-fn displacements_between_two_poses_find_the_machine() {
+fn displacements_between_pairs_of_poses_identify_the_machine() {
     let laser = "[[instrument]]\nname = \"laser\"\nkind = \"displacement\"\ncolumn = \"travelled\"\nunit = \"um\"\nuncertainty = \"10 um\"\n";
     let map = map(laser);
     let job = |samples, seed| Simulate {
@@ -363,7 +382,7 @@ fn displacements_between_two_poses_find_the_machine() {
         random: false,
         seed,
     };
-    // Every second cell is empty: rows to begin from.
+    // Every second cell is empty: such rows are starting points.
     let read = |samples, seed| {
         let mut table = job(samples, seed).run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}")).table;
         let column = table.heading.iter().position(|name| name == "travelled").unwrap();
@@ -377,7 +396,7 @@ fn displacements_between_two_poses_find_the_machine() {
     let (data, unseen) = (read(480, 3), read(200, 5));
     assert_eq!((data.observations.len(), data.unusable.len()), (240, 0));
     let report = identified_with(&map, data, Some(unseen.clone()), 0.002);
-    // 27 of a tracker, less the six of where it stands.
+    // A tracker determines 27 combinations, of which six are its pose.
     assert_eq!(report.rank, 21);
     let far: Vec<_> = z_scores(&report).into_iter().filter(|(_, z)| z.abs() > 4.0).collect();
     assert!(far.is_empty(), "{far:?}");
@@ -387,7 +406,7 @@ fn displacements_between_two_poses_find_the_machine() {
     let measured = Measure { machine: real(), map: map.clone(), data: unseen, accept: Acceptance::default() };
     let laser = &measured.run(&mut ()).unwrap().instruments[0];
     assert!(laser.unit == "um" && (8.5..11.5).contains(&laser.left.rms), "{laser:?}");
-    // A displacement in the first row is from nowhere.
+    // A displacement in the first row has no starting point.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("data.csv");
     let heading = "setup,j1,j2,j3,j4,j5,j6,travelled";

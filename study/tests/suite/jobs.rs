@@ -1,4 +1,4 @@
-//! Jobs, called as anything but the command would call them.
+//! Jobs as library calls without the command.
 
 use abbe::lanes::{Batches, Tiles};
 use abbe::{Delegate, Error, Function};
@@ -9,14 +9,14 @@ use abbe_study::jacobian::Jacobian;
 use abbe_study::study_file::{CombinedFigure, Subject};
 use abbe_study::{Changes, Machine, Notes, Study};
 
-/// What a job said.
+/// Recorded notes of a job.
 #[derive(Default)]
-struct Heard {
+struct RecordedNotes {
     notes: Vec<String>,
     stop: bool,
 }
 
-impl Notes for Heard {
+impl Notes for RecordedNotes {
     fn note(&mut self, note: &str) {
         self.notes.push(note.to_owned());
     }
@@ -46,16 +46,16 @@ fn the_papers_radius_without_a_process() {
     assert_eq!(report.figures.as_ref().unwrap().figures.len(), report.study.figures.len());
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!(json["combined"]["radius"], report.budget.combined.radius.value);
-    // The ledger stands in the order of its ranks.
+    // The ledger is sorted by rank.
     let ranks = json["ledger"]["sources"].as_array().unwrap().iter().map(|entry| entry["rank"].as_u64());
     assert!(ranks.map(Option::unwrap).eq(1..=report.budget.sources.len() as u64));
     let figures = serde_json::to_value(&report.figures).unwrap();
     assert!(figures["figures"][0]["data"].is_object() || figures["figures"][0]["data"].is_string());
 }
 
-/// A difference that print cannot show is not said to be 0.
+/// A non-zero difference too small to print is not reported as 0.
 #[test]
-fn first_order_is_never_off_by_0() {
+fn a_small_first_order_error_is_not_reported_as_0() {
     let machine = Machine::find("wam").unwrap();
     let study = Study::find(None, &machine).unwrap();
     let report = Analyze::new(machine, study).run(&mut ()).unwrap();
@@ -76,17 +76,17 @@ fn the_right_source_is_blamed() {
 }
 
 #[test]
-fn what_is_beyond_limits_is_noted_and_a_job_can_be_stopped() {
+fn joints_beyond_limits_are_noted_and_a_job_can_be_stopped() {
     let machine = Machine::find("puma560").unwrap();
-    let mut heard = Heard::default();
+    let mut heard = RecordedNotes::default();
     let q = Some(vec![100.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     Jacobian { machine: machine.clone(), q }.run(&mut heard).unwrap();
     assert!(heard.notes[0].contains("is outside its limits"), "{:?}", heard.notes);
-    let mut heard = Heard { stop: true, ..Heard::default() };
+    let mut heard = RecordedNotes { stop: true, ..RecordedNotes::default() };
     assert!(Check { machine }.run(&mut heard).unwrap_err().to_string().contains("stopped"));
 }
 
-/// A manipulator whose batches forget the last configuration.
+/// Manipulator whose batches return a wrong value for the last configuration.
 struct Forgetful(Interpreter);
 
 impl Delegate for Forgetful {
@@ -106,7 +106,7 @@ impl Batches for Forgetful {
 }
 
 #[test]
-fn a_batch_that_is_wrong_fails_its_law_and_no_other() {
+fn a_wrong_batch_fails_only_its_law() {
     let spec = Machine::find("scara").unwrap().spec;
     assert!(laws(&Interpreter::new(spec.clone()), 20, &mut ()).unwrap().iter().all(|law| law.holds));
     let failed = laws(&Forgetful(Interpreter::new(spec)), 20, &mut ()).unwrap();

@@ -1,14 +1,14 @@
-//! The jobs, as whoever calls them without the command.
+//! Tests of the jobs as library calls.
 
-mod doubt;
-mod extrapolated;
+mod extrapolation;
 mod inputs_from_rows;
 mod instruments;
+mod interpretations;
 mod jobs;
 mod measurements;
 mod monitor;
 mod parts;
-mod readings;
+mod plausibility;
 mod round_trips;
 mod verdict;
 

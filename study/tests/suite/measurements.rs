@@ -1,4 +1,4 @@
-//! The jobs about measurements, called as anything but the command would call them.
+//! Jobs with measurements as library calls without the command.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use tempfile::{TempDir, tempdir};
 
-/// A UR5 with errors of its own.
+/// Errors of the simulated UR5.
 const ERRORS: &str = r#"
 [[source]]
 name = "truth"
@@ -41,7 +41,7 @@ fn ur5() -> Machine {
     Machine::find("ur5").unwrap()
 }
 
-/// The machine as it really is.
+/// Returns the UR5 with errors.
 fn real() -> Machine {
     let shipped = ur5();
     let text = format!("{}{ERRORS}", shipped.text().unwrap());
@@ -55,7 +55,7 @@ fn map(layout: &str) -> Map {
     Map::parse("map.toml", &format!("{head}{joints}{layout}"), &ur5().spec).unwrap()
 }
 
-/// Three targets.
+/// Returns a map with three targets.
 fn targets() -> Map {
     let target = |(i, at): (usize, [i32; 3])| {
         let [x, y, z] = at.map(|v| format!("\"{v} mm\""));
@@ -99,7 +99,7 @@ fn identify(map: &Map, data: Data) -> Identify {
     }
 }
 
-/// A file in a folder of its own.
+/// Writes a file in its own temporary folder.
 fn file(text: &str) -> (TempDir, PathBuf) {
     let folder = tempdir().unwrap();
     let path = folder.path().join("data.csv");
@@ -108,15 +108,16 @@ fn file(text: &str) -> (TempDir, PathBuf) {
 }
 
 #[test]
-fn what_is_found_is_the_machine() {
+fn the_machine_is_identified() {
     let map = map(POINT);
     let mut job = identify(&map, measurements(&map, 300, 1));
     job.test = Some(measurements(&map, 50, 2));
     let report = job.run(&mut ()).unwrap();
-    // The target stands on the last axis: two of the 27 combinations cannot be seen there, as the plan says.
+    // The target lies on the last axis, so that two of the 27 combinations are undetermined; a plan
+    // finds the same.
     assert_eq!((report.rank, report.parameters.len()), (25, 25));
     let test = report.test.unwrap();
-    // Nothing but the instrument's noise is left: √3 σ of a point.
+    // Only the noise of the instrument remains: √3 σ per point.
     assert!((test.after.rms - 0.02 * 3f64.sqrt()).abs() < 0.004, "{test:?}");
     assert!(test.before.rms > 10.0 * test.after.rms);
     let json = serde_json::to_value(&report).unwrap();
@@ -124,9 +125,9 @@ fn what_is_found_is_the_machine() {
     assert!(json.get("found").is_none() && json.get("files").is_none());
 }
 
-/// What was found is a spec again, and predicts what was measured.
+/// The identified spec is valid and predicts the measurements.
 #[test]
-fn the_identified_machine_is_measured_again() {
+fn the_identified_machine_predicts_the_measurements() {
     let map = map(POINT);
     let data = measurements(&map, 300, 1);
     let mut job = identify(&map, data.clone());
@@ -142,8 +143,8 @@ fn the_identified_machine_is_measured_again() {
     assert!(measured.explained.share > 0.99, "{:?}", measured.explained);
 }
 
-/// Twenty configurations, visited ten times each, of a machine with an error of about 0.15 mm that every configuration has
-/// to itself; the rows of `unseen` are of others.
+/// Simulates repeated visits of configurations. Every configuration has its own error of about 0.15
+/// mm that no model explains.
 fn visited(map: &Map, seed: u64, configurations: usize, visits: u64) -> Data {
     let places = measurements(map, configurations, seed);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
@@ -165,10 +166,11 @@ fn visited(map: &Map, seed: u64, configurations: usize, visits: u64) -> Data {
     all
 }
 
-/// Visits do not make terms: what is chosen is no worse on other configurations, and the rows left out say what those say.
-/// Over six machines the mean of unseen distances is known to about 4 %.
+/// Repeated visits do not justify terms: the selected model is no worse at other configurations,
+/// and cross-validation predicts the error there. Over six machines the mean error is known to
+/// about 4 %.
 #[test]
-fn visits_are_not_learnt_by_heart() {
+fn repeated_visits_do_not_cause_overfitting() {
     let map = map(POINT);
     let (mut chosen, mut constants, mut crossed) = (0.0, 0.0, 0.0);
     for seed in 1..=6 {
@@ -188,7 +190,7 @@ fn visits_are_not_learnt_by_heart() {
     assert!((crossed / chosen - 1.0).abs() <= 0.15, "{crossed} {chosen}");
 }
 
-/// Columns of the map say which rows belong together, and in which order they were measured.
+/// Columns of the map define groups of rows and their chronological order.
 #[test]
 fn rows_are_grouped_and_ordered_by_columns() {
     let head = "j1,j2,j3,j4,j5,j6,x,y,z,pose,minute\n";
@@ -208,7 +210,7 @@ fn rows_are_grouped_and_ordered_by_columns() {
     let grouped = Map::parse("map.toml", &format!("{text}{joints}{POINT}"), &ur5().spec).unwrap();
     assert_eq!(numbers(&grouped), [(0, Some(3.0)), (1, Some(2.0)), (0, Some(1.0))]);
 
-    // Columns in memory say the same, but that their rows are counted from 0.
+    // Columns in memory give the same data, except that rows are counted from 0.
     let heading = ["j1", "j2", "j3", "j4", "j5", "j6", "x", "y", "z", "minute"];
     let values = [[1.0, 1.0, 9.0], [2.0; 3], [3.0; 3], [4.0; 3], [5.0; 3], [6.0, 6.001, 6.0]];
     let values = values.into_iter().chain([[7.0; 3], [8.0; 3], [9.0; 3], [3.0, 2.0, 1.0]]);
@@ -237,9 +239,10 @@ fn rows_are_grouped_and_ordered_by_columns() {
     assert!(mistake.contains("`j2` has 3 rows, and `j1` has 1"), "{mistake}");
 }
 
-/// Rows with a hidden target have fewer numbers; lines end as on Windows; comments and empty lines count.
+/// Line numbers count comments, empty lines and Windows line ends. Rows with a hidden target have
+/// fewer values.
 #[test]
-fn lines_are_those_of_the_file() {
+fn line_numbers_are_those_of_the_file() {
     let map = targets();
     let report = simulate(&map, 120, 3).run(&mut ()).unwrap();
     let csv = report.table.csv();
@@ -275,9 +278,9 @@ fn lines_are_those_of_the_file() {
     }
 }
 
-/// Of poses, turns are no lengths; of a robust fit, gross errors are not what is left.
+/// The stated residual of the fit excludes angles of poses and the outliers of a robust fit.
 #[test]
-fn provenance_says_what_is_left() {
+fn provenance_states_the_residual() {
     let map = map(POSE);
     let mut job = identify(&map, measurements(&map, 120, 5));
     let report = job.run(&mut ()).unwrap();
@@ -296,7 +299,7 @@ fn provenance_says_what_is_left() {
     assert!((left(&report) - report.fit.after.rms).abs() < 1e-5, "{}", report.found.reference);
 }
 
-/// A row that weighs nothing might as well be left out; one that weighs four times counts as four.
+/// A row with a negligible weight has a negligible effect.
 #[test]
 fn weights_belong_to_rows() {
     let map = map(POINT);
@@ -336,10 +339,11 @@ fn repeated_visits_show_repeatability() {
     assert_eq!(report.table().rows.len(), 180);
 }
 
-/// The sentence about the region that holds 95 % of the rows: true of machines as the spec says, in 99 of 100; false where
-/// there is more or less than the spec says. 25 machines of 60 rows: the mean share has a standard error of 0.6 %.
+/// The range for the share of rows inside the 95 % region contains the share for 99 of 100 correct
+/// machines, and fails for machines with more or less noise than specified. With 25 machines of 60
+/// rows, the mean share has a standard error of 0.6 %.
 #[test]
-fn rows_of_a_right_model_are_as_it_should_be() {
+fn the_share_of_rows_inside_verifies_the_model() {
     let map = map(POINT);
     let random = "\n[[source]]\nname = \"encoder\"\nclass = \"random\"\ndistribution = \"uniform\"\njoint = \"q2\"\nerror = \"0.1 mrad\"\n\n[[source]]\nname = \"arc\"\nclass = \"random\"\ndistribution = \"arcsine\"\nframe = \"elbow\"\ne_r = \"0.1 mrad\"\n";
     let machine = || {
@@ -365,8 +369,8 @@ fn rows_of_a_right_model_are_as_it_should_be() {
     };
     let (right, inside) = verdicts(0.02, true, 60, 0..25);
     assert!(right >= 23 && (inside - 0.95).abs() < 0.018, "{right} of 25, {inside}");
-    // Three times the noise; a twentieth of it, and no random sources, which takes more rows to see: of 60, all are within in 5 of
-    // 100 right machines.
+    // Three times the specified noise fails; so does a twentieth of it without random sources,
+    // which needs more rows: for 5 of 100 correct machines all of 60 rows are inside.
     assert_eq!(verdicts(0.06, true, 60, 0..3).0, 0);
     assert_eq!(verdicts(0.001, false, 200, 0..3).0, 0);
 }
@@ -386,20 +390,20 @@ fn commands_are_compensated() {
 }
 
 #[test]
-fn a_plan_predicts_what_it_tells() {
+fn a_plan_predicts_rank_and_uncertainty() {
     let machine = ur5();
     let study = Study::find(None, &machine).unwrap();
     let choice = Choice::Optimal { criterion: Criterion::Variance, count: 30, candidates: 80 };
     let report =
         Plan { machine, map: map(POINT), choice, study, model_error: 0.0, seed: None }.run(&mut ()).unwrap();
-    // The tool point stands on the last axis: two of the 27 combinations cannot be seen there.
+    // The tool point lies on the last axis, so that two of the 27 combinations are undetermined.
     assert_eq!((report.rows, report.rank, report.observations.len()), (30, 25, 30));
     assert!(report.predicted.mean > 0.0 && report.predicted.mean < 0.05, "{:?}", report.predicted);
 }
 
-/// A file whose columns are named as the spec names its joints needs no map.
+/// A file whose columns have the names of the spec's joints needs no map.
 #[test]
-fn names_of_the_spec_are_a_map() {
+fn column_names_of_the_spec_need_no_map() {
     let spec = ur5().spec;
     let map = Map::from_names(&["q1".to_owned()], &spec);
     let (_folder, path) = file("q1,q2,q3,q4,q5,q6\n0.1,0.2,0.3,0.4,0.5,0.6\n");

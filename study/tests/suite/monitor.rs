@@ -1,4 +1,5 @@
-//! `monitor`: drifts that are put in are found, in time and by name; a machine that stays what it is raises as few alarms as stated.
+//! `monitor` detects simulated drifts in time and names them; an unchanged machine raises no more
+//! alarms than stated.
 
 use std::path::PathBuf;
 
@@ -9,10 +10,10 @@ use abbe_study::Machine;
 use abbe_study::data::{Calendar, Data, Map};
 use abbe_study::monitor::{Check, Checks, Monitor, Report, Settings};
 
-/// One standard deviation of a coordinate, mm: a laser tracker.
+/// Standard deviation of a coordinate in mm, as for a laser tracker.
 const NOISE: f64 = 0.01;
 
-/// Where a check looks: so many points.
+/// Number of points in a check.
 const POINTS: usize = 8;
 
 fn map(base: &str, machine: &Machine) -> Map {
@@ -24,7 +25,7 @@ fn map(base: &str, machine: &Machine) -> Map {
     Map::parse("map.toml", &text, &machine.spec).unwrap()
 }
 
-/// A machine that is checked every day.
+/// Machine with daily checks.
 struct Watched {
     machine: Machine,
     interpreter: Interpreter,
@@ -49,15 +50,15 @@ impl Watched {
         Model::ideal(&self.interpreter, vec![[0.0; 3]], uncertainty).with(vec![error])
     }
 
-    /// How far a unit of an error moves the tool point where that is most.
+    /// Returns the largest displacement of the tool point per unit of an error.
     fn effect(&self, error: Unknown) -> f64 {
         self.effects(error).into_iter().fold(0.0, f64::max)
     }
 
-    /// … and at every configuration.
+    /// Returns the displacement of the tool point per unit of an error at every configuration.
     fn effects(&self, error: Unknown) -> Vec<f64> {
         let model = self.model(error);
-        let mut room = model.room();
+        let mut room = model.scratch();
         let moved = self.places.iter().map(|place| {
             let (_, moves) = model.tool(&mut room, place, &[0.0]).unwrap();
             moves[0].iter().map(|v| v * v).sum::<f64>().sqrt()
@@ -65,7 +66,8 @@ impl Watched {
         moved.collect()
     }
 
-    /// A check a day: on day `t` the error is `size(t)`, and the instrument stands at `station(t)`.
+    /// Simulates daily checks: on day `t` the error is `size(t)`, and the pose of the instrument is
+    /// `station(t)`.
     fn checks(
         &self,
         days: usize,
@@ -75,12 +77,12 @@ impl Watched {
         seed: u64,
     ) -> Checks {
         let model = self.model(error);
-        let mut room = model.room();
+        let mut room = model.scratch();
         let list = (0..days).map(|day| {
             let time = day as f64;
             let noise = Uncertainty { length: NOISE, angle: 0.0 };
             let seed = seed * 1000 + day as u64;
-            let chance = Chance { noise, outliers: 0.0, gross: 0.0, random_sources: false, seed };
+            let chance = Chance { noise, outliers: 0.0, outlier_size: 0.0, random_sources: false, seed };
             let mut rows = simulate(&model, &self.places, &chance).unwrap();
             for row in &mut rows {
                 let [before, after] =
@@ -107,20 +109,21 @@ fn here(_: f64) -> Pose {
     Pose::IDENTITY
 }
 
-/// Every day somewhere else, turned and shifted.
+/// Returns a different pose for every day.
 fn anywhere(day: f64) -> Pose {
     let (sine, cosine) = (0.1 * day).sin_cos();
     Pose([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0], [20.0 * sine, 5.0 * day, -3.0]])
 }
 
-/// The promise of the chapter: 1 µm a day is caught before it is 20 µm, at no more than one false alarm a year. 36 machines, each with
-/// another error of another frame, are checked for 60 days before it begins to drift; speeds are those of the point that moves most. An
-/// alarm before the drift is a false one: 60 days have 0.16 of a year's.
+/// A drift of 1 µm per day is detected before it reaches 20 µm, with at most one false alarm per
+/// year, as the documentation promises. 36 machines, each with a different error, are checked for
+/// 60 days before the drift begins. Rates are those of the point that moves most. An alarm before
+/// the drift is false; 60 days are 0.16 years.
 #[test]
-fn a_micrometre_a_day_is_caught_before_it_is_twenty() {
+fn a_drift_of_1_um_per_day_is_detected_before_20_um() {
     let watched = Watched::new("ur5");
     let errors = (0..6).flat_map(|frame| Component::ALL.map(|component| Unknown::Error(frame, component)));
-    // Some turns leave the tool point where it is.
+    // Some rotational errors do not move the tool point.
     let errors: Vec<Unknown> = errors.filter(|error| watched.effect(*error) > 1e-6).collect();
     let (runs, quiet) = (36, 60.0);
     let (mut false_alarms, mut caught, mut sum, mut last) = (0, 0, 0.0, 0.0_f64);
@@ -143,13 +146,13 @@ fn a_micrometre_a_day_is_caught_before_it_is_twenty() {
         "{caught} of {drifting} caught, at {mean:.1} µm on average and {last} µm at most; {false_alarms} false alarms"
     );
     assert_eq!(caught, drifting);
-    // Poisson, mean 36 · 60/365 = 5.9 at most.
+    // Poisson distribution with a mean of at most 36 · 60/365 = 5.9.
     assert!(false_alarms <= 13, "{false_alarms}");
 }
 
-/// The same with the station anew every day: it hides a part of every error.
+/// A station that changes every day hides a part of every error, but not the drift.
 #[test]
-fn stations_that_change_are_no_alarm_and_hide_no_drift() {
+fn changing_stations_raise_no_alarm_and_hide_no_drift() {
     let watched = Watched::new("ur5");
     let error = Unknown::Error(2, Component::Roll);
     let speed = 1e-3 / watched.effect(error);
@@ -162,9 +165,9 @@ fn stations_that_change_are_no_alarm_and_hide_no_drift() {
     }
 }
 
-/// Machine-years without any change, for every kind of station: the share without an alarm is at least 1/e.
+/// The share of machine-years without change and without alarm is at least 1/e.
 #[test]
-fn a_machine_that_stays_what_it_is_raises_at_most_one_alarm_a_year() {
+fn an_unchanged_machine_raises_at_most_one_alarm_a_year() {
     let watched = Watched::new("ur5");
     let error = Unknown::Error(0, Component::X);
     let (years, mut quiet) = (24, 0);
@@ -177,11 +180,12 @@ fn a_machine_that_stays_what_it_is_raises_at_most_one_alarm_a_year() {
     assert!(quiet as f64 / years as f64 > 0.368 - 0.295, "{quiet}");
 }
 
-/// What drifts is named, with a time, a speed and a date that are as certain as they say.
+/// A drift is identified with time, rate and date of exceeding the tolerance, within the stated
+/// uncertainties.
 #[test]
-fn what_drifts_is_named() {
+fn the_drifting_error_is_identified() {
     let watched = Watched::new("ur5");
-    // The zero of q3: the roll of the frame of its joint, whose axis is z.
+    // The zero of q3 is the spin error of its joint's frame, whose axis is z.
     let error = Unknown::Error(2, Component::Spin);
     let speed = 2e-3 / watched.effect(error);
     let (mut named, mut dated, mut fast, mut leaves) = (0, 0, 0, 0);
@@ -214,7 +218,7 @@ fn what_drifts_is_named() {
 }
 
 #[test]
-fn a_jump_and_a_station_that_moves_are_called_so() {
+fn a_jump_and_a_moving_station_are_identified() {
     let watched = Watched::new("ur5");
     let error = Unknown::Error(2, Component::Spin);
     let size = 0.05 / watched.effect(error);
@@ -287,7 +291,7 @@ fn checks_that_cannot_be_read_are_refused() {
             .since("--since", "2027-01-01")
             .unwrap_err()
             .to_string()
-            .contains("there is no check from then on")
+            .contains("there is no check after that date")
     );
 }
 

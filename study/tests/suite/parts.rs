@@ -1,7 +1,7 @@
-//! Parts that claim what cannot be are mistakes with a way out, never a panic or an endless loop.
+//! Parts with impossible content give errors with help, never a panic or an endless loop.
 
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::analyze::parts::{Part, Question, Written, merge};
+use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, merge};
 use abbe_study::hash;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -12,18 +12,19 @@ use crate::thorough::sample_size;
 const FIGURES: &str = "[[figure]]\nkind = \"travel\"\nover = \"d1\"\n[[figure]]\nkind = \"surface\"\n\
                        over = [\"d1\", \"q4\"]\n[[figure]]\nkind = \"cloud\"\n[[figure]]\nkind = \"histogram\"\n";
 
-/// All that parts can hold: repeatable and random sources, residuals, tolerances and figures, and what cannot be reached.
-fn questions() -> [Question; 2] {
+/// Returns two analyses that use all content of parts: repeatable and random sources, residuals,
+/// tolerances, figures and unreachable configurations.
+fn questions() -> [AnalysisRequest; 2] {
     let sampled = format!(
         "[study]\ntitle = \"t\"\ntolerance = {{ position = \"5 mm\", orientation = \"2 mrad\" }}\n\
          [workspace.random]\nsamples = 300\n[compensation]\ndefault = 0.1\n{FIGURES}"
     );
     let reached = "[study]\ntitle = \"t\"\n[workspace.box]\nx = { from = \"-1 m\", to = \"1 m\", count = 6 }\n\
                    y = { from = \"0 m\", to = \"1 m\", count = 6 }\nz = { from = \"0 m\", to = \"1.2 m\", count = 6 }\n";
-    [("pps", sampled), ("puma560", reached.to_owned())].map(|(spec, text)| Question {
+    [("pps", sampled), ("puma560", reached.to_owned())].map(|(spec, text)| AnalysisRequest {
         spec: spec.to_owned(),
         spec_text: None,
-        study: Some(Written { name: "study.toml".to_owned(), folder: None, text }),
+        study: Some(FileText { name: "study.toml".to_owned(), folder: None, text }),
         changes: Vec::new(),
         monte_carlo: Some(10),
         seed: None,
@@ -32,11 +33,11 @@ fn questions() -> [Question; 2] {
     })
 }
 
-fn halves(question: &Question) -> [Part; 2] {
+fn halves(question: &AnalysisRequest) -> [Part; 2] {
     ["1/2", "2/2"].map(|shard| Part::new(question.clone(), shard.parse().unwrap(), &mut ()).unwrap())
 }
 
-/// What is in the file of a part.
+/// Returns the content of a part's file.
 fn content(part: &Part) -> Value {
     let text = String::from_utf8(part.to_bytes()).unwrap();
     let lines: Vec<&str> = text.lines().collect();
@@ -44,10 +45,10 @@ fn content(part: &Part) -> Value {
     serde_json::from_str(lines[1]).unwrap()
 }
 
-/// Reads a file with that in it, and the right checksum.
+/// Reads a file with this content and a correct checksum.
 fn read(content: &Value) -> Result<Part, Diagnostics> {
     let text = format!("abbe part 2\n{content}\n");
-    let file = format!("{text}{}\n", hash::of_text(&text));
+    let file = format!("{text}{}\n", hash::text(&text));
     Part::from_bytes("a.part", file.as_bytes())
 }
 
@@ -59,7 +60,7 @@ fn refused(content: &Value, says: &str) {
 }
 
 #[test]
-fn what_is_read_is_what_was_written() {
+fn parts_survive_a_round_trip() {
     for question in questions() {
         for part in halves(&question) {
             let bytes = part.to_bytes();
@@ -70,7 +71,7 @@ fn what_is_read_is_what_was_written() {
 }
 
 #[test]
-fn a_share_and_draws_are_within_their_limits() {
+fn shards_and_draws_are_limited() {
     let [question, _] = questions();
     let [part, _] = halves(&question);
     let with = |path: &str, value: Value| {
@@ -79,19 +80,19 @@ fn a_share_and_draws_are_within_their_limits() {
         content
     };
     for shard in ["1/4294967295", "1/100001", "0/2", "3/2", "1/0", "-1/2", "1/2/3", ""] {
-        refused(&with("/shard", json!(shard)), "what no part of this version of abbe does");
+        refused(&with("/shard", json!(shard)), "content that this version of abbe does not write");
     }
-    refused(&with("/shard", json!({ "number": 1, "of": 4_294_967_295_u32 })), "what no part");
+    refused(&with("/shard", json!({ "number": 1, "of": 4_294_967_295_u32 })), "content that this version");
     for draws in [json!(0), json!(10_000_001), json!(1_000_000_000_000_u64), json!(1_u64 << 63)] {
         refused(&with("/question/monte_carlo", draws), "from 1 to 10000000 are made");
     }
-    refused(&with("/question/monte_carlo", json!(-1)), "what no part");
-    let too_many = Question { monte_carlo: Some(10_000_001), ..question };
+    refused(&with("/question/monte_carlo", json!(-1)), "content that this version");
+    let too_many = AnalysisRequest { monte_carlo: Some(10_000_001), ..question };
     let refused = Part::new(too_many, "1/1".parse().unwrap(), &mut ()).map(|_| ()).unwrap_err();
     assert!(refused.to_string().contains("from 1 to 10000000"), "{refused}");
 }
 
-/// The paths of all values.
+/// Collects the paths of all values.
 fn paths(value: &Value, path: &str, all: &mut Vec<String>) {
     all.push(path.to_owned());
     match value {
@@ -105,7 +106,7 @@ fn paths(value: &Value, path: &str, all: &mut Vec<String>) {
     }
 }
 
-/// Makes something else of a value: extreme numbers, fewer or more entries, other keys.
+/// Damages a value: extreme numbers, fewer or more entries, other keys.
 fn damage(value: &mut Value, random: &mut Xoshiro256PlusPlus) {
     let integers = [0, 1, 31, 63, 64, 1 << 31, 1 << 32, 1 << 53, 1 << 62, u64::MAX / 2, u64::MAX];
     let numbers = [0.0, -1.0, 1e308, -1e308, 1e-308, f64::MAX, f64::MIN];
@@ -130,7 +131,7 @@ fn damage(value: &mut Value, random: &mut Xoshiro256PlusPlus) {
 }
 
 #[test]
-fn whatever_a_part_claims_it_merges_or_is_refused() {
+fn a_damaged_part_merges_or_is_refused() {
     let times = sample_size(400);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(32);
     let (mut merged, mut refused) = (0, 0);

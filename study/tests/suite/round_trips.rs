@@ -1,4 +1,4 @@
-//! What `identify` writes goes round: a spec of the machine, and a map of where it stands and what is mounted on it.
+//! Round trip of `identify`: the identified spec and map reproduce its figures in `measure`.
 
 use abbe::identify::Loss;
 use abbe_spec::Spec;
@@ -10,7 +10,7 @@ use abbe_study::plan::{Choice, Plan, Sets};
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
 
-/// A UR5 with errors of its own.
+/// Errors of the simulated UR5.
 const ERRORS: &str = r#"
 [[source]]
 name = "truth"
@@ -32,7 +32,7 @@ e_z = "0.3 mm"
 e_s = "0.7 mrad"
 "#;
 
-/// Where it stands: a metre and a half away, turned by 150 degrees.
+/// Station of the machine, 1.5 m away and rotated by 150 degrees.
 const STATION: &str = "[[station]]\nposition = [\"1200 mm\", \"-900 mm\", \"40 mm\"]\nquaternion = [0.2588190451, 0, 0, 0.9659258263]\n";
 
 fn ur5() -> Machine {
@@ -47,22 +47,23 @@ fn real() -> Machine {
     machine("real.toml", &format!("{}{ERRORS}", ur5().text().unwrap()))
 }
 
-/// One way to measure: what the file has, where targets were meant to be, and where they are.
-struct Way {
+/// Measuring method: layout of the file with nominal targets, and the actual placement.
+struct Method {
     layout: String,
     mounted: String,
 }
 
-/// A target beside the last axis.
-fn one() -> Way {
-    Way {
+/// Returns a method with one target beside the last axis.
+fn one() -> Method {
+    Method {
         layout: "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n".to_owned(),
         mounted: "[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n".to_owned(),
     }
 }
 
-/// Three targets, each meant to be `off` mm from where it is.
-fn three(off: f64) -> Way {
+/// Returns a method with three targets, each nominal position `off` mm away from the actual one in
+/// every coordinate.
+fn three(off: f64) -> Method {
     let places = [[60.0, 10.0, 40.0], [-50.0, 20.0, 60.0], [0.0, -70.0, 30.0]];
     let place = |at: [f64; 3]| {
         let [x, y, z] = at.map(|v| format!("\"{v} mm\""));
@@ -74,14 +75,14 @@ fn three(off: f64) -> Way {
             "[[target]]\ncolumns = [\"x{i}\", \"y{i}\", \"z{i}\"]\nunit = \"mm\"\nposition = {designed}\n"
         )
     };
-    Way {
+    Method {
         layout: places.into_iter().enumerate().map(target).collect(),
         mounted: format!("[placement]\ntargets = [{}]\n", places.map(place).join(", ")),
     }
 }
 
-fn pose() -> Way {
-    Way {
+fn pose() -> Method {
+    Method {
         layout: "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
                  quaternion = { columns = [\"a\", \"b\", \"c\", \"d\"], order = \"wxyz\" }\n"
             .to_owned(),
@@ -90,8 +91,8 @@ fn pose() -> Way {
     }
 }
 
-impl Way {
-    /// A map; `data` are more lines under `[data]`, `more` more tables.
+impl Method {
+    /// Returns a map; `data` are additional lines under `[data]`, `more` additional tables.
     fn map(&self, data: &str, more: &str) -> Map {
         let joints: String =
             (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
@@ -102,7 +103,7 @@ impl Way {
         Map::parse("map.toml", &text, &ur5().spec).unwrap()
     }
 
-    /// As it is: what measures.
+    /// Returns the map with the actual placement, for the simulation.
     fn truth(&self, stands: &str) -> Map {
         self.map("", &format!("{stands}{}", self.mounted))
     }
@@ -146,8 +147,8 @@ fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
     }
 }
 
-/// The spec and the map that are written.
-fn written(report: &Report, map: &Map) -> (Machine, Map) {
+/// Returns the machine and the map written by an identification.
+fn identified_machine_and_map(report: &Report, map: &Map) -> (Machine, Map) {
     let nominal = ur5();
     let spec = report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let found = machine("found.toml", &spec.text);
@@ -156,21 +157,21 @@ fn written(report: &Report, map: &Map) -> (Machine, Map) {
     (found, map)
 }
 
-/// The spec that is written, by its own name again.
+/// Returns mean and maximum of the residuals that `measure` reports.
 fn left(machine: Machine, map: Map, data: Data) -> [f64; 2] {
     let report = Measure { machine, map, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
     [report.explained.left_mean, report.explained.left_max]
 }
 
-fn alike(a: [f64; 2], b: [f64; 2], share: f64) {
+fn assert_close(a: [f64; 2], b: [f64; 2], share: f64) {
     for (a, b) in a.into_iter().zip(b) {
         assert!((a - b).abs() <= share * b, "{a} {b}");
     }
 }
 
-/// The figure that `identify` states of unseen rows is the one that `measure` finds with what it wrote; and the machine is as
-/// good at a station that nothing was known of.
-fn goes_round(way: &Way, known: bool) {
+/// `measure` with the identified spec and map reproduces the accuracy that `identify` states for
+/// test rows, and the machine is equally accurate at a new station.
+fn check_round_trip(way: &Method, known: bool) {
     let (stands, base) = if known { ("", "") } else { (STATION, "base = \"unknown\"\n") };
     let (truth, guess) = (way.truth(stands), way.map(base, ""));
     let unseen = measured(&truth, 100, 2);
@@ -178,8 +179,8 @@ fn goes_round(way: &Way, known: bool) {
     let test = report.test.unwrap();
     assert!(test.after.mean < 0.05 && test.before.mean > 0.3, "{test:?}");
     let figure = [test.after.mean, test.after.max];
-    let (found, map) = written(&report, &guess);
-    alike(left(found.clone(), map.clone(), unseen), figure, 0.01);
+    let (found, map) = identified_machine_and_map(&report, &guess);
+    assert_close(left(found.clone(), map.clone(), unseen), figure, 0.01);
 
     let elsewhere =
         STATION.replace("1200 mm", "-2500 mm").replace("0.2588190451, 0, 0,", "0, 0, 0.2588190451,");
@@ -189,31 +190,31 @@ fn goes_round(way: &Way, known: bool) {
 }
 
 #[test]
-fn of_one_target() {
-    goes_round(&one(), true);
-    goes_round(&one(), false);
+fn one_target() {
+    check_round_trip(&one(), true);
+    check_round_trip(&one(), false);
 }
 
 #[test]
-fn of_three_targets() {
-    goes_round(&three(0.4), true);
-    goes_round(&three(0.4), false);
+fn three_targets() {
+    check_round_trip(&three(0.4), true);
+    check_round_trip(&three(0.4), false);
 }
 
 #[test]
-fn of_poses() {
-    goes_round(&pose(), true);
-    goes_round(&pose(), false);
+fn poses() {
+    check_round_trip(&pose(), true);
+    check_round_trip(&pose(), false);
 }
 
-/// What is mounted wrong is not corrected: with targets guessed 200 mm off, commands change by no more than the machine's
-/// own errors.
+/// Errors of the placement are not compensated: with targets guessed 200 mm off, commands change by
+/// no more than the machine's own errors.
 #[test]
 fn placement_is_not_compensated() {
     let way = three(200.0);
     let guess = way.map("", "");
     let report = identify(&guess, measured(&way.truth(""), 150, 1), None);
-    let (found, _) = written(&report, &guess);
+    let (found, _) = identified_machine_and_map(&report, &guess);
     let commands = measured(&guess, 40, 3);
     let compensated = |machine: Machine| {
         let (map, data) = (guess.clone(), commands.clone());
@@ -224,9 +225,10 @@ fn placement_is_not_compensated() {
     assert!(found.max <= 1.1 * own.max && found.angle_max <= 1.1 * own.angle_max, "{found:?} {own:?}");
 }
 
-/// Two stations in one fit: each row at its own, found in closed form, a machine of errors that both see.
+/// Two stations in one fit: the pose of each is registered from its own rows, and both determine
+/// the errors of one machine.
 #[test]
-fn of_two_stations() {
+fn two_stations() {
     let way = one();
     let second = STATION.replace("1200 mm", "-700 mm").replace("0.9659258263", "-0.9659258263");
     let named = |station: &str, name: &str| station.replace("]]\n", &format!("]]\nname = {name:?}\n"));
@@ -241,14 +243,14 @@ fn of_two_stations() {
     let names: Vec<&str> = report.placed.stations.iter().map(|station| &station.name[..]).collect();
     assert_eq!(names, ["door", "wall"]);
     assert!(report.parameters.iter().any(|parameter| parameter.name == "e_x0 wall"));
-    let (found, map) = written(&report, &guess);
-    alike(left(found, map, unseen.clone()), [test.after.mean, test.after.max], 0.01);
+    let (found, map) = identified_machine_and_map(&report, &guess);
+    assert_close(left(found, map, unseen.clone()), [test.after.mean, test.after.max], 0.01);
 
-    // Rows of a station that nothing is known of are refused.
+    // Rows of an unknown station are refused.
     let elsewhere = Data { stations: vec!["roof".to_owned(), "wall".to_owned()], ..unseen };
     let refused = job(&guess, measured(&truth, 60, 1), Some(elsewhere.clone())).run(&mut ()).unwrap_err();
     assert!(
-        refused.to_string().contains("rows of station `roof`, where none of the data was measured"),
+        refused.to_string().contains("rows of station `roof`, which the data does not have"),
         "{refused}"
     );
     let job = Measure { machine: ur5(), map: truth, data: elsewhere, accept: Acceptance::default() };
@@ -258,7 +260,7 @@ fn of_two_stations() {
     }
 }
 
-/// Rows to be simulated may name stations of their own: where the map states none, each is at `F_0`.
+/// Rows to simulate may name stations; without stations in the map, each is at `F_0`.
 #[test]
 fn stations_of_rows_are_simulated() {
     let way = one();
@@ -281,7 +283,7 @@ fn stations_of_rows_are_simulated() {
     }
 }
 
-/// How many combinations a plan says so many samples determine.
+/// Returns the rank that a plan predicts for a number of samples.
 fn planned(map: &Map, samples: usize) -> usize {
     let machine = ur5();
     let text = format!(
@@ -295,10 +297,11 @@ fn planned(map: &Map, samples: usize) -> usize {
     Plan { machine, map: map.clone(), choice, study, model_error: 0.0, seed: None }.run(&mut ()).unwrap().rank
 }
 
-/// A reflector at the flange, on the last axis but for 0.3 mm: what it does not tell is held and named, not written.
+/// Weakly determined errors are held and listed, but not written: a reflector at the flange, 0.3 mm
+/// off the last axis, determines some errors weakly.
 #[test]
 fn a_reflector_on_the_last_axis() {
-    let way = Way {
+    let way = Method {
         layout: one().layout,
         mounted: "[placement]\ntargets = [[\"0.2 mm\", \"-0.2 mm\", \"0.1 mm\"]]\n".to_owned(),
     };
@@ -312,10 +315,10 @@ fn a_reflector_on_the_last_axis() {
     for parameter in report.parameters.iter().filter(|parameter| parameter.unit == "rad") {
         assert!(parameter.standard_deviation < 0.5 * 0.01, "{parameter:?}");
     }
-    // The plan says as much before, of the same rows.
+    // A plan predicts the same rank for the same rows.
     assert_eq!(report.rank, planned(&guess, 60));
-    // What is written turns the tool no farther than the errors of the machine do.
-    let (found, _) = written(&report, &guess);
+    // The identified machine rotates the tool no farther than the real errors do.
+    let (found, _) = identified_machine_and_map(&report, &guess);
     let commands = measured(&guess, 40, 3);
     let compensated = |machine: Machine| {
         let (map, data) = (guess.clone(), commands.clone());
@@ -325,20 +328,21 @@ fn a_reflector_on_the_last_axis() {
     assert!(found.angle_max <= 1.2 * own.angle_max, "{found:?} {own:?}");
 }
 
-/// A start that is a metre and half a turn off is found, whatever the map says.
+/// An initial placement that is a metre and half a turn off is corrected, even if the map says
+/// otherwise.
 #[test]
-fn from_a_far_start() {
-    let far = Way {
+fn a_far_initial_placement_is_corrected() {
+    let far = Method {
         mounted: "[placement]\ntargets = [[\"600 mm\", \"-500 mm\", \"700 mm\"]]\n".to_owned(),
         ..one()
     };
-    let turned = Way {
+    let turned = Method {
         mounted: "[placement]\nposition = [\"300 mm\", \"-200 mm\", \"800 mm\"]\nquaternion = [0.02, 0.9998, 0, 0]\n"
             .to_owned(),
         ..pose()
     };
     for way in [far, turned] {
-        // Said to be known, which is wrong.
+        // The base counts as known by default, which is wrong here.
         let report = identify(&way.map("", ""), measured(&way.truth(STATION), 150, 1), None);
         assert!(report.fit.after.mean < 0.05, "{:?}", report.fit);
     }

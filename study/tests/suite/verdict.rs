@@ -1,13 +1,14 @@
-//! The verdict, and what is said of how sure it is.
+//! Verdicts on tolerances and their uncertainty.
 
 use abbe::analysis::{Compliance, Measurand, errors_at, normal_compliance};
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
-use abbe_study::analyze::figures::Gathered;
-use abbe_study::analyze::{Analyze, Report, ToleranceVerdict, Verdict, contributions};
+use abbe_study::analyze::figures::FigureData;
+use abbe_study::analyze::{Analyze, Report, ToleranceVerdict, Verdict, uncertainty_contributions};
 use abbe_study::{Machine, Study};
 
-/// A slide with a repeatable error of 0.1 mm along x, and four random ones of this size and distribution in the same direction.
+/// Analyzes a slide with a repeatable error of 0.1 mm along x and four random errors of a size and
+/// distribution in the same direction.
 fn report(distribution: &str, size: &str, tolerance: &str) -> Report {
     let mut text = r#"
         [manipulator]
@@ -42,7 +43,7 @@ fn report(distribution: &str, size: &str, tolerance: &str) -> Report {
     Analyze::new(machine, study).run(&mut ()).unwrap()
 }
 
-/// The verdict on the only tolerance.
+/// Returns the verdict on the only tolerance.
 fn verdict(report: &Report) -> &ToleranceVerdict {
     let [verdict] = report.verdicts.as_ref().unwrap().all().collect::<Vec<_>>()[..] else {
         panic!("one tolerance")
@@ -50,9 +51,10 @@ fn verdict(report: &Report) -> &ToleranceVerdict {
     verdict
 }
 
-/// One repeatable and four uniform errors of T/5: the equal share at which the tolerance is met for certain.
+/// One repeatable and four uniform errors of T/5: the equal share that meets the tolerance with
+/// certainty.
 #[test]
-fn bounded_errors_are_judged_for_certain() {
+fn bounded_errors_give_a_certain_verdict() {
     let met = report("uniform", "0.1 mm", "\"0.5001 mm\"");
     assert_eq!(met.verdict(), Some(Verdict::Met));
     assert_eq!(met.verdict_line().unwrap(), "Verdict: met");
@@ -61,13 +63,14 @@ fn bounded_errors_are_judged_for_certain() {
     let allowance = met.allowance.as_ref().unwrap();
     assert_eq!(allowance.equal_share_probability, 1.0);
     assert!((allowance.equal_share.unwrap() - 0.10002).abs() < 1e-12);
-    assert!(met.conclusions().iter().any(|said| said.contains("it is met for certain")));
+    assert!(met.conclusions().iter().any(|said| said.contains("the tolerance is met for certain")));
 
-    // The extremes are beyond it, and few draws.
+    // The sum of the extremes exceeds the tolerance, but few draws do.
     let likely = report("uniform", "0.1 mm", "\"0.4 mm\"");
     assert_eq!(likely.verdict(), Some(Verdict::MetWithProbability));
     let compliance = verdict(&likely).compliance;
-    // The sum of four uniform errors is within 3 of 4 widths but for twice 1/4!/16.
+    // The sum S of the uniform errors may reach 0.3 of its 0.4 mm: P(S > 0.3 mm) = (1/2)⁴ / 4! =
+    // 1/384.
     let exact = 1.0 - 1.0 / 384.0;
     assert!(
         compliance.draws.is_some()
@@ -76,10 +79,10 @@ fn bounded_errors_are_judged_for_certain() {
 
     let asked = report("uniform", "0.1 mm", "{ position = \"0.4 mm\", probability = 0.999 }");
     assert_eq!(asked.verdict(), Some(Verdict::NotMet));
-    assert!(asked.verdict_sentences()[0].contains("99.9 % are asked for"), "{:?}", asked.verdict_sentences());
+    assert!(asked.verdict_sentences()[0].contains("99.9 % is required"), "{:?}", asked.verdict_sentences());
 }
 
-/// Four normal errors of 0.1 mm are one of 0.2 mm, about 0.1 mm.
+/// Four normal errors of 0.1 mm are equivalent to one of 0.2 mm, with a mean of 0.1 mm.
 #[test]
 fn normal_errors_have_a_probability() {
     let report = report("normal", "0.1 mm", "\"0.5 mm\"");
@@ -96,7 +99,7 @@ fn normal_errors_have_a_probability() {
         allowed.contains("with a probability of at least 98.92 %") && !allowed.contains("certain"),
         "{allowed}"
     );
-    // All along one line: 1.960 σ, not 2.796.
+    // All errors lie on one line: 1.960 σ instead of 2.796 σ.
     assert!(allowed.contains("within ± 0.392 mm on a line"), "{allowed}");
 
     let json = serde_json::to_value(&report).unwrap();
@@ -130,7 +133,7 @@ fn orientation_has_a_tolerance_of_its_own() {
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!(json["verdict"]["orientation"]["verdict"], "not-met");
     assert!(json["verdict"]["position"].is_null());
-    // What each may do alone is what it says.
+    // The permitted scale of each source alone makes its largest error equal to the tolerance.
     for (alone, errors) in json["orientation"]["budget"]["sources"].as_array().unwrap().iter().zip(0..) {
         let source = &report.budget.orientation.sources
             [report.budget.tighten_first_for(Measurand::Orientation)[errors]];
@@ -138,7 +141,7 @@ fn orientation_has_a_tolerance_of_its_own() {
             assert!((scale * source.plain_max.norm - 1e-4).abs() < 1e-15);
         }
     }
-    // The rows of each source are those that stand beside its position.
+    // The orientation rows of each source are in the same order as its position rows.
     for (source, turned) in json["sources"].as_array().unwrap().iter().zip(&report.budget.orientation.sources)
     {
         assert_eq!(source["orientation"][2], turned.plain_max.z);
@@ -146,7 +149,7 @@ fn orientation_has_a_tolerance_of_its_own() {
 }
 
 #[test]
-fn a_tolerance_that_says_nothing_is_a_mistake() {
+fn an_empty_tolerance_is_a_mistake() {
     let machine = Machine::find("pps").unwrap();
     for (tolerance, said) in [
         ("{}", "this tolerance says nothing"),
@@ -177,7 +180,7 @@ fn figures_of_the_orientation() {
     job.figures = true;
     let report = job.run(&mut ()).unwrap();
     let figures = &report.figures.as_ref().unwrap().figures;
-    let Gathered::Cloud(points) = &figures[0].data else { panic!("a cloud") };
+    let FigureData::Cloud(points) = &figures[0].data else { panic!("a cloud") };
     let (norm, _) = points.worst.as_ref().unwrap();
     let largest = report.budget.orientation.combined.radius.value;
     assert!((norm - largest).abs() < 1e-12 * largest, "{norm} {largest}");
@@ -185,7 +188,7 @@ fn figures_of_the_orientation() {
     assert_eq!(json["figures"][3]["asked"]["measurand"], "orientation");
 }
 
-/// An encoder at its joint: its value is the angle, its sensitivity the lever, here 100 mm.
+/// The value of a joint's encoder error is the angle, and its sensitivity the lever, here 100 mm.
 #[test]
 fn the_value_of_a_joint_is_its_angle() {
     let text = r#"
@@ -217,11 +220,11 @@ fn the_value_of_a_joint_is_its_angle() {
         |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() / expected - 1.0).abs() < 1e-9;
     assert!(close(&source["value"], 3e-4) && close(&source["sensitivity"][3], 100.0), "{source}");
     assert!(close(&source["standard_uncertainty"][3], 0.03 / 6_f64.sqrt()));
-    let table = contributions(&report, report.uncertainty.as_ref().unwrap());
+    let table = uncertainty_contributions(&report, report.uncertainty.as_ref().unwrap());
     assert_eq!(table.rows[0][1..5], ["0.3 mrad", "triangular", "√6", "0.1 mm/mrad"]);
 }
 
-/// A machine of its own text, with a study of so many random samples.
+/// Analyzes a machine with its spec and study as texts.
 fn analyzed(text: &str, study: &str) -> Report {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("machine.toml");
@@ -247,9 +250,10 @@ const SLIDE: &str = r#"
     e_x = "0.1 mm"
 "#;
 
-/// A magnitude of 0.5 ± 0.2 of an error of 0.1 mm: 0.05 mm, and a normal error of 0.02 mm beside it.
+/// A magnitude of 0.5 ± 0.2 of an error of 0.1 mm gives a bias of 0.05 mm and a normal error of
+/// 0.02 mm.
 #[test]
-fn a_magnitude_is_not_known_exactly() {
+fn a_magnitude_has_an_uncertainty() {
     let samples = "tolerance = \"0.0892 mm\"\n[workspace.joints]\nsamples = 5\n";
     let magnitude = "magnitude = { value = 0.5, standard_deviation = 0.2 }\n";
     let report = analyzed(&format!("{SLIDE}{magnitude}"), samples);
@@ -257,33 +261,35 @@ fn a_magnitude_is_not_known_exactly() {
     assert_eq!(names, ["scale", "scale (its magnitude)"]);
     let budget = report.uncertainty.as_ref().unwrap();
     assert!((budget.standard_uncertainty[0] - 0.02).abs() < 1e-15 && (budget.bias[0] - 0.05).abs() < 1e-15);
-    let table = contributions(&report, report.uncertainty.as_ref().unwrap());
+    let table = uncertainty_contributions(&report, report.uncertainty.as_ref().unwrap());
     assert_eq!(table.rows[0][..5], ["scale (its magnitude)", "0.2", "normal", "1", "0.1 mm"]);
-    // Φ((0.0892 − 0.05)/0.02) = Φ(1.96); the other end is far away. Nothing is certain any more.
+    // Φ((0.0892 − 0.05)/0.02) = Φ(1.96); the lower limit is far away. The tolerance is no longer
+    // met with certainty.
     let judged = verdict(&report);
     assert!((judged.compliance.probability - 0.975_002_1).abs() < 1e-6, "{judged:?}");
     assert!(judged.largest.is_none() && (report.budget.combined.random_radius.value - 0.06).abs() < 1e-15);
-    // Without it the source is what it was, and if it is switched off nothing is left of it.
+    // Without a magnitude the source has its full value; disabled, it contributes nothing.
     let plain = analyzed(SLIDE, samples);
     assert_eq!((plain.sources.len(), plain.uncertainty_budgets().count()), (1, 0));
     let off = analyzed(&format!("{SLIDE}{magnitude}"), &format!("disable = [\"scale\"]\n{samples}"));
     assert!(off.sources.is_empty());
 }
 
-/// Nine degrees of freedom: Student's t in k, in the table, in the verdict.
+/// Student's t with nine degrees of freedom gives the coverage factor, in the table and in the
+/// verdict.
 #[test]
-fn few_measurements_are_said() {
+fn few_degrees_of_freedom_are_reported() {
     let estimated = "[[source]]\nname = \"probing\"\nclass = \"random\"\ndistribution = \"normal\"\ndegrees_of_freedom = 9\n\
                      frame = \"slide\"\ne_y = \"0.01 mm\"\n";
     let text = SLIDE.replace("0.1 mm", "0 mm") + estimated;
     let report = analyzed(&text, "tolerance = \"0.022621572 mm\"\n[workspace.joints]\nsamples = 5\n");
     let (budget, judged) = (report.uncertainty.as_ref().unwrap(), verdict(&report));
     assert!((budget.expanded_uncertainty[3] - 0.022_621_572).abs() < 1e-9);
-    assert_eq!(contributions(&report, budget).rows[0][6], "9");
-    assert_eq!(abbe_study::analyze::totals(&report, budget).rows[3][2], "9");
-    let said = abbe_study::analyze::sentences(&report, budget).join(" ");
+    assert_eq!(uncertainty_contributions(&report, budget).rows[0][6], "9");
+    assert_eq!(abbe_study::analyze::uncertainty_totals(&report, budget).rows[3][2], "9");
+    let said = abbe_study::analyze::uncertainty_sentences(&report, budget).join(" ");
     assert!(said.contains("Student's t") && said.contains("(2.262 × 0.01 mm)"), "{said}");
-    assert!(!said.contains("taken as infinite"), "{said}");
+    assert!(!said.contains("infinite degrees of freedom"), "{said}");
     let Compliance { probability, error, draws } = judged.compliance;
     assert!(draws.is_some() && (probability - 0.95).abs() < 4.0 * error, "{probability}");
     let json = serde_json::to_value(&report).unwrap();
@@ -291,11 +297,12 @@ fn few_measurements_are_said() {
     assert!(json["uncertainty"]["effective_degrees_of_freedom"][0].is_null());
 }
 
-/// Arms with normal sources: p of the verdict is the least of all configurations, to 0.1 %.
+/// The probability of the verdict is the smallest of all configurations, to 0.1 %, for arms with
+/// normal sources.
 #[test]
 fn the_least_likely_configuration_is_found() {
     let number = |seed: u64, i: u64| {
-        // Any numbers will do.
+        // Deterministic pseudo-random numbers.
         let mixed = (seed * 1000 + i).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1_u64 << 53) as f64
     };
@@ -346,8 +353,8 @@ fn the_least_likely_configuration_is_found() {
         let judged = verdict(&report);
         assert!(judged.compliance.probability < least + 1e-3, "{seed}: {judged:?}, {least}");
         elsewhere += usize::from(likely(report.budget.combined.radius.configuration.unwrap()) > least + 5e-3);
-        assert!(report.verdict_sentences()[0].contains("the least of"), "{:?}", report.verdict_sentences());
+        assert!(report.verdict_sentences()[0].contains("the lowest of"), "{:?}", report.verdict_sentences());
     }
-    // Otherwise this test would show nothing.
+    // The test is meaningful only if the two configurations differ at least once.
     assert!(elsewhere > 0);
 }

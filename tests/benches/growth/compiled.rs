@@ -1,4 +1,5 @@
-//! What becomes of a module when it is compiled: in crates made for that, beside the other results of the build.
+//! Compile time, code size and speed of generated modules, in crates created below the target
+//! folder.
 
 use std::error::Error;
 use std::fs;
@@ -10,7 +11,8 @@ use abbe_codegen::print;
 use abbe_spec::Spec;
 use abbe_tests::chains::general_chain;
 
-/// Compiles the modules of chains of these lengths, and runs them beside a loop on nalgebra's matrices.
+/// Compiles the modules of chains of these lengths, and compares their speed with a loop on
+/// nalgebra matrices.
 pub(crate) fn report(lengths: &[usize]) -> Result<(), Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize()?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
@@ -74,7 +76,7 @@ pub(crate) fn report(lengths: &[usize]) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The machine code in a library, as `size` says.
+/// Returns the bytes of machine code in a library, as reported by `size`.
 fn text_bytes(library: &Path) -> Result<u64, Box<dyn Error>> {
     let output = Command::new("size").arg(library).output()?;
     let lines = String::from_utf8(output.stdout)?;

@@ -1,5 +1,5 @@
-//! How generation grows with the length of the chain: operations of pose + `J_e`, time of each stage, size of the file;
-//! then how long the module takes to compile, how much code it becomes, and how quickly that runs.
+//! Growth of generated code with the length of the chain: operations of pose + `J_e`, time of each
+//! stage, size of the file; then compile time, code size and speed of the module.
 //!
 //! `cargo bench -p abbe-tests --bench growth`; nothing is downloaded.
 
@@ -16,13 +16,13 @@ use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::chains::general_chain;
 
-/// How many frames the chains have.
+/// Numbers of frames of the chains.
 const LENGTHS: [usize; 4] = [6, 20, 50, 100];
 
-/// Of so many runs the quickest counts: what else the machine does only ever adds.
+/// Number of runs. The fastest counts, since disturbances only add time.
 const RUNS: usize = 20;
 
-/// The shortest time in ms, and the result.
+/// Returns the shortest time in ms, and the result.
 fn quickest<T>(work: impl Fn() -> T) -> (f64, T) {
     let runs = (0..RUNS).map(|_| {
         let start = Instant::now();

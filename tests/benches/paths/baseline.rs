@@ -1,4 +1,4 @@
-//! What one would write by hand. The loop gets its `A_i` ready made: what they cost is left out, in its favour.
+//! Handwritten baseline: the loop gets precomputed `A_i`, whose cost is left out in its favor.
 
 use std::hint::black_box;
 
@@ -9,7 +9,7 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::subject::Subject;
 
-/// A result at a configuration, from pose and `J_e`.
+/// Computes a result at a configuration from `J_e` and errors or variances.
 type Finish = fn(&[[f64; 6]], &[f64]) -> [[f64; 6]; 6];
 
 pub(crate) fn bench(criterion: &mut Criterion, subject: &Subject) {

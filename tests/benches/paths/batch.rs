@@ -1,4 +1,4 @@
-//! Lanes: compiled and interpreted, for every instruction set of this machine.
+//! Batches in lanes: compiled and interpreted, for every instruction set of this machine.
 
 use std::hint::black_box;
 
@@ -9,7 +9,8 @@ use criterion::Criterion;
 
 use crate::subject::{COUNT, Subject};
 
-/// The manipulator whose module has the name of the subject, with all its functions compiled for lanes.
+/// Returns the manipulator whose module has the name of the subject, with all its functions
+/// compiled for lanes.
 macro_rules! compiled {
     ($subject:ident; $($module:ident: $robot:ident),+) => {
         match $subject.name {

@@ -1,7 +1,8 @@
-//! Every path of every shipped manipulator: one configuration at a time, in lanes of every instruction set, interpreted,
-//! and beside them what one would write by hand, a loop over frames on nalgebra matrices.
+//! Benchmarks of every path of every shipped manipulator: single configurations, lanes of every
+//! instruction set, the interpreter, and a handwritten loop over frames on nalgebra matrices.
 //!
-//! `cargo bench -p abbe-tests --bench paths`; `-- puma560` for one manipulator, `-- covariance` for one path.
+//! `cargo bench -p abbe-tests --bench paths`; `-- puma560` for one manipulator, `-- covariance` for
+//! one path.
 
 mod baseline;
 mod batch;

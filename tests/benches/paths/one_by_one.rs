@@ -7,7 +7,7 @@ use criterion::Criterion;
 
 use crate::subject::Subject;
 
-/// The functions of the modules, for the subject whose name is that of the module.
+/// Selects the module with the name of the subject.
 macro_rules! modules {
     ($criterion:ident, $subject:ident; $($module:ident),+) => {
         match $subject.name {

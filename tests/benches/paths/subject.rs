@@ -1,4 +1,4 @@
-//! A manipulator, and the configurations at which it is measured.
+//! Manipulator under test, with its configurations.
 
 use abbe::Pose;
 use abbe::analysis::Sweepable;
@@ -9,7 +9,8 @@ use abbe_spec::Spec;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 
-/// How many configurations a call of a batch gets: what it takes and gives stays in the caches, and the interpreter evaluates as many together.
+/// Number of configurations of a batch: arguments and results stay in the caches, and the
+/// interpreter evaluates as many together.
 pub(crate) const COUNT: usize = 64;
 
 pub(crate) struct Subject {
@@ -20,13 +21,13 @@ pub(crate) struct Subject {
     pub(crate) variables: Vec<Vec<f64>>,
     pub(crate) parameters: Vec<f64>,
     pub(crate) inputs: Vec<f64>,
-    /// One for each generalized error: ε, and σ² too.
+    /// One value per generalized error, used as ε and as σ².
     pub(crate) errors: Vec<f64>,
 }
 
 impl Subject {
     pub(crate) fn new(shipped: &Shipped) -> Self {
-        // As long as the process.
+        // Static lifetime.
         let spec: &'static Spec =
             Box::leak(Box::new(Spec::parse(shipped.name, shipped.spec).expect("shipped specs are right")));
         let description = shipped.compiled.description();
@@ -42,7 +43,7 @@ impl Subject {
         }
     }
 
-    /// The group of a path: times per configuration of this manipulator.
+    /// Returns the benchmark group of a path, with times per configuration.
     pub(crate) fn group<'c>(
         &self,
         criterion: &'c mut Criterion,
@@ -53,7 +54,7 @@ impl Subject {
         group
     }
 
-    /// `A_1 … A_n` and the tool of each configuration.
+    /// Returns `A_1 … A_n` and the tool of each configuration.
     pub(crate) fn transforms(&self) -> Vec<Vec<[[f64; 3]; 4]>> {
         let transforms = |q: &Vec<f64>| {
             let mut transforms = vec![Pose::IDENTITY; self.errors.len() / 6 + 1];

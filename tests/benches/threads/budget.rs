@@ -1,4 +1,4 @@
-//! An error budget over random configurations of every shipped manipulator.
+//! Error budgets over random configurations of every shipped manipulator.
 
 use abbe::analysis::{BudgetOptions, error_budget, random_joint_samples};
 use abbe_manipulators::SHIPPED;
@@ -6,7 +6,7 @@ use criterion::{Criterion, Throughput};
 
 use crate::on_one_and_two;
 
-/// How many configurations are drawn.
+/// Number of configurations.
 const COUNT: usize = 100_000;
 
 pub(crate) fn bench(criterion: &mut Criterion) {

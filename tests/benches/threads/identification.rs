@@ -1,4 +1,5 @@
-//! The errors of a machine from 100,000 rows: by least squares, and without gross errors; judged on rows left out in turn.
+//! Identification from 100,000 rows: by least squares, with a robust loss, and with
+//! cross-validation.
 
 use abbe::identify::{Chance, Loss, Options, cross_validate, fit, simulate};
 use criterion::{Criterion, Throughput};
@@ -14,7 +15,7 @@ pub(crate) fn bench(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(ROWS as u64));
     for (name, loss, outliers) in [("squares", Loss::Squares, 0.0), ("tukey", Loss::Tukey, 0.02)] {
         let noise = model.uncertainty;
-        let chance = Chance { noise, outliers, gross: 20.0, random_sources: false, seed: 1 };
+        let chance = Chance { noise, outliers, outlier_size: 20.0, random_sources: false, seed: 1 };
         let data = simulate(&ideal, &asked, &chance).expect("measurements");
         let options = Options { loss, ..Options::default() };
         on_one_and_two(&mut group, name, || {

@@ -1,4 +1,5 @@
-//! What blocks of work shared among threads gain: the same work on one core and on two, with the same results.
+//! Speedup of blocks of work shared among threads: the same work on one core and on two, with the
+//! same results.
 //!
 //! `cargo bench -p abbe-tests --bench threads`; `-- identification` for one of them.
 
@@ -13,7 +14,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
 
-/// Times the same on one core and on two.
+/// Measures the same work on one core and on two.
 fn on_one_and_two<T: Send>(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,

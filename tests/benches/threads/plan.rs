@@ -1,4 +1,4 @@
-//! 3,000 configurations that tell most, of 100,000.
+//! Optimal choice of 3,000 of 100,000 configurations.
 
 use abbe::identify::{Criterion as Kind, Objective, identifiable, optimal};
 use criterion::{Criterion, Throughput};
@@ -6,7 +6,7 @@ use criterion::{Criterion, Throughput};
 use crate::measurements::{ROWS, asked, ideal};
 use crate::on_one_and_two;
 
-/// How many are chosen.
+/// Number of configurations chosen.
 const CHOSEN: usize = 3000;
 
 pub(crate) fn bench(criterion: &mut Criterion) {

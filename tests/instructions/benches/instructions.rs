@@ -1,7 +1,9 @@
-//! Instruction counts, which do not depend on what else the machine does: generated functions (`long` is a chain of 40
-//! frames), a batch by the interpreter, and generation. `tests/tests/instructions.rs` holds them against `tests/golden/instructions.txt`.
+//! Instruction counts, which do not depend on the load of the machine: generated functions (`long`
+//! is a chain of 40 frames), an interpreted batch, and generation. `tests/tests/instructions.rs`
+//! compares them with `tests/golden/instructions.txt`.
 //!
-//! `cargo bench -p abbe-instructions --bench instructions --features instructions`, with valgrind and the gungraun-runner of the same version as the crate.
+//! `cargo bench -p abbe-instructions --bench instructions --features instructions`, with valgrind
+//! and the gungraun-runner of the same version as the crate.
 #![allow(missing_docs)] // of what gungraun's macros make
 
 use std::hint::black_box;
@@ -16,15 +18,15 @@ use abbe_tests::chains::elastic_links;
 use abbe_tests::golden;
 use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
-/// What is counted; everything before it is not.
+/// Work that is counted. Its preparation is not.
 type Work = Box<dyn FnMut()>;
 
-/// How many configurations the batch has.
+/// Number of configurations of the batch.
 const COUNT: usize = 16;
 
 macro_rules! functions {
     ($($path:ident::$module:ident),+) => {
-        /// A function of a generated module at one configuration.
+        /// Functions of a generated module at one configuration.
         mod functions {
             use super::{Function, Work, black_box};
             $(pub(super) fn $module(function: Function) -> Work {
@@ -76,25 +78,26 @@ fn spec(name: &str) -> Spec {
     Spec::parse(name, shipped.spec).expect("shipped specs are right")
 }
 
-/// A batch by the interpreter, on what every machine has.
+/// Returns a batch by the interpreter, on the baseline instruction set.
 fn interpreter(name: &str, function: Function) -> Work {
     let robot = Interpreter::new(spec(name));
     let (description, set) = (robot.description(), InstructionSet::BASELINE);
     let mut arguments = Tiles::new(set, function.signature().arguments_len(description), COUNT);
     let mut results = Tiles::new(set, function.signature().results_len(description), COUNT);
     (0..arguments.rows()).for_each(|row| arguments.fill_row(row, 0.1));
-    // The program is made when it is first asked for: that is not counted.
+    // The program is created on first use, which is not counted.
     robot.batch(function, &arguments, &mut results).expect("the right counts");
     Box::new(move || robot.batch(function, black_box(&arguments), &mut results).expect("the right counts"))
 }
 
-/// The file of a spec.
+/// Returns the generation of the file of a spec.
 fn generation(name: &str) -> Work {
     let spec = spec(name);
     Box::new(move || drop(black_box(print::rust(black_box(&spec)))))
 }
 
-/// The file of an arm of which every link gives way under what it carries: many ways to sums that many sources share.
+/// Returns the generation of the file of an arm with a compliance at every link, whose sources
+/// share many subexpressions.
 fn generation_of_elastic_links(name: &str) -> Work {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).expect("a shipped robot");
     let text = elastic_links(shipped.spec);

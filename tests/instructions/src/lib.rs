@@ -1,1 +1,1 @@
-//! Instruction counts: `benches/instructions.rs`.
+//! Instruction counts; see `benches/instructions.rs`.

@@ -1,9 +1,9 @@
-//! The patient positioner's error, for a controller without an operating system.
+//! Error of the patient positioner, for a controller without an operating system.
 #![no_std]
 
 include!("../../golden/pps.rs");
 
-/// Sideways error of the treatment point at `q`, mm; NaN if it cannot be told.
+/// Returns the error of the treatment point along x at `q`, in mm. NaN if it cannot be evaluated.
 ///
 /// # Safety
 /// `q` points to six numbers.

@@ -1,6 +1,6 @@
-//! Where choices come from.
+//! Random choices.
 
-/// A source of choices: a seed, or bytes that somebody else has chosen.
+/// Source of choices: a seed, or the bytes of a fuzzer.
 #[derive(Clone, Debug)]
 pub struct Choices<'b> {
     state: u64,
@@ -8,17 +8,18 @@ pub struct Choices<'b> {
 }
 
 impl<'b> Choices<'b> {
-    /// The same choices for the same seed.
+    /// Creates choices from a seed; equal seeds give equal choices.
     pub fn seeded(seed: u64) -> Self {
         Self { state: seed, bytes: None }
     }
 
-    /// As bytes say, and the first of all where they end.
+    /// Creates choices from bytes. All further choices are 0 after their end.
     pub fn of_bytes(bytes: &'b [u8]) -> Self {
         Self { state: 0, bytes: Some(bytes) }
     }
 
-    /// SplitMix64, by Steele, Lea and Flood, *Fast splittable pseudorandom number generators*, 2014.
+    /// Returns the next number of SplitMix64, by Steele, Lea and Flood, *Fast splittable
+    /// pseudorandom number generators*, 2014.
     fn next(&mut self) -> u64 {
         if let Some(bytes) = &mut self.bytes {
             let taken = bytes.len().min(2);
@@ -32,22 +33,22 @@ impl<'b> Choices<'b> {
         z ^ (z >> 31)
     }
 
-    /// A number below `n`; 0 if that is 0.
+    /// Returns a number below `n`, or 0 if `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
         (self.next() % n.max(1) as u64) as usize
     }
 
-    /// Whether it happens, once in so many times.
+    /// Returns `true` with probability 1/n.
     pub fn once_in(&mut self, n: usize) -> bool {
         self.below(n) + 1 == n
     }
 
-    /// One of these, of which there is at least one.
-    pub fn of<'t, T>(&mut self, these: &'t [T]) -> &'t T {
+    /// Returns one of a nonempty list.
+    pub fn one_of<'t, T>(&mut self, these: &'t [T]) -> &'t T {
         &these[self.below(these.len())]
     }
 
-    /// A number with two decimals between these whole ones.
+    /// Returns a number with two decimals between two integers.
     pub fn decimal(&mut self, from: i32, to: i32) -> String {
         let steps = self.below(100 * (to - from).unsigned_abs() as usize + 1);
         format!("{:.2}", f64::from(from) + steps as f64 / 100.0)

@@ -1,8 +1,8 @@
-//! Damage to files: by byte, by token, by line, by value.
+//! Damage to files: of bytes, tokens, lines and values.
 
 use super::Choices;
 
-/// What stands where a number was.
+/// Replacements of numbers.
 const NUMBERS: [&str; 40] = [
     "0",
     "-0",
@@ -46,7 +46,7 @@ const NUMBERS: [&str; 40] = [
     "[1]",
 ];
 
-/// What stands where a word was.
+/// Replacements of words.
 const WORDS: [&str; 36] = [
     "",
     "\"",
@@ -86,7 +86,7 @@ const WORDS: [&str; 36] = [
     "((((((((((",
 ];
 
-/// A file with one to three pieces of damage.
+/// Returns a file with one to three random damages.
 pub fn damaged(c: &mut Choices<'_>, file: &[u8]) -> Vec<u8> {
     let mut bytes = file.to_vec();
     for _ in 0..1 + c.below(3) {
@@ -100,7 +100,7 @@ pub fn damaged(c: &mut Choices<'_>, file: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// A table with damage to its cells most of the time.
+/// Returns a table with random damages, mostly of its cells.
 pub fn damaged_table(c: &mut Choices<'_>, file: &[u8]) -> Vec<u8> {
     if c.once_in(3) {
         return damaged(c, file);
@@ -114,8 +114,8 @@ pub fn damaged_table(c: &mut Choices<'_>, file: &[u8]) -> Vec<u8> {
         match c.below(6) {
             0 => _ = row.remove(cell),
             1 => row.insert(cell, "7"),
-            2 => row[cell] = *c.of(&WORDS),
-            _ => row[cell] = *c.of(&NUMBERS),
+            2 => row[cell] = *c.one_of(&WORDS),
+            _ => row[cell] = *c.one_of(&NUMBERS),
         }
     }
     rows.iter().map(|row| row.join(",") + "\n").collect::<String>().into_bytes()
@@ -156,7 +156,7 @@ fn by_line(c: &mut Choices<'_>, bytes: &[u8]) -> Vec<u8> {
     lines.concat()
 }
 
-/// Another one of these in place of a token, or of the same kind from elsewhere in the file.
+/// Replaces a token by one of `others`, or by one of the same kind from elsewhere in the file.
 fn by_token(c: &mut Choices<'_>, bytes: &[u8], others: &[&str], part: impl Fn(&u8) -> bool) -> Vec<u8> {
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -169,10 +169,10 @@ fn by_token(c: &mut Choices<'_>, bytes: &[u8], others: &[&str], part: impl Fn(&u
     if tokens.is_empty() {
         return bytes.to_vec();
     }
-    let token = c.of(&tokens).clone();
+    let token = c.one_of(&tokens).clone();
     let other = match c.once_in(3) {
-        true => bytes[c.of(&tokens).clone()].to_vec(),
-        false => c.of(others).as_bytes().to_vec(),
+        true => bytes[c.one_of(&tokens).clone()].to_vec(),
+        false => c.one_of(others).as_bytes().to_vec(),
     };
     [&bytes[..token.start], &other, &bytes[token.end..]].concat()
 }

@@ -1,7 +1,8 @@
-//! Input that nobody would write: random specs that are right, and files with damage.
+//! Hostile input: random valid specs, and damaged files.
 //!
-//! Everything is drawn from [`Choices`]: from a seed in tests, from the bytes of a fuzzer there. `expressions` and `specs`
-//! make what is right, with names and texts chosen to break generated code; `damage` takes any file and spoils it.
+//! All randomness comes from [`Choices`]: from a seed in tests, from the bytes of a fuzzer.
+//! `expressions` and `specs` create valid input, with names and texts chosen to break generated
+//! code; `damage` corrupts any file.
 
 mod choices;
 mod damage;

@@ -1,11 +1,11 @@
-//! Random specs that are right.
+//! Random valid specs.
 
 use std::collections::HashSet;
 use std::fmt::Write;
 
 use super::{Choices, expression};
 
-/// Names that mean something in generated Rust or JavaScript, in the crate or in its prelude.
+/// Names with a meaning in generated Rust or JavaScript, in the crate or in its prelude.
 const NAMES: &str = "default default_ result results Vec vec self_ Self_ String Box None_ Some_ option zero one zero_ one_ \
     q s u t1 t2 t3 s1 c1 s2 c2 sin_1 cos_1 sin_x cos_x x y z p1_x p1_y r1_11 a2 a2_z4 pose columns effects errors \
     variances magnitudes displacement covariance transforms margin entries constant factor term entry raw abbe core std \
@@ -16,8 +16,8 @@ const NAMES: &str = "default default_ result results Vec vec self_ Self_ String 
     constructor prototype toString lookup i k e_x e_s links v1_s m1 e1_x _x x_ x__ a__b aB A B_ async_ union raw_ dyn_ \
     macro_rules auto static_ w yields wher D1 d_1 h_1 LOOKUP TABLE_ UP_TABLE one_sided index row column";
 
-/// Words for titles, descriptions, names of frames and sources: ends of comments and texts, turns of the direction of
-/// reading, things that look like code.
+/// Words for titles, descriptions, and names of frames and sources: ends of comments and strings,
+/// changes of writing direction, code.
 const WORDS: [&str; 46] = [
     "arm",
     "*/",
@@ -69,12 +69,12 @@ const WORDS: [&str; 46] = [
 
 fn words(c: &mut Choices<'_>, lines: bool) -> String {
     let count = if c.once_in(40) { 400 } else { 1 + c.below(6) };
-    let words: Vec<&str> = (0..count).map(|_| *c.of(&WORDS)).collect();
+    let words: Vec<&str> = (0..count).map(|_| *c.one_of(&WORDS)).collect();
     let text = words.join(if lines && c.once_in(3) { "\\n" } else { " " });
     if c.once_in(60) { text.repeat(30) } else { text }
 }
 
-/// What no spec takes for a name: words of Rust, units, functions.
+/// Reserved names: words of Rust, units, functions.
 const RESERVED: &str = "t h s u m g e pi min max";
 
 struct Names {
@@ -83,12 +83,12 @@ struct Names {
 }
 
 impl Names {
-    /// A name that is free; one name is like another up to its case.
+    /// Returns an unused name. Names that differ only in case are equal.
     fn fresh(&mut self, c: &mut Choices<'_>, like: &str) -> String {
         let all: Vec<&str> = NAMES.split_whitespace().filter(|name| !is_reserved(name)).collect();
         let mut name = match self.plain || c.once_in(4) {
             true => format!("{like}{}", self.taken.len() + 1),
-            false => (*c.of(&all)).to_owned(),
+            false => (*c.one_of(&all)).to_owned(),
         };
         while !self.taken.insert(name.to_ascii_lowercase()) {
             name.push_str("_2");
@@ -101,12 +101,12 @@ fn is_reserved(name: &str) -> bool {
     RESERVED.split_whitespace().any(|reserved| reserved == name)
 }
 
-/// A spec with hostile names and texts, as a file.
+/// Returns a spec file with hostile names and texts.
 pub fn spec(c: &mut Choices<'_>, name: &str) -> String {
     build(c, Some(name))
 }
 
-/// A spec whose names and texts mean nothing.
+/// Returns a spec file with plain names and texts.
 pub fn plain_spec(c: &mut Choices<'_>) -> String {
     build(c, None)
 }
@@ -118,18 +118,18 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
         |c: &mut Choices<'_>, lines| if hostile.is_some() { words(c, lines) } else { "said".to_owned() };
     let title = |c: &mut Choices<'_>, of: usize| -> String {
         let said: String = said(c, false).chars().take(60).collect();
-        // Not within an escape.
+        // Not within an escape sequence.
         let said = said.trim_end_matches(|x: char| x == '\\' || x.is_ascii_hexdigit() || x == 'u');
         format!("{of} {said}")
     };
-    let orientation = *c.of(&["rotation-vector", "euler-yzx"]);
+    let orientation = *c.one_of(&["rotation-vector", "euler-yzx"]);
     let (head, about, source) = (said(c, true), said(c, true), said(c, true));
     let _ = write!(
         text,
         "[manipulator]\nname = \"{}\"\ntitle = \"{head}\"\ndescription = \"{about}\"\nreference = \"{source}\"\n\
          length = \"{}\"\norientation = \"{orientation}\"\n",
         hostile.unwrap_or("arm"),
-        c.of(&["mm", "m"])
+        c.one_of(&["mm", "m"])
     );
     let [mut numbers, mut lengths] = [Vec::new(), Vec::new()];
     let _ = writeln!(text, "[parameters]");
@@ -160,7 +160,7 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
             continue;
         }
         let (name, revolute) = (names.fresh(c, "j"), c.once_in(2));
-        let axis = *c.of(&["x", "y", "z"]);
+        let axis = *c.one_of(&["x", "y", "z"]);
         let bent = c.once_in(2).then(|| expression(c, !revolute, [&numbers, &lengths], 3));
         let argument = match &bent {
             Some(bent) => format!("{name} + ({bent})"),
@@ -181,14 +181,14 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
     numbers.extend(inputs);
     for index in 0..c.below(5) {
         let (name, reference) = (title(c, index), said(c, true));
-        let class = *c.of(&[
+        let class = *c.one_of(&[
             "class = \"repeatable\"",
             "class = \"random\"\ndistribution = \"uniform\"",
             "class = \"random\"\ndistribution = \"normal\"",
         ]);
         let _ = writeln!(text, "[[source]]\nname = \"{name}\"\nreference = \"{reference}\"\n{class}");
-        let _ = writeln!(text, "frame = \"{}\"", c.of(&frames));
-        let (e, f) = (*c.of(&["x", "y", "z"]), *c.of(&["s", "r", "p"]));
+        let _ = writeln!(text, "frame = \"{}\"", c.one_of(&frames));
+        let (e, f) = (*c.one_of(&["x", "y", "z"]), *c.one_of(&["s", "r", "p"]));
         let (moved, turned) =
             (expression(c, true, [&numbers, &lengths], 3), expression(c, false, [&numbers, &lengths], 3));
         let _ = writeln!(

@@ -1,4 +1,4 @@
-//! The kernels of every shipped robot, an executable of its own.
+//! The kernels of every shipped robot, in a separate executable.
 
 use std::path::Path;
 use std::process::Command;
@@ -10,7 +10,7 @@ pub(crate) const TESTS: Tests = &[("of_every_shipped_robot", of_every_shipped_ro
 fn of_every_shipped_robot() -> Result<(), Missing> {
     thorough()?;
     let mut cargo = Command::new(env!("CARGO"));
-    // Of the whole workspace: a package by itself would be compiled again, with other features.
+    // In the whole workspace: a single package would be compiled again, with other features.
     cargo.args(["test", "--workspace", "--locked", "--test", "kernels"]);
     cargo.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
     let output = cargo.output().expect("cargo runs this test");

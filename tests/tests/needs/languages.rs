@@ -1,9 +1,9 @@
-//! Code generated for JavaScript, NumPy and Octave gives what Rust gives, to 1e-13 of the largest number of a result: every
-//! function of every shipped robot, of a long chain, and of one whose names mean something in these languages. Corrected
-//! commands are the same to 1e-9 of a metre or a rad.
+//! Code generated for JavaScript, NumPy and Octave equals Rust to 1e-13 of the largest number of a
+//! result: every function of every shipped robot, of a long chain, and of a robot with names that
+//! have a meaning in these languages. Compensated commands are equal to 1e-9 of a metre or a rad.
 //!
-//! `PYTHON` names a Python that has NumPy, if `python3` has none. Octave, which is slow, is asked for 20 configurations;
-//! `CONFIGURATIONS=1000` is for all.
+//! `PYTHON` names a Python that has NumPy, if `python3` has none. Octave is slow and evaluates 20
+//! configurations; `CONFIGURATIONS=1000` sets the number for all.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +27,8 @@ pub(crate) const TESTS: Tests = &[
     ("octave", (|| in_all(Language::Matlab, 20))),
 ];
 
-/// All robots in a language, in so many configurations.
+/// Checks all robots in a language, at this number of configurations unless `CONFIGURATIONS` is
+/// set.
 fn in_all(language: Language, usual: usize) -> Result<(), Missing> {
     let command = command(language)?;
     let asked = std::env::var("CONFIGURATIONS").ok().and_then(|count| count.parse().ok());
@@ -44,7 +45,7 @@ fn in_all(language: Language, usual: usize) -> Result<(), Missing> {
     Ok(())
 }
 
-/// What runs a script of the language.
+/// Returns the command that runs a script of the language.
 fn command(language: Language) -> Result<Vec<String>, Missing> {
     let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
     match language {
@@ -54,8 +55,8 @@ fn command(language: Language) -> Result<Vec<String>, Missing> {
     }
 }
 
-/// What scripts of other languages call: the arrays that are given, with their shapes, and of every function its name, its
-/// arguments, its results and what comes behind them.
+/// Returns the interface that scripts of other languages call: the arguments with their shapes, and
+/// the name, arguments, results and margin of every function.
 fn called(robot: &dyn Manipulator) -> Value {
     let description = robot.description();
     let shape = |array: &Array| array.shape.iter().map(|count| count.value(description)).collect::<Vec<_>>();
@@ -74,7 +75,7 @@ fn called(robot: &dyn Manipulator) -> Value {
     json!({ "arrays": arrays.collect::<Vec<_>>(), "functions": functions.collect::<Vec<_>>() })
 }
 
-/// Equal to Rust in so many configurations.
+/// Compares `count` configurations with Rust.
 fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize) {
     let (name, file) = (spec.name.clone(), language.files(&spec).remove(0));
     let robot = Interpreter::new(spec);

@@ -1,4 +1,4 @@
-//! Tests that need tools or data that are not everywhere: each is ignored, with the reason, where they are missing.
+//! Tests that require tools or data: each is ignored, with the reason, where they are missing.
 
 mod c99;
 mod kernels;

@@ -1,5 +1,5 @@
-//! Against measurements of UR5 and WAM that others made: the nominal models reproduce the commanded points; identified on
-//! the grid set, judged on the random set.
+//! Comparison with public measurements of UR5 and WAM: the nominal models reproduce the commanded
+//! points; errors identified from the grid set predict the random set.
 
 use abbe::Manipulator;
 use abbe::identify::{
@@ -18,14 +18,15 @@ pub(crate) const TESTS: Tests = &[
     ("halves_of_a_grid_differ_as_they_say", halves),
 ];
 
-/// A row of the data: number, commanded point, commanded less measured point (mm), joints (deg).
+/// Returns the rows of a file: number, commanded point, commanded minus measured point (mm), joints
+/// (deg).
 fn rows(file: &str) -> Result<Vec<Vec<f64>>, Missing> {
     let mut reader = csv::Reader::from_path(measured_data(file)?).unwrap();
     let records = reader.records();
     Ok(records.map(|record| record.unwrap().iter().map(|field| field.parse().unwrap()).collect()).collect())
 }
 
-/// The joints of a row, rad.
+/// Returns the joints of a row, in rad.
 fn joints(row: &[f64]) -> Vec<f64> {
     row[7..].iter().map(|degrees| degrees.to_radians()).collect()
 }
@@ -40,7 +41,7 @@ fn commanded_points() -> Result<(), Missing> {
             for row in rows(file)? {
                 let point = robot.pose(&joints(&row), s).unwrap().position();
                 let distance = point.iter().zip(&row[1..4]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-                // The data's own description says 0.003 mm, to that digit.
+                // The data's own description states 0.003 mm, rounded to that digit.
                 assert!(distance < 0.0036, "{file}, row {}: {distance:.4} mm", row[0]);
             }
         }
@@ -48,7 +49,7 @@ fn commanded_points() -> Result<(), Missing> {
     Ok(())
 }
 
-/// Measured point = target − difference.
+/// Returns the observations: measured point = target − difference.
 fn observations(file: &str) -> Result<Vec<Observation>, Missing> {
     let observation = |(line, row): (u64, &Vec<f64>)| {
         let point = std::array::from_fn(|i| row[1 + i] - row[4 + i]);
@@ -61,13 +62,14 @@ fn figures(model: &Model, data: &[Observation], x: &[f64]) -> Figures {
     model.figures(data, x).unwrap()
 }
 
-/// The values of one model's unknowns in the order of another's.
+/// Returns the values of one model's unknowns in the order of another's.
 fn embedded(from: &Model, x: &[f64], to: &Model) -> Vec<f64> {
     let value = |unknown| from.unknowns.iter().position(|u| u == unknown).map_or(0.0, |k| x[k]);
     to.unknowns.iter().map(value).collect()
 }
 
-/// What was known, and distances on the random set: as delivered, with base and tool fitted, with all constants.
+/// Result of an identification: rank, and distances on the random set as delivered, with base and
+/// tool fitted, and with all constants.
 struct Identified {
     rank: usize,
     before: Figures,
@@ -105,8 +107,9 @@ fn identified(robot: &dyn Manipulator, [grid, random]: [&str; 2]) -> Result<Iden
     })
 }
 
-/// Two machines from the even and the odd rows of the grid: where their tools differ at the random configurations, in
-/// units of what they say of themselves. With errors that the model has not, too, and 27 unknowns that all points share.
+/// Compares machines identified from the even and from the odd rows of the grid: the distance of
+/// their tools at the random configurations, relative to their stated uncertainties. These include
+/// model errors, and 27 unknowns are common to all points.
 fn halves() -> Result<(), Missing> {
     let (grid, random) = (observations(UR5[0])?, observations(UR5[1])?);
     let ideal = Model::ideal(&ur5::Ur5, vec![[0.0; 3]], Uncertainty { length: 0.02, angle: 1.0 });
@@ -120,7 +123,7 @@ fn halves() -> Result<(), Missing> {
         (found.x, deviations)
     };
     let ((x, own), (y, other)) = (half(0), half(1));
-    let mut room = model.room();
+    let mut room = model.scratch();
     let mut squares = 0.0;
     for (row, (a, b)) in random.iter().zip(own.iter().zip(&other)) {
         let [p, q] = [&x, &y].map(|x| model.pose(&mut room, row, x).unwrap().apply(target(&model, x)));
@@ -129,12 +132,12 @@ fn halves() -> Result<(), Missing> {
     }
     let z = (squares / random.len() as f64).sqrt();
     println!("halves of the grid: z of tool points {z:.3}");
-    // Both halves cover the grid, and share what the model cannot say of the machine: less than 1, never more.
+    // Both halves cover the grid and share model errors: the ratio is below 1.
     assert!((0.5..=1.25).contains(&z), "{z}");
     Ok(())
 }
 
-/// Where the target sits in the frame of the tool.
+/// Returns the position of the target in the tool frame.
 fn target(model: &Model, x: &[f64]) -> [f64; 3] {
     let mut at = model.targets[0];
     for (unknown, value) in model.unknowns.iter().zip(x) {

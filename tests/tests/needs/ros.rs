@@ -1,4 +1,5 @@
-//! The ROS 2 example: what needs no ROS is compiled and run, and the real tool stands where the ideal one was wanted.
+//! The ROS 2 example: the parts that do not depend on ROS are compiled and run, and bring the real
+//! tool to the target.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +14,7 @@ use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::needs::{Missing, Tests, tool};
 
-/// The joints of `test/check.cpp` in the order of the spec, m and rad, and what they are there.
+/// Joints of `test/check.cpp` in the order of the spec, with their values in m and rad.
 const WANTED: [(&str, f64); 6] = [
     ("lateral", 0.5),
     ("vertical", 0.2),
@@ -63,7 +64,7 @@ fn a_trajectory_is_corrected() -> Result<(), Missing> {
         .collect();
     let machine = Interpreter::new(spec);
     let s = sampling::nominal_parameters(machine.description());
-    // In mm and rad.
+    // Values in mm and rad.
     let scale = |i: usize| if i < 3 { 1e3 } else { 1.0 };
     let wanted: Vec<f64> = WANTED.iter().enumerate().map(|(i, (_, value))| value * scale(i)).collect();
     let given: Vec<f64> =

@@ -1,4 +1,4 @@
-//! What is generated is formatted as `rustfmt` formats by default, so that it stays as it is where it is checked in.
+//! Generated code has `rustfmt`'s default format, so that it is stable when checked in.
 
 use std::process::Command;
 
@@ -10,10 +10,11 @@ use abbe_tests::needs::{Missing, Tests, tool};
 
 pub(crate) const TESTS: Tests = &[("rustfmt_changes_nothing", rustfmt_changes_nothing)];
 
-/// Shipped manipulators, loops, coupled joints as they are generated; unlucky names and the smallest spec as checked in.
+/// Checks freshly generated shipped manipulators, loops and coupled joints, and the checked-in
+/// goldens of hostile names and the smallest spec.
 fn rustfmt_changes_nothing() -> Result<(), Missing> {
     tool("rustfmt", "")?;
-    // A folder of its own: where the goldens are, another width is set.
+    // A folder elsewhere: the folder of the goldens sets another width.
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| {
         let path = folder.path().join(format!("{name}.rs"));

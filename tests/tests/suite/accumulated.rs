@@ -1,4 +1,5 @@
-//! What is accumulated along the chain is what `J_e` says, for random ε and σ², with rows of both kinds.
+//! Recursions along the chain equal products with `J_e`, for random ε and σ² and both kinds of
+//! rows.
 
 use abbe::{Class, Orientation};
 use abbe_codegen::chain::{Jacobian, Model};
@@ -8,7 +9,8 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use abbe_tests::chains::{coupled_joints, general_chain};
 
-/// A value for every symbol; those of errors are between 0 and 1, so that they serve as variances too.
+/// Returns a value for every symbol. Errors are between 0 and 1, so that they are valid variances
+/// too.
 fn values(sample: usize) -> impl Fn(Symbol) -> f64 {
     move |symbol| {
         let spread =
@@ -24,14 +26,14 @@ fn values(sample: usize) -> impl Fn(Symbol) -> f64 {
     }
 }
 
-/// Columns at a sample, and the margin.
+/// Returns the columns at a sample, and the margin.
 fn evaluated(model: &Model, jacobian: &Jacobian, sample: usize) -> (Vec<[f64; 6]>, Option<f64>) {
     let numbers = model.graph.evaluate(jacobian.columns.as_flattened(), values(sample));
     let margin = jacobian.margin.map(|margin| model.graph.evaluate(&[margin], values(sample))[0]);
     (numbers.as_chunks().0.to_vec(), margin)
 }
 
-/// Equal to 1e-13 of what the rows are made of: the largest of each block of three in `scale`.
+/// Checks equality to 1e-13 of the largest value of each block of three rows in `scale`.
 fn assert_close(place: &str, actual: &[f64; 6], expected: &[f64; 6], scale: &[f64; 6]) {
     for rows in [0..3, 3..6] {
         let largest = scale[rows.clone()].iter().fold(0.0, |largest: f64, value| largest.max(*value));
@@ -45,14 +47,14 @@ fn assert_close(place: &str, actual: &[f64; 6], expected: &[f64; 6], scale: &[f6
     }
 }
 
-/// `J_e ε`, and the sums of the magnitudes of its terms.
+/// Returns `J_e ε`, and the sums of the magnitudes of its terms.
 fn product(columns: &[[f64; 6]], errors: &[f64]) -> ([f64; 6], [f64; 6]) {
     assert_eq!(columns.len(), errors.len());
     let terms = |row: usize| columns.iter().zip(errors).map(move |(column, error)| column[row] * error);
     (std::array::from_fn(|row| terms(row).sum()), std::array::from_fn(|row| terms(row).map(f64::abs).sum()))
 }
 
-/// ΔX is `J_e ε`.
+/// Checks that ΔX is `J_e ε`.
 fn assert_product(place: &str, displacement: &[f64; 6], columns: &[[f64; 6]], errors: &[f64]) {
     let (expected, scale) = product(columns, errors);
     assert_close(place, displacement, &expected, &scale);
@@ -108,7 +110,7 @@ fn compare(spec: &Spec) {
                 }
                 assert_product(&format!("{place}, source {source}"), displacement, &columns, &own);
             }
-            // The repeatable ones together are what is predicted.
+            // The sum of the repeatable sources is the predicted displacement.
             let mut sum = [0.0; 6];
             for (source, displacement) in spec.enabled_sources().zip(&displacements) {
                 if source.class == Class::Repeatable {
@@ -135,7 +137,8 @@ fn every_shipped_manipulator_with_rows_of_both_kinds() {
     }
 }
 
-/// What the shipped ones have not: variables in several frames, matrices that are no simple turn, axes in any direction.
+/// Checks features that the shipped specs lack: variables in several frames, general matrices, and
+/// axes in general direction.
 #[test]
 fn coupled_joints_and_a_long_chain() {
     for text in [coupled_joints().to_owned(), general_chain(30)] {

@@ -1,7 +1,7 @@
-//! Every mistake that a spec can have is shown with its place, the line, a caret and a way out.
+//! Every mistake in a spec is shown with its location, the line, a caret and a help.
 //!
-//! `bad-specs/NAME.toml` is a mistake, `bad-specs/NAME.txt` beside it what is said of it. To add one, drop a spec
-//! in the folder; `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the text.
+//! `bad-specs/NAME.toml` contains a mistake, `bad-specs/NAME.txt` its diagnostic. To add one, put a
+//! spec in the folder; `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the diagnostic.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ fn mistakes(name: &str, text: &str) -> Diagnostics {
     }
 }
 
-/// File, line, column, the line, a caret and help, for every mistake.
+/// Checks that every diagnostic has file, line, column, the line, a caret and a help.
 fn assert_complete(diagnostics: &Diagnostics) {
     let text = diagnostics.to_string();
     let count = diagnostics.list.len().min(20);
@@ -75,7 +75,7 @@ fn ten_thousand_parentheses() {
 fn a_long_sum_is_not_deep() {
     let sum = format!("Rz(0{})", " + d1/(1 mm)".repeat(2_400));
     let spec = Spec::parse("long.toml", &with_transform(&sum)).unwrap();
-    // And it does not exhaust the stack of whoever generates or compiles it.
+    // It must not exhaust the stack of the generator or the compiler either.
     let text = abbe_codegen::print::rust(&spec);
     assert!(text.lines().all(|line| line.len() < 200));
 }
@@ -88,7 +88,7 @@ fn ten_megabytes_of_brackets() {
         std::fs::write(&path, bracket.repeat(10_000_000 / bracket.len())).unwrap();
         let refused = Spec::read(&path).unwrap_err().to_string();
         assert!(refused.contains("is larger than 4 MiB") && refused.contains("= help: "), "{refused}");
-        // And as many as are read.
+        // The largest number of brackets that is read.
         std::fs::write(&path, bracket.repeat(1_000_000 / bracket.len())).unwrap();
         assert_complete(&Spec::read(&path).unwrap_err());
     }

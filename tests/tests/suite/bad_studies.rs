@@ -1,7 +1,10 @@
-//! Every mistake that a study, a map, a plan, a URDF file or a table of DH numbers can have is shown with its place, the line, a caret and a way out.
+//! Every mistake in a study, a map, a plan, a URDF file or a DH table is shown with its location,
+//! the line, a caret and a help.
 //!
-//! As `bad_specs`: `bad-studies/NAME.toml` is a study of `machine3` with a mistake, `bad-studies/NAME.txt` what is said of it, and so
-//! are `bad-maps`, `bad-plans`, the robots of `bad-urdfs` and the tables of `bad-tables`. `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the texts.
+//! The files are like those of `bad_specs`: `bad-studies/NAME.toml` is a study of `machine3` with a
+//! mistake, `bad-studies/NAME.txt` its diagnostic, and likewise `bad-maps`, `bad-plans`, the robots
+//! of `bad-urdfs` and the tables of `bad-tables`. `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes
+//! the diagnostics.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +18,8 @@ use abbe_study::plan::Sets;
 use abbe_study::{Machine, Study};
 use expect_test::expect_file;
 
-/// The mistakes of every file of a folder. Tests run beside it, so that messages name no folder of this machine.
+/// Compares the diagnostics of every file of a folder. Paths are relative, so that diagnostics name
+/// no folder of this machine.
 fn told(folder: &str, ending: &str, least: usize, read: impl Fn(&Path, &Machine) -> Option<Diagnostics>) {
     let machine = Machine::find("machine3").unwrap();
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -62,7 +66,8 @@ fn every_robot_is_told_what_is_wrong_with_it() {
     });
 }
 
-/// Tables of Denavit-Hartenberg numbers: the first word of a name is their convention, and where `bare` is one, no unit is said.
+/// Checks DH tables. The first word of a name is the convention; with `bare` in it, no unit is
+/// given.
 #[test]
 fn every_table_of_numbers_is_told_what_is_wrong_with_it() {
     told("bad-tables", "csv", 20, |file, _| {

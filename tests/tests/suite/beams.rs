@@ -1,4 +1,5 @@
-//! Beams under loads anywhere, against curvature integrated here: statics at every section, nothing of the generator.
+//! Beams under loads anywhere, compared with independently integrated curvature: statics at every
+//! section, without generated code.
 
 use abbe::Manipulator;
 use abbe_interpreter::Interpreter;
@@ -6,7 +7,7 @@ use abbe_spec::Spec;
 
 type Vector = [f64; 3];
 
-/// Columns and origin.
+/// Frame: axes by columns, and origin.
 #[derive(Clone, Copy)]
 struct Frame {
     axes: [Vector; 3],
@@ -52,7 +53,7 @@ impl Frame {
         Self { axes: next.axes.map(|axis| self.direction(axis)), origin: self.point(next.origin) }
     }
 
-    /// `T(p) Rz(angle) Rx(tilt)`.
+    /// Returns `T(p) Rz(angle) Rx(tilt)`.
     fn new(origin: Vector, angle: f64, tilt: f64) -> Self {
         let ((s, c), (t, d)) = (angle.sin_cos(), tilt.sin_cos());
         Self { axes: [[c, s, 0.0], [-s * d, c * d, t], [s * t, -c * t, d]], origin }
@@ -64,7 +65,7 @@ impl Frame {
     }
 }
 
-/// Numbers that nobody chose: Weyl's sequence, mixed.
+/// Pseudorandom numbers: Weyl's sequence, mixed.
 struct Random(u64);
 
 impl Random {
@@ -85,7 +86,7 @@ impl Random {
     }
 }
 
-/// Force and moment at a point, in `F_0`; `along` is where on the beam it acts, from the clamp.
+/// Force and moment at a point, in `F_0`. `along` is its position on the beam, from the clamp.
 #[derive(Clone, Copy)]
 struct Acting {
     along: f64,
@@ -97,14 +98,14 @@ struct Acting {
 struct Beam {
     axis: usize,
     length: f64,
-    /// About its own axis, and the two that follow in cyclic order.
+    /// Bending stiffness about its own axis, and about the two that follow in cyclic order.
     stiffness: Vector,
     extension: f64,
     mass_per_length: f64,
     end: Frame,
 }
 
-/// Gauss–Legendre, five points on [0, 1].
+/// Gauss–Legendre nodes and weights, five points on [0, 1].
 const GAUSS: [(f64, f64); 5] = [
     (0.046_910_077_030_668, 0.118_463_442_528_094_54),
     (0.230_765_344_947_158_45, 0.239_314_335_249_683_24),
@@ -127,7 +128,7 @@ impl Beam {
         add(self.end.origin, scale(x - self.length, self.end.axes[self.axis]))
     }
 
-    /// Force and moment that the section at x carries, in the axes of the beam.
+    /// Returns the force and moment in the section at x, in the axes of the beam.
     fn section_wrench(&self, x: f64, loads: &[Acting], gravity: Vector) -> [Vector; 2] {
         let at = self.section(x);
         let weight = scale(self.mass_per_length * (self.length - x), gravity);
@@ -154,7 +155,7 @@ impl Beam {
         }
     }
 
-    /// Strain and curvatures of a section, in the axes of the beam.
+    /// Returns the strain and the curvatures of a section, in the axes of the beam.
     fn strain(&self, [force, moment]: [Vector; 2]) -> (Vector, Vector) {
         let (a, b, c) = (self.axis, (self.axis + 1) % 3, (self.axis + 2) % 3);
         let (mut stretch, mut curvature) = ([0.0; 3], [0.0; 3]);
@@ -165,7 +166,7 @@ impl Beam {
         (stretch, curvature)
     }
 
-    /// Displacement and rotation of the end, in its axes.
+    /// Returns the displacement and rotation of the end, in its axes.
     fn end_displacement(&self, loads: &[Acting], gravity: Vector) -> [Vector; 2] {
         let [mut shift, mut turn] = [[0.0; 3]; 2];
         self.integrate(loads, gravity, |x, weight, wrench| {
@@ -178,7 +179,7 @@ impl Beam {
         [shift, turn]
     }
 
-    /// Twice the energy that it stores.
+    /// Returns twice the stored energy.
     fn twice_the_energy(&self, loads: &[Acting], gravity: Vector) -> f64 {
         let mut energy = 0.0;
         self.integrate(loads, gravity, |_, weight, wrench| {
@@ -209,7 +210,7 @@ fn errors(text: &str) -> (Vec<[f64; 6]>, Interpreter) {
     (errors, robot)
 }
 
-/// x y z of displacement and rotation, from the order of ε.
+/// Converts errors from the order of ε to displacement and rotation about x, y, z.
 fn vectors([x, y, z, spin, roll, pitch]: [f64; 6]) -> [Vector; 2] {
     [[x, y, z], [pitch, spin, roll]]
 }
@@ -254,7 +255,8 @@ fn a_thousand_random_beams_bend_as_their_curvature_says() {
         let hand = frame.then(&Frame::new([0.2, 0.0, 0.0], 0.4, 0.0));
         let mut loads = Vec::new();
         for load in 0..1 + case % 4 {
-            // Before the clamp, within the span, beyond the end; the last one hangs on the next frame, wherever that is.
+            // Before the clamp, within the span, or beyond the end. The last load acts on the next
+            // frame, wherever that is.
             let on_hand = load == 3;
             let on = if on_hand { &hand } else { &frame };
             let mut point = random.vector(1.5);
@@ -292,22 +294,22 @@ fn a_thousand_random_beams_bend_as_their_curvature_says() {
             loads.push(Acting { along: if on_hand { f64::INFINITY } else { along }, point, force, moment });
         }
         if case % 5 == 0 {
-            // Where it acts is known at run time only.
+            // The position of the load is known only at run time.
             let length = format!("length = {}", beam.length);
             spec = spec.replacen(&length, "length = \"reach\"", 1);
             spec += &format!("[parameters]\nreach = \"{} m\"\n", beam.length);
         }
         let (errors, _) = errors(&spec);
         let [shift, turn] = beam.end_displacement(&loads, gravity);
-        // At the frame itself: a rigid body.
+        // Convert to the frame itself: a rigid body.
         let turn = place.direction(turn);
         let shift = add(place.direction(shift), cross(place.origin, turn));
         close(vectors(errors[0]), [shift, turn], &format!("case {case}\n{spec}"));
     }
 }
 
-/// A chain of three heavy beams and a bearing, one load at the tool point: `F · ΔX = 2U` without weights, and with weights every beam
-/// and the bearing carry what is beyond them.
+/// Checks a chain of three heavy beams and a bearing with one load at the tool point: `F · ΔX = 2U`
+/// without weights. With weights every beam and the bearing carry the weight beyond them.
 #[test]
 fn work_of_a_load_is_twice_the_energy_of_all_beams() {
     let mut random = Random(2);
@@ -344,11 +346,11 @@ fn work_of_a_load_is_twice_the_energy_of_all_beams() {
         let mut energy = 0.0;
         for (i, beam) in beams.iter().enumerate() {
             let mut loads = vec![Acting { along: f64::INFINITY, point: tool, force, moment }];
-            // A load on the beam's own frame acts where it projects onto the beam.
+            // A load on the beam's own frame acts at its projection onto the beam.
             if i == 2 {
                 loads[0].along = dot(sub(tool, at.origin), at.axes[beam.axis]) + beam.length;
             }
-            // What hangs on it as little pieces.
+            // The weight beyond it in small pieces.
             for later in &beams[i + 1..] {
                 let pieces = 2;
                 for piece in 0..pieces {
@@ -361,7 +363,8 @@ fn work_of_a_load_is_twice_the_energy_of_all_beams() {
             close(vectors(errors[i]), beam.end_displacement(&loads, gravity), &format!("beam {i}\n{text}"));
             energy += beam.twice_the_energy(&loads, gravity);
         }
-        // The tool point beyond the end of the last beam, or its displacement is not that of the load.
+        // The tool point must be beyond the end of the last beam, where its displacement is that of
+        // the load.
         let beyond = dot(sub(tool, at.origin), at.axes[beams[2].axis]) >= 0.0;
         if !heavy && beyond {
             let mut columns = vec![[0.0; 6]; 18];
@@ -394,7 +397,7 @@ fn is(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found}, expected {expected}");
 }
 
-/// Handbook: F = 60 N, L = 1 m, EI = 1000 N m².
+/// Checks handbook values: F = 60 N, L = 1 m, EI = 1000 N m².
 #[test]
 fn a_load_in_the_middle_and_a_beams_own_weight() {
     let beam = "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \"arm\"\n";
@@ -415,8 +418,8 @@ fn a_load_in_the_middle_and_a_beams_own_weight() {
     assert_eq!(behind, [0.0; 6]);
 }
 
-/// A bearing carries of a beam's weight on its own link what is beyond it: nothing at the end, half in the middle, all
-/// at the foot.
+/// Checks that a bearing carries the part of a beam's weight beyond it: none at the end, half in
+/// the middle, all at the foot.
 #[test]
 fn a_bearing_carries_the_weight_beyond_it() {
     let beam = "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \"arm\"\nenabled = true\nbeam = { length = 1, EI_y = \"1e30 N*m^2\", EI_z = \"1e30 N*m^2\", mass_per_length = \"6 kg/m\" }\n";

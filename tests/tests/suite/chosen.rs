@@ -1,4 +1,5 @@
-//! What programs choose between is equal, and what they choose takes no more than what was made first.
+//! Alternative programs for a function are equal, and the chosen one needs no more operations than
+//! the first.
 
 use abbe::{Function, Orientation};
 use abbe_codegen::chain::Model;
@@ -9,7 +10,7 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use abbe_tests::chains::{coupled_joints, general_chain, random_arm};
 
-/// A value for every symbol.
+/// Returns a value for every symbol.
 fn values(sample: usize) -> impl Fn(Symbol) -> f64 + Copy {
     move |symbol| {
         let spread =
@@ -85,7 +86,7 @@ fn programs_give_what_was_made_first() {
     }
 }
 
-/// Multiplications, additions and divisions together.
+/// Returns the sum of multiplications, additions and divisions.
 fn total(count: Operations) -> usize {
     count.mul + count.add + count.div
 }

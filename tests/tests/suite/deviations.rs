@@ -1,5 +1,5 @@
-//! Errors of joints, structural parameters and Denavit-Hartenberg numbers against what they are: differences of the
-//! nominal pose, with the number itself changed.
+//! Errors of joints, structural parameters and DH parameters, compared with differences of the
+//! nominal pose by the parameter itself.
 
 use abbe::{Class, Manipulator, Orientation, Pose};
 use abbe_codegen::chain::Model;
@@ -9,7 +9,7 @@ use abbe_spec::expr::{Dimension, Expression, Symbol};
 use abbe_spec::{ChainNumber, Deviation, DhConvention, DhNumber, Source, Spec};
 use abbe_tests::chains::{coupled_joints, general_chain, long_chain};
 
-/// Some value for everything that has a name.
+/// Returns some value for every symbol.
 fn value(symbol: Symbol) -> f64 {
     let spread = |index: usize, offset: f64| ((index * 7) as f64 * 0.618 + offset).sin() * 0.9;
     match symbol {
@@ -24,8 +24,8 @@ fn values(count: usize, symbol: impl Fn(usize) -> Symbol) -> Vec<f64> {
     (0..count).map(|i| value(symbol(i))).collect()
 }
 
-/// Velocity of the tool point and rotation in `F_0` per unit, by central differences of the nominal pose, the error of
-/// which falls with the square of the step: extrapolated once.
+/// Returns the velocity of the tool point and the angular velocity in `F_0` per unit, by central
+/// differences of the nominal pose, whose error is quadratic in the step: extrapolated once.
 fn difference(pose: impl Fn(f64) -> Pose) -> [f64; 6] {
     let central = |h: f64| -> [f64; 6] {
         let (after, before) = (pose(h), pose(-h));
@@ -68,7 +68,8 @@ fn repeatable(name: String, number: ChainNumber, error: f64) -> Source {
     }
 }
 
-/// What a unit error of a number of the chain does to the tool point, by ε and `J_e`, as a twist in `F_0`.
+/// Returns the effect of a unit error of a parameter of the chain on the tool, by ε and `J_e`, as a
+/// twist in `F_0`.
 fn predicted(spec: &Spec, number: ChainNumber) -> [f64; 6] {
     let mut spec = spec.clone();
     spec.orientation = Orientation::RotationVector;
@@ -83,7 +84,7 @@ fn predicted(spec: &Spec, number: ChainNumber) -> [f64; 6] {
     along
 }
 
-/// Every joint and parameter of a spec.
+/// Compares every joint and parameter of a spec.
 fn compare(spec: &Spec) {
     let robot = Interpreter::new(spec.clone());
     let q = values(spec.variables.len(), Symbol::Variable);
@@ -123,7 +124,8 @@ fn joints_and_parameters_in_every_form() {
     }
 }
 
-/// The number of a frame as it is declared, and as a parameter more: one and the same.
+/// Checks that the parameter of a frame and the same value as an additional structural parameter
+/// agree.
 #[test]
 fn denavit_hartenberg_numbers_of_both_conventions() {
     for convention in ["dh", "mdh"] {
@@ -156,7 +158,8 @@ fn denavit_hartenberg_numbers_of_both_conventions() {
     }
 }
 
-/// What a shipped spec calls the error of a joint is what the perturbed joint does, at home and elsewhere.
+/// Checks that a joint error of a shipped spec equals the effect of the perturbed joint, at home
+/// and elsewhere.
 #[test]
 fn shipped_encoders_are_their_perturbed_joints() {
     let mut encoders = 0;

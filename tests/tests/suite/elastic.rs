@@ -1,11 +1,12 @@
-//! Sources that are computed from the structure: located errors, beams, compliances, against textbook formulas.
+//! Sources computed from the structure: located errors, beams and compliances, compared with
+//! textbook formulas.
 
 use abbe::{Manipulator, Pose, located};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 
-/// ε of the repeatable sources of a spec.
+/// Returns ε of the repeatable sources of a spec.
 fn errors(spec: &Spec, q: &[f64], s: &[f64], u: &[f64]) -> Vec<[f64; 6]> {
     let mut errors = vec![[0.0; 6]; spec.frames.len()];
     Interpreter::new(spec.clone()).generalized_errors(q, s, u, &mut errors).unwrap();
@@ -16,7 +17,8 @@ fn close(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance * expected.abs().max(1e-9), "{value}, expected {expected}");
 }
 
-/// The positioner's arm deflection written as a beam equals its expressions: section 5.1 and Figure 10.
+/// Checks that the positioner's arm deflection as a beam equals its expressions: section 5.1 and
+/// Figure 10.
 #[test]
 fn arm_of_the_positioner_as_a_beam() {
     let text = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap().spec;
@@ -93,7 +95,7 @@ fn cantilever_with_a_load_at_its_tip() {
     }
 }
 
-/// Loads off the axis twist, pull and bend about both axes.
+/// Checks loads off the axis: they twist, pull, and bend about both axes.
 #[test]
 fn cantilever_in_every_direction() {
     let text = CANTILEVER
@@ -112,8 +114,8 @@ fn cantilever_in_every_direction() {
     close(tip[5], mx * l / gj, 1e-10);
 }
 
-/// Two links that turn about y, each joint a torsion spring, a mass at either end: the joints' moments are those
-/// of statics.
+/// Checks two links that rotate about y, with a torsion spring at each joint and a mass at each
+/// end: the joint moments are those of statics.
 #[test]
 fn two_link_arm_under_gravity() {
     let spec = Spec::parse(
@@ -155,7 +157,8 @@ compliance = { diagonal = [0, 0, 0, "2e-3/(N*m)", 0, 0] }
     .unwrap();
     for (q1, q2) in [(0.0_f64, 0.0_f64), (0.3, -0.9), (-1.2, 0.4)] {
         let errors = errors(&spec, &[q1, q2], &[], &[]);
-        // Ry(q) turns x down; weight at horizontal distance x turns with moment + x m g about y.
+        // Ry(q) turns x down; the weight of a mass m at horizontal distance x has the moment + x m
+        // g about y.
         let elbow = 0.6 * (q1 + q2).cos() * 2.0 * 10.0;
         let shoulder = 0.8 * q1.cos() * 6.0 * 10.0 + elbow;
         close(errors[0][3], 1e-3 * shoulder, 1e-10);
@@ -163,7 +166,8 @@ compliance = { diagonal = [0, 0, 0, "2e-3/(N*m)", 0, 0] }
     }
 }
 
-/// `F · ΔX` of a tip load is twice the energy that the compliances store: duality of `J_e` and the wrenches.
+/// Checks that `F · ΔX` of a tip load is twice the energy stored in the compliances: duality of
+/// `J_e` and the wrenches.
 #[test]
 fn work_is_twice_the_energy() {
     let text = SHIPPED.iter().find(|shipped| shipped.name == "puma560").unwrap().spec;
@@ -230,7 +234,8 @@ fn work_is_twice_the_energy() {
     assert!(twice_the_energy > 1e-6);
 }
 
-/// The paper's Figure 5: where two members meet, a distance before the frame, they are offset by d and tilted by ψ.
+/// Checks the paper's Figure 5: the joint of two members, at a distance before the frame, has an
+/// offset d and a tilt ψ.
 #[test]
 fn offset_and_tilt_where_two_members_meet() {
     let spec = |scale: f64| {

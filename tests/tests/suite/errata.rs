@@ -1,4 +1,4 @@
-//! The errata of the paper's text, each shown to be one.
+//! The errata of the paper's text, each with its proof.
 
 use abbe::Component;
 use abbe::analysis::{Axis, BudgetOptions, Presentation, error_budget, presented_volume};
@@ -15,7 +15,7 @@ fn pps() -> Spec {
     Spec::parse("pps.toml", shipped.spec).unwrap()
 }
 
-/// The expression of one error of a source.
+/// Returns the expression of one error of a source.
 fn error(source: &Source, component: Component) -> &Expression {
     let errors = source.effects.iter().filter_map(|effect| match &effect.cause {
         Cause::Errors(errors) => Some(errors),
@@ -25,7 +25,7 @@ fn error(source: &Source, component: Component) -> &Expression {
     value
 }
 
-/// `e_z` and `e_s` of a source at some value of d1.
+/// Returns `e_z` and `e_s` of a source at a value of d1.
 fn rail(source: &Source, d1: f64) -> [f64; 2] {
     [Component::Z, Component::Spin].map(|component| {
         let mut graph = Graph::new();
@@ -38,7 +38,7 @@ fn named<'s>(spec: &'s Spec, name: &str) -> &'s Source {
     spec.sources.iter().find(|source| source.name == name).unwrap()
 }
 
-/// The printed alternative: the one source that is switched off.
+/// Returns the printed alternative: the only disabled source.
 fn printed(spec: &Spec) -> &Source {
     spec.sources.iter().find(|source| !source.enabled).unwrap()
 }
@@ -52,9 +52,10 @@ fn the_rotation_of_a_rail_is_its_slope() {
     let slope = graph.diff(node, Symbol::Variable(0));
     for d1 in [0.0, 300.0, 800.0, 1128.0, 2256.0] {
         let slope = graph.evaluate(&[slope], |_| d1)[0];
-        // Equation (4): the tangent (1, 0, z′) is the first column (1, e_r, −e_s). Six digits are printed.
+        // Equation (4): the tangent (1, 0, z′) is the first column (1, e_r, −e_s). Six digits are
+        // printed.
         assert!((rail(source, d1)[1] + slope).abs() < 1e-6, "at {d1}");
-        // The printed signs have it the other way round.
+        // The printed signs are reversed.
         assert!((rail(printed(&spec), d1)[1] - slope).abs() < 1e-6, "at {d1}");
     }
 }
@@ -64,10 +65,11 @@ fn the_printed_numbers_belong_together_in_one_reading_only() {
     use std::f64::consts::PI;
     let spec = pps();
     let source = named(&spec, CONSISTENT);
-    // A quarter period from d1 = 0 the sine is 1: what is left beside the line is its factor.
+    // A quarter period from d1 = 0 the sine is 1: the remainder beside the line is its factor.
     let amplitude = -rail(source, 800.0)[0] - 0.000_062 * 800.0;
     let cosine = (rail(source, 0.0)[1] - rail(source, 1600.0)[1]) / 2.0;
-    // The printed cosine's factor is the sine's times π/1600 to its last digit: d1 multiplies inside the sine.
+    // The printed factor of the cosine is that of the sine times π/1600 to its last digit: d1 is
+    // multiplied inside the sine.
     assert!((cosine - amplitude * PI / 1600.0).abs() < 0.5e-6, "{cosine}, {amplitude}");
     // 0.2 mm is the deviation after one full period.
     assert_eq!(format!("{:.3}", rail(source, 3200.0)[0].abs()), "0.198");
@@ -77,8 +79,9 @@ fn the_printed_numbers_belong_together_in_one_reading_only() {
     assert!(steepest > 1.4 * 0.2 / 1600.0);
 }
 
-/// With the printed signs and d1 along +X the Z error cannot come below 0.154 mm, against 0.08 in the paper. It
-/// does not depend on the fitted distance from rail to isocentre: e_s moves Z by the lateral lever only.
+/// Checks that the printed signs with d1 along +X give a Z error of at least 0.154 mm, compared
+/// with 0.08 in the paper. The result does not depend on the fitted distance from rail to
+/// isocenter: e_s moves Z through the lateral lever only.
 #[test]
 fn the_printed_signs_cannot_give_the_printed_figure() {
     let mut spec = pps();

@@ -1,5 +1,5 @@
-//! The exact chain with errors of joints, parameters, Denavit-Hartenberg numbers and places on links, at errors far too large for
-//! first order: it is the nominal chain of the machine as it really is.
+//! The exact chain with errors of joints, parameters, DH parameters and points on links, far beyond
+//! first order, equals the nominal chain of the real machine.
 
 use abbe::analysis::{Configuration, compensated, monte_carlo};
 use abbe::{Function, Manipulator, Pose, chain, drawn_pose, laws, located, real_pose, repeatable_magnitudes};
@@ -11,7 +11,7 @@ fn robot(text: &str) -> Interpreter {
     Interpreter::new(Spec::parse("exact.toml", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
 }
 
-/// Every form of a frame; q2 moves two frames, `reach` two frames and the tool.
+/// Spec with every notation of a frame. q2 moves two frames, `reach` two frames and the tool.
 const FORMS: &str = r#"
 [manipulator]
 name = "forms"
@@ -125,7 +125,7 @@ dh = { theta = "0.3", a = "-9 mm" }
     laws::all(&robot, 20).unwrap_or_else(|failure| panic!("{failure}"));
 }
 
-/// A random joint: 0 where only repeatable errors are meant, and what was drawn in a draw.
+/// Checks a random joint error: 0 in the repeatable pose, and the drawn value in a draw.
 #[test]
 fn a_drawn_joint_is_a_moved_joint() {
     let robot = forms(
@@ -172,7 +172,7 @@ joint = "q2"
 error = "0.01"
 "#;
 
-/// `A(q + δq) · L₁ E₁ L₁⁻¹ · L₂ E₂ L₂⁻¹ · E`, in this order.
+/// Checks `A(q + δq) · L₁ E₁ L₁⁻¹ · L₂ E₂ L₂⁻¹ · E`, in this order.
 #[test]
 fn located_errors_are_exact_and_in_the_order_of_the_file() {
     let robot = forms(NOMINAL, LOCATED);
@@ -181,7 +181,7 @@ fn located_errors_are_exact_and_in_the_order_of_the_file() {
         moved[1] += 0.01;
         let mut transforms = vec![Pose::IDENTITY; 6];
         robot.transforms(&moved, &[300.0], &mut transforms).unwrap();
-        // q2 moves the matrix, too; nothing else is off.
+        // q2 moves the matrix, too; it is the only error.
         let turn = |axis: usize, angle: f64| {
             let (s, c) = angle.sin_cos();
             let mut pose = Pose::IDENTITY;
@@ -210,7 +210,8 @@ fn located_errors_are_exact_and_in_the_order_of_the_file() {
     laws::all(&robot, 20).unwrap_or_else(|failure| panic!("{failure}"));
 }
 
-/// 10 mrad at 500 mm: the tool is 500 (1 − cos 0.01) = 0.025 mm too near, which first order does not know.
+/// Checks 10 mrad at 500 mm: the tool is 500 (1 − cos 0.01) = 0.025 mm too near, a second-order
+/// error.
 #[test]
 fn what_first_order_neglects_of_a_located_error() {
     let text = |class: &str| {
@@ -230,7 +231,7 @@ fn what_first_order_neglects_of_a_located_error() {
     assert!(random.covariance[0][0] > 0.0 && random.first_order[0][0] == 0.0);
 }
 
-/// The compensator undoes the zero of a joint by moving that joint back.
+/// Checks that the compensator corrects the zero error of a joint by moving that joint back.
 #[test]
 fn compensated_joints_are_moved_back() {
     let robot = forms(
@@ -245,7 +246,7 @@ fn compensated_joints_are_moved_back() {
     }
 }
 
-/// Loops over the frames of a long chain, and the same written out.
+/// Compares the loops over the frames of a long chain with straight-line code.
 #[test]
 fn long_chains_are_exact_as_well() {
     let sources = r#"

@@ -1,5 +1,5 @@
-//! Every file of tests stands in an executable: integration tests of a crate are one, `tests/suite`, and those that need what
-//! is not everywhere another, `tests/needs`.
+//! Every test file belongs to an executable: integration tests of a crate form one, `tests/suite`,
+//! and those with requirements another, `tests/needs`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ fn every_file_is_a_module_of_one_executable() {
     for folder in folders.filter(|folder| folder.join("Cargo.toml").exists() && !folder.ends_with("python")) {
         for executable in entries(&folder.join("tests")) {
             let main = executable.join("main.rs");
-            // By name, and not by default.
+            // Run by name, not by default.
             let apart = ["instructions", "kernels"].contains(&stem(&executable));
             assert!(apart || main.exists(), "{}: a module of `suite` or `needs`", executable.display());
             let Ok(main) = fs::read_to_string(main) else { continue };

@@ -1,4 +1,5 @@
-//! Generated code as it is checked in, compiled with warnings denied: a change of it stands in the review.
+//! Generated code as it is checked in, compiled with warnings denied: a change of it stands in the
+//! review.
 //!
 //! `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes it anew.
 
@@ -94,7 +95,8 @@ fn no_absolute_path_no_time_and_not_too_long() {
         let text = print::rust(&spec(shipped.name));
         assert!(!text.contains(env!("CARGO_MANIFEST_DIR")), "{}", shipped.name);
         println!("{}: {} bytes", shipped.name, text.len());
-        // All but the one whose 24 numbers are parameters, and the one with six errors in every frame and Euler rows.
+        // All but the one whose 24 numbers are parameters, and the one with six errors in every
+        // frame and Euler rows.
         assert!(text.len() < 90_000 || ["general6r", "pps"].contains(&shipped.name), "{}", shipped.name);
     }
 }

@@ -1,4 +1,4 @@
-//! Work grows with the length of a chain and the number of parameters, and no faster: counted, not timed.
+//! Work grows linearly with the length of a chain and the number of parameters: counted, not timed.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -11,7 +11,8 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_tests::chains::{many_parameters, revolute_chain};
 
-/// A manipulator whose transforms are counted, and whose Jacobians by joints and parameters may have an entry that is off.
+/// Manipulator that counts its transforms, and whose Jacobians by joints and parameters may have a
+/// wrong entry.
 struct Counted {
     robot: Interpreter,
     transforms: AtomicUsize,
@@ -24,7 +25,7 @@ impl Counted {
         Self { robot: Interpreter::new(spec), transforms: AtomicUsize::new(0), off: None }
     }
 
-    /// How often transforms are asked for.
+    /// Returns the number of evaluations of the transforms, and the result.
     fn transforms_of<T>(&self, run: impl FnOnce(&Self) -> T) -> (usize, T) {
         let before = self.transforms.load(Ordering::Relaxed);
         let result = run(self);
@@ -78,7 +79,8 @@ impl Manipulator for Counted {
 
 const SAMPLES: usize = 3;
 
-/// Steps are halved until a derivative is good enough: how often that is depends on the chain a little.
+/// Checks that the number of evaluations hardly depends on the chain, which affects how often steps
+/// are halved.
 fn as_often(short: usize, long: usize) {
     assert!(5 * long <= 6 * short, "{short} transforms, and {long} of the longer one");
 }
@@ -87,7 +89,7 @@ fn as_often(short: usize, long: usize) {
 fn laws_ask_as_often_however_long_the_chain_is() {
     let of_joints = [80, 160].map(|frames| {
         let robot = Counted::new(&revolute_chain(frames));
-        // Once at home for the length of the arm, and once at each sample.
+        // Once at home for the arm length, and once at each sample.
         let (asked, found) = robot.transforms_of(|robot| laws::error_jacobian(robot, SAMPLES).unwrap());
         assert_eq!(asked, 1 + SAMPLES);
         assert!(found.relative < DERIVATIVE_TOLERANCE, "{found:?}");
@@ -105,7 +107,7 @@ fn laws_ask_as_often_however_long_the_chain_is() {
     as_often(of_parameters[0], of_parameters[1]);
 }
 
-/// Derivatives along sums of columns see any column that is off.
+/// Checks that derivatives along sums of columns detect any wrong column.
 #[test]
 fn laws_of_many_columns_see_each_of_them() {
     for column in [0, 59, 60, 77, 149] {
@@ -135,7 +137,7 @@ fn what_can_be_identified_takes_each_configuration_once() {
     }
 }
 
-/// Of twice the frames, and twice the parameters, twice as much and a little.
+/// Checks that twice the frames, and twice the parameters, need little more than twice the work.
 #[test]
 fn models_and_programs_grow_with_the_chain() {
     let sizes = |text: &str| -> [usize; 2] {

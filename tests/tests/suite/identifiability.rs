@@ -1,4 +1,5 @@
-//! How many generalized errors can be known: the ranks of the stacked `J_e`, as theory has them.
+//! Numbers of identifiable generalized errors: the ranks of the stacked `J_e`, compared with
+//! theory.
 
 use abbe::analysis::{
     Measurement, Parts, Workspace, identifiable, identifiable_in_parts, joint_samples, random_joint_samples,
@@ -10,7 +11,7 @@ use abbe_spec::Spec;
 use abbe_tests::abuse::{Choices, plain_spec};
 use abbe_tests::chains::{coupled_joints, general_chain, revolute_chain};
 
-/// Pose, point; then both with a base frame.
+/// Measurements of pose and point, without and with a base frame.
 const WAYS: [(Measurement, bool); 4] = [
     (Measurement::Pose, false),
     (Measurement::Point, false),
@@ -25,7 +26,7 @@ fn ranks(robot: &dyn Manipulator, moved: &[usize]) -> [usize; 4] {
 
 #[test]
 fn patient_positioner() {
-    // pose, treatment point; then both with a base frame.
+    // Pose, treatment point; then both with a base frame.
     assert_eq!(ranks(&Pps, &[0, 1, 2, 3, 4, 5]), [22, 19, 24, 21]);
     // The paper's measurements: roll and pitch at rest.
     assert_eq!(ranks(&Pps, &[0, 1, 2, 3]), [14, 11, 16, 13]);
@@ -42,7 +43,8 @@ fn six_revolute_joints() {
     assert_eq!(ranks(&Interpreter::new(spec.clone()), &[0, 1, 2, 3, 4, 5]), [26, 23, 30, 27]);
 }
 
-/// With poses and a base frame, 4R + 2P + 6 remain: for every shipped manipulator whose frames all move.
+/// Checks that with poses and a base frame 4R + 2P + 6 remain, for every shipped manipulator whose
+/// frames all move.
 #[test]
 fn four_per_revolute_and_two_per_prismatic_joint() {
     let mut judged = 0;
@@ -62,7 +64,8 @@ fn four_per_revolute_and_two_per_prismatic_joint() {
     assert!(judged > 5, "{judged} of the shipped manipulators");
 }
 
-/// The ranks as parts of the chain have them; the smallest singular value that counts and the largest that does not.
+/// Returns the ranks from the parts of the chain, with the smallest singular value above the
+/// threshold and the largest below it.
 fn ranks_in_parts(spec: &Spec) -> ([usize; 4], [f64; 2]) {
     let robot = Interpreter::new(spec.clone());
     let parts = Parts::new(&spec.variables_of_transforms());
@@ -81,7 +84,7 @@ fn ranks_in_parts(spec: &Spec) -> ([usize; 4], [f64; 2]) {
     (ranks, gap)
 }
 
-/// The same from the stack of all error Jacobians, as [`ranks`] has it, and how clear it is.
+/// Returns the ranks from the stack of all error Jacobians, as [`ranks`] does, with their gap.
 fn ranks_of_the_stack(spec: &Spec) -> ([usize; 4], [f64; 2]) {
     let robot = Interpreter::new(Spec { orientation: Orientation::RotationVector, ..spec.clone() });
     let all: Vec<usize> = (0..spec.variables.len()).collect();
@@ -137,7 +140,7 @@ fn parts_of_random_chains_have_the_rank_of_the_whole() {
         let text = plain_spec(&mut Choices::seeded(seed));
         let Ok(spec) = Spec::parse("random.toml", &text) else { continue };
         let (expected, gap) = ranks_of_the_stack(&spec);
-        // Where the stack is not clear itself, it says nothing.
+        // A stack without a clear gap is no reference.
         if gap[0] > 1e-6 && gap[1] < 1e-12 {
             let (found, gap) = ranks_in_parts(&spec);
             assert_eq!(found, expected, "{seed}: {gap:?}\n{text}");
@@ -147,7 +150,7 @@ fn parts_of_random_chains_have_the_rank_of_the_whole() {
     assert!(judged > 50, "{judged} random chains were clear");
 }
 
-/// `4R + 2P + 6` with poses and a base frame, and what follows from it, however long the chain is.
+/// Checks `4R + 2P + 6` with poses and a base frame, and its consequences, for long chains.
 #[test]
 fn long_chains_have_the_rank_of_theory() {
     for (text, revolute, prismatic) in
@@ -156,7 +159,8 @@ fn long_chains_have_the_rank_of_theory() {
         let spec = Spec::parse("chain.toml", &text).unwrap();
         let (found, gap) = ranks_in_parts(&spec);
         let all = 4 * revolute + 2 * prismatic + 6;
-        // Without base frame: what the first joint absorbs, a turn, is no error of a frame before it.
+        // Without base frame: the rotation that the first joint absorbs is no error of a preceding
+        // frame.
         let own = all - 4;
         assert_eq!(found, [own, own - 3, all, all - 3]);
         assert!(gap[0] > 1e-6 && gap[1] < 1e-12, "{gap:?}");

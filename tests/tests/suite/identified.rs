@@ -1,5 +1,5 @@
-//! Machines whose errors are known, simulated and identified: magnitudes of sources of the spec, joints' zeros in words,
-//! backlash and gears in terms that a spec says.
+//! Simulated machines with known errors are identified: magnitudes of sources of the spec, zeros of
+//! joints in words, backlash and gears as terms of a spec.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ const POINT: &str = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
 const POSE: &str = "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
                     quaternion = { columns = [\"qw\", \"qx\", \"qy\", \"qz\"], order = \"wxyz\" }\n";
 
-/// A UR5 without random errors, and with these sources.
+/// Returns a UR5 without random errors, with these sources.
 fn ur5(sources: &str) -> String {
     let (_, text) = abbe_manipulators::SHIPPED
         .iter()
@@ -38,7 +38,7 @@ fn map(base: &str, layout: &str, machine: &Machine) -> Map {
     Map::parse("map.toml", &text, &machine.spec).expect("a map")
 }
 
-/// What an instrument sees of it at random configurations.
+/// Simulates measurements at random configurations.
 fn measured(truth: &str, base: &str, layout: &str, samples: usize, seed: u64) -> Data {
     let machine = machine(truth);
     let map = map(base, layout, &machine);
@@ -69,13 +69,13 @@ fn job(nominal: &str, base: &str, layout: &str, data: &Data) -> Identify {
     Identify { machine, map, data, test: None, terms, harmonics, settings, accept: Acceptance::default() }
 }
 
-/// The identified machine as a spec.
+/// Returns the identified machine as a spec.
 fn written(report: &Report, nominal: &str) -> String {
     let machine = machine(nominal);
     report.found.identified_spec(&machine.spec, nominal, "found.toml").expect("it is a spec").text
 }
 
-/// What is left when the spec and the map that are written predict what was measured.
+/// Returns the residual of the written spec and map on the measurements.
 fn left(report: &Report, nominal: &str, base: &str, layout: &str, data: &Data) -> f64 {
     let found = machine(&written(report, nominal));
     let map = map(base, layout, &machine(nominal));
@@ -96,7 +96,8 @@ const SAG: &str = "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \
 
 const BENT: &str = "\n[[source]]\nname = \"bent\"\nclass = \"repeatable\"\nframe = \"elbow\"\ne_s = \"0.8 mrad\"\ne_x = \"0.3 mm\"\n";
 
-/// The spec says 0 ± 1, or 0.2; the machine has 0.7. It is found, and stands in the spec that is written.
+/// Checks magnitudes: the spec states 0 ± 1, or 0.2, the machine has 0.7. The value is found and
+/// written to the spec.
 #[test]
 fn magnitudes_of_sources_are_found() {
     let gravity = "gravity = [0, 0, \"-9.80665 m/s^2\"]\n";
@@ -120,13 +121,14 @@ fn magnitudes_of_sources_are_found() {
         let magnitude = source.magnitude.expect("a magnitude");
         assert!((magnitude.value - found.value).abs() < 1e-6 * found.value);
         assert!((magnitude.standard_deviation.unwrap() - deviation).abs() < 0.01 * deviation);
-        // It is fitted once more where it begins at what was found.
+        // A second fit starts at the value found.
         let again = job(&written(&report, &nominal), "exact", POINT, &data).run(&mut ()).unwrap();
         assert!((again.magnitudes[0].value - found.value).abs() < 0.1 * deviation, "{:?}", again.magnitudes);
     }
 }
 
-/// A constant error of a joint is that of frames: the source, which somebody named, has it.
+/// Checks that a constant joint error, which is equivalent to errors of frames, is attributed to
+/// the named source.
 #[test]
 fn a_named_source_is_kept_before_errors_that_act_alike() {
     let zero = "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"1 mrad\"\nmagnitude = { value = 0 }\n";
@@ -138,11 +140,11 @@ fn a_named_source_is_kept_before_errors_that_act_alike() {
         "{found:?}"
     );
     assert!(report.meanings.iter().all(|meaning| meaning.number != "zero of q2"), "{:?}", report.meanings);
-    // Of one that nothing shows, that is said.
+    // A source without an observable effect is reported.
     let hidden = zero.replace("joint = \"q2\"\nerror = \"1 mrad\"", "frame = \"wrist 3\"\ne_p = \"1 mrad\"");
     let report = job(&ur5(&hidden), "exact", POINT, &data).run(&mut ()).unwrap();
     assert_eq!(report.magnitudes[0].standard_deviation, None);
-    assert!(report.magnitudes[0].sentence.contains("cannot be told"), "{:?}", report.magnitudes);
+    assert!(report.magnitudes[0].sentence.contains("is indistinguishable from"), "{:?}", report.magnitudes);
 }
 
 const ZEROS: [f64; 6] = [0.7, -0.5, 1.1, -0.8, 0.6, 0.9];
@@ -157,7 +159,8 @@ fn zeros() -> String {
     ZEROS.into_iter().enumerate().map(source).collect()
 }
 
-/// Every sentence of a joint's zero is true; there is none of a joint whose zero the base or the tool may be.
+/// Checks that every sentence about a zero is true, and that there is none about a joint whose zero
+/// is indistinguishable from base or tool.
 #[test]
 fn zeros_of_joints_are_told_in_words() {
     for (base, layout, told) in [
@@ -184,7 +187,8 @@ fn zeros_of_joints_are_told_in_words() {
     }
 }
 
-/// What is written says zeros of joints and numbers of frames, and predicts what the fit does.
+/// Checks that the written spec contains zeros of joints and values of frames, and predicts as the
+/// fit does.
 #[test]
 fn the_written_spec_is_the_machine_that_was_found() {
     let data = measured(&ur5(&format!("{}{BENT}", zeros())), "exact", POINT, 150, 6);
@@ -203,7 +207,7 @@ fn the_written_spec_is_the_machine_that_was_found() {
     );
 }
 
-/// Rows in an order, each with the direction of the last move of a joint as an input.
+/// Returns ordered rows, each with the direction of the last move of a joint as an input.
 fn with_backlash(backlash: &str, samples: usize) -> Data {
     let input = "[inputs]\nslack = { value = 0, range = [-1, 1] }\n\n";
     let truth = ur5(&format!("{backlash}{BENT}")).replacen("[[frame]]", &format!("{input}[[frame]]"), 1);
@@ -235,12 +239,12 @@ fn backlash_is_found_by_the_direction_of_the_last_move() {
     assert_eq!(term.name, "q1: joint error with q1_direction");
     let [found] = &report.found.terms[..] else { panic!("one term") };
     assert!((found.magnitude - 5e-5).abs() < 4.0 * found.standard_deviation, "{found:?}");
-    // A spec says it: an input, and an error of the joint in proportion to it.
+    // A spec expresses it: an input, and an error of the joint proportional to it.
     let spec = written(&report, &ur5(""));
     assert!(spec.contains("[inputs.q1_direction]") && spec.contains("* (q1_direction/1)"), "{spec}");
 }
 
-/// A gear of 101 teeth; without a word of it nothing is found.
+/// Checks a gear of 101 teeth, which is found only if its ratio is declared.
 #[test]
 fn a_gear_is_found_where_its_ratio_is_said() {
     let gear = "[[source]]\nname = \"gear\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"0.05 mrad * sin(101*q2 + 0.4)\"\n";
@@ -261,7 +265,8 @@ fn a_gear_is_found_where_its_ratio_is_said() {
     assert!((left - report.fit.after.rms).abs() < 0.01 * report.fit.after.rms, "{left}");
 }
 
-/// Of machines that have constant errors alone, no term is taken in: the best of more than 500 groups is chance.
+/// Checks that machines with constant errors alone yield no terms: the best of more than 500 groups
+/// is chance.
 #[test]
 fn chance_is_no_term() {
     let mut taken = 0;
@@ -273,11 +278,12 @@ fn chance_is_no_term() {
         assert!(report.tried > 500, "{}", report.tried);
         taken += report.terms.len();
     }
-    // At 5 % each, two or more of four are an accident of 1.4 %.
+    // At 5 % each, two or more of four have a probability of 1.4 %.
     assert!(taken <= 1, "{taken}");
 }
 
-/// A shoulder that gives way about three axes, two of them together: weight about one turns it about the other, too.
+/// Checks a shoulder with compliance about three axes, two of them coupled: weight about one
+/// rotates it about the other, too.
 #[test]
 fn full_compliances_are_found_and_written() {
     let number = |value: f64| format!("\"{value}e-5/(N*m)\"");
@@ -302,7 +308,7 @@ fn full_compliances_are_found_and_written() {
         let coupled = names.iter().any(|name| name.contains("gives way under weight, e_s with e_p"));
         println!("{off}: {names:?}");
         assert_eq!(coupled, off != 0.0, "{off}: {names:?}");
-        // Nothing but the noise is left: √3 σ of a point.
+        // Only the noise remains: √3 σ of a point.
         assert!(report.fit.after.rms < 1.1 * 0.02 * 3f64.sqrt(), "{off}: {:?}", report.fit.after);
         let found = written(&report, &nominal);
         assert_eq!(found.contains("compliance = { matrix = "), coupled, "{found}");
@@ -312,7 +318,8 @@ fn full_compliances_are_found_and_written() {
     }
 }
 
-/// What the spec's random sources say of an error holds it: one of 1 µm cannot be 0.3 mm, whatever the data say.
+/// Checks that the priors from the spec's random sources hold: an error of 1 µm cannot become 0.3
+/// mm, whatever the data.
 #[test]
 fn priors_of_the_spec_hold_what_they_are_of() {
     let tight = "[[source]]\nname = \"elbow as made\"\nclass = \"random\"\ndistribution = \"normal\"\nframe = \"elbow\"\ne_x = \"1 um\"\n";
@@ -330,13 +337,14 @@ fn priors_of_the_spec_hold_what_they_are_of() {
     assert!((length(&free) - 0.3).abs() < 0.05, "{:?}", free.parameters);
     assert!(length(&held).abs() < 0.02, "{:?}", held.parameters);
     assert!(held.uncertainty_factor > 1.5 * free.uncertainty_factor, "{}", held.uncertainty_factor);
-    // Of the other error nothing is stated there: it is as free as before.
+    // The other error has no prior: it is as free as before.
     let spin =
         |report: &Report| report.parameters.iter().any(|one| one.frame == Some(3) && one.unit == "rad");
     assert!(spin(&free) && spin(&held));
 }
 
-/// The scale that is chosen is said, and rows left out in turn fit no worse with it than with the usual one.
+/// Checks that the selected scale is reported, and that cross-validation is no worse with it than
+/// with the default.
 #[test]
 fn a_prior_that_is_chosen_is_said_and_no_worse() {
     let small = BENT.replace("0.8 mrad", "0.1 mrad").replace("0.3 mm", "0.04 mm");
@@ -347,18 +355,24 @@ fn a_prior_that_is_chosen_is_said_and_no_worse() {
         job.run(&mut ()).expect("it is identified")
     };
     let (stated, chosen) = (found(Prior::Share(0.01)), found(Prior::Auto));
-    let note = chosen.notes.iter().find(|note| note.contains("errors are expected to be"));
+    let note = chosen.notes.iter().find(|note| note.contains("prior standard deviation of the errors: "));
     let note = note.expect("it is said");
-    let share: f64 =
-        note.split("to be ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
+    let share: f64 = note
+        .split("of the errors: ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next())
+        .unwrap()
+        .parse()
+        .unwrap();
     assert!([3.0, 1.0, 0.3, 0.1, 0.03, 0.01].contains(&share), "{note}");
-    // Another one is better if it is by more than 1 %; of so few rows this one is.
+    // Another scale is selected if it is better by more than 1 %, as with these few rows.
     let rms = |report: &Report| report.cross_validation.after.rms;
     println!("{share} %: {} by {}", rms(&chosen), rms(&stated));
     assert!(rms(&chosen) < 0.99 * rms(&stated) && share < 1.0, "{note} {} {}", rms(&chosen), rms(&stated));
 }
 
-/// When the time is over, no more terms are tried, and that is said; with time enough it makes no difference.
+/// Checks that no more terms are tried after the time limit, which is reported, and that a
+/// sufficient limit has no effect.
 #[test]
 fn time_ends_the_search_for_terms() {
     let wave =

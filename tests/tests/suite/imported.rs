@@ -1,4 +1,4 @@
-//! Robots of URDF as specs: what is imported is the robot of the file.
+//! URDF robots as specs: the imported robot equals that of the file.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
@@ -39,7 +39,8 @@ fn joint(name: &str, kind: &str, ends: [&str; 2], origin: &str, rest: &str) -> S
     )
 }
 
-/// By Craig's numbers, `A = Rx(α) Tx(a) Rz(θ) Tz(d)`: the axis of θ stands at `(a, −d sin α, d cos α)`, turned by α about x.
+/// Checks a Panda by Craig's parameters, `A = Rx(α) Tx(a) Rz(θ) Tz(d)`: the axis of θ is at
+/// `(a, −d sin α, d cos α)`, rotated by α about x.
 #[test]
 fn a_panda_in_urdf_is_the_shipped_one() {
     let numbers: [[f64; 3]; 7] = [
@@ -84,8 +85,8 @@ fn a_panda_in_urdf_is_the_shipped_one() {
     }
 }
 
-/// Everything that a chain can have, against rotations by Rodrigues' formula: a slide along no axis, a turn about none, joints
-/// that follow others in all four ways, and fixed ones between.
+/// Compares every feature of a chain with rotations by Rodrigues' formula: prismatic and revolute
+/// joints in general direction, mimic joints of all four kinds, and fixed joints between them.
 #[test]
 fn joints_of_every_kind() {
     let links = ["ground", "base", "carriage", "arm", "plate", "finger", "wheel", "tip", "camera"];
@@ -114,7 +115,8 @@ fn joints_of_every_kind() {
     );
     urdf += &joint("turn", "continuous", ["carriage", "arm"], "rpy=\"0 0.3 0\"", "<axis xyz=\"2 2 1\"/>");
     urdf += &joint("mount", "fixed", ["arm", "plate"], "xyz=\"0.4 0 0\" rpy=\"1.57079632679 0 0\"", "");
-    // It slides as another turns, and turns as another slides.
+    // It translates with the rotation of another joint, and rotates with the translation of
+    // another.
     let follows = |joint: &str, numbers: &str| format!("<mimic joint=\"{joint}\" {numbers}/>");
     let mimic =
         format!("<axis xyz=\"0 1 0\"/>{limits}{}", follows("turn", "multiplier=\"-0.05\" offset=\"0.02\""));
@@ -122,7 +124,7 @@ fn joints_of_every_kind() {
     let mimic = format!("<axis xyz=\"0 -1 -4e-8\"/>{}", follows("slide", "multiplier=\"3\" offset=\"-0.5\""));
     urdf +=
         &joint("wheel joint", "continuous", ["finger", "wheel"], "xyz=\"0 0 0.2\" rpy=\"0.2 0 0\"", &mimic);
-    // It follows one that follows.
+    // It follows a mimic joint.
     let mimic = format!("<axis xyz=\"1 1 0\"/>{}", follows("wheel joint", "multiplier=\"2\""));
     urdf += &joint("last", "continuous", ["wheel", "tip"], "xyz=\"0.05 0 0\"", &mimic);
     urdf += &joint("hook", "fixed", ["plate", "camera"], "xyz=\"0 0 1\"", "");
@@ -163,7 +165,8 @@ fn joints_of_every_kind() {
         );
         assert_eq!(report.frames.len(), if fold { 5 } else { 7 });
         assert_eq!(report.frames.iter().filter(|frame| frame.follows).count(), 3);
-        // All but the ground, which carries the first frame; folded, the foot stands on the ground as well.
+        // All but the ground, which carries the first frame; folded, the base is part of the ground
+        // as well.
         assert_eq!(report.loads, if fold { 7 } else { 8 });
         for (slide, turn) in [(0.1, 0.0), (0.3, 1.0), (0.47, -2.9), (0.25, 3.1)] {
             let off = (pose(&spec, &[slide, turn]) - expected(slide, turn)).abs().max();
@@ -171,7 +174,7 @@ fn joints_of_every_kind() {
         }
     }
 
-    // Rounded, the one angle that is almost 90° is.
+    // The only angle that is almost 90° is rounded.
     let rounded = imported(&urdf, "tip", false, true);
     assert!(rounded.report.spec.contains("rpy = [\"pi/2\", 0, 0]"), "{}", rounded.report.spec);
     let off = (pose(&rounded.spec, &[0.3, 1.0]) - expected(0.3, 1.0)).abs().max();

@@ -1,4 +1,4 @@
-//! Tables of Denavit-Hartenberg numbers as specs: the poses are those of the closed-form matrices in the books.
+//! DH tables as specs: the poses are those of the closed-form matrices in the literature.
 
 use abbe::analysis::sampling;
 use abbe::{LengthUnit, Manipulator};
@@ -42,7 +42,7 @@ const IN_MM: Units = Units { length: Some(LengthUnit::Millimetre), degrees: Some
 const IN_M: Units = Units { length: Some(LengthUnit::Metre), degrees: Some(false) };
 const UNSAID: Units = Units { length: None, degrees: None };
 
-/// Siciliano, Spong: the columns of `A_i` multiplied out by hand.
+/// Returns `A_i` in the standard convention (Siciliano, Spong), multiplied out.
 fn standard([theta, d, a, alpha]: [f64; 4]) -> Matrix4<f64> {
     let ((st, ct), (sa, ca)) = (theta.sin_cos(), alpha.sin_cos());
     #[rustfmt::skip]
@@ -55,7 +55,7 @@ fn standard([theta, d, a, alpha]: [f64; 4]) -> Matrix4<f64> {
     matrix
 }
 
-/// Craig, equation (3.6).
+/// Returns `A_i` in the modified convention, Craig, equation (3.6).
 fn modified([theta, d, a, alpha]: [f64; 4]) -> Matrix4<f64> {
     let ((st, ct), (sa, ca)) = (theta.sin_cos(), alpha.sin_cos());
     #[rustfmt::skip]
@@ -68,7 +68,7 @@ fn modified([theta, d, a, alpha]: [f64; 4]) -> Matrix4<f64> {
     matrix
 }
 
-/// A row as a matrix.
+/// Matrix of a row.
 type Row = fn([f64; 4]) -> Matrix4<f64>;
 
 fn convention(is_modified: bool) -> (DhConvention, Row) {
@@ -78,7 +78,7 @@ fn convention(is_modified: bool) -> (DhConvention, Row) {
     }
 }
 
-/// The poses of a spec and those of rows of numbers; `q` in the order of the rows.
+/// Compares the poses of a spec with those of rows of parameters; `q` is in the order of the rows.
 fn assert_same(
     imported: &Imported,
     matrix: fn([f64; 4]) -> Matrix4<f64>,
@@ -98,7 +98,8 @@ fn assert_same(
     }
 }
 
-/// Both conventions, with offsets, signs, a slide, a fixed row, expressions in cells and units of all kinds.
+/// Checks both conventions, with offsets, signs, a prismatic joint, a fixed row, expressions in
+/// cells and units of all kinds.
 #[test]
 fn rows_of_every_kind() {
     let table = "\
@@ -137,7 +138,7 @@ plate, fixed, 10, 12.5, 0, 180, , , , ,
     }
 }
 
-/// Decimals with a comma, a mark of another program at the beginning, units in the heading, Greek names.
+/// Checks decimal commas, a byte order mark, units in the heading, and Greek names.
 #[test]
 fn tables_of_other_countries() {
     let table = "\u{feff}# from a data sheet\r\n\r\n\"Nr.\";θ_i [°];d_i [mm];a_i [mm];α_i [°]\r\n\
@@ -150,7 +151,8 @@ fn tables_of_other_countries() {
     assert!(imported.heard.iter().any(|note| note.contains("which joints slide")), "{:?}", imported.heard);
 }
 
-/// What the Robotics Toolbox for Python 1.1 printed of a chain with an offset, a slide and a reversed joint, and of a Panda.
+/// Checks the output of the Robotics Toolbox for Python 1.1 for a chain with an offset, a prismatic
+/// joint and a reversed joint, and for a Panda.
 #[test]
 fn the_robotics_toolbox_for_python() {
     let table = "\
@@ -209,7 +211,7 @@ DHRobot.Panda: Panda (by Franka Emika), 7 joints (RRRRRRR), dynamics, geometry, 
     assert_same(&panda, modified, rows, 2.0);
 }
 
-/// What the Robotics Toolbox for MATLAB displays: rad with four decimals.
+/// Checks the output of the Robotics Toolbox for MATLAB: rad with four decimals.
 #[test]
 fn the_robotics_toolbox_for_matlab() {
     let table = "\
@@ -246,13 +248,14 @@ tool:    t = (0, -0.1, 0), RPY/xyz = (-1.57, 0, -1.57) deg
     }
 }
 
-/// T(xyz) Rz(yaw) Ry(pitch) Rx(roll), as in URDF.
+/// Returns T(xyz) Rz(yaw) Ry(pitch) Rx(roll), as in URDF.
 fn placed(xyz: [f64; 3], [roll, pitch, yaw]: [f64; 3]) -> Matrix4<f64> {
     Matrix4::new_translation(&xyz.into())
         * nalgebra::Rotation3::from_euler_angles(roll, pitch, yaw).to_homogeneous()
 }
 
-/// Base and tool are the first row and the last, by `kind` or, where there is none, by name; of any of them the four numbers may say it.
+/// Checks that base and tool are the first and the last row, by `kind` or else by name, and may
+/// have DH parameters.
 #[test]
 fn rows_of_base_and_tool() {
     let with_kind = "\
@@ -288,7 +291,8 @@ TOOL,,,,,0,12,80,10,-20,135
             }
         }
     }
-    // Four numbers of a tool are a row of the table that has no errors of its own; columns of a place without such rows are not read.
+    // DH parameters of a tool form a row of the table without errors of its own. Columns of a
+    // position are not read without rows of base or tool.
     let table = "kind,theta,d,a,alpha,x\nrevolute,q1,340,0,-90,7\nrevolute,q2,0,260,0,7\n";
     let unread = imported(table, DhConvention::Standard, IN_MM, false);
     assert!(unread.heard.iter().any(|note| note == "columns that are not read: `x`"), "{:?}", unread.heard);
@@ -302,7 +306,7 @@ TOOL,,,,,0,12,80,10,-20,135
     assert!((expected - Matrix4::from_fn(|i, j| found[i][j])).abs().max() < 1e-10);
 }
 
-/// Of a table that is refused nothing is said but what is wrong with it.
+/// Checks that a rejected table produces no notes besides its diagnostics.
 #[test]
 fn rows_with_two_variables_are_no_rows_without() {
     let folder = tempfile::tempdir().unwrap();
@@ -315,7 +319,8 @@ fn rows_with_two_variables_are_no_rows_without() {
     assert!(heard.0.is_empty(), "{:?}", heard.0);
 }
 
-/// Spreadsheets write a tab for every cell, empty ones at the end as well; a row that ends before is refused.
+/// Checks tables from spreadsheets, which write a tab for every cell, including empty ones at the
+/// end. A shorter row is rejected.
 #[test]
 fn empty_cells_at_the_end_are_cells() {
     let table = "theta\td\ta\talpha\tlower\tupper\r\nq1\t400\t25\t90\t\t\r\nq2\t0\t560\t0\t-90\t90\r\n";
@@ -330,7 +335,8 @@ fn empty_cells_at_the_end_are_cells() {
     }
 }
 
-/// Tables with letters changed, left out and doubled are read or refused with a way out; nothing else happens.
+/// Checks that tables with changed, missing and repeated characters are read or rejected with a
+/// help.
 #[test]
 fn damaged_tables() {
     let tables = [

@@ -1,4 +1,4 @@
-//! The interpreter and the compiled code give the same numbers.
+//! The interpreter and the compiled code return the same numbers.
 
 use abbe::analysis::sampling::{arm_length, joint_sample, nominal_inputs, nominal_parameters};
 use abbe::{Error, Manipulator, Pose};
@@ -6,7 +6,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 
-/// Everything a manipulator says at one configuration, row by row.
+/// Returns all results of a manipulator at one configuration, row by row.
 fn everything(robot: &dyn Manipulator, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
     let description = robot.description();
     let mut rows = Vec::new();
@@ -39,7 +39,8 @@ fn everything(robot: &dyn Manipulator, q: &[f64], s: &[f64], u: &[f64]) -> Resul
     Ok(rows)
 }
 
-/// The largest difference between two rows, in units in the last place of the row's largest entry.
+/// Returns the largest difference between two rows, in units in the last place of the row's largest
+/// entry.
 fn ulps(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     assert!(a.iter().chain(b).all(|value| value.is_finite()), "{a:?} {b:?}");

@@ -1,6 +1,6 @@
-//! Every shipped manipulator, generated and interpreted, obeys the laws: `J_e` against central differences of
-//! the exact chain with true rotations (1e-8 relative, 200 configurations), the first-order remainder of slope
-//! 2 ± 0.05, `J_q`, `∂X_T/∂s`, and the contract of the trait.
+//! Every shipped manipulator, generated and interpreted, obeys the laws: `J_e` against central
+//! differences of the exact chain with exact rotations (1e-8 relative, 200 configurations), the
+//! first-order remainder with slope 2 ± 0.05, `J_q`, `∂X_T/∂s`, and the contract of the trait.
 
 use abbe::laws::{SAMPLES, all};
 use abbe_interpreter::Interpreter;
@@ -33,7 +33,7 @@ fn euler_rows_of_every_manipulator() {
     }
 }
 
-/// A spec's text with another orientation.
+/// Returns the text of a spec with another orientation.
 fn with_orientation(spec: &str, orientation: &str) -> String {
     let without: Vec<&str> = spec.lines().filter(|line| !line.starts_with("orientation")).collect();
     without.join("\n").replacen(

@@ -1,5 +1,5 @@
-//! Long chains are generated as loops over their frames: they give what the straight-line programs give, alone and in
-//! batches, and obey the laws.
+//! Long chains are generated as loops over their frames, which equal the straight-line programs,
+//! for single configurations and in batches, and obey the laws.
 
 use abbe::lanes::{Batches, InstructionSet, Tiles};
 use abbe::{Function, Manipulator, Pose};
@@ -8,10 +8,10 @@ use abbe_spec::Spec;
 use abbe_tests::chains::long_chain;
 use abbe_tests::golden::long::{FRAMES, Long, PARAMETERS, VARIABLES};
 
-/// How many configurations: more than one register holds, and no multiple of that.
+/// Number of configurations: more than one register holds, and no multiple of that.
 const COUNT: usize = 21;
 
-/// Numbers from −1 to 1, the same every time.
+/// Returns deterministic numbers from −1 to 1.
 fn number(index: usize) -> f64 {
     (index as f64 * 0.618 + 0.1).sin()
 }
@@ -20,7 +20,7 @@ fn spec() -> Spec {
     Spec::parse("long.toml", &long_chain()).unwrap()
 }
 
-/// Equal to 1e-12 of the largest.
+/// Checks equality to 1e-12 of the largest number.
 fn assert_close(what: &str, actual: &[f64], expected: &[f64]) {
     assert_eq!(actual.len(), expected.len());
     let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -41,7 +41,7 @@ fn batches_are_those_of_the_straight_line_program() {
             let mut arguments = Tiles::new(set, signature.arguments_len(description), COUNT);
             for configuration in 0..COUNT {
                 for row in 0..arguments.rows() {
-                    // Parameters and inputs are positive, and so are variances.
+                    // Parameters, inputs and variances are positive.
                     let value = number(row + 31 * configuration);
                     let value = if row < VARIABLES { value } else { 0.1 + value * value };
                     arguments.set_value(row, configuration, value);
@@ -88,7 +88,7 @@ fn single_configurations_are_those_of_the_straight_line_program() {
     }
 }
 
-/// The interpreter runs the same loops.
+/// Compares the interpreter's loops with the straight-line program.
 #[test]
 fn interpreted_loops_are_those_of_the_straight_line_program() {
     let (looped, straight) = (Interpreter::new(spec()), Interpreter::without_loops(spec()));

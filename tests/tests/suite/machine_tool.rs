@@ -1,5 +1,5 @@
-//! The three-axis machine against the textbook closed form of its volumetric error: 18 error functions of
-//! ISO 230-1 and three squareness errors, at 1,000 positions.
+//! The three-axis machine compared with the textbook closed form of its volumetric error: 18 error
+//! functions of ISO 230-1 and three squareness errors, at 1,000 positions.
 
 use std::collections::HashMap;
 
@@ -36,11 +36,12 @@ fn volumetric_error_of_21_errors() {
         let q = [600.0 * part(1.0), 400.0 * part(2.7), 450.0 * part(7.1)];
         let mut values = [0.0; EFFECTS];
         Machine3.effects(&q, &s, &u, &mut values).unwrap();
-        // Each of the 21 causes one effect: its value by its name.
+        // Each of the 21 sources has one effect: its value by its name.
         let effects = DESCRIPTION.effects.iter().zip(values);
         let named: HashMap<&str, f64> =
             effects.map(|(effect, value)| (&*DESCRIPTION.sources[effect.source].name, value)).collect();
-        // Squareness is a translation that grows with the axis; its angle is what the textbook has.
+        // Squareness is a translation proportional to the axis position; the textbook uses its
+        // angle.
         let angles = HashMap::from([
             ("A0Z", -named["A0Z"] / q[2]),
             ("B0Z", named["B0Z"] / q[2]),
@@ -61,7 +62,7 @@ fn volumetric_error_of_21_errors() {
     }
 }
 
-/// The squareness angles are constants: the same at every position.
+/// Checks that the squareness angles are the same at every position.
 #[test]
 fn squareness_is_one_angle() {
     let (s, u) = (Parameters::NOMINAL.to_array(), Inputs::NOMINAL.to_array());

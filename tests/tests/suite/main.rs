@@ -1,4 +1,4 @@
-//! What crosses crates: proofs, goldens, doors.
+//! Tests that cross crates: proofs, goldens, interfaces.
 
 mod abuse;
 mod accumulated;
@@ -7,6 +7,7 @@ mod bad_specs;
 mod bad_studies;
 mod batches;
 mod beams;
+mod book;
 mod bound;
 mod chosen;
 mod compensate;
@@ -37,3 +38,4 @@ mod recipes;
 mod reference;
 mod reference_pages;
 mod tables;
+mod voice;

@@ -1,4 +1,4 @@
-//! Operation counts: a change of them is a line in the review, and must not be a surprise.
+//! Operation counts: a change of them is a line in the review.
 
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ fn operations(spec: &Spec, kind: Function) -> Operations {
     straight_line(kind, &Model::new(spec)).operations()
 }
 
-/// Multiplications and additions together.
+/// Returns the sum of multiplications and additions.
 fn total(count: Operations) -> usize {
     count.mul + count.add
 }
@@ -37,8 +37,8 @@ fn counts_of_every_function() {
     expect_file!["../../golden/operations.txt"].assert_eq(&table);
 }
 
-/// What the best generators of others need for pose and `J_e` with rotation-vector rows is 206 (PUMA 560), 91 (PPPRRR)
-/// and 227 (iiwa); distinct numbers take no more than the dense matrix.
+/// Compares with the best other generators for pose and `J_e` with rotation-vector rows: 206 (PUMA
+/// 560), 91 (PPPRRR) and 227 (iiwa). Distinct numbers need no more than the dense matrix.
 #[test]
 fn fewer_than_others_need() {
     let gantry = Spec::parse("ppprrr.toml", include_str!("../../specs/ppprrr.toml")).unwrap();
@@ -52,7 +52,8 @@ fn fewer_than_others_need() {
     }
 }
 
-/// Rows 4–6 of a rotation are `B ω`: 5 multiplications and 3 additions, of three rotations per frame.
+/// Checks the cost of Euler rows: rows 4–6 of a rotation are `B ω`, 5 multiplications and 3
+/// additions for each of three rotations per frame.
 #[test]
 fn what_euler_rows_cost() {
     for shipped in SHIPPED {
@@ -69,7 +70,8 @@ fn what_euler_rows_cost() {
     }
 }
 
-/// By hand, PUMA 560 takes 170 for `ΔX` without `J_e`, and 745 for the covariance.
+/// Checks the counts of a derivation by hand: PUMA 560 needs 170 for `ΔX` without `J_e`, and 745
+/// for the covariance.
 #[test]
 fn accumulated_along_the_chain() {
     let puma = shipped("puma560");
@@ -79,7 +81,8 @@ fn accumulated_along_the_chain() {
     assert!(total(covariance) <= 745 && covariance.sincos == 6, "{covariance}");
 }
 
-/// Errors that the spec does not have take nothing, and one way never more than the other.
+/// Checks that errors without sources cost nothing, and that the chosen alternative is the cheaper
+/// one.
 #[test]
 fn sources_of_the_spec_itself() {
     let mut without = 0;

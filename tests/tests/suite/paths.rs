@@ -1,4 +1,5 @@
-//! The generated functions beside pose and Jacobians, as compiled: held against the Jacobians and the exact chain.
+//! The compiled functions beside pose and Jacobians, compared with the Jacobians and the exact
+//! chain.
 
 use abbe::analysis::sampling::joint_sample;
 use abbe::{Class, Error, Manipulator, Orientation, Pose, Quantity, deviation, distinct};
@@ -7,7 +8,7 @@ use abbe_spec::{Source, Spec};
 
 const SAMPLES: usize = 100;
 
-/// Configurations within the limits, in the order of the description.
+/// Returns configurations within the limits, in the order of the description.
 fn configurations<const N: usize>(robot: &dyn Manipulator) -> Vec<[f64; N]> {
     let description = robot.description();
     let moved: Vec<usize> = (0..N).collect();
@@ -25,8 +26,9 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(f64::MIN_POSITIVE, |largest, value| largest.max(value.abs()))
 }
 
-/// How far the chain with ε may be from the exact one: by rounding; and by the square of ε where a source is an error of a
-/// joint or located, whose ε is of first order (`exact_chain` has these by themselves).
+/// Returns the tolerance of the chain with ε relative to the exact one: rounding errors, or the
+/// square of ε if a source is an error of a joint or located, whose ε is of first order (tested
+/// separately in `exact_chain`).
 fn tolerance(name: &str, errors: &[f64]) -> f64 {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).expect("a shipped robot");
     let spec = Spec::parse(name, shipped.spec).unwrap();
@@ -37,7 +39,8 @@ fn tolerance(name: &str, errors: &[f64]) -> f64 {
     if sources.into_iter().any(first_order) { 10.0 * largest(errors).powi(2) } else { 1e-12 }
 }
 
-/// `J_q` with rotation-vector rows by central differences of the nominal pose: `h = ε^{1/3}`.
+/// Returns a column of `J_q` with rotation-vector rows by central differences of the nominal pose,
+/// with the step `h = ε^{1/3}`.
 fn differences(robot: &dyn Manipulator, q: &[f64], s: &[f64], variable: usize) -> [f64; 6] {
     let h = f64::EPSILON.cbrt() * q[variable].abs().max(1.0);
     let pose = |step: f64| {
@@ -60,7 +63,7 @@ macro_rules! tests {
 
         const NAME: &str = stringify!($module);
 
-        /// The distinct numbers and their map say the same as the dense matrix, bit for bit.
+        /// Checks that the distinct numbers and their layout give the dense matrix, bit for bit.
         #[test]
         fn distinct_expanded_is_dense() {
             let s = Parameters::NOMINAL.to_array();
@@ -180,7 +183,8 @@ fn none_is_left_out() {
     assert!(SHIPPED.iter().map(|shipped| shipped.name).eq(tested));
 }
 
-/// A Newton step of a compensator brings the real tool point to where the ideal one would be, to second order.
+/// Checks that a Newton step of a compensator brings the real tool point to the ideal one, to
+/// second order.
 #[test]
 fn a_compensator_step_compensates() {
     use abbe_manipulators::pps;
@@ -198,7 +202,7 @@ fn a_compensator_step_compensates() {
     }
 }
 
-/// Every bad input gets its error.
+/// Checks the error of every invalid input.
 #[test]
 fn errors_are_values() {
     use abbe_manipulators::pps::{self, FRAMES, Inputs, Parameters};

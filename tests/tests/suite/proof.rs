@@ -1,4 +1,4 @@
-//! The structured product rule gives what `Graph::diff` gives for the fully multiplied chain
+//! The structured product rule equals `Graph::diff` of the fully multiplied chain
 //! `A_1 E_1 A_2 E_2 … A_n E_n T`, differentiated by every generalized error: equations (6) and (9).
 
 use abbe::Orientation;
@@ -9,15 +9,15 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use abbe_tests::chains::coupled_joints;
 
-/// `A_1 E_1 … A_n E_n T` with exact rotations: all 6n errors are symbols.
+/// Returns `A_1 E_1 … A_n E_n T` with exact rotations, with symbols for all 6n errors.
 fn multiplied(graph: &mut Graph, spec: &Spec) -> Frame {
     let mut product = graph.identity();
     for (i, frame) in spec.frames.iter().enumerate() {
         let nominal = transform(graph, &frame.factors);
         product = graph.then(&product, &nominal);
         let mut error = graph.identity();
-        // Translations first; then R_y(e_s) R_z(e_r) R_x(e_p), the order of ε: stated here anew, not taken from the
-        // vocabulary that is to be proved.
+        // Translations first, then R_y(e_s) R_z(e_r) R_x(e_p), the order of ε: stated independently
+        // of the definitions to be proved.
         let symbols: [Node; 6] = std::array::from_fn(|k| graph.symbol(Symbol::Error(6 * i + k)));
         let [x, y, z, spin, roll, pitch] = symbols;
         for (axis, symbol) in [(0, x), (1, y), (2, z)] {
@@ -32,7 +32,7 @@ fn multiplied(graph: &mut Graph, spec: &Spec) -> Frame {
     graph.then(&product, &tool)
 }
 
-/// Rows 1–6 of `∂X_T/∂x` from the twelve entries of a pose and their derivatives.
+/// Returns rows 1–6 of `∂X_T/∂x` from the twelve entries of a pose and their derivatives.
 fn rows(graph: &mut Graph, orientation: Orientation, pose: &Frame, symbol: Symbol) -> [Node; 6] {
     let entries: Vec<Node> = pose.axes.iter().flatten().chain(&pose.position).copied().collect();
     let slopes = graph.diff_all(&entries, symbol);
@@ -45,7 +45,7 @@ fn rows(graph: &mut Graph, orientation: Orientation, pose: &Frame, symbol: Symbo
                 graph.add(sum, product)
             })
         }),
-        // Spin, roll and pitch as functions of the matrix, differentiated as they stand.
+        // Spin, roll and pitch as functions of the matrix, differentiated directly.
         Orientation::EulerYzx => {
             let [x, y, z] = pose.axes;
             let (r31, r23) = (graph.neg(x[2]), graph.neg(z[1]));
@@ -58,7 +58,7 @@ fn rows(graph: &mut Graph, orientation: Orientation, pose: &Frame, symbol: Symbo
     [slopes[9], slopes[10], slopes[11], turn[0], turn[1], turn[2]]
 }
 
-/// A value for every symbol: errors are zero, the rest is anything.
+/// Returns a value for every symbol: zero for errors, arbitrary for the others.
 fn values(sample: usize) -> impl Fn(Symbol) -> f64 {
     move |symbol| {
         let spread =
@@ -110,8 +110,8 @@ fn structured_equals_differentiated_for_every_shipped_manipulator() {
     }
 }
 
-/// What the shipped ones have not: variables in several frames, twice in one, inside a matrix, a screw, an axis
-/// in any direction, a variable in the tool.
+/// Checks features that the shipped specs lack: variables in several frames, twice in one, inside a
+/// matrix and in the tool, a screw joint, and an axis in general direction.
 #[test]
 fn structured_equals_differentiated_for_coupled_joints() {
     let mut spec = Spec::parse("coupled.toml", coupled_joints()).unwrap();

@@ -1,4 +1,4 @@
-//! Random sources of every kind: first order against a million draws on the exact chain.
+//! Random sources of every kind: first order compared with a million draws on the exact chain.
 
 use abbe::Manipulator;
 use abbe::analysis::{
@@ -7,7 +7,7 @@ use abbe::analysis::{
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 
-/// Two joints; `sources` are put at its end.
+/// Returns an arm of two joints with the sources at its end.
 fn arm(sources: &str) -> Spec {
     let text = r#"
         [manipulator]
@@ -33,7 +33,8 @@ fn draws(spec: &Spec, count: usize) -> MonteCarlo {
     monte_carlo(&robot, &configuration, count, 11).unwrap()
 }
 
-/// Every entry of the covariance within three standard errors of first order, `slack` aside.
+/// Checks that every entry of the covariance is within three standard errors of first order, plus
+/// `slack`.
 fn agrees(drawn: &MonteCarlo, slack: f64) {
     for i in 0..3 {
         for j in 0..3 {
@@ -44,7 +45,8 @@ fn agrees(drawn: &MonteCarlo, slack: f64) {
     }
 }
 
-/// The three classes of sources that random errors of one magnitude can have: alone, and at several frames.
+/// Returns the kinds of sources of random errors with one magnitude: a single one, and with effects
+/// at several frames.
 fn sources(distribution: &str) -> String {
     format!(
         r#"
@@ -89,7 +91,7 @@ fn normal_sources_fill_their_ellipsoid() {
     let inside = drawn.inside_ellipsoid.unwrap();
     println!("{:.3} % inside the 95 % ellipsoid", 100.0 * inside);
     assert!((inside - 0.95).abs() < 0.003, "{inside}");
-    // The sag is always there.
+    // The sag is a constant bias.
     assert!((drawn.mean[2] + 0.2).abs() < 1e-4 && drawn.quantiles[0].value > 0.2);
     assert!(drawn.quantiles.windows(2).all(|pair| pair[0].value < pair[1].value));
     assert!(drawn.quantiles.iter().all(|quantile| (0.0..1e-4).contains(&quantile.standard_error)));
@@ -138,7 +140,7 @@ fn zero_and_one_sided_sources_have_clear_results() {
     let budget = error_budget(&robot, &workspace, BudgetOptions::default(), &mut ()).unwrap();
     let [nothing, one_sided] = &budget.sources[..] else { panic!("two sources") };
     assert_eq!((nothing.plain_max.norm, nothing.rms), (0.0, 0.0));
-    // It never goes below nothing, so half of what it varies by is half of the largest.
+    // The error is never negative, so half its range is half its maximum.
     assert!((one_sided.half_peak_to_peak.z / one_sided.plain_max.z - 0.5).abs() < 0.01);
     assert_eq!(budget.combined.ellipsoid.configuration, None);
     let admissible = Admissible::new(&budget, 0.05);

@@ -1,4 +1,4 @@
-//! Inverse kinematics of shipped manipulators and of random chains: what they reach is reached.
+//! Inverse kinematics of shipped manipulators and of random chains: reachable targets are reached.
 
 use abbe::Manipulator;
 use abbe::analysis::sampling::{arm_length, halton, home, joint_sample, nominal_parameters};
@@ -7,14 +7,15 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 
-/// How many of the poses and points of sampled configurations, within the limits, are reached from home.
+/// Returns how many of the poses and points of sampled configurations, within the limits, are
+/// reached from home.
 fn reached(manipulator: &dyn Manipulator, samples: usize) -> [usize; 2] {
     let description = manipulator.description();
     let (s, start) = (nominal_parameters(description), home(description));
     let arm = arm_length(manipulator, &s).expect("an arm");
     let all: Vec<usize> = (0..start.len()).collect();
     let mut reached = [0; 2];
-    // Not where the search begins anew.
+    // Not among the starts of the search.
     for index in 0..samples {
         let q = joint_sample(description, arm, &all, 1000 + 7 * index);
         let pose = manipulator.pose(&q, &s).expect("a pose");
@@ -49,7 +50,7 @@ fn shipped_manipulators_reach_the_poses_of_their_samples() {
     }
 }
 
-/// A spec of turns and slides whose axes stand anywhere.
+/// Returns a spec of revolute and prismatic joints in general position.
 fn random_spec(seed: usize) -> String {
     let number = |i: usize, j: usize| 2.0 * halton(1 + 31 * seed + i, j) - 1.0;
     let mut text = "[manipulator]\nname = \"any\"\nlength = \"m\"\n".to_owned();
@@ -70,7 +71,7 @@ fn random_spec(seed: usize) -> String {
     text
 }
 
-/// Interpreted: the search on the chain that is read off gives the same as on that of compiled ones.
+/// Checks interpreted chains: the search on the extracted chain succeeds as for compiled ones.
 #[test]
 fn random_chains_reach_the_points_of_their_samples() {
     let mut reached_poses = 0;

@@ -1,4 +1,5 @@
-//! The recipes of `docs/sources.md`: the file's own blocks, put together, against formulas written out here.
+//! The recipes of `docs/sources.md`: the chapter's own blocks, combined to a spec, compared with
+//! explicit formulas.
 
 use std::path::Path;
 
@@ -13,7 +14,7 @@ fn recipes() -> Spec {
     Spec::parse("docs/sources.md", &blocks.collect::<Vec<_>>().join("\n")).unwrap()
 }
 
-/// The six errors of a source at the table or the rail.
+/// Returns the six errors of a source at the table or the rail.
 fn errors(spec: &Spec, source: &str, frame: usize, q: [f64; 2], u: [f64; 3]) -> [f64; 6] {
     let robot = Interpreter::new(spec.clone());
     let description = robot.description();
@@ -42,7 +43,7 @@ fn every_recipe_gives_its_formula() {
     for (d1, q2, u) in [(700.0, 0.4, [3.0, 1.0, 80.0]), (1900.0, -2.1, [-7.0, -1.0, 15.0])] {
         let at = |source: &str, frame: usize| errors(&spec, source, frame, [d1, q2], u);
         let [temperature, approach, payload] = u;
-        // Fritsch and Butland's cubic goes through the points and stays between two neighbours.
+        // Fritsch and Butland's cubic interpolates the points and stays between neighbors.
         let [_, y, ..] = at("rail, as measured", 0);
         assert!(if d1 == 700.0 { 0.0125 < y && y < 0.018 } else { -0.0035 < y && y < 0.011 }, "{y}");
         let [_, y, ..] = errors(&spec, "rail, as measured", 0, [1500.0, q2], u);
@@ -69,16 +70,20 @@ fn every_recipe_gives_its_formula() {
         close(at("encoder disc off centre", 1), [0.0, 0.0, 0.0, 0.008 / 60.0 * (q2 + 0.7).sin(), 0.0, 0.0]);
         close(at("backlash, direction known", 1), [0.0, 0.0, 0.0, 15e-6 * approach, 0.0, 0.0]);
         close(at("growth of the scale", 0), [11.5e-6 * d1 * temperature, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        // 500 mm below, in axes that do not turn with the table: the tilt about z moves the table by −500 · 0.2e-3.
+        // 500 mm below, in axes that do not rotate with the table: the tilt about z moves the table
+        // by −500 · 0.2e-3.
         let (s, c) = q2.sin_cos();
         let shift = 0.1 - 500.0 * 0.2e-3;
         close(at("foot of the column", 1), [c * shift, 0.0, s * shift, 0.0, 0.2e-3 * c, -0.2e-3 * s]);
-        // The load stands 250 mm out, and bends the column by M = 250 mm · W about the axis across.
+        // The load is 250 mm off center, and bends the column by M = 250 mm · W about the
+        // transverse axis.
         let (w, l) = (payload * 9806.65, 500.0);
         let (ei, m) = (4e15, 250.0 * w);
-        // About z of F_0 by −M c, about x by M s … of the unturned column; then seen from the turned table.
+        // About z of F_0 by −M c, about x by M s, in the frame of the unrotated column; then
+        // converted to the rotated table.
         let (about_z, about_x) = (-m * c * l / ei, -m * s * l / ei);
-        // The tool pushes along −x of F_0: it bends the column about z, and twists it by 250 mm sin q2.
+        // The tool pushes along −x of F_0: it bends the column about z, and twists it by 250 mm sin
+        // q2.
         let (f, gj) = (200e3, 3e15);
         let (along_x, along_z) = (-about_z * l / 2.0 - f * l.powi(3) / (3.0 * ei), about_x * l / 2.0);
         let (about_z, about_y) = (about_z + f * l * l / (2.0 * ei), 250.0 * s * f * l / gj);
@@ -95,14 +100,14 @@ fn every_recipe_gives_its_formula() {
         );
         let give = at("bearing of the table", 1);
         close(give, [-1e-9 * f * c, -5e-10 * w, -1e-9 * f * s, 0.0, -2e-13 * m, 0.0]);
-        // Of the column 30 kg, which the bearing at its end does not carry.
+        // 30 kg of the column, which the bearing at its end does not carry.
         close(at("carriage of the rail", 0), [0.0, -1e-9 * (w + 30.0 * 9806.65), 0.0, 0.0, 0.0, 0.0]);
         close(at("scale slips", 0), [0.005, 0.0, 0.0, 0.0, 0.0, 0.0]);
         close(at("scale slips", 1), [-0.002 * c, 0.0, -0.002 * s, 0.0, 0.0, 0.0]);
     }
 }
 
-/// Classes and distributions are those that the text recommends.
+/// Checks that classes and distributions follow the chapter's recommendations.
 #[test]
 fn classes_are_as_recommended() {
     let spec = recipes();
@@ -117,7 +122,8 @@ fn classes_are_as_recommended() {
     );
 }
 
-/// The effects of one random source share one magnitude: at q2 = 0 the two slips partly cancel.
+/// Checks that the effects of one random source share one magnitude: at q2 = 0 the two slips partly
+/// cancel.
 #[test]
 fn effects_of_one_source_go_together() {
     let mut spec = recipes();

@@ -1,5 +1,5 @@
-//! `J_e` against differences of the exact chain that a Python program of its own has computed: it says anew which
-//! generalized error turns about which axis (`tests/reference/chain.py`).
+//! `J_e` compared with differences of the exact chain from an independent Python program, which
+//! restates the rotation axes of the generalized errors (`tests/reference/chain.py`).
 
 use abbe::{Manipulator, Orientation};
 use abbe_interpreter::Interpreter;

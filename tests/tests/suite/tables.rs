@@ -1,5 +1,5 @@
-//! Functions given by points: their values against SciPy's, their derivatives against differences, every evaluator against
-//! every other, and what happens beyond their ends.
+//! Functions given by points: their values compared with SciPy's, their derivatives with
+//! differences, every evaluator with every other, and their behavior beyond the ends.
 
 use std::fs;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn spec() -> Spec {
     Spec::read(specs::path("measured")).unwrap()
 }
 
-/// A spec of one slide, with a table of these lines.
+/// Returns the spec of one slide, with a table of these lines.
 fn slide(table: &str, transform: &str, limits: &str) -> String {
     format!(
         "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n[tables.sag]\n{table}\n[[frame]]\nname = \"carriage\"\n\
@@ -26,7 +26,8 @@ fn slide(table: &str, transform: &str, limits: &str) -> String {
     )
 }
 
-/// Of the table `straightness`: x, and value and slope by SciPy 1.x, `PchipInterpolator` and its `derivative()`.
+/// Points of the table `straightness`: x, value and slope by SciPy 1.x, `PchipInterpolator` and its
+/// `derivative()`.
 const STRAIGHTNESS: [[f64; 3]; 15] = [
     [0.0, 0.0, 0.06333333333333334],
     [1.0, 0.06349230107526882, 0.06365109677419355],
@@ -44,7 +45,7 @@ const STRAIGHTNESS: [[f64; 3]; 15] = [
     [1999.0, 9.591632463784983, -0.09143713329515263],
     [2000.0, 9.500000000000002, -0.09182788865875856],
 ];
-/// Of the table `pitch`, whose points are at equal distances.
+/// Points of the table `pitch`, which is equidistant.
 const PITCH: [[f64; 3]; 8] = [
     [0.0, 12.0, -0.067],
     [100.0, 5.736, -0.05792],
@@ -69,7 +70,7 @@ fn cubics_are_those_of_scipy() {
     }
 }
 
-/// Straight lines, point by point and by the formula of the line.
+/// Checks linear interpolation, point by point and by formula.
 #[test]
 fn lines_go_from_point_to_point() {
     let spec = spec();
@@ -86,7 +87,7 @@ fn lines_go_from_point_to_point() {
     }
 }
 
-/// Points that crowd at one end: more of them in a bucket than one comparison can tell apart.
+/// Returns points that crowd at one end: more of them in a bucket than one comparison can separate.
 fn crowded(interpolation: &str) -> Spec {
     let x: Vec<String> = (0..1000).map(|k| format!("{:e}", 2000.0 * 0.985_f64.powi(999 - k))).collect();
     let y: Vec<String> = (0..1000).map(|k| format!("{}", (f64::from(k) / 50.0).sin())).collect();
@@ -98,7 +99,7 @@ fn crowded(interpolation: &str) -> Spec {
     Spec::parse("crowded.toml", &slide(&table, "Tx(sag(d1)) Ty(d1)", "[0, 2000]")).unwrap()
 }
 
-/// Every table against a search through its points from the first to the last.
+/// Compares every table with a linear search through its points.
 #[test]
 fn the_piece_is_that_of_a_plain_search() {
     let (measured, lines, cubics) = (spec(), crowded("linear"), crowded("cubic"));
@@ -109,7 +110,7 @@ fn the_piece_is_that_of_a_plain_search() {
         for x in all.into_iter().filter(|x| (first..=last).contains(x)) {
             let k = table.points.windows(2).position(|pair| x <= pair[1][0]).unwrap();
             let [[x0, y0], [x1, y1]] = [table.points[k], table.points[k + 1]];
-            // By the values and slopes at both ends, in the basis of Hermite.
+            // Values and slopes at both ends, in the Hermite basis.
             let (h, tau) = (x1 - x0, (x - x0) / (x1 - x0));
             let slope = |order, x: f64| lookup.derivative::<f64>(order, x);
             let [d0, d1] = match table.degree() {
@@ -137,7 +138,7 @@ fn derivatives_are_slopes() {
                     |x: f64| if order == 1 { lookup.value(x) } else { lookup.derivative(order - 1, x) };
                 let found = (lower(x + step) - lower(x - step)) / (2.0 * step);
                 let size = lookup.derivative(order, x).abs() + lower(x).abs() / (last - first);
-                // Of a cubic, the central difference has the error h² f'''/6.
+                // The central difference of a cubic has the error h² f'''/6.
                 let error = if order == 1 { lookup.derivative(3, x).abs() * step * step / 6.0 } else { 0.0 };
                 let difference = (lookup.derivative(order, x) - found).abs();
                 assert!(difference <= 1e-8 * size + 1.01 * error, "{} order {order} at {x}", table.name);
@@ -204,7 +205,7 @@ fn what_is_beyond_the_ends() {
         assert!(not.value(x).is_nan() && not.derivative(1, x).is_nan(), "{x}");
     }
     assert!([0.0_f64, 2000.0].iter().all(|end| not.value(*end).is_finite()), "ends belong to it");
-    // A configuration outside the limits is an error, and no number.
+    // A configuration outside the limits returns an error.
     let (s, u) = (measured::Parameters::NOMINAL, measured::Inputs::NOMINAL);
     let robot = Interpreter::new(spec.clone());
     let expected = Err(Error::NotFinite { quantity: Quantity::Pose, index: 11 });
@@ -249,7 +250,7 @@ fn compiled_and_interpreted_obey_the_laws_and_agree() {
     }
 }
 
-/// The function `f(q1)` of a fixed chain, by its pose.
+/// Returns the function `f(q1)` of a fixed chain, from its pose.
 fn value_of(expression: &str, q: f64) -> Result<f64, Error> {
     let text = format!(
         "[manipulator]\nname = \"arm\"\nlength = \"m\"\n[[frame]]\nname = \"a\"\n\
@@ -285,7 +286,7 @@ fn functions_have_their_values() {
     }
 }
 
-/// The spec beside its file, in a folder of its own.
+/// Copies the spec and its table file to a folder.
 fn copied(folder: &Path) {
     for file in ["measured.toml", "rail.csv"] {
         fs::copy(specs::path("measured").with_file_name(file), folder.join(file)).unwrap();
@@ -308,14 +309,15 @@ fn the_file_of_a_table_is_part_of_its_spec() {
     assert_ne!(before.tables[0].points, after.tables[0].points);
     let mistakes = Spec::parse("measured.toml", &text).unwrap_err().to_string();
     assert!(
-        mistakes.contains("`rail.csv` cannot be read: this spec is a text, and in no folder"),
+        mistakes
+            .contains("cannot read `rail.csv`: this spec is not in a file, so relative paths have no folder"),
         "{mistakes}"
     );
     let parsed = Spec::parse_in(folder.path(), "measured.toml", &text).unwrap();
     assert_eq!(parsed.hash, after.hash);
 }
 
-/// A mistake in the file is shown with its line.
+/// Checks that a mistake in the table file is shown with its line.
 #[test]
 fn mistakes_in_a_file_have_their_line() {
     let folder = tempfile::tempdir().unwrap();
@@ -328,29 +330,29 @@ fn mistakes_in_a_file_have_their_line() {
     for (from, to, expected) in [
         ("300,31", "300,NaN", "line 4 of `rail.csv`: `dz` is not a number"),
         ("300,31", "300,", "line 4 of `rail.csv`: `dz` is not a number"),
-        ("300,31", "300,3l", "`3l` stands there"),
+        ("300,31", "300,3l", "found `3l`"),
         ("340,30", "300,30", "line 5 of `rail.csv`: x is the same as in the row before"),
         ("340,30", "290,30", "line 5 of `rail.csv`: x turns back"),
         ("d1,dz", "d1,d_z", "`rail.csv` has no column `dz`"),
-        ("300,31,20.2", "300,31", "`rail.csv` is not a table: line 4 has 2 cells, those before it 3"),
+        ("300,31,20.2", "300,31", "`rail.csv` is not a table: line 4: expected 3 cells, found 2"),
     ] {
         let shown = mistakes(rail.replace(from, to).as_bytes());
         assert!(shown.contains(expected) && shown.contains("help"), "{shown}");
     }
     let semicolons = mistakes(rail.replace(',', ";").replace('.', ",").as_bytes());
-    let form = "commas stand between cells, and decimals have a point";
+    let form = "separate cells by commas, and use a decimal point";
     assert!(semicolons.contains(form), "{semicolons}");
     assert!(mistakes(b"d1;dz\n1;2\n").contains(form));
     assert!(mistakes(b"d1,dz\n").contains("has no points"));
     assert!(mistakes(b"d1,dz\n1,2\n").contains("has one point"));
     assert!(mistakes(b"").contains("no column `d1`"));
-    assert!(mistakes(b"d1,dz\n1,\xff\n").contains("is not a table: line 2 is no UTF-8 text"));
+    assert!(mistakes(b"d1,dz\n1,\xff\n").contains("is not a table: line 2 is not UTF-8 text"));
     fs::remove_file(folder.path().join("rail.csv")).unwrap();
     let shown = Spec::read(folder.path().join("measured.toml")).unwrap_err().to_string();
     assert!(shown.contains("cannot read `rail.csv`") && shown.contains("relative to the folder"), "{shown}");
 }
 
-/// Rows may fall: a rail is measured on the way back, too.
+/// Checks that rows may be in descending order, as from a rail measured on the way back.
 #[test]
 fn descending_points_are_turned() {
     let folder = tempfile::tempdir().unwrap();
@@ -364,7 +366,8 @@ fn descending_points_are_turned() {
     assert_eq!(found.tables[0].derivative(1, 1234.0), spec().tables[0].derivative(1, 1234.0));
 }
 
-/// An argument that is no plain variable is tried out; what a configuration reaches is a mistake.
+/// Checks that an argument that is not a plain variable is sampled, and that configurations beyond
+/// the table are a mistake.
 #[test]
 fn arguments_are_tried_out() {
     let table = "x = [\"0 mm\", \"5 mm\", \"9 mm\"]\ny = [0, 1, 3]\ninterpolation = \"linear\"";
@@ -381,20 +384,22 @@ fn arguments_are_tried_out() {
         assert!(read(argument, limits).is_ok(), "{argument} in {limits}");
     }
     for (argument, limits, shown) in [
-        ("d1", "[0, 9.001]", "this goes from 0 mm to 9.001 mm"),
-        ("d1", "[-1, 9]", "this goes from -1 mm to 9 mm"),
-        ("10 mm - d1", "[0, 9]", "this goes from 1 mm to 10 mm"),
-        ("4.6 mm * (1 + sin(d1/(1 mm)))", "[-100, 100]", "this goes from"),
+        ("d1", "[0, 9.001]", "the argument goes from 0 mm to 9.001 mm"),
+        ("d1", "[-1, 9]", "the argument goes from -1 mm to 9 mm"),
+        ("10 mm - d1", "[0, 9]", "the argument goes from 1 mm to 10 mm"),
+        ("4.6 mm * (1 + sin(d1/(1 mm)))", "[-100, 100]", "the argument goes from"),
         ("9.5 mm", "[0, 1]", "this is 9.5 mm"),
     ] {
         let mistakes = read(argument, limits).unwrap_err().to_string();
         assert!(mistakes.contains(shown) && mistakes.contains("outside = \"hold\""), "{mistakes}");
     }
     let endless = slide(table, "Tx(d1) Rx(sag(d1))", "[0, 1]").replace(", limits = [0, 1]", "");
-    assert!(Spec::parse("slide.toml", &endless).unwrap_err().to_string().contains("this has no limits"));
+    assert!(
+        Spec::parse("slide.toml", &endless).unwrap_err().to_string().contains("the argument has no limits")
+    );
 }
 
-/// What a derivative does where there is none: one of the two sides, and the header says where.
+/// Checks derivatives where they do not exist: one of the two sides, stated in the header.
 #[test]
 fn derivatives_are_one_sided() {
     let header = print::rust(&spec());

@@ -1,20 +1,20 @@
-//! Derivatives against differences of the exact chain.
+//! Analytic derivatives against finite differences of the exact chain.
 
 use super::*;
 use crate::by_hand::Pps;
 use abbe_core::real_pose;
 use abbe_core::{Component, Manipulator, Pose};
 
-/// Analytic derivatives against central differences, far from ε = 0.
-fn differences(model: &Model, seen: &Observation) {
+/// Compares analytic derivatives with central differences, far from ε = 0.
+fn differences(model: &Model, row: &Observation) {
     let x = disturbed(model);
-    let (_, rows) = residuals(model, seen, &x);
+    let (_, rows) = residuals(model, row, &x);
     for k in 0..x.len() {
         let step = if x[k].abs() > 0.1 { 1e-3 } else { 1e-5 };
         let at = |sign: f64| {
             let mut x = x.clone();
             x[k] += sign * step;
-            residuals(model, seen, &x).0
+            residuals(model, row, &x).0
         };
         let (above, below) = (at(1.0), at(-1.0));
         for (row, (a, b)) in rows.iter().zip(above.iter().zip(&below)) {
@@ -40,67 +40,71 @@ fn derivatives_are_those_of_the_exact_chain() {
     differences(&points, &observation(&q, 3));
     let pose = Model::ideal(&Pps, vec![[0.0; 3]], EXACT);
     let pose = pose.with(pose.constants(true));
-    // The pose that would be seen is about where it should be, not half a turn away.
-    let near = pose.pose(&mut pose.room(), &observation(&q, 0), &vec![0.0; pose.unknowns.len()]).unwrap();
+    // A measured pose near the model's keeps the rotation vector away from half a turn.
+    let near = pose.pose(&mut pose.scratch(), &observation(&q, 0), &vec![0.0; pose.unknowns.len()]).unwrap();
     differences(&pose, &Observation { measured: Measurement::Pose(Box::new(near)), ..observation(&q, 0) });
 }
 
-/// One reading of every gauge.
-fn every_gauge(robot: &dyn Manipulator) -> Model<'_> {
+/// Returns a model with all observables of every instrument.
+fn every_instrument(robot: &dyn Manipulator) -> Model<'_> {
     let targets = vec![[100.0, 20.0, -30.0], [-80.0, 10.0, 50.0]];
-    let gauges = [
-        Gauge::Coordinate { target: 1, axis: 2 },
-        Gauge::Distance { target: 0, from: 0 },
-        Gauge::Apart { target: 1, from: 0, axis: 1 },
-        Gauge::Along { target: 0, about: [800.0, -150.0, 300.0], direction: 1 },
-        Gauge::Between { targets: [0, 1] },
-        Gauge::Lean { mirror: [0.6, 0.0, 0.8], direction: 1 },
-        Gauge::Moved { target: 1 },
-    ];
-    let fixture = |name: &str, place| Fixture { name: name.to_owned(), place };
-    let reading = |(i, gauge)| Reading {
-        name: format!("reading{i}"),
-        gauge,
-        zero: 0.5,
-        zero_known: false,
-        uncertainty: 1.0,
-        touched: false,
-        instrument: 0,
-    };
+    let fixture = |name: &str, geometry| Fixture { name: name.to_owned(), geometry };
     let fixtures = vec![
-        fixture("bar", Place::Point([300.0, -200.0, 500.0])),
-        fixture("plane", Place::Direction([0.3, -0.5, 0.2])),
+        fixture("bar", FixtureGeometry::Point([300.0, -200.0, 500.0])),
+        fixture("plane", FixtureGeometry::Direction([0.3, -0.5, 0.2])),
     ];
+    let observables = INSTRUMENTS.iter().enumerate().flat_map(|(instrument, kind)| {
+        (0..kind.numbers).map(move |axis| Observable {
+            name: format!("{}{axis}", kind.name),
+            kind,
+            instrument,
+            axis,
+            targets: if instrument % 2 == 0 { [1, 0] } else { [0, 1] },
+            fixture: if kind.has("direction") { Some(1) } else { kind.has("at").then_some(0) },
+            at: [800.0, -150.0, 300.0],
+            mirror: [0.6, 0.0, 0.8],
+            zero: 0.5,
+            zero_known: false,
+            uncertainty: 1.0,
+        })
+    });
     let base = Pose::IDENTITY
         .then(&real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[500.0, -3.0, 800.0, 0.4, -1.9, 2.5]]));
-    let readings = gauges.into_iter().enumerate().map(reading).collect();
-    Model { fixtures, readings, stations: vec![Station::at(base)], ..Model::ideal(robot, targets, EXACT) }
+    Model {
+        observables: observables.collect(),
+        fixtures,
+        stations: vec![Station::at(base)],
+        ..Model::ideal(robot, targets, EXACT)
+    }
 }
 
 #[test]
-fn derivatives_of_readings_are_exact() {
+fn derivatives_of_observables_are_exact() {
     let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];
-    let model = every_gauge(&Pps);
+    let model = every_instrument(&Pps);
     let sources = model.repeatable().into_iter().map(Unknown::Magnitude);
     let all = model.constants(false).into_iter().chain(sources);
     let model = model.with(all.chain(Component::ALL.map(Unknown::Tool)).collect());
     let from = Some(Box::new(observation(&[700.0, 100.0, 350.0, -0.4, 0.02, 0.05], 0)));
-    let measured = Measurement::Readings(vec![Some(0.0); 7]);
-    let seen =
+    let count = model.observables.len();
+    let measured = Measurement::Readings(vec![Some(0.0); count]);
+    let row =
         Observation { measured, ..observation(&q, 1) }.approached(Approach { from, ..Approach::default() });
-    differences(&model, &seen);
-    assert_eq!(seen.count(), 7);
-    let hidden = Measurement::Readings(vec![None, Some(1.0), None, None, Some(2.0), None, None]);
-    let part = Observation { measured: hidden, ..seen.clone() };
+    differences(&model, &row);
+    assert_eq!(row.count(), count);
+    let mut readings = vec![None; count];
+    (readings[1], readings[4]) = (Some(1.0), Some(2.0));
+    let part = Observation { measured: Measurement::Readings(readings), ..row.clone() };
     let zero = vec![0.0; model.unknowns.len()];
-    let (all, rows) = residuals(&model, &seen, &zero);
+    let (all, rows) = residuals(&model, &row, &zero);
     let (two, _) = residuals(&model, &part, &zero);
     assert_eq!(two.len(), 2);
     assert!((two[0] - all[1] + 1.0).abs() < 1e-12 && (two[1] - all[4] + 2.0).abs() < 1e-12);
-    // Nothing of the base moves a fixture against the machine.
+    // An error of the base moves fixtures and machine alike.
     let base = model.unknowns.iter().enumerate().filter(|(_, unknown)| matches!(unknown, Unknown::Base(..)));
     for (k, _) in base {
-        assert!(rows[1..].iter().all(|row| row[k] == 0.0));
+        let moved = rows.iter().zip(&model.observables).filter(|(_, observable)| !observable.kind.sees_base);
+        moved.for_each(|(row, _)| assert_eq!(row[k], 0.0));
     }
 }
 
@@ -115,7 +119,7 @@ fn the_chain_is_that_of_equation_6() {
     let mut transforms = vec![Pose::IDENTITY; 7];
     Pps.transforms(&q, &model.s, &mut transforms).unwrap();
     let Pose(expected) = real_pose(&transforms, &errors);
-    let Pose(found) = model.pose(&mut model.room(), &observation(&q, 1), &x).unwrap();
+    let Pose(found) = model.pose(&mut model.scratch(), &observation(&q, 1), &x).unwrap();
     for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
         assert!((found - expected).abs() < 1e-10);
     }

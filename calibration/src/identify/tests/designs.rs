@@ -1,10 +1,10 @@
-//! Designs against all that could be chosen, and what they promise against many draws.
+//! Designs against exhaustive search, and predicted variances against Monte Carlo.
 
 use super::*;
 use crate::by_hand::Puma;
 use abbe_core::Component;
 
-/// Choices by the library and by trying all of them.
+/// Compares designs with exhaustive search.
 fn brute_force(criterion: Criterion, model_error: f64, targets: Vec<[f64; 3]>) {
     let points = targets.len();
     let model = Model::ideal(&Puma, targets, Uncertainty { length: 1e-4, angle: 1e-3 });
@@ -32,7 +32,7 @@ fn brute_force(criterion: Criterion, model_error: f64, targets: Vec<[f64; 3]>) {
             let part: Vec<Observation> =
                 (0..13).filter(|i| set >> i & 1 == 1).map(|i| list[i].clone()).collect();
             if let Some(design) = whole(&model, &part, &known, &objective, &mut |_, _| {}).unwrap() {
-                // Columns are scaled by the list: to those of the whole one.
+                // The library scales columns by the whole list.
                 best = best.min(match criterion {
                     Criterion::Determinant => -by_hand(&model, &part, &known, model_error),
                     Criterion::Variance => value(&design),
@@ -49,14 +49,14 @@ fn brute_force(criterion: Criterion, model_error: f64, targets: Vec<[f64; 3]>) {
     assert!(reached <= best + 1e-9 * best.abs(), "{criterion:?} {reached} but {best} can be had");
 }
 
-/// `ln det M` from the covariance of what is seen, inverted as it stands.
+/// Computes `ln det M` from the inverse of the covariance of the measurements.
 fn by_hand(model: &Model, part: &[Observation], known: &Identifiable, model_error: f64) -> f64 {
     let p = known.kept.len();
     let Uncertainty { length, angle } = model.uncertainty;
     let arm = abbe_analysis::sampling::arm_length(&Puma, &model.s).unwrap();
     let mut information = nalgebra::DMatrix::zeros(p, p);
     for seen in part {
-        let seen = model.nominally_seen(&mut model.room(), seen).unwrap();
+        let seen = model.nominally_seen(&mut model.scratch(), seen).unwrap();
         let (_, rows) = residuals(model, &seen, &vec![0.0; model.unknowns.len()]);
         let n = rows.len();
         let pose = matches!(seen.measured, Measurement::Pose(_));
@@ -82,8 +82,8 @@ fn small_designs_are_the_best_of_all() {
     }
 }
 
-/// Measured, identified and asked for the tool point again and again: the predicted σ is that of the errors. Poses too, whose
-/// orientations are anywhere.
+/// The predicted σ of the tool point is that of repeated measurements and fits, also for poses of
+/// any orientation.
 #[test]
 fn the_predicted_deviation_is_found() {
     for points in [1, 0] {
@@ -92,7 +92,7 @@ fn the_predicted_deviation_is_found() {
         let list = sampled(&Puma, &[0, 1, 2, 3, 4, 5], 200, points);
         let zero = vec![0.0; model.unknowns.len()];
         let expect = |list: &[Observation]| -> Vec<Observation> {
-            list.iter().map(|seen| model.nominally_seen(&mut model.room(), seen).unwrap()).collect()
+            list.iter().map(|seen| model.nominally_seen(&mut model.scratch(), seen).unwrap()).collect()
         };
         let list = expect(&list);
         let known = identifiable(&model, &list, &zero).unwrap();
@@ -108,14 +108,14 @@ fn the_predicted_deviation_is_found() {
         let runs = 60;
         for run in 0..runs {
             let noise = model.uncertainty;
-            let chance = Chance { noise, outliers: 0.0, gross: 0.0, random_sources: false, seed: run };
+            let chance = Chance { noise, outliers: 0.0, outlier_size: 0.0, random_sources: false, seed: run };
             let data = simulate(&model.with(Vec::new()), &chosen, &chance).unwrap();
             let fit = fit(&model, &data, &Options::default()).unwrap();
             for place in &places {
-                let (mut at, mut is) = (model.room(), model.room());
+                let (mut at, mut is) = (model.scratch(), model.scratch());
                 let wanted = model.pose(&mut at, place, &zero).unwrap().position();
                 let pose = model.pose(&mut is, place, &fit.x).unwrap();
-                // Of a single target, what is unknown of its place belongs to the tool point.
+                // The unknown position of a single target belongs to the tool point.
                 let target = |axis: usize| {
                     let at = |unknown: &Unknown| *unknown == Unknown::Target(0, axis);
                     model.unknowns.iter().position(at).map_or(0.0, |k| fit.x[k])
@@ -130,7 +130,8 @@ fn the_predicted_deviation_is_found() {
     }
 }
 
-/// Many at once, then one by one: hardly worse than one by one alone, from a list where both can be had; and better than chance.
+/// Exchange of many candidates, then of single ones, is hardly worse than of single ones alone, and
+/// better than chance.
 #[test]
 fn exchange_beats_an_even_spread() {
     let model = Model::ideal(&Puma, vec![[0.0; 3]], Uncertainty { length: 1e-4, angle: 1.0 });
@@ -150,7 +151,8 @@ fn exchange_beats_an_even_spread() {
     }
 }
 
-/// What rows cannot tell, but moves the tool point where it is used, is named; what acts alike everywhere is not.
+/// Errors that move the tool point in use but not in the rows are named; errors equivalent
+/// everywhere are not.
 #[test]
 fn what_a_list_cannot_see_is_named() {
     let model = Model::ideal(&Puma, vec![[0.0; 3]], Uncertainty { length: 1e-4, angle: 1.0 });
@@ -160,7 +162,7 @@ fn what_a_list_cannot_see_is_named() {
     let zero = vec![0.0; model.unknowns.len()];
     let unseen = |list: &[Observation]| used.unseen(&identifiable(&model, list, &zero).unwrap(), |_| 1.0);
     assert_eq!(unseen(&everywhere), []);
-    // The elbow is not moved: its error, at home a shift of what is behind it, is one that turns elsewhere.
+    // The elbow does not move: its error translates the rest at home, and rotates it elsewhere.
     let still = sampled(&Puma, &[0, 1, 3, 4, 5], 60, 1);
     assert!(!unseen(&still).is_empty());
 }

@@ -1,4 +1,5 @@
-//! The model against differences of itself, the ranks against theory, the statistics and the designs against many draws.
+//! Tests: derivatives against finite differences, ranks against theory, statistics and designs
+//! against Monte Carlo.
 
 mod derivatives;
 mod designs;
@@ -27,13 +28,13 @@ fn numbered(line: u64, q: &[f64], points: usize) -> Observation {
     Observation::new(line, q.to_vec(), Vec::new(), measured)
 }
 
-/// Samples of the joints that are moved.
+/// Returns samples of the joints in `moved`.
 fn sampled(robot: &dyn Manipulator, moved: &[usize], count: usize, points: usize) -> Vec<Observation> {
     let samples = joint_samples(robot, moved, count).unwrap().reached();
     samples.iter().zip(1..).map(|(sample, line)| numbered(line, &sample.q, points)).collect()
 }
 
-/// A machine with errors everywhere, base, targets and tool included.
+/// Returns nonzero values of all unknowns, including base, targets and tool.
 fn disturbed(model: &Model) -> Vec<f64> {
     let value = |(k, unknown): (usize, &Unknown)| {
         let size = match unknown {
@@ -45,9 +46,9 @@ fn disturbed(model: &Model) -> Vec<f64> {
                 }
             }
             Unknown::Target(..) | Unknown::Zero(_) => 3.0,
-            Unknown::Fixture(fixture, _) => match model.fixtures[*fixture].place {
-                Place::Point(_) => 20.0,
-                Place::Direction(_) => 0.3,
+            Unknown::Fixture(fixture, _) => match model.fixtures[*fixture].geometry {
+                FixtureGeometry::Point(_) => 20.0,
+                FixtureGeometry::Direction(_) => 0.3,
             },
             Unknown::Magnitude(_) => 2.0,
         };
@@ -56,17 +57,17 @@ fn disturbed(model: &Model) -> Vec<f64> {
     model.unknowns.iter().enumerate().map(value).collect()
 }
 
-fn residuals(model: &Model, seen: &Observation, x: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+fn residuals(model: &Model, observation: &Observation, x: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let (mut values, mut rows) = (Vec::new(), Vec::new());
     let take = |residual: f64, row: &[f64]| {
         values.push(residual);
         rows.push(row.to_vec());
     };
-    model.linear(&mut model.room(), seen, x, take).unwrap();
+    model.linear(&mut model.scratch(), observation, x, take).unwrap();
     (values, rows)
 }
 
-/// A machine whose errors are drawn, as an instrument with that noise sees it.
+/// Simulates measurements of a machine with errors `x` and noise.
 fn measured(
     model: &Model,
     x: &[f64],
@@ -75,16 +76,16 @@ fn measured(
     random: &mut Xoshiro256PlusPlus,
 ) -> Vec<Observation> {
     let normal = rand_distr::Normal::new(0.0, noise).unwrap();
-    let mut room = model.room();
-    let see = |asked: &Observation| {
-        let pose = model.pose(&mut room, asked, x).unwrap();
+    let mut scratch = model.scratch();
+    let see = |planned: &Observation| {
+        let pose = model.pose(&mut scratch, planned, x).unwrap();
         let point = |target: &[f64; 3]| {
             let at = pose.apply(*target);
             Some(at.map(|coordinate| coordinate + random.sample(normal)))
         };
         Observation {
             measured: Measurement::Points(model.targets.iter().map(point).collect()),
-            ..asked.clone()
+            ..planned.clone()
         }
     };
     list.iter().map(see).collect()

@@ -1,10 +1,10 @@
-//! What can be known, against theory.
+//! Identifiable combinations against theory.
 
 use super::*;
 use crate::by_hand::{Pps, Puma};
 use abbe_core::Manipulator;
 
-/// Rank, and groups by the twists, which must say the same.
+/// Returns the rank, and checks it against the groups from joint twists.
 fn counted(robot: &dyn Manipulator, moved: &[usize], points: usize, base: bool) -> usize {
     let (targets, pose) = match points {
         0 => (vec![[0.0; 3]], true),
@@ -24,7 +24,7 @@ fn counted(robot: &dyn Manipulator, moved: &[usize], points: usize, base: bool) 
     assert!(known.gap > 1e6, "{}", known.gap);
     let found = groups(&model, &data[0].q, moved, pose).unwrap();
     assert_eq!(known.rank + found.len(), model.unknowns.len());
-    // Each group says the truth: its errors move everything as those it names do.
+    // The errors of each group move everything as their equivalents do.
     for group in found {
         let mut x = zero.clone();
         let place = |unknown| model.unknowns.iter().position(|u| *u == unknown).unwrap();
@@ -38,7 +38,7 @@ fn counted(robot: &dyn Manipulator, moved: &[usize], points: usize, base: bool) 
             }
         }
     }
-    // What is held at zero acts as the kept ones that it names.
+    // Fixed unknowns act as their equivalents.
     for (k, act_as) in &known.held {
         let (_, rows) = residuals(&model, &data[7], &zero);
         for row in rows {

@@ -1,4 +1,4 @@
-//! Stated deviations, gross errors, threads: over many machines.
+//! Coverage, outliers and independence of the number of threads, over many machines.
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::*;
 use crate::by_hand::Pps;
 
-/// The paper's two sets with two payloads: 450 rows.
+/// Returns the paper's two sets with two payloads: 450 rows.
 fn planned() -> Vec<Observation> {
     let mut list: Vec<[f64; 4]> = Vec::new();
     for spin in (-3..=3).map(|i| f64::from(i) * 30f64.to_radians()) {
@@ -32,7 +32,7 @@ fn planned() -> Vec<Observation> {
     list.zip(1..).map(|(q, line)| numbered(line, &q, 3)).collect()
 }
 
-/// Over 200 machines: what can be known is found to within its standard deviations.
+/// The errors of 200 machines are found to within their standard deviations.
 #[test]
 fn stated_deviations_are_true() {
     let list = planned();
@@ -52,7 +52,7 @@ fn stated_deviations_are_true() {
         let data = measured(&model, &truth, &list, 0.04, &mut random);
         let found = fit(&model, &data, &Options::default()).unwrap();
         assert_eq!(found.identifiable.rank, 16);
-        // All 36 are wrong; what the kept ones must be is what all of them act as.
+        // All 36 errors are nonzero; the kept ones take on their equivalents.
         let mut expected = truth.clone();
         for (k, act_as) in &found.identifiable.held {
             act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
@@ -95,7 +95,7 @@ fn gross_errors_are_rejected_and_named() {
     }
 }
 
-/// Of so many rows a part comes near first.
+/// A subset provides the start for this many rows.
 #[test]
 fn gross_errors_among_many_rows_are_named() {
     let model = Model::ideal(&Pps, vec![[0.0; 3]], Uncertainty { length: 0.04, angle: 1.0 });
@@ -115,7 +115,7 @@ fn gross_errors_among_many_rows_are_named() {
     assert!((0.97..1.03).contains(&found.sigma), "{}", found.sigma);
 }
 
-/// More rows than one block of them, some of them wrong: on one thread, two and five.
+/// More rows than one block, with outliers: on one thread, two and five.
 #[cfg(feature = "parallel")]
 #[test]
 fn results_do_not_depend_on_the_number_of_threads() {

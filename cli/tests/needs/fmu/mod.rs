@@ -1,8 +1,9 @@
-//! Functional mock-up units are valid, compile without a warning, and give what the command gives: FMPy simulates all of them.
+//! Functional mock-up units are valid, compile without warnings, and agree with the command. FMPy
+//! simulates them.
 //!
 //! `PYTHON` names a Python that has FMPy, if `python3` has none.
 
-mod alike;
+mod agreement;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,7 +18,7 @@ use abbe_tests::needs::{Missing, Tests, python, tool};
 use abbe_tests::{is_tested, specs};
 use tempfile::TempDir;
 
-use self::alike::assert_alike;
+use self::agreement::assert_agreement;
 
 pub(crate) const TESTS: Tests = &[
     ("shipped_robots_compiled_by_cc", (|| shipped_robots("cc", &["2", "3"]))),
@@ -28,8 +29,8 @@ pub(crate) const TESTS: Tests = &[
     ("several_machines_in_one_program", several_machines_in_one_program),
 ];
 
-/// A spec without joints, where nothing can be corrected; two of its sources are the same to an identifier, and there is text that XML
-/// cannot hold as it is.
+/// Spec without joints, where nothing can be compensated. Two of its sources map to the same
+/// identifier, and it has text that XML must escape.
 const FIXED: &str = "[manipulator]\nname = \"fixed\"\nlength = \"m\"\ndescription = \"\\u0001 & <b>\"\n\
                      [inputs]\nheat = { value = \"1 K\", range = [\"0 K\", \"9 K\"], description = \"\\u0001 \\\"<\\n&\" }\n\
                      [[frame]]\nname = \"only\"\ntransform = \"Tz(1)\"\n[[source]]\nname = \"growth & <heat>\"\nclass = \"repeatable\"\n\
@@ -38,30 +39,30 @@ const FIXED: &str = "[manipulator]\nname = \"fixed\"\nlength = \"m\"\ndescriptio
                      magnitude = { value = 2 }\n";
 
 fn shipped_robots(compiler: &str, versions: &[&str]) -> Result<(), Missing> {
-    let python = found(compiler)?;
+    let python = simulation_python(compiler)?;
     for shipped in SHIPPED.iter().filter(|shipped| is_tested(shipped.name)) {
         let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
         for version in versions {
-            assert_alike(&python, compiler, version, shipped.name, spec.clone());
+            assert_agreement(&python, compiler, version, shipped.name, spec.clone());
         }
     }
     Ok(())
 }
 
-/// Half of them by each version: CMake takes its time.
+/// Half of the robots by each FMI version, because CMake is slow.
 fn shipped_robots_compiled_by_fmpy() -> Result<(), Missing> {
-    let python = found("fmpy")?;
+    let python = simulation_python("fmpy")?;
     let shipped = SHIPPED.iter().filter(|shipped| is_tested(shipped.name));
     for (shipped, version) in shipped.zip(["3", "2"].into_iter().cycle()) {
         let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
-        assert_alike(&python, "fmpy", version, shipped.name, spec);
+        assert_agreement(&python, "fmpy", version, shipped.name, spec);
     }
     Ok(())
 }
 
-/// A long chain, tables, words of languages, and nothing that moves.
+/// A long chain, tables, names that are keywords, and a machine without joints.
 fn others() -> Result<(), Missing> {
-    let python = found("cc")?;
+    let python = simulation_python("cc")?;
     let folder = tempfile::tempdir().unwrap();
     let written = [("long", long_chain()), ("names", NAMES.to_owned()), ("fixed", FIXED.to_owned())];
     let written = written.map(|(name, text)| {
@@ -70,14 +71,14 @@ fn others() -> Result<(), Missing> {
         path
     });
     for path in written.into_iter().chain([specs::path("measured")]) {
-        assert_alike(&python, "cc", "3", path.to_str().unwrap(), Spec::read(&path).unwrap());
+        assert_agreement(&python, "cc", "3", path.to_str().unwrap(), Spec::read(&path).unwrap());
     }
     Ok(())
 }
 
-/// Values that cannot be, and a description of another machine.
+/// Invalid values, and a model description of another machine.
 fn what_is_wrong_is_said() -> Result<(), Missing> {
-    let python = found("cc")?;
+    let python = simulation_python("cc")?;
     let folder = tempfile::tempdir().unwrap();
     let spec = folder.path().join("fixed.toml");
     fs::write(&spec, FIXED).unwrap();
@@ -89,7 +90,7 @@ fn what_is_wrong_is_said() -> Result<(), Missing> {
     Ok(())
 }
 
-/// Names that begin with the machine's do not meet, of neither version.
+/// Symbols of two units in one program do not collide, in either FMI version.
 fn several_machines_in_one_program() -> Result<(), Missing> {
     tool("cc", "")?;
     let folder = tempfile::tempdir().unwrap();
@@ -125,9 +126,9 @@ fn several_machines_in_one_program() -> Result<(), Missing> {
     Ok(())
 }
 
-/// What `docs/fmu.md` does with Python prints what stands there.
+/// The Python code in `docs/fmu.md` prints the output shown there.
 fn the_chapter_says_what_happens() -> Result<(), Missing> {
-    let python = found("fmpy")?;
+    let python = simulation_python("fmpy")?;
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/fmu.md");
     let page = fs::read_to_string(page).unwrap();
     let blocks = page.split("```").skip(1).step_by(2).filter_map(|block| block.split_once('\n'));
@@ -164,7 +165,7 @@ fn the_chapter_says_what_happens() -> Result<(), Missing> {
     Ok(())
 }
 
-/// A program in a folder; CMake, which may be one of Python's packages, is found.
+/// Creates a command that runs in a folder and finds CMake, which may be a Python package.
 fn in_folder(program: &str, python: &str, folder: &TempDir) -> Command {
     let mut command = Command::new(program);
     let beside = Path::new(python).parent().unwrap_or(Path::new("")).to_owned();
@@ -181,11 +182,11 @@ fn succeeds(command: &mut Command) -> String {
     printed
 }
 
-/// The Python that simulates, if all is there.
-fn found(compiler: &str) -> Result<String, Missing> {
+/// Returns the Python that runs the simulations, if all tools are installed.
+fn simulation_python(compiler: &str) -> Result<String, Missing> {
     tool("cc", "")?;
     match compiler {
-        // CMake is one of Python's packages.
+        // CMake may be a Python package.
         "fmpy" => python("fmpy, cmake"),
         _ => python("fmpy"),
     }
@@ -202,7 +203,7 @@ fn abbe(arguments: &[&str]) -> Vec<u8> {
     output.stdout
 }
 
-/// What the command writes.
+/// Generates a unit with the command.
 fn unit(folder: &TempDir, version: &str, machine: &str, name: &str) -> PathBuf {
     let unit = folder.path().join(format!("{name}.{version}.fmu"));
     abbe(&["generate", machine, "--lang", "fmu", "--fmi", version, "--out", unit.to_str().unwrap()]);

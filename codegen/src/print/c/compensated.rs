@@ -1,4 +1,4 @@
-//! Corrected commands in C: the fixed number of steps of `abbe::compensator`, term by term.
+//! Corrected commands in C, by the fixed number of steps of `abbe::compensator`.
 
 use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
@@ -24,11 +24,11 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
         return;
     }
     writer.blank();
-    writer.lines("/* One rad or one metre in the unit of each variable. */");
+    writer.lines("/* 1 rad or 1 m in the unit of each variable. */");
     let units: Vec<String> = units(spec).map(|unit| real.number(unit)).collect();
     writer.braces(&format!("static const {real} UNITS[{}] = ", units.len()), &units, ";");
     let more_than_six = units.len() > 6;
-    let Solver { texts, tolerances } = Solver::of(real);
+    let Solver { texts, tolerances } = Solver::new(real);
     let [before, shortest] = [texts[0], texts[if more_than_six { 2 } else { 1 }]];
     let written = TEXT.replace("SHORTEST", &[before, shortest].concat());
     let placed = [
@@ -64,7 +64,7 @@ static double dot(const double *a, const double *b, int count)
     return sum;
 }
 
-/* From the ideal to the real pose: three lengths in F_0, and the rotation vector of R_real R_ideal^T. */
+/* Deviation of the real from the ideal pose: position in F_0, and the rotation vector of R_real R_ideal^T. */
 static void deviation(const double *ideal, const double *real, double *rows)
 {
     double turn[3][3];
@@ -86,7 +86,7 @@ static void deviation(const double *ideal, const double *real, double *rows)
     }
 }
 
-/* Rows in metres and rad; a rad counts as a millimetre, so that the tool point comes first. */
+/* Weights the rows in metres and rad: 1 rad counts as 1 mm, so that the position has priority. */
 static void weigh(const double *rows, double factor, double *weighted)
 {
     for (int i = 0; i < 3; i++) {
@@ -103,7 +103,8 @@ static double cost(const double *rows)
 }
 
 SHORTEST
-/* q becomes start + d; a variable that would go beyond a limit is held there, the one furthest beyond it first. */
+/* Sets q to start + step. Variables that exceed a limit are held at it, one at a time, the one with the
+ * largest excess first. */
 static void depart(const double *start, double *q, const double *twists, const double *after)
 {
     double columns[COUNT][6];
@@ -121,7 +122,7 @@ static void depart(const double *start, double *q, const double *twists, const d
         int held = -1;
         shortest(columns, wanted, step);
         for (int j = 0; j < COUNT; j++) {
-            /* Held, or of no use to the tool. */
+            /* Skip variables that are held or do not move the tool. */
             if (dot(columns[j], columns[j], 6) > 0.0) {
                 q[j] = start[j] + step[j] * UNITS[j];
                 const double beyond = fabs(q[j] - clamped(j, q[j])) / UNITS[j];

@@ -1,4 +1,4 @@
-//! Routines as functions.
+//! Prints routines as functions.
 
 use abbe_core::Description;
 use abbe_core::function::Signature;
@@ -12,16 +12,16 @@ use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
-use crate::program::{Place, Role, Routine, Routines, Row};
+use crate::program::{ArrayRows, Role, Routine, Routines, Row};
 
-/// The head of a function without its end: `int pps_pose(const double *restrict q, …)`.
+/// Returns the head of a function without its end: `int pps_pose(const double *restrict q, …)`.
 pub(super) fn head(prefix: &str, signature: &Signature, real: Real, restrict: &str) -> String {
     let given = signature.arguments.iter().map(|array| (array.name, Role::Argument));
     let filled = signature.results.iter().map(|array| (array.name, Role::Result));
     format!("int {prefix}_{}({})", signature.name, arguments(given.chain(filled), real, restrict))
 }
 
-/// The same of what only helps functions.
+/// Returns the head of a helper function.
 fn helper_head(prefix: &str, routine: &Routine, real: Real) -> String {
     let arrays = routine.arrays.iter().map(|array| (array.name, array.role));
     format!("static void {prefix}_{}({})", routine.name, arguments(arrays, real, "restrict"))
@@ -36,7 +36,8 @@ fn arguments(arrays: impl Iterator<Item = (&'static str, Role)>, real: Real, res
     outside.collect::<Vec<_>>().join(", ")
 }
 
-/// What stands above its declaration; a code of its own, and what is said at the end.
+/// Prints the documentation of a declaration, with an additional status code and a closing
+/// paragraph if given.
 pub(super) fn documentation(
     writer: &mut Writer,
     description: &Description,
@@ -48,7 +49,7 @@ pub(super) fn documentation(
     writer.lines("/**");
     writer.documentation(signature.documentation);
     writer.documentation_line("");
-    for (array, way) in signature
+    for (array, direction) in signature
         .arguments
         .iter()
         .map(|array| (array, "in"))
@@ -56,7 +57,7 @@ pub(super) fn documentation(
     {
         let shape = array.shape.iter().map(|count| count.value(description).to_string());
         writer.documentation(&format!(
-            "@param[{way}] {} {} Numbers: {}; {}.",
+            "@param[{direction}] {} {} Size: {}. Unit: {}.",
             array.name,
             array.documentation,
             shape.collect::<Vec<_>>().join(" x "),
@@ -77,7 +78,7 @@ pub(super) fn documentation(
     writer.lines(" */");
 }
 
-/// One function.
+/// Prints one function.
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine, real: Real) {
     let Statements { list, used, .. } =
         Statements::new(spec, &routines.description, routine, &C { spec, real });
@@ -95,7 +96,7 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     printer.begin(&used, !list.is_empty());
     list.iter().for_each(|statement| printer.statement(statement));
     let margin = list.iter().find_map(|statement| match statement {
-        // Of another function's margin its status has told.
+        // The status code of the called function covers its margin.
         Statement::Return(value) if value != "margin" => Some(value.as_str()),
         _ => None,
     });
@@ -103,7 +104,7 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     writer.close("}");
 }
 
-/// A comment of one line or more.
+/// Prints a block comment.
 pub(super) fn comment(writer: &mut Writer, text: &str) {
     writer.lines("/*");
     writer.documentation(text);
@@ -118,7 +119,7 @@ struct Printer<'p> {
 }
 
 impl Printer<'_> {
-    fn place(&self, place: Place, index: usize, k: usize) -> String {
+    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
         let listed = |table: &str, column| format!("{table}[i][{column}]");
         format!("{}[{}]", self.name(place.array), self.flat.index(place, index, k, listed))
     }
@@ -131,7 +132,7 @@ impl Printer<'_> {
         self.prefix.to_ascii_uppercase()
     }
 
-    /// What is not used says so; inputs must be within their ranges.
+    /// Prints the beginning of a body: marks unused arguments and checks the ranges of inputs.
     fn begin(&mut self, used: &[bool], some: bool) {
         let outside = self.flat.routine.arrays.iter().enumerate();
         let outside = outside.filter(|(_, array)| matches!(array.role, Role::Argument | Role::Result));
@@ -154,7 +155,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Whether the results are there.
+    /// Prints the checks of the results and the return statement.
     fn end(&mut self, margin: Option<&str>) {
         let (Flat { routine, .. }, real) = (self.flat, self.real);
         if routine.function.is_none() {
@@ -181,7 +182,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Zeros for an array.
+    /// Prints a loop that fills an array with zeros.
     fn clear(&mut self, array: usize) {
         self.writer.open(&format!("for (int k = 0; k < {}; k++)", self.flat.len(array)));
         self.writer.lines(&format!("{}[k] = {};", self.name(array), self.real.number(0.0)));
@@ -209,7 +210,7 @@ impl Printer<'_> {
                 }
             }
             Statement::Declare(array) => self.declare(*array),
-            // What is cleared has only begun.
+            // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
             Statement::Copy { from, to } => {
                 let [first, _] = self.flat.range(*from);
@@ -225,7 +226,7 @@ impl Printer<'_> {
                 self.writer.braces(&format!("{real} {name}[{}] = ", values.len()), &values, ";");
             }
             Statement::Assign { to, index, values, fresh: false } => {
-                // What was declared began as zeros.
+                // Results and local arrays have been initialized with zeros.
                 let is_result = self.flat.routine.arrays[to.array].role == Role::Result;
                 let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
                 let entry =
@@ -260,12 +261,12 @@ impl Printer<'_> {
                 body.iter().for_each(|statement| self.statement(statement));
                 self.writer.close("}");
             }
-            // With the results; columns go to arrays.
+            // `end` prints the return; columns go to arrays.
             Statement::Return(_) | Statement::Column { .. } => {}
         }
     }
 
-    /// An array of its own begins, a result is cleared.
+    /// Declares a local array, or clears a result that has entries that are not written.
     fn declare(&mut self, array: usize) {
         match self.flat.routine.arrays[array].role {
             Role::Zeros => self.zeros(array),
@@ -274,13 +275,13 @@ impl Printer<'_> {
         }
     }
 
-    /// An array of its own.
+    /// Declares a local array of zeros.
     fn zeros(&mut self, array: usize) {
         let (real, name, len) = (self.real, self.name(array), self.flat.len(array));
         self.writer.lines(&format!("{real} {name}[{len}] = {{ {} }};", real.number(0.0)));
     }
 
-    /// Whether a result has entries that are not written.
+    /// Returns `true` if a result has entries that are not written.
     fn has_zeros(&self, array: usize) -> bool {
         use crate::program::{Block, Operand, Stage};
         let Flat { routine, routines } = self.flat;

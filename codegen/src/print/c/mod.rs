@@ -1,7 +1,7 @@
-//! C99: a header and a source of pure functions on flat arrays, with nothing but `math.h`.
+//! C99: a header and a source of pure functions on flat arrays, which need only `math.h`.
 //!
-//! `functions` prints routines, `operators` what expressions are made of, `support` the sine and what else is used,
-//! `compensated` the corrected commands, `self_test` numbers to hold a target against.
+//! `functions` prints routines, `operators` expressions, `support` the sine and other helpers,
+//! `compensated` the corrected commands, and `self_test` expected values for checks on the target.
 
 mod compensated;
 mod functions;
@@ -24,7 +24,7 @@ use super::text::escaped;
 use crate::chain::Model;
 use crate::program::{Operand, Routines, Sums};
 
-/// The header and the source of a manipulator.
+/// Returns the header and the source of a manipulator.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {
     let name = &spec.name;
     vec![
@@ -33,7 +33,7 @@ pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real)
     ]
 }
 
-/// The first number of the source that the type does not have.
+/// Returns the first constant of the source that the type cannot represent.
 pub(super) fn lost(spec: &Spec, routines: &Routines, real: Real) -> Option<f64> {
     let programs = routines.programs().flat_map(|program| {
         let operands = program.steps.iter().flat_map(|step| step.action.operands());
@@ -57,7 +57,7 @@ pub(super) fn lost(spec: &Spec, routines: &Routines, real: Real) -> Option<f64> 
     all.find(|value| !real.has(*value))
 }
 
-/// The header.
+/// Returns the header.
 fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     let upper = spec.name.to_ascii_uppercase();
     let mut writer = Writer::new(" *");
@@ -65,9 +65,9 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     header(&mut writer, spec, routines);
     writer.documentation_line("");
     writer.documentation(
-        "Arrays are flat, in the order of the Rust code: a Jacobian is column after column, six numbers each. No \
-         function allocates, keeps anything or reads anything else; arrays that are filled must not overlap others. \
-         Every function returns 0 if its results can be used.",
+        "Arrays are flat and in column-major order: a Jacobian has one column of six numbers after the other. The \
+         functions allocate nothing and have no state. Output arrays must not overlap other arrays. Every function \
+         returns 0 if its results are valid.",
     );
     if real == Real::Float {
         writer.documentation_line("");
@@ -76,21 +76,24 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     writer.lines(" */");
     writer.lines(&format!("#ifndef {upper}_H\n#define {upper}_H\n\n{BEGIN}"));
     writer.blank();
-    writer.lines("/** The version of the generator, and the first digits of the spec's SHA-256. */");
+    writer.lines("/** Version of the generator, and the first digits of the spec's SHA-256. */");
     writer.lines(&format!("#define {upper}_GENERATOR \"{}\"", env!("CARGO_PKG_VERSION")));
     writer.lines(&format!("#define {upper}_SPEC \"{}\"", &spec.hash[..16]));
     writer.blank();
     enumeration(
         &mut writer,
-        "What functions return.",
+        "Status codes returned by the functions.",
         &[
-            (format!("{upper}_OK = 0"), "The results can be used."),
+            (format!("{upper}_OK = 0"), "The results are valid."),
             (format!("{upper}_NOT_FINITE = 1"), "A result is not finite."),
-            (format!("{upper}_SINGULAR = 2"), "Rows 4 to 6 are Euler angles, which do not exist here."),
+            (
+                format!("{upper}_SINGULAR = 2"),
+                "Rows 4 to 6 are Euler angles, which are undefined at this pose.",
+            ),
             (format!("{upper}_OUT_OF_RANGE = 3"), "An input is outside its range."),
             (
                 format!("{upper}_NOT_CONVERGED = 4"),
-                "More steps were needed: the commands are the best so far.",
+                "The steps did not converge; the commands are the best result so far.",
             ),
         ],
     );
@@ -110,10 +113,13 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     writer.finish()
 }
 
-/// The source.
+/// Returns the source.
 fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> String {
     let mut writer = Writer::new(" *");
-    comment(&mut writer, &format!("The functions that {}.h declares and describes. Do not edit.", spec.name));
+    comment(
+        &mut writer,
+        &format!("Definitions of the functions declared and documented in {}.h. Do not edit.", spec.name),
+    );
     writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>", spec.name));
     values(&mut writer, spec, real, "", true);
     for table in routines.used_tables() {
@@ -142,10 +148,10 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> S
     writer.finish()
 }
 
-/// The figures are measured: a test of `abbe` holds them against the manipulators that are shipped.
-const SINGLE: &str = "In single precision. Over 1000 configurations of every manipulator that is shipped, what differs \
-     from double precision was at most 1.6e-7 of the length of the arm in positions and 3.2e-7 of its largest number in `J_e`; \
-     corrected commands that came to rest brought the tool to within 3.2e-7 of that length and 8.7e-7 rad.";
+/// A test of `abbe` checks these measured figures for the shipped manipulators.
+const SINGLE: &str = "This code computes in single precision. Over 1000 configurations of every shipped manipulator, the difference \
+     from double precision was at most 1.6e-7 of the length of the arm in positions and 3.2e-7 of the largest entry in `J_e`; \
+     converged corrected commands brought the tool to within 3.2e-7 of that length and 8.7e-7 rad.";
 
 const BEGIN: &str = "\
 #ifdef __cplusplus
@@ -177,16 +183,16 @@ fn enumeration(writer: &mut Writer, documentation: &str, entries: &[(String, &st
     writer.close("};");
 }
 
-/// What is summed. There are no empty arrays in C.
+/// Prints the tables of sums. C has no empty arrays.
 fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums, real: Real) {
     if !constants.is_empty() {
         writer.blank();
-        comment(writer, "What is constant in each entry.");
+        comment(writer, "Constant term of each entry.");
         numbers(writer, &format!("{name}_CONSTANTS"), constants, real);
     }
     if !factors.is_empty() {
         writer.blank();
-        comment(writer, "Entry and term, and the factor with which the term is added.");
+        comment(writer, "Entry and term of each factor, and the factors of the terms.");
         let rows: Vec<String> =
             factors.iter().map(|(entry, term, _)| format!("{{ {entry}, {term} }}")).collect();
         writer.braces(&format!("static const int {name}_TERMS[{}][2] = ", rows.len()), &rows, ";");
@@ -195,26 +201,26 @@ fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums, 
     }
 }
 
-/// How many of everything there are.
+/// Prints the numbers of frames, variables and so on.
 fn counts(writer: &mut Writer, upper: &str, routines: &Routines) {
     use abbe_core::function::Count;
     let entries = [
-        ("FRAMES", Count::Frames, "Frames."),
-        ("ERRORS", Count::Errors, "Generalized errors: six a frame."),
-        ("VARIABLES", Count::Variables, "Numbers in `q`."),
-        ("PARAMETERS", Count::Parameters, "Numbers in `s`."),
-        ("INPUTS", Count::Inputs, "Numbers in `u`."),
-        ("SOURCES", Count::Sources, "Sources of errors."),
-        ("EFFECTS", Count::Effects, "Errors that the sources cause."),
+        ("FRAMES", Count::Frames, "Number of frames n."),
+        ("ERRORS", Count::Errors, "Number of generalized errors: 6n, the length of ε."),
+        ("VARIABLES", Count::Variables, "Number of joint variables: the length of `q`."),
+        ("PARAMETERS", Count::Parameters, "Number of structural parameters: the length of `s`."),
+        ("INPUTS", Count::Inputs, "Number of inputs: the length of `u`."),
+        ("SOURCES", Count::Sources, "Number of enabled sources."),
+        ("EFFECTS", Count::Effects, "Number of errors that the sources cause."),
     ];
     let entry = |(name, count, documentation): (&str, Count, &'static str)| {
         (format!("{upper}_{name} = {}", count.value(&routines.description)), documentation)
     };
     writer.blank();
-    enumeration(writer, "How many of everything there are.", &entries.map(entry));
+    enumeration(writer, "Sizes of the arrays.", &entries.map(entry));
 }
 
-/// Where what stands in `q`, `s` and `u`, by its name.
+/// Prints the index of each name in `q`, `s` and `u`.
 fn indices(writer: &mut Writer, upper: &str, routines: &Routines) {
     let description = &routines.description;
     let lists: [(&str, Vec<&str>); 3] = [
@@ -227,11 +233,11 @@ fn indices(writer: &mut Writer, upper: &str, routines: &Routines) {
             |(k, name): (usize, &&str)| (format!("{upper}_{}_{name} = {k}", array.to_ascii_uppercase()), "");
         let entries: Vec<(String, &str)> = names.iter().enumerate().map(entry).collect();
         writer.blank();
-        enumeration(writer, &format!("What stands where in `{array}`."), &entries);
+        enumeration(writer, &format!("Indices in `{array}`."), &entries);
     }
 }
 
-/// Limits, homes, nominal values and ranges; declared, or with their numbers.
+/// Prints limits, home, nominal values and ranges, either as declarations or as definitions.
 fn values(writer: &mut Writer, spec: &Spec, real: Real, before: &str, with_numbers: bool) {
     let number = |value: f64| real.number(value);
     let mut one = |what: &str, name: &str, pairs: bool, values: Vec<f64>| {
@@ -257,17 +263,12 @@ fn values(writer: &mut Writer, spec: &Spec, real: Real, before: &str, with_numbe
     };
     let limits = spec.variables.iter().flat_map(|variable| variable.limits).collect();
     one("Lower and upper limits of the variables.", "limits", true, limits);
-    one("Where the variables are at home.", "home", false, spec.variables.iter().map(|v| v.home).collect());
+    one("Home position of the variables.", "home", false, spec.variables.iter().map(|v| v.home).collect());
     let nominal = spec.parameters.iter().map(|parameter| parameter.value).collect();
-    one("The parameters as the drawing has them: `s`.", "parameters", false, nominal);
-    one(
-        "The inputs as they are mostly: `u`.",
-        "inputs",
-        false,
-        spec.inputs.iter().map(|i| i.value).collect(),
-    );
+    one("Nominal values of the parameters `s`.", "parameters", false, nominal);
+    one("Default values of the inputs `u`.", "inputs", false, spec.inputs.iter().map(|i| i.value).collect());
     let ranges = spec.inputs.iter().flat_map(|input| input.range).collect();
-    one("Lower and upper ends of the inputs.", "ranges", true, ranges);
+    one("Lower and upper ends of the ranges of the inputs.", "ranges", true, ranges);
 }
 
 fn numbers(writer: &mut Writer, name: &str, values: &[f64], real: Real) {
@@ -275,14 +276,14 @@ fn numbers(writer: &mut Writer, name: &str, values: &[f64], real: Real) {
     writer.braces(&format!("static const {real} {name}[{}] = ", values.len()), &entries, ";");
 }
 
-/// Whether inputs are where they may be.
+/// Prints the function that checks the ranges of inputs.
 fn ranges(writer: &mut Writer, spec: &Spec, real: Real) {
     let count = spec.inputs.len();
     if count == 0 {
         return;
     }
     writer.blank();
-    writer.lines("/* 1 if every input is within its range, else 0. */");
+    writer.lines("/* Returns 1 if every input is within its range, else 0. */");
     writer.lines(&format!("static int inputs_are_in_range(const {real} *u)"));
     writer.open_alone();
     writer.lines("int inside = 1;");
@@ -295,7 +296,7 @@ fn ranges(writer: &mut Writer, spec: &Spec, real: Real) {
     writer.close("}");
 }
 
-/// A function given by points.
+/// Prints a lookup table.
 fn lookup_table(writer: &mut Writer, table: &Table, real: Real) {
     let number = |value: f64| real.number(value);
     let (name, lookup) = (table.constant_name(), table.lookup());
@@ -314,7 +315,7 @@ fn lookup_table(writer: &mut Writer, table: &Table, real: Real) {
     let or_null = |what: &str| if even { "0".to_owned() } else { format!("{name}_{what}") };
     writer.open(&format!("static const lookup_table {name} ="));
     writer.lines(&format!("{}, {},", number(lookup.first), number(real.scale(table, buckets))));
-    // The first of the strides that lead to a piece: they are halved.
+    // The first stride of the bisection to a piece.
     let stride = if lookup.steps == 0 { 0 } else { 1 << (lookup.steps - 1) };
     writer.lines(&format!("{buckets}, {stride},"));
     writer.lines(&format!("{}, {}, {},", or_null("STARTS"), or_null("KNOTS"), lookup.knots.len()));

@@ -10,7 +10,7 @@ use super::real::Real;
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 
-/// With the spec, whose name and tables stand in the file.
+/// The syntax of C for a spec, whose names and tables occur in the file.
 pub(super) struct C<'s> {
     pub(super) spec: &'s Spec,
     pub(super) real: Real,
@@ -29,7 +29,8 @@ const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imagin
          volatile wchar_t while xor xor_eq y0 y1 yn";
 
 impl Syntax for C<'_> {
-    /// The words of C and C++, what `math.h` has, and what stands in the file: functions, values and status codes.
+    /// Keywords of C and C++, names of `math.h`, and the functions, values and status codes of the
+    /// file.
     fn reserved(&self) -> Cow<'static, str> {
         let (name, upper) = (&self.spec.name, self.spec.name.to_ascii_uppercase());
         let own = Function::ALL.map(|function| format!(" {name}_{}", function.name())).concat();

@@ -1,27 +1,27 @@
-//! The numbers that generated C computes in.
+//! Floating-point types of generated C.
 
 use std::fmt;
 
 use abbe_spec::expr::Table;
 
-/// A type of numbers: what it is called, how its numbers are written, and which functions of `math.h` take it.
+/// A floating-point type: its name, its literals and its functions of `math.h`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Real {
     /// `double`: 53 binary digits, the same bits as the Rust code.
     #[default]
     Double,
-    /// `float`: 24 binary digits, and nothing that is computed in more.
+    /// `float`: 24 binary digits for all intermediate results.
     Float,
 }
 
-/// The functions of `math.h` that [`Real::text`] finds in a text.
+/// Functions of `math.h` that [`Real::text`] replaces.
 const FUNCTIONS: [&str; 5] = ["atan2", "cos", "fabs", "sin", "sqrt"];
 
 impl Real {
-    /// Both.
+    /// Every type.
     pub const ALL: [Self; 2] = [Self::Double, Self::Float];
 
-    /// Its name in C, and on the command line.
+    /// Returns the name in C and on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Double => "double",
@@ -29,7 +29,7 @@ impl Real {
         }
     }
 
-    /// The nearest number that it has.
+    /// Returns the nearest representable number.
     pub fn nearest(self, value: f64) -> f64 {
         match self {
             Self::Double => value,
@@ -37,18 +37,19 @@ impl Real {
         }
     }
 
-    /// Whether it has a number: not if it is too large, or so small that nothing of it would be left.
+    /// Returns `true` if a number neither overflows nor underflows to 0.
     pub(super) fn has(self, value: f64) -> bool {
         let nearest = self.nearest(value);
         nearest.is_finite() == value.is_finite() && (nearest == 0.0) == (value == 0.0)
     }
 
-    /// By which share of a number rounding changes it at most.
+    /// Returns the unit of roundoff: the maximum relative error of rounding.
     pub(super) fn unit_roundoff(self) -> f64 {
         self.epsilon() / 2.0
     }
 
-    /// Buckets per unit of a table's x, with its last x still within the last bucket.
+    /// Returns the number of buckets per unit of a table's x, such that the last x lies within the
+    /// last bucket.
     pub(super) fn scale(self, table: &Table, buckets: usize) -> f64 {
         let scale = table.lookup().scale;
         match self {
@@ -65,7 +66,7 @@ impl Real {
         }
     }
 
-    /// A number with the fewest digits that give it back exactly.
+    /// Returns the shortest literal that represents the number exactly.
     pub(in crate::print) fn number(self, value: f64) -> String {
         let suffix = self.suffix();
         match self {
@@ -77,18 +78,19 @@ impl Real {
         }
     }
 
-    /// A function of `math.h`.
+    /// Returns the name of a function of `math.h` for the type.
     pub(super) fn function(self, name: &str) -> String {
         format!("{name}{}", self.suffix())
     }
 
-    /// What rounds to the nearest integer when it is added and subtracted again: 1.5 times the distance from which on there
-    /// are whole numbers only.
+    /// Returns the number that rounds to the nearest integer when added and subtracted again: 1.5
+    /// times the smallest number from which on all numbers are integers.
     pub(super) fn rounder(self) -> String {
         self.number(1.5 / self.epsilon())
     }
 
-    /// A text that is written for `double`, told for this type: its name, numbers and functions. Comments stay as they are.
+    /// Converts C code for `double` to the type: its name, literals and functions. Comments stay
+    /// unchanged.
     pub(super) fn text(self, text: &str) -> String {
         let mut told = String::with_capacity(text.len());
         for (k, part) in text.split("/*").enumerate() {
@@ -136,7 +138,7 @@ impl fmt::Display for Real {
     }
 }
 
-/// Names and numbers of a piece of C, and what is between them.
+/// Splits C code into names, numbers and the text between them.
 fn words(code: &str) -> impl Iterator<Item = &str> {
     let mut rest = code;
     std::iter::from_fn(move || {

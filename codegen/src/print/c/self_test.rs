@@ -1,4 +1,5 @@
-//! A function that holds the functions, as a target's compiler made them, against numbers of the generator.
+//! A self-test that compares the functions, as compiled for the target, with values computed by the
+//! generator.
 
 use abbe_core::Function;
 use abbe_core::function::Array;
@@ -14,12 +15,13 @@ pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.blank();
     writer.lines("/**");
     writer.documentation(
-        "Evaluates every function that has a value at one configuration, and holds weighted sums of its results against \
-         those of the generator, as closely as the rounding of every single operation lets them be: run it once on the \
-         target.",
+        "Self-test for the target: evaluates every function at one configuration and compares weighted sums of the results \
+         with those of the generator, within the bound of the rounding errors of all operations.",
     );
     writer.documentation_line("");
-    writer.documentation("@return 0, or which function is wrong, counted from 1 in the order of this file.");
+    writer.documentation(
+        "@return 0, or the number of the first wrong function, counted from 1 in the order of this file.",
+    );
     writer.lines(" */");
     writer.lines(&format!("int {}_self_test(void);", spec.name));
 }
@@ -33,7 +35,7 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, real: 
     let given = where_most_has_a_value(spec, model, real);
     for (name, values) in &given {
         let entries: Vec<String> = values.iter().map(|value| real.number(*value)).collect();
-        // An array has one number at least.
+        // C has no empty arrays.
         let (len, zero) = (entries.len().max(1), [real.number(0.0)]);
         let entries = if entries.is_empty() { &zero[..] } else { &entries[..] };
         writer.braces(&format!("const {real} given_{name}[{len}] = "), entries, ";");
@@ -44,19 +46,19 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, real: 
             Some(sums) if sums.iter().all(|(_, sum)| known(sum)) => {
                 one(writer, spec, function, index + 1, &sums, real);
             }
-            _ => writer.lines(&format!("/* `{}` has no value here. */", function.name())),
+            _ => writer.lines(&format!("/* `{}` is not finite at this configuration. */", function.name())),
         }
     }
-    // What no function takes.
+    // Arguments that no function takes.
     given.iter().for_each(|(name, _)| writer.lines(&format!("(void)given_{name};")));
     writer.lines("return 0;");
     writer.close("}");
 }
 
-/// Numbers for every argument, by their names.
+/// Values of every argument, by name.
 type Given = [(&'static str, Vec<f64>); 6];
 
-/// Of a few configurations the first at which as many functions as possible have values.
+/// Returns the first of a few configurations at which the most functions have finite values.
 fn where_most_has_a_value(spec: &Spec, model: &Model, real: Real) -> Given {
     let count =
         |given: &Given| Function::ALL.into_iter().filter(|f| values(given, model, *f).is_some()).count();
@@ -74,7 +76,8 @@ fn where_most_has_a_value(spec: &Spec, model: &Model, real: Real) -> Given {
     best.map_or_else(|| given(spec, 0, real), |(_, given)| given)
 }
 
-/// What a function gives, array by array; nothing near a singularity of Euler angles, or if a number is not finite.
+/// Returns the results of a function, array by array. Returns `None` near a singularity of Euler
+/// angles, or if a number is not finite.
 fn values(given: &Given, model: &Model, function: Function) -> Option<Vec<Vec<f64>>> {
     let symbol = |symbol| value_of(given, function, symbol);
     let (arrays, margin) = results(function, model);
@@ -96,8 +99,9 @@ fn value_of(given: &Given, function: Function, symbol: Symbol) -> f64 {
     }
 }
 
-/// How many numbers each array holds, and their sum times 1 to 7 in turn: its value, and how far rounding can take it from
-/// that, in the function's operations and in those of the sum. The generator's own numbers are rounded as doubles are.
+/// Returns, for each result, its length and the sum of its elements weighted 1 to 7 cyclically,
+/// with a bound of the rounding errors of the function and of the sum. The generator's own values
+/// are rounded as doubles.
 fn sums(
     given: &Given,
     model: &Model,
@@ -118,14 +122,14 @@ fn sums(
     let one = |array: &Vec<f64>| {
         let mut here = sum(&mut here.by_ref().take(array.len()), units[0]);
         let there = sum(&mut there.by_ref().take(array.len()), units[1]);
-        // What is expected is rounded, too.
+        // The expected value is rounded as well.
         here.bound += there.bound + units[0] * there.value.abs();
         (array.len(), here)
     };
     arrays.iter().map(one).collect()
 }
 
-/// One function: the weighted sums of what it gives, and what they must be.
+/// Prints the test of one function: weighted sums of its results and their expected values.
 fn one(
     writer: &mut Writer,
     spec: &Spec,
@@ -137,7 +141,7 @@ fn one(
     let signature = function.signature();
     writer.open_alone();
     for (array, (len, _)) in signature.results.iter().zip(sums) {
-        // An array has one number at least.
+        // C has no empty arrays.
         match len {
             0 => writer.lines(&format!("{real} {}[1] = {{ {} }};", array.name, real.number(0.0))),
             len => writer.lines(&format!("{real} {}[{len}];", array.name)),
@@ -161,13 +165,13 @@ fn one(
     writer.close("}");
 }
 
-/// With two digits, the last one rounded up.
+/// Rounds a bound up to two digits.
 fn upwards(bound: f64) -> f64 {
     let text = format!("{:.1e}", bound * 1.05);
     text.parse().unwrap_or(bound)
 }
 
-/// Numbers for every argument; another `start` gives others.
+/// Returns values of every argument; each `start` gives different ones.
 fn given(spec: &Spec, start: usize, real: Real) -> Given {
     let share = |k: usize| 0.1 + 0.8 * ((start + k + 1) as f64 * 0.618_033_988_749_894_9).fract();
     let between = |k: usize, [lower, upper]: [f64; 2], otherwise: f64| {
@@ -189,7 +193,7 @@ fn given(spec: &Spec, start: usize, real: Real) -> Given {
 }
 
 const SUMS_TO: &str = "\
-/* 1 if the sum of the numbers times 1 to 7 in turn is as expected, but for what rounding can do, else 0. */
+/* Returns 1 if the sum of the numbers weighted 1 to 7 cyclically is as expected up to rounding, else 0. */
 static int sums_to(const double *numbers, int count, double expected, double rounding)
 {
     double sum = 0.0;

@@ -1,23 +1,25 @@
-//! The shortest step of corrected commands in C: by squares, as the Rust code has it, or by orthogonal columns where squares
-//! would have no digits left.
+//! The shortest step of corrected commands in C: by normal equations as in the Rust code, or by
+//! orthogonalization in single precision, where normal equations would lose all digits.
 
 use super::real::Real;
 use crate::print::compensated::Tolerances;
 
-/// How a step is found, and the numbers that depend on how many digits there are.
+/// Solver of a step, with the constants that depend on the precision.
 pub(super) struct Solver {
-    /// What is needed first, then the step of six joints or fewer, and that of more.
+    /// Helper functions, the solver for up to six joints, and the solver for more.
     pub(super) texts: [&'static str; 3],
     pub(super) tolerances: Tolerances,
 }
 
 impl Solver {
-    pub(super) fn of(real: Real) -> Self {
+    pub(super) fn new(real: Real) -> Self {
         match real {
             Real::Double => Self { texts: [SOLVE, BY_COLUMNS, BY_ROWS], tolerances: Tolerances::DOUBLE },
-            // Steps are bounded where rounding, 6e-8 of a Jacobian of about one metre, would be taken for a direction in which
-            // the tool moves; turns, which count a thousandth, are wanted down to a least singular value of 0.1, 1e-4: between
-            // the two. A pose is known to about 1e-6 m, which such a singular value makes 1e-5.
+            // Rounding errors of a Jacobian of about one metre are 6e-8 and must not act like a
+            // direction in which the tool moves. Rotations are weighted by 1/1000 and must be
+            // solved down to a least singular value of 0.1, that is 1e-4. The damping lies between
+            // the two. A pose is accurate to about 1e-6 m; such a singular value amplifies that to
+            // 1e-5.
             Real::Float => Self {
                 texts: [ORTHOGONALIZE, ORTHOGONAL_COLUMNS, ORTHOGONAL_ROWS],
                 tolerances: Tolerances { damping: 3e-6, rest: 1e-5, least_sine: 1e-18 },
@@ -26,9 +28,9 @@ impl Solver {
     }
 }
 
-/// Of six joints or fewer.
+/// Solver for up to six joints.
 const BY_COLUMNS: &str = "\
-/* The shortest step, (J^T J + lambda)^-1 J^T b. */
+/* Returns the shortest step, (J^T J + lambda)^-1 J^T b. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double m[6][6] = { { 0.0 } };
@@ -46,9 +48,9 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
 }
 ";
 
-/// Of more joints.
+/// Solver for more than six joints.
 const BY_ROWS: &str = "\
-/* The shortest step, J^T (J J^T + lambda)^-1 b. */
+/* Returns the shortest step, J^T (J J^T + lambda)^-1 b. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double m[6][6] = { { 0.0 } };
@@ -69,7 +71,7 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
 ";
 
 const SOLVE: &str = "\
-/* (M + lambda) x = b by Cholesky, for M positive semidefinite; b becomes x. */
+/* Solves (M + lambda) x = b by Cholesky factorization, for positive semidefinite M; x overwrites b. */
 static void solve(double m[6][6], double *b)
 {
     for (int i = 0; i < 6; i++) {
@@ -94,10 +96,11 @@ static void solve(double m[6][6], double *b)
 
 ";
 
-/// In single precision: squares of the columns, whose rows in rad are a thousandth of the others, would have no digits left.
+/// Single precision: the squares of rows in radians, weighted by 1/1000, would have no significant
+/// digits.
 const ORTHOGONALIZE: &str = "\
-/* Gram and Schmidt: the columns become orthogonal to each other and of length 1, and r is what they were made of. Column j has
- * nothing below row FULL + j. */
+/* QR factorization by Gram-Schmidt: overwrites the columns by orthonormal ones and fills r. The
+ * entries of column j below row FULL + j are 0. */
 static void orthogonalize(double a[RANK][LONG], double r[RANK][RANK])
 {
     for (int j = 0; j < RANK; j++) {
@@ -116,9 +119,9 @@ static void orthogonalize(double a[RANK][LONG], double r[RANK][RANK])
 
 ";
 
-/// Of six joints or fewer.
+/// Solver for up to six joints.
 const ORTHOGONAL_COLUMNS: &str = "\
-/* The shortest step, min |J x - b|^2 + lambda |x|^2, and once more for what it leaves. */
+/* Returns the shortest step, min |J x - b|^2 + lambda |x|^2, with one iterative refinement. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double a[COUNT][LONG] = { { 0.0 } };
@@ -154,9 +157,9 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
 }
 ";
 
-/// Of more joints.
+/// Solver for more than six joints.
 const ORTHOGONAL_ROWS: &str = "\
-/* The shortest step, J^T (J J^T + lambda)^-1 b, and once more for what it leaves. */
+/* Returns the shortest step, J^T (J J^T + lambda)^-1 b, with one iterative refinement. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double a[6][LONG] = { { 0.0 } };

@@ -1,4 +1,4 @@
-//! What generated C needs beside `math.h`: static functions, each only where it is used.
+//! Static helper functions of generated C, each printed only where it is used.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use abbe_spec::expr::Function;
 use super::real::Real;
 use crate::program::{Action, Routines};
 
-/// A static function, in the order in which they are written.
+/// A static helper function, in the order of printing.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Support {
     SinCos,
@@ -21,18 +21,18 @@ pub(super) enum Support {
 }
 
 impl Support {
-    /// Those that the routines use.
+    /// Returns the helpers that the routines use.
     pub(super) fn used(routines: &Routines) -> BTreeSet<Self> {
         let programs = routines.programs();
         let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
-        let mut used: BTreeSet<Self> = actions.filter_map(Self::of).collect();
+        let mut used: BTreeSet<Self> = actions.filter_map(Self::for_action).collect();
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
             used.insert(Self::SinCos);
         }
         used
     }
 
-    fn of(action: Action) -> Option<Self> {
+    fn for_action(action: Action) -> Option<Self> {
         match action {
             Action::SinCos(_) => Some(Self::SinCos),
             Action::Call(Function::Sin, _) => Some(Self::Sine),
@@ -46,7 +46,7 @@ impl Support {
         }
     }
 
-    /// Its source.
+    /// Returns the source of the helper.
     pub(super) fn text(self, real: Real) -> String {
         let text = match self {
             Self::SinCos if real == Real::Float => return SIN_COS_FLOAT.to_owned(),
@@ -63,9 +63,9 @@ impl Support {
     }
 }
 
-/// Whether numbers are finite: all are looked at without a branch, several at once where the compiler can.
+/// Checks without branches, so that compilers can vectorize the loop.
 pub(super) const IS_FINITE: &str = "\
-/* 1 if all numbers are finite, else 0. */
+/* Returns 1 if all numbers are finite, else 0. */
 static int is_finite(const double *numbers, int count)
 {
     unsigned wrong = 0U;
@@ -76,11 +76,12 @@ static int is_finite(const double *numbers, int count)
 }
 ";
 
-/// Numbers as in `abbe`'s `sin_cos`: a test holds both to the same bits.
+/// The constants are those of `abbe`'s `sin_cos`; a test checks that both return the same bits.
 const SIN_COS: &str = "\
-/* Sine and cosine, below 1.7 units in the last place and the same on every machine where |x| <= 1e5: x is a number of
- * quarter turns and a rest (Cody and Waite), whose sine and cosine are minimax polynomials. Beyond, and at 0, those of
- * math.h. Needs rounding to nearest, and no contraction of a * b + c. */
+/* Sine and cosine. For |x| <= 1e5 the error is below 1.7 units in the last place and results are
+ * identical on all machines: Cody-Waite reduction by quarter turns, then minimax polynomials. For
+ * larger |x|, and at 0, math.h is used. Requires rounding to nearest, and no contraction of
+ * a * b + c. */
 static void sin_cos(double x, double *sine, double *cosine)
 {
     const double round = 6755399441055744.0;
@@ -124,13 +125,15 @@ static void sin_cos(double x, double *sine, double *cosine)
 }
 ";
 
-/// In single precision. π/2 is taken off in four parts: 12 bits, 12 more, 12 more, and the rest; times an n below 2¹² the first
-/// three are exact, and so are the first two differences. `S` and `C` of degree 2 are minimax (Remez, then rounded one after
-/// the other from the lowest power on, each time anew for the rest): a test holds them against the best there are.
+/// Single precision. π/2 is subtracted in four parts of 12, 12, 12 and the remaining bits. Times an
+/// n below 2¹² the first three parts are exact, and so are the first two differences. `S` and `C`
+/// of degree 2 are minimax polynomials (Remez; coefficients rounded from the lowest power on,
+/// refitting the rest each time). A test compares them with the best achievable ones.
 const SIN_COS_FLOAT: &str = "\
-/* Sine and cosine, below 2.4 units in the last place and the same on every machine where |x| <= 6e3: x is a number of
- * quarter turns and a rest (Cody and Waite), whose sine and cosine are minimax polynomials. Beyond, and at 0, those of
- * math.h. Needs rounding to nearest, and no contraction of a * b + c. */
+/* Sine and cosine. For |x| <= 6e3 the error is below 2.4 units in the last place and results are
+ * identical on all machines: Cody-Waite reduction by quarter turns, then minimax polynomials. For
+ * larger |x|, and at 0, math.h is used. Requires rounding to nearest, and no contraction of
+ * a * b + c. */
 static void sin_cos(float x, float *sine, float *cosine)
 {
     const float round = 12582912.0f;
@@ -189,7 +192,7 @@ static double cosine(double x)
 ";
 
 const LEAST: &str = "\
-/* The smaller of two numbers; not a number if one of them is not. */
+/* Returns the smaller of two numbers, or NaN if one of them is NaN. */
 static double least(double a, double b)
 {
     return (a < b || isnan(a) != 0) ? a : b;
@@ -197,7 +200,7 @@ static double least(double a, double b)
 ";
 
 const GREATER: &str = "\
-/* The larger of two numbers; not a number if one of them is not. */
+/* Returns the larger of two numbers, or NaN if one of them is NaN. */
 static double greater(double a, double b)
 {
     return (a > b || isnan(a) != 0) ? a : b;
@@ -205,7 +208,7 @@ static double greater(double a, double b)
 ";
 
 const SIGN: &str = "\
-/* -1, 0 or 1. */
+/* Returns -1, 0 or 1. */
 static double sign(double x)
 {
     return (x > 0.0) ? 1.0 : ((x < 0.0) ? -1.0 : x * 0.0);
@@ -213,7 +216,7 @@ static double sign(double x)
 ";
 
 const SIDE: &str = "\
-/* -1 below 0, else 1: the derivative of the absolute value, at 0 that to the right. */
+/* Returns -1 for negative numbers, else 1: the derivative of the absolute value, at 0 the right-hand one. */
 static double side(double x)
 {
     return (x >= 0.0) ? 1.0 : ((x < 0.0) ? -1.0 : x);
@@ -221,7 +224,7 @@ static double side(double x)
 ";
 
 const LOOK_UP: &str = "\
-/* A function given by points: polynomials between them, found by buckets of equal width. */
+/* A function defined by points: piecewise polynomials, found by buckets of equal width. */
 typedef struct {
     double first;
     double scale;
@@ -233,7 +236,7 @@ typedef struct {
     const double (*pieces)[4];
 } lookup_table;
 
-/* The derivative of that order of a table at x; the table itself if of order 0. */
+/* Returns a derivative of a table at x; order 0 is the table itself. */
 static double look_up(const lookup_table *table, int order, double x)
 {
     const double round = ROUND;

@@ -1,4 +1,4 @@
-//! `modelDescription.xml`, and what FMI 3.0 wants to know of sources beside it.
+//! `modelDescription.xml`, and the description of sources that FMI 3.0 requires beside it.
 
 use abbe_spec::Spec;
 
@@ -7,7 +7,7 @@ use super::units::definitions;
 use super::variables::{CORRECTION, Causality, Variable, Variables};
 use super::xml::Element;
 
-/// `modelDescription.xml`.
+/// Returns `modelDescription.xml`.
 pub(super) fn model(spec: &Spec, fmi: Fmi, variables: &Variables, token: &str, sources: &[String]) -> String {
     let (version, token_name) = match fmi {
         Fmi::Two => ("2.0", "guid"),
@@ -37,7 +37,7 @@ pub(super) fn model(spec: &Spec, fmi: Fmi, variables: &Variables, token: &str, s
         .document()
 }
 
-/// `buildDescription.xml`.
+/// Returns `buildDescription.xml`.
 pub(super) fn build(spec: &Spec, sources: &[String]) -> String {
     let files = sources.iter().map(|file| Element::new("SourceFile").with("name", file));
     let set = Element::new("SourceFileSet").with("language", "C99").containing(files);
@@ -48,7 +48,7 @@ pub(super) fn build(spec: &Spec, sources: &[String]) -> String {
         .document()
 }
 
-/// Model exchange and co-simulation.
+/// Returns the elements for model exchange and co-simulation.
 fn interfaces(spec: &Spec, fmi: Fmi, sources: &[String]) -> [Element; 2] {
     let exchange = Element::new("ModelExchange").with("modelIdentifier", &spec.name);
     let co_simulation = Element::new("CoSimulation")
@@ -65,7 +65,7 @@ fn interfaces(spec: &Spec, fmi: Fmi, sources: &[String]) -> [Element; 2] {
     }
 }
 
-/// A variable that is a real number.
+/// Returns the element of a real variable.
 fn real(fmi: Fmi, variable: &Variable, reference: usize) -> Element {
     let (causality, variability) = match variable.causality {
         Causality::Independent => ("independent", "continuous"),
@@ -97,7 +97,7 @@ fn real(fmi: Fmi, variable: &Variable, reference: usize) -> Element {
     }
 }
 
-/// How good the corrected commands are.
+/// Returns the element of the status of corrected commands.
 fn correction(fmi: Fmi, reference: usize) -> Element {
     let described = |name| {
         Element::new(name)
@@ -113,7 +113,7 @@ fn correction(fmi: Fmi, reference: usize) -> Element {
     }
 }
 
-/// Which variables are outputs; each may depend on all inputs.
+/// Returns the list of outputs, each of which may depend on all inputs.
 fn structure(fmi: Fmi, variables: &Variables) -> Element {
     let count = variables.list.len() + usize::from(variables.corrected);
     let each = |name, attribute, first: usize| {
@@ -121,7 +121,7 @@ fn structure(fmi: Fmi, variables: &Variables) -> Element {
     };
     let structure = Element::new("ModelStructure");
     match fmi {
-        // Counted from 1.
+        // Indices of FMI 2.0 start at 1.
         Fmi::Two => structure.containing([
             Element::new("Outputs").containing(each("Unknown", "index", 1)),
             Element::new("InitialUnknowns").containing(each("Unknown", "index", 1)),

@@ -1,5 +1,6 @@
-/* The machine by FMI 2.0: co-simulation and model exchange, without states and events, declared as in the standard
- * (fmi-standard.org). If FMI2_FUNCTION_PREFIX is defined, names begin with it: for several machines in one program. */
+/* Implementation of FMI 2.0: co-simulation and model exchange, without states and events, with the
+ * declarations of the standard (fmi-standard.org). FMI2_FUNCTION_PREFIX, if defined, prefixes all names,
+ * for several machines in one program. */
 #include "fmi-instance.h"
 
 #define JOIN(a, b) a##b
@@ -166,7 +167,7 @@ NOT_OFFERED(fmi2DeSerializeFMUstate, const char bytes[], size_t size, void **sta
 NOT_OFFERED(fmi2GetDirectionalDerivative, const reference of[], size_t of_count, const reference by[], size_t by_count,
     const double seed[], double sensitivity[])
 
-/* Co-simulation: what was set is held during a step. */
+/* Co-simulation: inputs are constant during a step. */
 
 FUNCTION(status, fmi2DoStep)(instance *i, double from, double step, boolean no_state_set)
 {
@@ -177,7 +178,7 @@ FUNCTION(status, fmi2DoStep)(instance *i, double from, double step, boolean no_s
 
 NOTHING_TO_ENTER(fmi2CancelStep)
 
-/* Of a step that still goes on, which none does. */
+/* Status of pending steps, of which there are none. */
 #define NO_ANSWER(name, type) FUNCTION(status, name)(instance * i, int question, type *value) { return DISCARD; }
 
 NO_ANSWER(fmi2GetStatus, status)
@@ -186,7 +187,7 @@ NO_ANSWER(fmi2GetIntegerStatus, int)
 NO_ANSWER(fmi2GetBooleanStatus, boolean)
 NO_ANSWER(fmi2GetStringStatus, const char *)
 
-/* Model exchange: outputs are those of the inputs at every moment. */
+/* Model exchange: outputs depend on the current inputs only. */
 
 FUNCTION(status, fmi2NewDiscreteStates)(instance *i, event_info *info)
 {

@@ -1,5 +1,6 @@
-/* The machine by FMI 3.0: co-simulation and model exchange, without states and events, declared as in the standard
- * (fmi-standard.org). If FMI3_FUNCTION_PREFIX is defined, names begin with it: for several machines in one program. */
+/* Implementation of FMI 3.0: co-simulation and model exchange, without states and events, with the
+ * declarations of the standard (fmi-standard.org). FMI3_FUNCTION_PREFIX, if defined, prefixes all names,
+ * for several machines in one program. */
 #include "fmi-instance.h"
 
 #include <stdbool.h>
@@ -193,7 +194,7 @@ NOT_OFFERED(fmi3GetAdjointDerivative, const reference of[], size_t of_count, con
     const double seed[], size_t seed_count, double sensitivity[], size_t sensitivity_count)
 NOT_OFFERED(fmi3ActivateModelPartition, reference clock, double time)
 
-/* Co-simulation: what was set is held during a step. */
+/* Co-simulation: inputs are constant during a step. */
 
 FUNCTION(status, fmi3DoStep)(instance *i, double from, double step, bool no_state_set, bool *events, bool *terminate, bool *early,
     double *last)
@@ -209,7 +210,7 @@ FUNCTION(status, fmi3DoStep)(instance *i, double from, double step, bool no_stat
     return of;
 }
 
-/* Model exchange: outputs are those of the inputs at every moment. */
+/* Model exchange: outputs depend on the current inputs only. */
 
 FUNCTION(status, fmi3UpdateDiscreteStates)(instance *i, bool *again, bool *terminate, bool *nominals, bool *states, bool *next_given,
     double *next)

@@ -1,4 +1,4 @@
-/* What is set of one machine, and what comes of it. `fmi-machine.h` says which machine. */
+/* State of one instance. `fmi-machine.h` describes the machine. */
 #ifndef FMI_INSTANCE_H
 #define FMI_INSTANCE_H
 
@@ -8,26 +8,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FMI hands over more than is needed here. */
+/* FMI passes more arguments than are needed here. */
 #ifdef __GNUC__
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #endif
 
-/* Statuses: OK and Error of FMI 2.0 and 3.0. */
+/* Status codes OK and Error of FMI 2.0 and 3.0. */
 enum { FINE = 0, FAULT = 3 };
 
 typedef struct {
-    /* By their value references: time, inputs, parameters, outputs. */
+    /* Indexed by value references: time, inputs, parameters, outputs. */
     double values[VALUES];
-    /* What the function of the corrected commands returned. */
+    /* Status of the corrected commands. */
     int correction;
-    /* Whether the outputs are those of the inputs and parameters. */
+    /* 1 if the outputs belong to the current inputs and parameters. */
     int is_evaluated;
-    /* Why they cannot be had, or what else went wrong. */
+    /* Last error message. */
     const char *message;
 } machine;
 
-/* As it is before anything is set. */
+/* Sets all start values. */
 static void begin(machine *m)
 {
     memcpy(m->values, START, sizeof(START));
@@ -40,7 +40,7 @@ static int fault(machine *m, const char *message)
     return FAULT;
 }
 
-/* Computes the outputs, if something was set. */
+/* Computes the outputs if an input or parameter has changed. */
 static int update(machine *m)
 {
     if (m->is_evaluated == 0) {
@@ -57,7 +57,7 @@ static int get_numbers(machine *m, const unsigned *references, size_t count, dou
 {
     for (size_t k = 0; k < count; k++) {
         if (references[k] >= VALUES) {
-            return fault(m, "No number has this value reference.");
+            return fault(m, "There is no real variable with this value reference.");
         }
         if (references[k] >= AT_OUTPUTS && update(m) != FINE) {
             return FAULT;
@@ -79,12 +79,12 @@ static int set_numbers(machine *m, const unsigned *references, size_t count, con
     return FINE;
 }
 
-/* There is one whole number. */
+/* There is a single integer variable. */
 static int get_whole_numbers(machine *m, const unsigned *references, size_t count, int *values)
 {
     for (size_t k = 0; k < count; k++) {
         if (references[k] != AT_CORRECTION) {
-            return fault(m, "No whole number has this value reference.");
+            return fault(m, "There is no integer variable with this value reference.");
         }
         if (update(m) != FINE) {
             return FAULT;
@@ -94,22 +94,22 @@ static int get_whole_numbers(machine *m, const unsigned *references, size_t coun
     return FINE;
 }
 
-/* What is not offered, or is about things of which there are none. */
+/* Functions that are not supported, or are about variables that do not exist. */
 static int only_nothing(machine *m, size_t count)
 {
-    return (count == 0U) ? FINE : fault(m, "There are no such variables.");
+    return (count == 0U) ? FINE : fault(m, "There are no variables of this type.");
 }
 
 static int not_offered(machine *m)
 {
-    return fault(m, "modelDescription.xml does not offer this.");
+    return fault(m, "modelDescription.xml does not declare this capability.");
 }
 
-/* Whether the description that was read is that of this machine. */
+/* Checks that the description belongs to this machine. */
 static int is_described_by(machine *m, const char *token)
 {
     if (token == NULL || strcmp(token, TOKEN) != 0) {
-        return fault(m, "modelDescription.xml is that of another machine.");
+        return fault(m, "modelDescription.xml belongs to another machine.");
     }
     return FINE;
 }

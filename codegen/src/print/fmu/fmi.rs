@@ -3,17 +3,17 @@
 /// A version of the Functional Mock-up Interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fmi {
-    /// 2.0.
+    /// Version 2.0.
     Two,
-    /// 3.0.
+    /// Version 3.0.
     Three,
 }
 
 impl Fmi {
-    /// Both.
+    /// Every version.
     pub const ALL: [Self; 2] = [Self::Two, Self::Three];
 
-    /// Its name on the command line.
+    /// Returns the name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Two => "2",
@@ -21,7 +21,7 @@ impl Fmi {
         }
     }
 
-    /// Its functions.
+    /// Returns the name and text of the C source with its functions.
     pub(super) fn source(self) -> (&'static str, &'static str) {
         match self {
             Self::Two => ("fmi-2.c", include_str!("fmi-2.c")),

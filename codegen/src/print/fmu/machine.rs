@@ -1,4 +1,5 @@
-//! `fmi-machine.h`: where numbers stand, where they begin, and which functions fill the outputs.
+//! `fmi-machine.h`: indices and start values of the variables, and the functions that fill the
+//! outputs.
 
 use abbe_spec::Spec;
 
@@ -6,14 +7,14 @@ use super::variables::{CORRECTED, OUTPUTS, Variables};
 use crate::print::c::Real;
 use crate::print::layout::Writer;
 
-/// The header.
+/// Returns the header.
 pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String {
     let (name, upper) = (&spec.name, spec.name.to_ascii_uppercase());
     let mut writer = Writer::new(" *");
     writer.paragraphs(&format!(
-        "/* Which machine it is. Do not edit. */\n#ifndef FMI_MACHINE_H\n#define FMI_MACHINE_H\n\n\
+        "/* Constants of the machine. Do not edit. */\n#ifndef FMI_MACHINE_H\n#define FMI_MACHINE_H\n\n\
          #include \"{name}.h\"\n\n#include <stddef.h>\n\n#define TOKEN \"{token}\"\n\n\
-         /* Where numbers stand: value references. */"
+         /* Value references of the first variable of each array. */"
     ));
     writer.open("enum");
     let entry = |array: &str, place: usize| format!("AT_{} = {place},", array.to_ascii_uppercase());
@@ -24,12 +25,12 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
     writer.lines("AT_CORRECTION = VALUES");
     writer.close("};");
     writer.blank();
-    writer.lines("/* Where they begin; outputs are computed. */");
+    writer.lines("/* Start values; outputs are computed. */");
     let starts: Vec<String> =
         variables.list.iter().map(|variable| Real::Double.number(variable.start.unwrap_or(0.0))).collect();
     writer.braces("static const double START[VALUES] = ", &starts, ";");
     writer.blank();
-    writer.lines("/* Fills the outputs; why they cannot be had, or null. */");
+    writer.lines("/* Computes the outputs. Returns an error message, or null. */");
     writer.lines("static const char *evaluate(double *values, int *correction)");
     writer.open_alone();
     for array in ["q", "u", "s"] {
@@ -63,12 +64,12 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
     writer.open("switch (status)");
     for (code, why) in [
         ("OK", "NULL"),
-        ("SINGULAR", "\"The displacement has Euler angles, which do not exist at this pose.\""),
+        ("SINGULAR", "\"The Euler angles of the displacement are undefined at this pose.\""),
         ("OUT_OF_RANGE", "\"An input is outside its range.\""),
     ] {
         writer.lines(&format!("case {upper}_{code}:\n    return {why};"));
     }
-    writer.lines("default:\n    return \"An output is not finite: look at the inputs and parameters.\";");
+    writer.lines("default:\n    return \"An output is not finite; check the inputs and parameters.\";");
     writer.close("}");
     writer.close("}");
     writer.lines("\n#endif");

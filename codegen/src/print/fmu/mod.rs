@@ -1,7 +1,9 @@
-//! A functional mock-up unit (FMI 3.0 or 2.0): the C of a machine with a description of its variables, for simulators.
+//! A functional mock-up unit (FMI 3.0 or 2.0) for simulators: the C code of a machine with a
+//! description of its variables.
 //!
-//! `variables` says what is in it, `description` and `page` tell that to programs and people, `machine` to the C
-//! that is the same for all machines: `fmi-3.c`, `fmi-2.c`, `fmi-instance.h`. `xml` writes elements, `units` their units.
+//! `variables` lists the variables, `description` and `page` describe them for programs and people,
+//! `machine` for the C code that all machines share: `fmi-3.c`, `fmi-2.c`, `fmi-instance.h`. `xml`
+//! writes elements, `units` the units.
 
 mod description;
 mod fmi;
@@ -21,7 +23,8 @@ use super::source_file::SourceFile;
 use crate::chain::Model;
 use crate::program::Routines;
 
-/// The files of the archive, with their folders. Inputs that are magnitudes of sources are its parameters.
+/// Returns the files of the archive, with their folders. Inputs that scale sources become
+/// parameters of the unit.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, fmi: Fmi) -> Vec<SourceFile> {
     let variables = Variables::new(spec);
     let token = token(spec, fmi);
@@ -44,7 +47,8 @@ pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, fmi: Fmi) -
     files
 }
 
-/// What binds code to its description: of the generator's version, FMI's and the spec's hash, in the form of a GUID.
+/// Returns the GUID that binds the code to its description: a hash of the generator's version,
+/// FMI's version and the spec's hash.
 fn token(spec: &Spec, fmi: Fmi) -> String {
     let bound = format!("abbe {} FMI {} {}", env!("CARGO_PKG_VERSION"), fmi.name(), spec.hash);
     let hash = Sha256::digest(bound.as_bytes());

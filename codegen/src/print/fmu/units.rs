@@ -1,4 +1,4 @@
-//! Units as FMI defines them: a product of powers of SI units, and how many of them one is.
+//! Units as FMI defines them: a product of powers of SI base units and a factor.
 
 use std::collections::BTreeSet;
 
@@ -11,13 +11,13 @@ use super::xml::Element;
 #[derive(Clone, Debug)]
 pub(super) struct Unit {
     pub(super) name: String,
-    /// The powers of m, kg, s and K, and how many of that it is; none of a square root of a unit.
+    /// Powers of m, kg, s and K, and the factor; `None` for a square root of a unit.
     base: Option<([i32; 4], f64)>,
 }
 
 impl Unit {
-    /// The coherent unit of a dimension.
-    pub(super) fn of(dimension: Dimension, length: LengthUnit) -> Self {
+    /// Returns the coherent unit of a dimension.
+    pub(super) fn coherent(dimension: Dimension, length: LengthUnit) -> Self {
         let factor = |powers: [i32; 4]| match length {
             LengthUnit::Metre => 1.0,
             LengthUnit::Millimetre => format!("1e{}", -3 * powers[0]).parse().expect("this is a number"),
@@ -26,12 +26,12 @@ impl Unit {
         Self { name: dimension.unit(length.symbol()), base }
     }
 
-    /// The same; nothing for a pure number.
+    /// Returns the coherent unit of a dimension, or `None` for a dimensionless number.
     pub(super) fn some(dimension: Dimension, length: LengthUnit) -> Option<Self> {
-        (dimension != Dimension::NONE).then(|| Self::of(dimension, length))
+        (dimension != Dimension::NONE).then(|| Self::coherent(dimension, length))
     }
 
-    /// An angle.
+    /// Returns the unit of an angle.
     pub(super) fn angle() -> Self {
         Self { name: "rad".to_owned(), base: None }
     }
@@ -50,7 +50,7 @@ impl Unit {
     }
 }
 
-/// The definitions of all units, each once.
+/// Returns the definitions of all units, without duplicates.
 pub(super) fn definitions<'u>(units: impl Iterator<Item = &'u Unit>) -> Element {
     let mut defined = BTreeSet::new();
     let once = units.filter(|unit| defined.insert(unit.name.clone()));

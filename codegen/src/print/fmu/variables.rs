@@ -1,4 +1,5 @@
-//! The variables of a machine: their names, units, limits and starts, in the order of their value references.
+//! Variables of a machine: names, units, limits and start values, in the order of their value
+//! references.
 
 use abbe_core::function::Signature;
 use abbe_core::{Function, Orientation, Quantity, VariableKind};
@@ -7,7 +8,7 @@ use abbe_spec::{MAGNITUDE, Spec};
 
 use super::units::Unit;
 
-/// What a variable is for.
+/// Causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Causality {
     Independent,
@@ -16,50 +17,50 @@ pub(super) enum Causality {
     Output,
 }
 
-/// A number of the machine.
+/// A variable of the machine.
 #[derive(Clone, Debug)]
 pub(super) struct Variable {
     pub(super) name: String,
     pub(super) causality: Causality,
     pub(super) unit: Option<Unit>,
-    /// What it is before it is set; of inputs and parameters.
+    /// Start value of an input or parameter.
     pub(super) start: Option<f64>,
-    /// Infinite where there is no end.
+    /// Range; infinite where there is no limit.
     pub(super) range: [f64; 2],
     pub(super) description: String,
 }
 
-/// All variables, and where arrays of them begin.
+/// The variables of a machine, and the start of each array of them.
 #[derive(Debug)]
 pub(super) struct Variables {
     pub(super) list: Vec<Variable>,
-    /// Arrays of the functions of C by their names: index of the first number.
+    /// Arrays of the C functions by name, with the index of their first element.
     pub(super) places: Vec<(&'static str, usize)>,
     /// Index of the first output.
     pub(super) outputs: usize,
-    /// Whether there are corrected commands, and behind all others a whole number that says how good they are.
+    /// `true` if there are corrected commands, followed by an integer status.
     pub(super) corrected: bool,
 }
 
-/// The functions whose results are outputs, and what their outputs are called.
+/// Functions whose results are outputs, and the names of the outputs.
 pub(super) const OUTPUTS: [(Function, &str); 3] = [
     (Function::PredictedDisplacement, "displacement"),
     (Function::Pose, "pose"),
     (Function::RealPose, "real_pose"),
 ];
 
-/// The corrected commands.
+/// Name of the corrected commands.
 pub(super) const CORRECTED: &str = "corrected";
 
-/// The whole number that says how good they are.
+/// Name and description of the status of the corrected commands.
 pub(super) const CORRECTION: (&str, &str) = (
     "correction",
-    "0: corrected puts the real tool where pose is; 4: at a limit, or singular, the best that was found",
+    "0: converged; 4: not converged at a limit or near a singular pose, corrected is the best result so far",
 );
 
 impl Variables {
     pub(super) fn new(spec: &Spec) -> Self {
-        let length = Some(Unit::of(Dimension::LENGTH, spec.length));
+        let length = Some(Unit::coherent(Dimension::LENGTH, spec.length));
         let number = |name: String, causality, description: &str| Variable {
             name,
             causality,
@@ -72,7 +73,7 @@ impl Variables {
             VariableKind::Revolute => Some(Unit::angle()),
             VariableKind::Prismatic => length.clone(),
         };
-        let time = Some(Unit::of(Dimension::TIME, spec.length));
+        let time = Some(Unit::coherent(Dimension::TIME, spec.length));
         let mut list = vec![Variable { unit: time, ..number("time".into(), Causality::Independent, "Time") }];
         let mut places = vec![("q", list.len())];
         list.extend(spec.variables.iter().map(|variable| Variable {
@@ -118,7 +119,7 @@ impl Variables {
             }));
         }
         places.push((CORRECTED, list.len()));
-        let what = "The command that puts the real tool where the ideal one is";
+        let what = "Command at which the real tool has the ideal pose";
         list.extend(spec.variables.iter().map(|variable| Variable {
             unit: of_kind(variable.kind),
             ..number(format!("{CORRECTED}.{}", variable.name), Causality::Output, what)
@@ -133,7 +134,7 @@ enum Measure {
     Number,
 }
 
-/// The names of the numbers of a result, in its order.
+/// Returns the names of the numbers of a result, in order.
 fn parts(quantity: Quantity, orientation: Orientation) -> Vec<(String, Measure)> {
     let xyz = ["x", "y", "z"].map(|axis| (axis.to_owned(), Measure::Length));
     if quantity == Quantity::Pose {

@@ -1,12 +1,12 @@
-//! Elements of XML: attributes and other elements, and nothing else.
+//! XML elements with attributes and child elements.
 
 use std::fmt::Display;
 
-/// An element.
+/// An XML element.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     name: &'static str,
-    /// As they are written.
+    /// The attributes as text.
     attributes: String,
     inside: Vec<Self>,
 }
@@ -16,13 +16,13 @@ impl Element {
         Self { name, attributes: String::new(), inside: Vec::new() }
     }
 
-    /// The same with one attribute more.
+    /// Adds an attribute.
     pub(super) fn with(mut self, name: &str, value: impl Display) -> Self {
         self.attributes.push_str(&format!(" {name}=\"{}\"", escaped(&value.to_string())));
         self
     }
 
-    /// The same with an attribute, if there is a value for it.
+    /// Adds an attribute if there is a value.
     pub(super) fn with_some(self, name: &str, value: Option<impl Display>) -> Self {
         match value {
             Some(value) => self.with(name, value),
@@ -30,13 +30,13 @@ impl Element {
         }
     }
 
-    /// The same with more elements in it.
+    /// Adds child elements.
     pub(super) fn containing(mut self, elements: impl IntoIterator<Item = Self>) -> Self {
         self.inside.extend(elements);
         self
     }
 
-    /// A document of it.
+    /// Returns a document with this element as its root.
     pub(super) fn document(&self) -> String {
         let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
         self.write(0, &mut text);
@@ -56,7 +56,8 @@ impl Element {
     }
 }
 
-/// A text in which nothing is markup; what XML cannot hold becomes `�`, what begins a line a space.
+/// Escapes markup. Characters that XML cannot contain become `�`; line breaks and tabs become
+/// spaces.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {

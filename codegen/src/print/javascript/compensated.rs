@@ -1,4 +1,4 @@
-//! Corrected commands in JavaScript: the fixed number of steps of `abbe::compensator`, term by term.
+//! Corrected commands in JavaScript, by the fixed number of steps of `abbe::compensator`.
 
 use abbe_core::function::{COMPENSATED, CONVERGED};
 use abbe_spec::Spec;
@@ -26,7 +26,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
 }
 
 const HELPERS: &str = "\
-/** From the ideal to the real pose: three lengths in F_0, and the rotation vector of R_real R_ideal^T. */
+/** Deviation of the real from the ideal pose: position in F_0, and the rotation vector of R_real R_ideal^T. */
 function deviation(ideal, real) {
     const turn = (i, j) =>
         real[i] * ideal[j] + real[3 + i] * ideal[3 + j] + real[6 + i] * ideal[6 + j];
@@ -38,7 +38,7 @@ function deviation(ideal, real) {
     return Float64Array.of(...lengths, ...v.map((component) => component * scale));
 }
 
-/** Rows in metres and rad; a rad counts so little that the tool point comes first. */
+/** Weights the rows in metres and rad: 1 rad counts as 1 mm, so that the position has priority. */
 function weighed(rows, factor) {
     return rows.map((row, i) => row * factor * (i < 3 ? METRE : LEVER));
 }
@@ -49,7 +49,7 @@ function dot(a, b, count) {
     return sum;
 }
 
-/** (M + lambda) x = b by Cholesky, for M positive semidefinite; b becomes x. */
+/** Solves (M + lambda) x = b by Cholesky factorization, for positive semidefinite M; x overwrites b. */
 function solve(m, b) {
     for (let i = 0; i < b.length; i++) {
         for (let j = 0; j <= i; j++) {
@@ -66,7 +66,7 @@ function solve(m, b) {
     return b;
 }
 
-/** The shortest step, (J^T J + lambda)^-1 J^T b; of more than six joints J^T (J J^T + lambda)^-1 b. */
+/** Returns the shortest step, (J^T J + lambda)^-1 J^T b; for more than six joints J^T (J J^T + lambda)^-1 b. */
 function shortest(columns, b) {
     const isPrimal = columns.length <= 6;
     const rows = Array.from(b, (_, i) => columns.map((column) => column[i]));
@@ -75,7 +75,10 @@ function shortest(columns, b) {
     return isPrimal ? solve(m, times(b)) : times(solve(m, b.slice()));
 }
 
-/** q becomes start + d; a variable that would go beyond a limit is held there, the one furthest beyond it first. */
+/**
+ * Sets q to start + step. Variables that exceed a limit are held at it, one at a time, the one with the
+ * largest excess first.
+ */
 function depart(start, q, twists, after) {
     const units = [UNIT_LIST];
     const clamped = (j) => {
@@ -90,7 +93,7 @@ function depart(start, q, twists, after) {
         const step = shortest(columns, wanted);
         let [furthest, held] = [0, -1];
         units.forEach((unit, j) => {
-            // Held, or of no use to the tool.
+            // Skip variables that are held or do not move the tool.
             if (!(dot(columns[j], columns[j], 6) > 0)) return;
             q[j] = start[j] + step[j] * unit;
             const beyond = Math.abs(q[j] - clamped(j)) / unit;

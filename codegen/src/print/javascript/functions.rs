@@ -1,4 +1,4 @@
-//! Routines as functions.
+//! Prints routines as functions.
 
 use abbe_core::Description;
 use abbe_core::function::Signature;
@@ -10,9 +10,9 @@ use crate::print::header::operations;
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
-use crate::program::{Array, Place, Role, Routine, Routines, Row, Stage};
+use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row, Stage};
 
-/// One function.
+/// Prints one function.
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
     let Statements { list, .. } =
         Statements::new(spec, &routines.description, routine, &JavaScript(&spec.tables));
@@ -20,7 +20,7 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     writer.lines("/**");
     if let Some(function) = routine.function {
         let signature = function.signature();
-        let margin = ["margin", "`cos ρ`; where that is 0, rows 4–6 are not finite."];
+        let margin = ["margin", "`cos ρ`; where it is 0, rows 4–6 are not finite."];
         let behind = signature.has_margin(routines.description.orientation).then_some(margin);
         documentation(writer, &routines.description, signature, behind);
         writer.documentation_line("");
@@ -41,7 +41,8 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     writer.close("}");
 }
 
-/// The documentation of a function: its signature, and what it returns behind the results.
+/// Prints the documentation of a function: its signature, and what it returns in addition to the
+/// results.
 pub(super) fn documentation(
     writer: &mut Writer,
     description: &Description,
@@ -52,7 +53,12 @@ pub(super) fn documentation(
     writer.documentation_line("");
     let numbers = |array: &abbe_core::function::Array| {
         let shape = array.shape.iter().map(|count| count.value(description).to_string());
-        format!("{} Numbers: {}; {}.", array.documentation, shape.collect::<Vec<_>>().join(" × "), array.unit)
+        format!(
+            "{} Size: {}. Unit: {}.",
+            array.documentation,
+            shape.collect::<Vec<_>>().join(" × "),
+            array.unit
+        )
     };
     for array in signature.arguments {
         writer.documentation(&format!("@param {{Float64Array}} {} {}", array.name, numbers(array)));
@@ -60,7 +66,7 @@ pub(super) fn documentation(
     match (signature.results, behind) {
         ([array], None) => writer.documentation(&format!("@returns {{Float64Array}} {}", numbers(array))),
         (several, behind) => {
-            writer.documentation("@returns {object} These by their names:");
+            writer.documentation("@returns {object} Object with the properties:");
             for array in several {
                 writer.documentation(&format!("- `{}`: {}", array.name, numbers(array)));
             }
@@ -77,7 +83,7 @@ struct Printer<'p> {
 }
 
 impl Printer<'_> {
-    /// What an array is called: not as a function that is called beside it.
+    /// Returns the name of an array, which must differ from functions called in its scope.
     fn name(&self, array: usize) -> String {
         let Flat { routine, .. } = self.flat;
         let name = routine.arrays[array].name;
@@ -89,8 +95,8 @@ impl Printer<'_> {
         self.flat.len(array)
     }
 
-    /// The numbers of some rows.
-    fn part(&self, place: Place) -> String {
+    /// Returns the expression of some rows.
+    fn part(&self, place: ArrayRows) -> String {
         let name = self.name(place.array);
         match (place.row, self.flat.range(place)) {
             (Row::First, [_, end]) => format!("{name}.subarray(0, {end})"),
@@ -99,8 +105,8 @@ impl Printer<'_> {
         }
     }
 
-    /// Number k of row `index` of a place.
-    fn place(&self, place: Place, index: usize, k: usize) -> String {
+    /// Returns element k of row `index` of a place.
+    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
         let listed = |table: &str, column| match column {
             0 => format!("{table}[2 * i]"),
             column => format!("{table}[2 * i + {column}]"),
@@ -129,7 +135,7 @@ impl Printer<'_> {
                 let line = format!("const {} = new Float64Array({});", self.name(*array), self.len(*array));
                 self.writer.lines(&line);
             }
-            // What is cleared has only begun.
+            // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
             Statement::Copy { from, to } => {
                 let line = format!("{}.set({});", self.name(*to), self.part(*from));
@@ -141,7 +147,7 @@ impl Printer<'_> {
                 self.writer.lines(&line);
             }
             Statement::Assign { to, index, values, fresh: false } => {
-                // A result begins as zeros.
+                // Results have been initialized with zeros.
                 let is_result = self.flat.routine.arrays[to.array].role == Role::Result;
                 let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
                 let entry = |(k, value): (usize, &crate::print::expression::Value)| {
@@ -170,7 +176,7 @@ impl Printer<'_> {
                 body.iter().for_each(|statement| self.statement(statement));
                 self.writer.close("}");
             }
-            // With the results; columns go to arrays.
+            // `results` prints the return; columns go to arrays.
             Statement::Return(_) | Statement::Column { .. } => {}
         }
     }
@@ -193,7 +199,7 @@ impl Printer<'_> {
         self.writer.lines(&format!("const {results} = {routine}({});", given.join(", ")));
     }
 
-    /// What is returned: the only result, or all by their names.
+    /// Prints the return statement: the only result, or an object of all results.
     fn results(&mut self, margin: Option<&str>) {
         let arrays = self.flat.routine.arrays.iter().enumerate();
         let results = arrays.filter(|(_, array)| array.role == Role::Result).map(|(index, array)| {

@@ -1,8 +1,8 @@
 //! JavaScript: an ES module of pure functions on `Float64Array`.
 //!
-//! Every function makes its results anew, flat and in the order in which the Rust arrays have their numbers. One result
-//! is returned as it is, several by their names. `functions` prints routines, `operators` what expressions are made of,
-//! `compensated` the corrected commands.
+//! Every function allocates its results, flat and in the order of the Rust arrays. A single result
+//! is returned as it is, several results as an object. `functions` prints routines, `operators`
+//! expressions, `compensated` the corrected commands.
 
 mod compensated;
 mod functions;
@@ -19,7 +19,7 @@ use super::records::records;
 use super::text::escaped;
 use crate::program::{Routines, Sums};
 
-/// The source of a manipulator's module.
+/// Returns the source of a manipulator's module.
 pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     let mut writer = Writer::new(" *");
     writer.lines("/**");
@@ -37,11 +37,11 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     }
     for Sums { name, constants, factors } in routines.used_sums() {
         let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
-        constant(&mut writer, "What is constant in each entry.", &format!("{name}_CONSTANTS"), &values);
+        constant(&mut writer, "Constant term of each entry.", &format!("{name}_CONSTANTS"), &values);
         let row =
             |(entry, term, factor): &(usize, usize, f64)| format!("{entry}, {term}, {}", number(*factor));
         let rows: Vec<String> = factors.iter().map(row).collect();
-        let what = "Entry, term, and the factor with which the term is added.";
+        let what = "Entry, term, and factor of the term.";
         constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
     }
     for table in &spec.tables {
@@ -58,7 +58,7 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     writer.finish()
 }
 
-/// A function given by points.
+/// Prints a lookup table.
 fn lookup_table(writer: &mut Writer, table: &Table) {
     let lookup = table.lookup();
     writer.blank();
@@ -79,9 +79,10 @@ fn lookup_table(writer: &mut Writer, table: &Table) {
     writer.close("};");
 }
 
-/// The value of a table or a derivative of it: as `LookupTable` of the crate `abbe`.
+/// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate
+/// `abbe`.
 const LOOKUP: &str = "\
-/** The derivative of that order of a table at x; the table itself if of order 0. */
+/** Returns a derivative of a table at x; order 0 is the table itself. */
 function lookup({ first, scale, steps, starts, knots, pieces }, order, x) {
     const even = starts.length === 0;
     const u = (x - first) * scale;

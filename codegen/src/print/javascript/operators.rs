@@ -1,4 +1,4 @@
-//! Operators and numbers.
+//! Operators and numbers of JavaScript.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -8,11 +8,11 @@ use abbe_spec::expr::{Function, Lookup, Table};
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 
-/// With the spec's tables, which are constants.
+/// The syntax of JavaScript with the spec's tables.
 pub(super) struct JavaScript<'s>(pub(super) &'s [Arc<Table>]);
 
 impl Syntax for JavaScript<'_> {
-    /// The words of the language, and what the functions use.
+    /// Keywords of the language and names that the functions use.
     fn reserved(&self) -> Cow<'static, str> {
         Cow::Borrowed(
             "Float64Array Infinity Math NaN arguments async await break case catch class const continue \
@@ -38,7 +38,7 @@ impl Syntax for JavaScript<'_> {
             Called::Atan2 => call("atan2"),
             Called::Least => call("min"),
             Called::Greatest => call("max"),
-            // Where Math.sign(-0) is -0, this is 1.
+            // Returns 1 for −0, where Math.sign returns −0.
             Called::Function(Function::Side) => {
                 let text = format!("{} >= 0 ? 1 : -1", operands[0].at_least(Binding::Atom));
                 Expression::new(text, Binding::Choice)
@@ -52,7 +52,7 @@ impl Syntax for JavaScript<'_> {
     }
 }
 
-/// A number with the digits that give it back exactly.
+/// Returns the shortest literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();

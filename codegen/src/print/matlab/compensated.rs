@@ -1,4 +1,4 @@
-//! Corrected commands in Matlab: the fixed number of steps of `abbe::compensator`, term by term.
+//! Corrected commands in Matlab, by the fixed number of steps of `abbe::compensator`.
 
 use abbe_core::function::{COMPENSATED, CONVERGED};
 use abbe_spec::Spec;
@@ -9,7 +9,7 @@ use crate::print::compensated::{Tolerances, numbered};
 use crate::print::layout::Writer;
 use crate::program::Routines;
 
-/// What functions of the text are called.
+/// Names of the functions in the template.
 pub(super) const FUNCTIONS: [&str; 6] =
     ["compensated", "deviation", "weights", "solve", "shortest", "depart"];
 
@@ -58,7 +58,7 @@ converged = moved <= REST;
 
 const HELPERS: &str = "\
 function rows = deviation(ideal, found)
-    % From the ideal to the real pose: three lengths in F_0, and the rotation vector of R_real R_ideal'.
+    % Deviation of the real from the ideal pose: position in F_0, and the rotation vector of R_real R_ideal'.
     turn = found(:, 1:3) * ideal(:, 1:3)';
     v = [turn(3, 2) - turn(2, 3), turn(1, 3) - turn(3, 1), turn(2, 1) - turn(1, 2)];
     twice_sine = sqrt(sum(v .^ 2));
@@ -70,12 +70,12 @@ function rows = deviation(ideal, found)
 end
 
 function factors = weights()
-    % Rows in metres and rad; a rad counts so little that the tool point comes first.
+    % Weights of the rows in metres and rad: 1 rad counts as 1 mm, so that the position has priority.
     factors = [METRE * [1 1 1], LEVER * [1 1 1]];
 end
 
 function x = solve(m, b)
-    % (M + lambda) x = b by Cholesky, for M positive semidefinite.
+    % Solves (M + lambda) x = b by Cholesky factorization, for positive semidefinite M.
     count = numel(b);
     x = b;
     for i = 1:count
@@ -95,7 +95,7 @@ function x = solve(m, b)
 end
 
 function step = shortest(columns, b)
-    % The shortest step, (J'J + lambda)^-1 J'b; of more than six joints J'(JJ' + lambda)^-1 b.
+    % Returns the shortest step, (J'J + lambda)^-1 J'b; for more than six joints J'(JJ' + lambda)^-1 b.
     if size(columns, 2) <= 6
         step = CLASS.solve(columns' * columns, columns' * b)';
     else
@@ -104,7 +104,7 @@ function step = shortest(columns, b)
 end
 
 function q = depart(start, q, twists, after)
-    % start + d; a variable that would go beyond a limit is held there, the one furthest beyond it first.
+    % Returns start + step, with variables that exceed a limit held at it, the one with the largest excess first.
     units = [UNIT_LIST];
     limits = CLASS.limits';
     weights = CLASS.weights()';
@@ -112,7 +112,7 @@ function q = depart(start, q, twists, after)
     wanted = columns * ((q - start) ./ units)' - weights .* after';
     for round = 0:COUNT
         step = CLASS.shortest(columns, wanted);
-        % Not those that are held, or of no use to the tool.
+        % Skip variables that are held or do not move the tool.
         moves = any(columns ~= 0, 1);
         q(moves) = start(moves) + step(moves) .* units(moves);
         clamped = min(max(q, limits(1, :)), limits(2, :));

@@ -1,4 +1,4 @@
-//! Routines as functions.
+//! Prints routines as functions.
 
 use abbe_core::function::{self, Signature};
 use abbe_core::{Description, Function};
@@ -11,9 +11,9 @@ use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
-use crate::program::{Array, Place, Role, Routine, Routines, Row};
+use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row};
 
-/// One function.
+/// Prints one function.
 pub(super) fn function(
     writer: &mut Writer,
     class: &str,
@@ -31,7 +31,7 @@ pub(super) fn function(
     writer.begin(&format!("function [{}] = {name}({arguments})", results.join(", ")));
     match routine.function.map(Function::signature) {
         Some(signature) => {
-            let margin = ["margin", "cos(rho); where that is 0, rows 4-6 are not finite."];
+            let margin = ["margin", "cos(rho); where it is 0, rows 4-6 are not finite."];
             let behind = signature.has_margin(routines.description.orientation).then_some(margin);
             documentation(writer, &routines.description, signature, behind);
         }
@@ -49,7 +49,7 @@ pub(super) fn function(
     writer.close("end");
 }
 
-/// What a function takes and gives, and what it gives behind its results.
+/// Prints the arguments and results of a function, and an additional result if given.
 pub(super) fn documentation(
     writer: &mut Writer,
     description: &Description,
@@ -65,11 +65,11 @@ pub(super) fn documentation(
         }
     };
     writer.documentation(signature.documentation);
-    let arrays = signature.arguments.iter().map(|array| (array, "takes"));
-    for (array, way) in arrays.chain(signature.results.iter().map(|array| (array, "gives"))) {
+    let arrays = signature.arguments.iter().map(|array| (array, "argument"));
+    for (array, role) in arrays.chain(signature.results.iter().map(|array| (array, "result"))) {
         writer.documentation_line("");
         writer.documentation(&format!(
-            "{way} {}: {} {}; {}.",
+            "{role} {}: {} Size: {}. Unit: {}.",
             array.name,
             array.documentation,
             shape(array),
@@ -78,11 +78,11 @@ pub(super) fn documentation(
     }
     if let Some([name, documentation]) = behind {
         writer.documentation_line("");
-        writer.documentation(&format!("gives {name}: {documentation}"));
+        writer.documentation(&format!("result {name}: {documentation}"));
     }
 }
 
-/// What is given must have its size; inputs must be in their ranges.
+/// Prints the checks of sizes and of the ranges of inputs.
 pub(super) fn checks<'a>(
     writer: &mut Writer,
     class: &str,
@@ -93,7 +93,7 @@ pub(super) fn checks<'a>(
         if name == "u" && count > 0 {
             let outside = format!("u(:) < {class}.ranges(:, 1) | u(:) > {class}.ranges(:, 2)");
             writer.begin(&format!("if any({outside})"));
-            writer.lines("error('abbe:range', 'an input is not in its range');");
+            writer.lines("error('abbe:range', 'an input is outside its range');");
             writer.close("end");
         }
     }
@@ -110,8 +110,8 @@ impl Printer<'_> {
         self.flat.routine.arrays[array].name
     }
 
-    /// Number k of row `index` of a place; loops count from 0, matrices from 1.
-    fn place(&self, place: Place, index: usize, k: usize) -> String {
+    /// Returns element k of row `index` of a place. Loops count from 0, matrices from 1.
+    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
         let listed = |table: &str, column| format!("{}.{table}(i + 1, {})", self.class, column + 1);
         let flat = self.flat.index(place, index, k, listed);
         let from_1 = match (flat.parse::<usize>(), flat.rsplit_once(" + ")) {
@@ -124,8 +124,8 @@ impl Printer<'_> {
         format!("{}({from_1})", self.name(place.array))
     }
 
-    /// The numbers of some rows.
-    fn part(&self, place: Place) -> String {
+    /// Returns the expression of some rows.
+    fn part(&self, place: ArrayRows) -> String {
         let name = self.name(place.array);
         match (place.row, self.flat.range(place)) {
             (Row::First | Row::Last | Row::AllButFirst, [begin, end]) => {
@@ -157,13 +157,13 @@ impl Printer<'_> {
                 }
             }
             Statement::Declare(array) => self.declare(*array),
-            // What is cleared has only begun.
+            // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
             Statement::Copy { from, to } => {
                 self.writer.lines(&format!("{} = {};", self.name(*to), self.part(*from)));
             }
             Statement::Assign { to, index, values, fresh } => {
-                // What is fresh has one row.
+                // A newly declared array has one row.
                 if *fresh {
                     self.declare(to.array);
                 }
@@ -213,7 +213,7 @@ impl Printer<'_> {
         self.writer.lines(&format!("[{results}] = {class}.{routine}({});", names(&given)));
     }
 
-    /// Results become matrices.
+    /// Prints the conversion of results to matrices.
     fn end(&mut self) {
         for (index, array) in self.flat.routine.arrays.iter().enumerate() {
             if array.role != Role::Result {

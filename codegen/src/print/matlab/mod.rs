@@ -1,7 +1,8 @@
 //! Matlab and Octave: a class of static functions, one configuration at a time.
 //!
-//! Arrays are matrices as Matlab keeps them, which is the order in which the Rust arrays have their numbers. `functions`
-//! prints routines, `operators` what expressions are made of, `compensated` the corrected commands.
+//! Arrays are matrices in Matlab's column-major order, which is the order of the numbers in the
+//! Rust arrays. `functions` prints routines, `operators` expressions, `compensated` the corrected
+//! commands.
 
 mod compensated;
 mod functions;
@@ -18,7 +19,8 @@ use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
 use crate::program::{Routines, Sums};
 
-/// The file of a manipulator's class, which must be called as the class is.
+/// Returns the file of a manipulator's class. Matlab requires the file to have the name of the
+/// class.
 pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     let class = class_name(spec, routines);
     let mut writer = Writer::new("%");
@@ -26,8 +28,8 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     header(&mut writer, spec, routines);
     writer.documentation_line("");
     writer.documentation(&format!(
-        "Functions are called as `{class}.pose(q, {class}.parameters)`, and take one configuration. Matrices are matrices: a \
-         pose is `[x_axis y_axis z_axis position]`, 3 rows and 4 columns; J_e has 6 rows."
+        "Call functions as `{class}.pose(q, {class}.parameters)`, for one configuration at a time. A pose is a matrix \
+         `[x_axis y_axis z_axis position]` of 3 rows and 4 columns; J_e has 6 rows."
     ));
     properties(&mut writer, spec, routines);
     writer.blank();
@@ -46,7 +48,8 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     SourceFile { name: format!("{class}.m"), text: writer.finish() }
 }
 
-/// What a class can be called: as the manipulator, if that is no word and none of its functions.
+/// Returns the name of the class: the manipulator's, unless it is a keyword or one of the
+/// functions.
 fn class_name(spec: &Spec, routines: &Routines) -> String {
     let mut name = spelled(&spec.name);
     let own = ["only_real", "side", "least", "greatest", "look_up", "is_given"];
@@ -77,7 +80,7 @@ const PROPERTIES: [&str; 11] = [
     "ranges",
 ];
 
-/// Names, units, limits, values, and what the functions read.
+/// Prints names, units, limits, values and the tables of the functions.
 fn properties(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     let description = &routines.description;
     writer.blank();
@@ -116,9 +119,9 @@ fn properties(writer: &mut Writer, spec: &Spec, routines: &Routines) {
         list(writer, table.name, ["[", "]"], &rows.collect::<Vec<_>>());
     }
     for Sums { name, constants, factors } in routines.used_sums() {
-        comment(writer, "What is constant in each entry.");
+        comment(writer, "Constant term of each entry.");
         list(writer, &format!("{name}_CONSTANTS"), ["[", "]"], &numbers(constants.clone()));
-        comment(writer, "Entry, term, and the factor with which the term is added.");
+        comment(writer, "Entry, term, and factor of the term.");
         let row = |(entry, term, factor): &(usize, usize, f64)| {
             format!("{} {} {};", entry + 1, term + 1, number(*factor))
         };
@@ -130,7 +133,7 @@ fn properties(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     writer.close("end");
 }
 
-/// A function given by points.
+/// Prints a lookup table.
 fn lookup_table(writer: &mut Writer, table: &Table) {
     let lookup = table.lookup();
     comment(writer, &table.documentation(&escaped(&table.description)));
@@ -149,7 +152,7 @@ fn lookup_table(writer: &mut Writer, table: &Table) {
     writer.end();
 }
 
-/// `name = [first second …];` in lines of a few entries.
+/// Prints `name = [first second …];` with a few entries per line.
 fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], entries: &[String]) {
     let inner = entries.join(" ");
     if inner.len() < 70 {
@@ -166,22 +169,22 @@ fn comment(writer: &mut Writer, text: &str) {
     }
 }
 
-/// A text on one line.
+/// Returns a text as a literal on one line.
 fn quoted(text: &str) -> String {
     format!("'{}'", harmless(text).replace('\'', "''"))
 }
 
-/// What functions of the language do otherwise than those of all others.
+/// Functions whose behavior differs from that of Matlab's own.
 const HELPERS: &str = "\
 function y = only_real(y)
-    % A number; NaN where there is only a complex one.
+    % Replaces a complex number by NaN.
     if ~isreal(y)
         y = NaN;
     end
 end
 
 function y = side(x)
-    % -1 below 0, else 1.
+    % Returns -1 for negative numbers, else 1.
     y = 1;
     if x < 0
         y = -1;
@@ -189,7 +192,7 @@ function y = side(x)
 end
 
 function y = least(a, b)
-    % The smaller one; NaN if one of them is.
+    % Returns the smaller number, or NaN if one of them is NaN.
     y = min(a, b);
     if isnan(a) || isnan(b)
         y = NaN;
@@ -197,7 +200,7 @@ function y = least(a, b)
 end
 
 function y = greatest(a, b)
-    % The larger one; NaN if one of them is.
+    % Returns the larger number, or NaN if one of them is NaN.
     y = max(a, b);
     if isnan(a) || isnan(b)
         y = NaN;
@@ -205,17 +208,18 @@ function y = greatest(a, b)
 end
 
 function is_given(name, value, count)
-    % Ends with an error if an argument has another number of numbers.
+    % Raises an error if an argument has the wrong number of elements.
     if numel(value) ~= count
-        error('abbe:size', '%s has %d numbers, and %d are expected', name, numel(value), count);
+        error('abbe:size', '%s: expected %d numbers, found %d', name, count, numel(value));
     end
 end
 ";
 
-/// The value of a table or a derivative of it: as `LookupTable` of the crate `abbe`.
+/// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate
+/// `abbe`.
 const LOOK_UP: &str = "\
 function y = look_up(table, order, x)
-    % The derivative of that order of a table at x; the table itself if of order 0.
+    % Returns a derivative of a table at x; order 0 is the table itself.
     even = isempty(table.starts);
     u = (x - table.first) * table.scale;
     if isnan(u)

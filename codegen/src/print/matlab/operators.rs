@@ -1,4 +1,4 @@
-//! Operators, numbers and names.
+//! Operators, numbers and names of Matlab.
 
 use std::borrow::Cow;
 
@@ -8,16 +8,17 @@ use abbe_spec::expr::{Function, Lookup};
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 
-/// With the class's name, before what stands in it, and the spec, whose tables do.
+/// The syntax of Matlab for a class, whose name precedes its members, and a spec, whose tables are
+/// members.
 pub(super) struct Matlab<'s> {
     pub(super) class: &'s str,
     pub(super) spec: &'s Spec,
 }
 
-/// The longest name, with room for what distinguishes it from others.
+/// Maximum length of a name, with a reserve for suffixes that make it unique.
 const LONGEST: usize = 55;
 
-/// The words of the language, and what the functions use; `i` and `j` are numbers.
+/// Keywords of the language and names that the functions use; `i` and `j` are numbers.
 pub(super) const WORDS: &str = "NaN Inf abs acos arguments asin atan atan2 break case catch classdef continue cos do else elseif end \
     end_try_catch end_unwind_protect endarguments endclassdef endenumeration endevents endfor endfunction endif endmethods \
     endparfor endproperties endspmd endswitch endwhile enumeration eps error events exp false for function get global i if \
@@ -29,7 +30,7 @@ impl Syntax for Matlab<'_> {
         Cow::Owned(format!("{WORDS} {}", self.class))
     }
 
-    /// Names begin with a letter, and are of a bounded length.
+    /// Names start with a letter and have a bounded length.
     fn spelled(&self) -> fn(&str) -> String {
         spelled
     }
@@ -45,7 +46,8 @@ impl Syntax for Matlab<'_> {
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
         let call = |name: &str| Expression::call(name, operands);
         let own = |name: &str| call(&format!("{}.{name}", self.class));
-        // Where there is no real value it is NaN, as everywhere else, and no complex number.
+        // Without a real value the result is NaN, as in all other languages, instead of a complex
+        // number.
         let real = |name: &str| Expression::call(&format!("{}.only_real", self.class), &[call(name)]);
         arithmetic(action, operands).unwrap_or_else(|called| match called {
             Called::Power => real("power"),
@@ -67,14 +69,14 @@ impl Syntax for Matlab<'_> {
     }
 }
 
-/// A name of a spec as a name of the language.
+/// Converts a name of a spec to a name of the language.
 pub(super) fn spelled(name: &str) -> String {
     let letters = name.trim_start_matches('_');
     let begun = if letters.len() == name.len() { String::new() } else { "x_".to_owned() };
     begun + &letters[..letters.len().min(LONGEST)]
 }
 
-/// A number with the digits that give it back exactly.
+/// Returns the shortest literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
     if value.is_nan() {
         return "NaN".to_owned();

@@ -1,4 +1,5 @@
-//! Corrected commands on NumPy: the fixed number of steps of `abbe::compensator`, in all configurations at once.
+//! Corrected commands on NumPy arrays of configurations, by the fixed number of steps of
+//! `abbe::compensator`.
 
 use abbe_core::function::{COMPENSATED, CONVERGED};
 use abbe_spec::Spec;
@@ -21,7 +22,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
 
 const TEXT: &str = r#"
 def _deviation(ideal, real):
-    """From the ideal to the real pose: three lengths in F_0, and the rotation vector of R_real R_ideal^T."""
+    """Return the deviation of the real from the ideal pose: position in F_0, and the rotation vector of R_real R_ideal^T."""
     a, b = (pose.reshape(pose.shape[:-1] + (4, 3)) for pose in (ideal, real))
     turn = sum(b[..., k, :, None] * a[..., k, None, :] for k in range(3))
     v = np.stack([turn[..., i, j] - turn[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0))], axis=-1)
@@ -32,12 +33,12 @@ def _deviation(ideal, real):
 
 
 def _weighed(rows):
-    """Rows in metres and rad; a rad counts so little that the tool point comes first."""
+    """Weight the rows in metres and rad: 1 rad counts as 1 mm, so that the position has priority."""
     return rows * np.repeat([METRE, LEVER], 3)
 
 
 def _solve(m, b):
-    """(M + lambda) x = b by Cholesky, for M positive semidefinite."""
+    """Solve (M + lambda) x = b by Cholesky factorization, for positive semidefinite M."""
     lower, x = np.zeros(m.shape), np.zeros(b.shape)
     for i in range(b.shape[-1]):
         for j in range(i + 1):
@@ -52,7 +53,7 @@ def _solve(m, b):
 
 
 def _shortest(columns, b):
-    """The shortest step, (J^T J + lambda)^-1 J^T b; of more than six joints J^T (J J^T + lambda)^-1 b."""
+    """Return the shortest step, (J^T J + lambda)^-1 J^T b; for more than six joints J^T (J J^T + lambda)^-1 b."""
     if columns.shape[-2] <= 6:
         m = np.sum(columns[..., :, None, :] * columns[..., None, :, :], axis=-1)
         return _solve(m, np.sum(columns * b[..., None, :], axis=-1))
@@ -61,12 +62,12 @@ def _shortest(columns, b):
 
 
 def _depart(start, q, twists, after, units, limits):
-    """start + d; a variable that would go beyond a limit is held there, the one furthest beyond it first."""
+    """Return start + step, with variables that exceed a limit held at it, the one with the largest excess first."""
     columns = _weighed(twists.reshape(twists.shape[:-1] + (COUNT, 6)) * units[:, None])
     wanted = -_weighed(after) + np.sum(columns * ((q - start) / units)[..., None], axis=-2)
     for _ in range(COUNT + 1):
         step = _shortest(columns, wanted)
-        # Not those that are held, or of no use to the tool.
+        # Skip variables that are held or do not move the tool.
         moves = np.any(columns != 0.0, axis=-1)
         q = np.where(moves, start + step * units, q)
         clamped = np.clip(q, *limits)

@@ -1,4 +1,4 @@
-//! Routines as functions.
+//! Prints routines as functions.
 
 use abbe_core::function::{self, Signature};
 use abbe_core::{Description, Quantity};
@@ -10,10 +10,10 @@ use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
-use crate::program::{Array, Place, Role, Routine, Routines, Row};
+use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row};
 
-/// What is called from outside: it looks at shapes, and gives results the shapes that users expect. Behind the results there may
-/// be one more with a name and a documentation.
+/// Prints the public function, which checks shapes and gives the results their documented shapes.
+/// `behind` is the name and documentation of an additional result.
 pub(super) fn face(
     writer: &mut Writer,
     description: &Description,
@@ -53,11 +53,11 @@ pub(super) fn face(
     writer.end();
 }
 
-/// The margin behind the results of a function, and what it is.
+/// Name and documentation of the margin, which follows the results of a function.
 pub(super) const MARGIN: [&str; 2] =
-    ["margin", "`cos ρ`; where that is 0, the rows of the orientation are not finite."];
+    ["margin", "`cos ρ`; where it is 0, the rows of the orientation are not finite."];
 
-/// Whether the numbers of an array are columns of matrices.
+/// Returns `true` if the numbers of an array are columns of matrices.
 fn is_matrix(array: &function::Array) -> bool {
     array.quantity == Quantity::Pose || array.name == "columns"
 }
@@ -79,7 +79,7 @@ fn documentation(
             let last = shape.len() - 1;
             shape.swap(last - 1, last);
         }
-        format!("Shape (..., {}); {}.", shape.join(", "), array.unit)
+        format!("Shape (..., {}). Unit: {}.", shape.join(", "), array.unit)
     };
     for array in signature.arguments {
         writer.documentation(&format!("{}: {} {}", array.name, array.documentation, shape(array)));
@@ -100,7 +100,7 @@ fn documentation(
     writer.lines("\"\"\"");
 }
 
-/// The routine, on flat arrays.
+/// Prints the routine on flat arrays.
 pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
     let Statements { list, .. } =
         Statements::new(spec, &routines.description, routine, &Python(&spec.tables));
@@ -134,14 +134,14 @@ impl Printer<'_> {
         self.flat.routine.arrays[array].name
     }
 
-    /// Number k of row `index` of a place, in every configuration.
-    fn place(&self, place: Place, index: usize, k: usize) -> String {
+    /// Returns element k of row `index` of a place, in every configuration.
+    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
         let listed = |table: &str, column| format!("{table}[i][{column}]");
         format!("{}[..., {}]", self.name(place.array), self.flat.index(place, index, k, listed))
     }
 
-    /// The numbers of some rows, in every configuration.
-    fn part(&self, place: Place) -> String {
+    /// Returns the expression of some rows, in every configuration.
+    fn part(&self, place: ArrayRows) -> String {
         let name = self.name(place.array);
         match (place.row, self.flat.range(place)) {
             (Row::First, [_, end]) => format!("{name}[..., :{end}]"),
@@ -157,7 +157,7 @@ impl Printer<'_> {
     fn statement(&mut self, statement: &Statement) {
         match statement {
             Statement::Unpack { names, from } => {
-                // A part of an array that changes later would change with it.
+                // A view of a local array would change with it.
                 let is_given = self.flat.routine.arrays[from.array].role == Role::Argument;
                 let copied = if is_given { "" } else { ".copy()" };
                 let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
@@ -174,17 +174,18 @@ impl Printer<'_> {
                 }
             }
             Statement::Declare(array) => self.declare(*array),
-            // What is cleared has only begun.
+            // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
             Statement::Copy { from, to } => {
                 self.writer.lines(&format!("{}[...] = {}", self.name(*to), self.part(*from)));
             }
             Statement::Assign { to, index, values, fresh } => {
-                // What is fresh has one row.
+                // A newly declared array has one row.
                 if *fresh {
                     self.declare(to.array);
                 }
-                // It began as zeros, and what a loop may have written is not zero always.
+                // Zeros need no assignment to an array that has just been initialized; a loop may
+                // have changed any other.
                 let began = *fresh || self.flat.routine.arrays[to.array].role == Role::Result;
                 let values = values.iter().enumerate().filter(|(_, value)| !(began && value.is_zero));
                 for (k, value) in values {
@@ -216,7 +217,7 @@ impl Printer<'_> {
                 body.iter().for_each(|statement| self.statement(statement));
                 self.writer.end();
             }
-            // With the results; columns go to arrays.
+            // `results` prints the return; columns go to arrays.
             Statement::Return(_) | Statement::Column { .. } => {}
         }
     }
@@ -237,7 +238,7 @@ impl Printer<'_> {
         self.writer.lines(&format!("{} = _{routine}({})", filled.join(", "), given.join(", ")));
     }
 
-    /// What is returned: the only result, or all in their order.
+    /// Prints the return statement: the only result, or all in their order.
     fn results(&mut self, margin: Option<&str>) {
         let arrays = self.flat.routine.arrays.iter().enumerate();
         let results = arrays.filter(|(_, array)| array.role == Role::Result).map(|(index, _)| {
@@ -246,7 +247,7 @@ impl Printer<'_> {
                 _ => self.name(index).to_owned(),
             }
         });
-        // A margin may be a number of the spec alone.
+        // A constant margin has no axes for configurations.
         let margin = margin.map(|value| match value {
             "margin" => value.to_owned(),
             value => format!("np.broadcast_to({value}, batch)"),

@@ -1,8 +1,9 @@
-//! Python: a module of functions on arrays of NumPy, of which any number of leading axes are configurations.
+//! Python: a module of functions on NumPy arrays with any number of leading axes for
+//! configurations.
 //!
-//! Every function is two: one that looks at what it is given, says what is wrong with it and gives arrays the shapes that
-//! NumPy's users expect, and behind it the routine on flat arrays. `functions` prints both, `operators` what expressions are
-//! made of, `compensated` the corrected commands.
+//! Every function consists of a public part, which checks its arguments, reports mistakes and gives
+//! results the usual shapes, and a routine on flat arrays behind it. `functions` prints both,
+//! `operators` expressions, `compensated` the corrected commands.
 
 mod compensated;
 mod functions;
@@ -19,16 +20,16 @@ use super::records::{quoted, records};
 use super::text::{escaped, harmless};
 use crate::program::{Routines, Sums};
 
-/// The source of a manipulator's module.
+/// Returns the source of a manipulator's module.
 pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     let mut writer = Writer::new("");
     writer.lines("r\"\"\"");
     header(&mut writer, spec, routines);
     writer.blank();
     writer.documentation(
-        "Any number of axes before those of one configuration are configurations, here called `...`. Matrices have their rows \
-         in the last axis but one, as NumPy has them: a pose is `[x_axis y_axis z_axis position]`, 3 rows and 4 columns. \
-         `None` for `s` or `u` takes the nominal values.",
+        "Arrays can have any number of leading axes for configurations, written as `...`. Matrices have their rows in the \
+         second-to-last axis, as usual in NumPy: a pose is `[x_axis y_axis z_axis position]`, 3 rows and 4 columns. \
+         `None` for `s` or `u` stands for the nominal values.",
     );
     writer.lines("\"\"\"");
     writer.blank();
@@ -46,11 +47,11 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     }
     for Sums { name, constants, factors } in routines.used_sums() {
         let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
-        constant(&mut writer, "What is constant in each entry.", &format!("{name}_CONSTANTS"), &values);
+        constant(&mut writer, "Constant term of each entry.", &format!("{name}_CONSTANTS"), &values);
         let row =
             |(entry, term, factor): &(usize, usize, f64)| format!("({entry}, {term}, {})", number(*factor));
         let rows: Vec<String> = factors.iter().map(row).collect();
-        let what = "Entry, term, and the factor with which the term is added.";
+        let what = "Entry, term, and factor of the term.";
         constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
     }
     spec.tables.iter().for_each(|table| lookup_table(&mut writer, table));
@@ -74,7 +75,7 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     writer.finish()
 }
 
-/// A function given by points.
+/// Prints a lookup table.
 fn lookup_table(writer: &mut Writer, table: &Table) {
     let lookup = table.lookup();
     writer.blank();
@@ -103,17 +104,17 @@ fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[Stri
     writer.array(&format!("{name} = "), values, "");
 }
 
-/// A comment of one line or more.
+/// Prints a comment of one or more lines.
 fn comment(writer: &mut Writer, text: &str) {
     for line in super::text::wrapped(&harmless(text), 96) {
         writer.lines(&format!("# {line}"));
     }
 }
 
-/// What every function does first.
+/// Checks arguments and broadcasts them.
 const GIVEN: &str = r#"
 def _given(**arguments):
-    """The common leading shape of arrays, and each of them flat behind it."""
+    """Return the common leading shape of the arguments, and each argument flattened behind its leading axes."""
     nominal = {
         "s": [parameter["nominal"] for parameter in description["parameters"]],
         "u": [value["nominal"] for value in description["inputs"]],
@@ -124,20 +125,21 @@ def _given(**arguments):
         leading = array.ndim - len(shape)
         if leading < 0 or array.shape[leading:] != shape:
             expected = ", ".join(map(str, ("...", *shape)))
-            raise ValueError(f"{name} has the shape {array.shape}, and ({expected}) is expected")
+            raise ValueError(f"{name}: expected shape ({expected}), found {array.shape}")
         count = int(np.prod(shape))
         flat.append(array.reshape(array.shape[:leading] + (count,)))
     for value, record in zip(np.moveaxis(flat[2], -1, 0) if "u" in arguments else [], description["inputs"]):
         lower, upper = record["range"]
         if np.any((value < lower) | (value > upper)):
-            raise ValueError(f"input {record['name']} must be in its range, {lower} to {upper}")
+            raise ValueError(f"input {record['name']} is outside its range, {lower} to {upper}")
     return np.broadcast_shapes(*(array.shape[:-1] for array in flat)), *flat
 "#;
 
-/// The value of a table or a derivative of it: as `LookupTable` of the crate `abbe`.
+/// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate
+/// `abbe`.
 const LOOK_UP: &str = r#"
 def _look_up(table, order, x):
-    """The derivative of that order of a table at x; the table itself if of order 0."""
+    """Return a derivative of a table at x; order 0 is the table itself."""
     x = np.asarray(x, dtype=float)
     starts, knots, pieces = table["starts"], table["knots"], table["pieces"]
     even = starts.size == 0

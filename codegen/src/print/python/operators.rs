@@ -1,4 +1,4 @@
-//! Operators and numbers.
+//! Operators and numbers of Python.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -8,11 +8,11 @@ use abbe_spec::expr::{Function, Lookup, Table};
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 
-/// With the spec's tables, which are constants.
+/// The syntax of Python with the spec's tables.
 pub(super) struct Python<'s>(pub(super) &'s [Arc<Table>]);
 
 impl Syntax for Python<'_> {
-    /// The words of the language, and what the functions use.
+    /// Keywords of the language and names that the functions use.
     fn reserved(&self) -> Cow<'static, str> {
         Cow::Borrowed(
             "False None True and as assert async await batch break case class continue def del elif else entry except factor finally for \
@@ -31,7 +31,7 @@ impl Syntax for Python<'_> {
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
         let call = |name: &str| Expression::call(&format!("np.{name}"), operands);
         arithmetic(action, operands).unwrap_or_else(|called| match called {
-            // Of numbers alone Python's own would end where it cannot be computed.
+            // Python's own power raises an error where NumPy returns NaN.
             Called::Power => call("float_power"),
             Called::Atan2 => call("arctan2"),
             Called::Least => call("minimum"),
@@ -52,7 +52,7 @@ impl Syntax for Python<'_> {
     }
 }
 
-/// A number with the digits that give it back exactly.
+/// Returns the shortest literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
     if value.is_nan() {
         return "np.nan".to_owned();

@@ -1,4 +1,5 @@
-//! What users of a generated module see: constants, parameters, inputs, the checked functions, the trait.
+//! Public items of a generated module: constants, parameters, inputs, the checked functions, the
+//! trait.
 
 use abbe_core::{Class, LengthUnit, Orientation, VariableKind};
 use abbe_spec::Spec;
@@ -8,7 +9,7 @@ use crate::chain::{EffectNode, lower_pairs};
 use crate::print::layout::{Writer, array};
 use crate::print::text::escaped;
 
-/// Types that a generated module has or uses already, and what every module knows.
+/// Types that a generated module defines or imports, and types of the prelude.
 const TAKEN: [&str; 36] = [
     "Box",
     "Class",
@@ -48,10 +49,10 @@ const TAKEN: [&str; 36] = [
     "Vec",
 ];
 
-/// How wide the fields of a structure may be on one line.
+/// Maximum width of the fields of a structure on one line.
 const NARROW_STRUCTURE: usize = 18;
 
-/// The name of the manipulator's type: `puma560` becomes `Puma560`, `my_arm` `MyArm`.
+/// Returns the name of the manipulator's type: `puma560` becomes `Puma560`, `my_arm` `MyArm`.
 pub(super) fn type_name(name: &str) -> String {
     let words = name.split('_').filter(|word| !word.is_empty());
     let name: String = words.map(|word| word[..1].to_ascii_uppercase() + &word[1..]).collect();
@@ -59,24 +60,24 @@ pub(super) fn type_name(name: &str) -> String {
     if is_free { name } else { format!("Manipulator{name}") }
 }
 
-/// The counts, and [`DESCRIPTION`] with every name, unit and limit.
+/// Prints the counts, and [`DESCRIPTION`] with every name, unit and limit.
 pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNode]) {
     let distinct = match spec.orientation {
         Orientation::RotationVector => 6,
         Orientation::EulerYzx => 9,
     };
     for (name, count, documentation) in [
-        ("FRAMES", spec.frames.len(), "How many frames there are: n."),
-        ("ERRORS", 6 * spec.frames.len(), "How many generalized errors there are: 6n, the length of ε."),
-        ("VARIABLES", spec.variables.len(), "How many joint variables there are: the length of `q`."),
-        ("PARAMETERS", spec.parameters.len(), "How many structural parameters there are: the length of `s`."),
-        ("INPUTS", spec.inputs.len(), "How many inputs there are: the length of `u`."),
-        ("EFFECTS", effects.len(), "How many errors the sources cause."),
-        ("SOURCES", spec.enabled_sources().count(), "How many sources there are."),
+        ("FRAMES", spec.frames.len(), "Number of frames n."),
+        ("ERRORS", 6 * spec.frames.len(), "Number of generalized errors: 6n, the length of ε."),
+        ("VARIABLES", spec.variables.len(), "Number of joint variables: the length of `q`."),
+        ("PARAMETERS", spec.parameters.len(), "Number of structural parameters: the length of `s`."),
+        ("INPUTS", spec.inputs.len(), "Number of inputs: the length of `u`."),
+        ("EFFECTS", effects.len(), "Number of errors that the sources cause."),
+        ("SOURCES", spec.enabled_sources().count(), "Number of enabled sources."),
         (
             "DISTINCT",
             distinct,
-            "How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.",
+            "Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.",
         ),
     ] {
         writer.documentation(documentation);
@@ -84,7 +85,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     }
     writer.blank();
     let Spec { name, title, .. } = spec;
-    writer.documentation("Names, units, limits, sources.");
+    writer.documentation("Description of the manipulator: names, units, limits, sources.");
     writer.open("pub static DESCRIPTION: Description = Description");
     writer.lines(&format!("name: Text::Constant({name:?}),"));
     writer.lines(&format!("title: Text::Constant({title:?}),"));
@@ -155,16 +156,16 @@ fn interval(indent: usize, [lower, upper]: [f64; 2]) -> String {
     array(indent, "", &[number(lower), number(upper)], "")
 }
 
-/// `Parameters` and `Inputs`: named fields with their default values.
+/// Prints `Parameters` and `Inputs`: named fields with their default values.
 pub(super) fn named_values(writer: &mut Writer, spec: &Spec) {
     let parameters = spec.parameters.iter().map(|p| Field::new(&p.name, &p.description, &p.unit, p.value));
     let inputs = spec.inputs.iter().map(|i| Field::new(&i.name, &i.description, &i.unit, i.value));
     let (parameters, inputs): (Vec<_>, Vec<_>) = (parameters.collect(), inputs.collect());
     let what = [
-        "The structural parameters `s`, which may be set at run time.",
-        "Their nominal values.",
-        "The inputs `u`: what changes from use to use.",
-        "Their default values.",
+        "Structural parameters `s`, which can be set at run time.",
+        "Nominal values.",
+        "Inputs `u`, which can change with every call.",
+        "Default values.",
     ];
     record(writer, "Parameters", [what[0], what[1]], "PARAMETERS", &parameters);
     record(writer, "Inputs", [what[2], what[3]], "INPUTS", &inputs);
@@ -182,7 +183,7 @@ impl<'s> Field<'s> {
         let description = escaped(description);
         let description = description.trim_end_matches('.');
         let documentation = match description.is_empty() {
-            true => format!("In {unit}."),
+            true => format!("Unit: {unit}."),
             false => format!("{description}; {unit}."),
         };
         Self { name, documentation, value }
@@ -213,7 +214,7 @@ fn record(writer: &mut Writer, name: &str, [what, nominal]: [&str; 2], count: &s
         structure(writer, "pub const NOMINAL: Self = Self", &values);
     }
     writer.blank();
-    writer.documentation("The values in the order of [`DESCRIPTION`].");
+    writer.documentation("Returns the values in the order of [`DESCRIPTION`].");
     writer.open(&format!("pub const fn to_array(self) -> [f64; {count}]"));
     let values: Vec<String> = fields.iter().map(|field| format!("self.{}", field.name)).collect();
     writer.array("", &values, "");
@@ -228,7 +229,7 @@ fn record(writer: &mut Writer, name: &str, [what, nominal]: [&str; 2], count: &s
     writer.blank();
 }
 
-/// `head { a: 1.0, b: 2.0 };`: on one line only if there is next to nothing in it.
+/// Prints `head { a: 1.0, b: 2.0 };` on one line if it is very short.
 fn structure(writer: &mut Writer, head: &str, values: &[String]) {
     let inner = values.join(", ");
     if inner.len() <= NARROW_STRUCTURE {
@@ -240,7 +241,8 @@ fn structure(writer: &mut Writer, head: &str, values: &[String]) {
     }
 }
 
-/// The checked functions and the trait: the same for all, so the runtime has them.
+/// Prints the macro call for the checked functions and the trait, which are the same for all
+/// manipulators.
 pub(super) fn checked(writer: &mut Writer, spec: &Spec) {
     writer.open("::abbe::checked_functions!");
     let title = escaped(spec.title.trim_end_matches('.'));

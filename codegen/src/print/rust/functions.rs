@@ -1,4 +1,4 @@
-//! The array functions of a module: generic over the scalar, without checks.
+//! Prints the array functions of a module: generic over the scalar, without checks.
 
 use abbe_core::Function;
 use abbe_core::function::Count;
@@ -9,9 +9,9 @@ use crate::print::expression::{Expression, Value};
 use crate::print::layout::{Writer, array, call, fits, pattern, width};
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
-use crate::program::{Array, Block, Place, Role, Routine, Routines, Row, Stage};
+use crate::program::{Array, ArrayRows, Block, Role, Routine, Routines, Row, Stage};
 
-/// One function.
+/// Prints one function.
 pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
     let statements = Statements::new(spec, &routines.description, routine, &Rust(&spec.tables));
     let head = if routine.function.is_some() { "pub fn" } else { "fn" };
@@ -23,7 +23,8 @@ pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines
     }
 }
 
-/// Whether one program gives `J_e` and what of it is distinct: so it is where neither goes through loops.
+/// Returns `true` if one program gives both `J_e` and its distinct entries, which is the case if
+/// neither is computed in loops.
 pub(super) fn shares_columns(routines: &Routines) -> bool {
     let [dense, distinct] = [Function::ErrorJacobian, Function::ErrorJacobianDistinct]
         .map(|function| routines.function(function));
@@ -32,7 +33,8 @@ pub(super) fn shares_columns(routines: &Routines) -> bool {
     is_program(dense) && is_program(distinct) && dense.operations == distinct.operations
 }
 
-/// `J_e` and what of it is distinct by a function of their own that gives each column to either as soon as it is known.
+/// Prints `J_e` and its distinct entries by one shared function, which passes on each column as
+/// soon as it is known.
 pub(super) fn error_columns(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     for function in [Function::ErrorJacobian, Function::ErrorJacobianDistinct] {
         let routine = routines.function(function);
@@ -52,12 +54,12 @@ pub(super) fn error_columns(writer: &mut Writer, spec: &Spec, routines: &Routine
     if let Some(columns) = arguments.iter_mut().find(|argument| argument.starts_with("columns: ")) {
         *columns = "columns: &mut impl ErrorColumns<T>".to_owned();
     }
-    writer.documentation("Both: a column is given as soon as it is known.");
+    writer.documentation("Computes either form of `J_e` and passes on each column as soon as it is known.");
     begin(writer, routine, "fn error_columns", &arguments, false);
     body(Printer { writer, routines, routine }, &statements);
 }
 
-/// The head of a function.
+/// Prints the head of a function.
 fn begin(writer: &mut Writer, routine: &Routine, name: &str, arguments: &[String], is_empty: bool) {
     let has_margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
     writer.lines("#[inline(always)]");
@@ -70,7 +72,7 @@ fn arguments(routine: &Routine, used: &[bool]) -> Vec<String> {
     routine.arrays.iter().zip(used).filter(outside).map(argument).collect()
 }
 
-/// The statements of a function, and its end.
+/// Prints the statements of a function and its end.
 fn body(mut printer: Printer<'_>, Statements { list, constants, .. }: &Statements) {
     let given = list.iter().take_while(|statement| printer.unpacks_argument(statement)).count();
     for (index, statement) in list.iter().enumerate() {
@@ -81,7 +83,7 @@ fn body(mut printer: Printer<'_>, Statements { list, constants, .. }: &Statement
             (statement, list.get(index + 1))
             && printer.gives_margin(arrays)
         {
-            // What is returned at once needs no name.
+            // A value that is returned immediately needs no name.
             let call = printer.call(routine, arrays, fresh);
             printer.writer.lines(&call);
             break;
@@ -94,7 +96,7 @@ fn body(mut printer: Printer<'_>, Statements { list, constants, .. }: &Statement
     printer.writer.close("}");
 }
 
-/// `name: &[T; SIZE]`, or mutable; what is not used says so.
+/// Returns `name: &[T; SIZE]`, or mutable; the names of unused arguments start with an underscore.
 fn argument((array, used): (&Array, &bool)) -> String {
     let unused = if *used { "" } else { "_" };
     let reference = if array.role == Role::Argument { "&" } else { "&mut " };
@@ -103,7 +105,7 @@ fn argument((array, used): (&Array, &bool)) -> String {
     format!("{unused}{}: {reference}{kind}", array.name)
 }
 
-/// A dimension by its name.
+/// Returns the name of a dimension.
 fn size(count: Count) -> String {
     match count {
         Count::Exactly(count) => return count.to_string(),
@@ -121,7 +123,7 @@ fn size(count: Count) -> String {
     .to_owned()
 }
 
-/// The index of the last row of so many.
+/// Returns the index of the last of this many rows.
 fn last(count: Count) -> String {
     match count {
         Count::FramesAndTool => "FRAMES".to_owned(),
@@ -138,11 +140,11 @@ struct Printer<'p> {
 
 impl Printer<'_> {
     fn unpacks_argument(&self, statement: &Statement) -> bool {
-        matches!(statement, Statement::Unpack { from: Place { array, row: Row::All }, .. }
+        matches!(statement, Statement::Unpack { from: ArrayRows { array, row: Row::All }, .. }
             if self.routine.arrays[*array].role == Role::Argument)
     }
 
-    /// The names that 0 and 1 have where they are results.
+    /// Prints the names of 0 and 1 if they are results.
     fn constants(&mut self, [zero, one]: [bool; 2]) {
         for (used, line) in [(zero, "let zero = T::constant(0.0);"), (one, "let one = T::constant(1.0);")] {
             if used {
@@ -185,7 +187,7 @@ impl Printer<'_> {
         }
     }
 
-    fn unpack(&mut self, names: &[Option<String>], from: Place) {
+    fn unpack(&mut self, names: &[Option<String>], from: ArrayRows) {
         let array = &self.routine.arrays[from.array];
         let indent = self.writer.indent();
         let mut entries: Vec<String> =
@@ -208,7 +210,7 @@ impl Printer<'_> {
         self.writer.lines(&if fits { format!("{names} {place};") } else { format!("{names}\n    {place};") });
     }
 
-    /// `let (s1, c1) = q1.sin_cos();`, or many together.
+    /// Prints `let (s1, c1) = q1.sin_cos();`, or many pairs together.
     fn sines_and_cosines(&mut self, pairs: &[([String; 2], Expression)]) {
         let indent = self.writer.indent();
         let names: Vec<String> = pairs.iter().map(|([s, c], _)| format!("({s}, {c})")).collect();
@@ -228,7 +230,7 @@ impl Printer<'_> {
         }
     }
 
-    /// `[[zero; 3]; 4]`.
+    /// Returns `[[zero; 3]; 4]`.
     fn zeros(&self, array: &Array) -> String {
         let nested = |element: String, count: &Count| format!("[{element}; {}]", size(*count));
         array.shape.iter().rev().fold("zero".to_owned(), nested)
@@ -242,16 +244,17 @@ impl Printer<'_> {
         }
     }
 
-    fn copy(&mut self, from: Place, to: usize) {
+    fn copy(&mut self, from: ArrayRows, to: usize) {
         let from_rows = self.place(from, 0);
         let line = match from.row {
             Row::AllButFirst => format!("{}.copy_from_slice(&{from_rows});", self.routine.arrays[to].name),
-            _ => format!("{} = {from_rows};", self.place(Place::all(to), 0)),
+            _ => format!("{} = {from_rows};", self.place(ArrayRows::all(to), 0)),
         };
         self.writer.lines(&line);
     }
 
-    /// `columns.along(0, [x, y, z]);` of a translation, of a rotation `moment` and `turn`.
+    /// Prints `columns.along(0, [x, y, z]);` for a translation, and `moment` and `turn` for a
+    /// rotation.
     fn give_column(&mut self, index: usize, part: &str, values: &[Value]) {
         let entries: Vec<String> = match values.iter().all(|value| value.is_zero) {
             true => vec!["zero; 3".to_owned()],
@@ -263,7 +266,7 @@ impl Printer<'_> {
         self.writer.lines(&(call + ";"));
     }
 
-    fn assign(&mut self, to: Place, index: usize, values: &[Value], fresh: bool) {
+    fn assign(&mut self, to: ArrayRows, index: usize, values: &[Value], fresh: bool) {
         let target = &self.routine.arrays[to.array];
         let begins = match (fresh, self.routine.writes(to.array) > 1) {
             (true, true) => "let mut ",
@@ -286,8 +289,8 @@ impl Printer<'_> {
         self.writer.array(&before, &entries, ";");
     }
 
-    /// A row of an array, or all of it.
-    fn place(&self, Place { array, row }: Place, index: usize) -> String {
+    /// Returns the expression of a row of an array, or of all of it.
+    fn place(&self, ArrayRows { array, row }: ArrayRows, index: usize) -> String {
         let array = &self.routine.arrays[array];
         let outer = &array.shape[..array.shape.len() - array.row_rank()];
         let inner = |row: usize| match outer {
@@ -318,12 +321,12 @@ impl Printer<'_> {
         }
     }
 
-    /// Whether a call returns the margin.
+    /// Returns `true` if a call returns the margin.
     fn gives_margin(&self, arrays: &[usize]) -> bool {
         arrays.iter().any(|array| self.routine.arrays[*array].role == Role::Margin)
     }
 
-    /// The arrays that begin with a call, and the call.
+    /// Declares the arrays that a call initializes, and returns the call.
     fn call(&mut self, routine: &str, arrays: &[usize], fresh: &[usize]) -> String {
         fresh.iter().for_each(|array| self.declare(*array));
         let callee = self.routines.named(routine);
@@ -334,7 +337,7 @@ impl Printer<'_> {
             let mutable = if wanted.role == Role::Argument { "&" } else { "&mut " };
             match wanted.role {
                 Role::Margin => {}
-                // A single row of what has several dimensions.
+                // A single row of an array of several dimensions.
                 _ if array.shape.len() > wanted.shape.len() => {
                     arguments.push(format!("&mut {}[0]", array.name));
                 }

@@ -1,8 +1,8 @@
-//! Numbers as Rust writes them.
+//! Number literals of Rust.
 
 use std::f64::consts;
 
-/// The constants that have a name in Rust.
+/// Constants with a name in Rust's standard library.
 const NAMED: [(f64, &str); 10] = [
     (consts::PI, "PI"),
     (consts::TAU, "TAU"),
@@ -16,7 +16,7 @@ const NAMED: [(f64, &str); 10] = [
     (consts::E, "E"),
 ];
 
-/// A number by its name if it has one, else with the digits that give it back exactly.
+/// Returns a named constant, or the shortest literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
     if value.is_nan() {
         return "f64::NAN".to_owned();
@@ -31,7 +31,7 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
-/// Whether clippy would take a number for a badly written π or √2.
+/// Returns `true` if clippy would report the number as an approximate constant such as π or √2.
 pub(super) fn looks_like_named(value: f64) -> bool {
     NAMED.iter().any(|(named, _)| {
         let difference = (value.abs() - named).abs() / named;

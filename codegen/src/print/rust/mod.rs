@@ -1,7 +1,7 @@
-//! Rust: generic over the scalar, arrays by reference, and checked functions by the macros of `abbe`.
+//! Rust: generic over the scalar, arrays by reference, and checked functions by macros of `abbe`.
 //!
-//! `functions` prints routines, `operators` what expressions are made of; `face` is what users of a module see; `module`
-//! puts them together.
+//! `functions` prints routines, `operators` expressions, `face` the public items of a module, and
+//! `module` combines them.
 
 mod face;
 mod functions;

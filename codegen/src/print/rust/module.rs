@@ -15,11 +15,11 @@ use crate::print::header::header;
 use crate::print::layout::Writer;
 use crate::program::{Operand, Program, Routines, Stage};
 
-/// The counts that arrays have as sizes.
+/// Counts that are sizes of arrays.
 const SIZES: [&str; 8] =
     ["DISTINCT", "EFFECTS", "ERRORS", "FRAMES", "INPUTS", "PARAMETERS", "SOURCES", "VARIABLES"];
 
-/// The source of the module from the routines of its functions.
+/// Returns the source of the module.
 pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     let mut writer = Writer::new("///");
     header(&mut writer, spec, routines);
@@ -31,12 +31,13 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     face::named_values(&mut writer, spec);
     face::checked(&mut writer, spec);
     writer.documentation(
-        "The same as functions of plain arrays, generic over the scalar and without checks: what is not finite \
-         stays so.",
+        "Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values propagate.",
     );
     if spec.orientation == Orientation::EulerYzx {
         writer.documentation_line("");
-        writer.documentation("What is returned is `cos ρ`; where that is 0, rows 4–6 are not finite.");
+        writer.documentation(
+            "Functions with Euler angles return `cos ρ`; where it is 0, rows 4–6 are not finite.",
+        );
     }
     let shares_columns = shares_columns(routines);
     writer.open("pub mod raw");
@@ -68,7 +69,8 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     writer.finish()
 }
 
-/// What a program does not call, and lints that numbers and names of the spec would trip.
+/// Returns the lints to allow: dead code of unused functions, and lints on numbers and names of the
+/// spec.
 fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
     let mut allowed = vec!["dead_code"];
     let names = spec.parameters.iter().map(|p| &p.name).chain(spec.inputs.iter().map(|i| &i.name));
@@ -102,7 +104,7 @@ fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
         allowed.push("clippy::approx_constant");
     }
     if is_long(spec) {
-        // Loops go over rows of several arrays at once.
+        // Loops index rows of several arrays at once.
         allowed.push("clippy::needless_range_loop");
     }
     allowed
@@ -144,7 +146,7 @@ fn used_types(spec: &Spec, model: &Model) -> Vec<&'static str> {
 mod tests {
     use super::*;
 
-    /// Free text stays in the comments, whatever it holds, and lines stay narrow.
+    /// Any free text stays in the comments, and lines stay narrow.
     #[test]
     fn free_text_stays_in_comments() {
         let text = r#"

@@ -9,11 +9,11 @@ use super::literal::number;
 use crate::print::expression::{Binding, Expression, Syntax, infix};
 use crate::program::{Action, Operand};
 
-/// With the spec's tables, which are constants.
+/// The syntax of Rust with the spec's tables.
 pub(super) struct Rust<'s>(pub(super) &'s [Arc<Table>]);
 
 impl Syntax for Rust<'_> {
-    /// Constants of a module, and what is no name in a pattern.
+    /// Constants of a module and names that patterns cannot bind.
     fn reserved(&self) -> Cow<'static, str> {
         Cow::Borrowed(
             "zero one FRAMES ERRORS VARIABLES PARAMETERS INPUTS EFFECTS DISTINCT SOURCES None Some Ok Err",
@@ -34,7 +34,7 @@ impl Syntax for Rust<'_> {
             let text = format!("{}.{name}({})", of.at_least(Binding::Atom), arguments.join(", "));
             Expression::new(text, Binding::Atom)
         };
-        // A number that is constant is the second factor.
+        // A constant factor comes second.
         let fused = |name: &str, a: Operand| match (a, operands) {
             (Operand::Constant(_), [a, b, c]) => method(name, b, &[a, c]),
             _ => method(name, &operands[0], &[&operands[1], &operands[2]]),

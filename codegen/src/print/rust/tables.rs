@@ -1,4 +1,4 @@
-//! What the loops of long chains go over, and functions given by points.
+//! Tables for the loops of long chains, and lookup tables.
 
 use abbe_spec::expr::Table;
 
@@ -7,7 +7,7 @@ use crate::print::layout::{Writer, array};
 use crate::print::text::escaped;
 use crate::program::{Routines, Sums};
 
-/// A function given by points, as a constant.
+/// Prints a lookup table as a constant.
 pub(super) fn lookup_table(writer: &mut Writer, table: &Table) {
     let (name, lookup) = (table.constant_name(), table.lookup());
     writer.blank();
@@ -26,7 +26,7 @@ pub(super) fn lookup_table(writer: &mut Writer, table: &Table) {
     writer.close("};");
 }
 
-/// The tables and sums of a module, as constants.
+/// Prints the tables and sums of a module as constants.
 pub(super) fn tables(writer: &mut Writer, routines: &Routines) {
     for table in routines.used_tables() {
         writer.blank();
@@ -37,11 +37,11 @@ pub(super) fn tables(writer: &mut Writer, routines: &Routines) {
     }
     for Sums { name, constants, factors } in routines.used_sums() {
         writer.blank();
-        writer.documentation("What is constant in each entry.");
+        writer.documentation("Constant term of each entry.");
         let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
         writer.array(&format!("const {name}_CONSTANTS: [f64; {}] = ", values.len()), &values, ";");
         writer.blank();
-        writer.documentation("Entry, term, and the factor with which the term is added.");
+        writer.documentation("Entry, term, and factor of the term.");
         let row =
             |(entry, term, factor): &(usize, usize, f64)| format!("({entry}, {term}, {})", number(*factor));
         let rows: Vec<String> = factors.iter().map(row).collect();

@@ -1,16 +1,16 @@
-//! The body of a loop while it is built: rows that are read become symbols of a graph of its own.
+//! Builder of a loop body. The rows that it reads become symbols of its own graph.
 
 use abbe_spec::expr::Symbol;
 
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::program::{Block, Place, Program, Repeated, Row, Stage};
+use crate::program::{ArrayRows, Block, Program, Repeated, Row, Stage};
 
 #[derive(Default)]
 pub(super) struct Body {
     pub(super) graph: Graph,
-    reads: Vec<Place>,
+    reads: Vec<ArrayRows>,
     numbers: usize,
-    writes: Vec<Place>,
+    writes: Vec<ArrayRows>,
     outputs: Vec<Node>,
 }
 
@@ -19,9 +19,9 @@ impl Body {
         Self::default()
     }
 
-    /// So many numbers of a row.
+    /// Reads `count` numbers of a row.
     pub(super) fn read(&mut self, array: usize, row: Row, count: usize) -> Vec<Node> {
-        self.reads.push(Place { array, row });
+        self.reads.push(ArrayRows { array, row });
         let first = self.numbers;
         self.numbers += count;
         (first..self.numbers).map(|number| self.graph.symbol(Symbol::Local(number))).collect()
@@ -37,7 +37,7 @@ impl Body {
         [0, 1, 2, 3, 4, 5].map(|i| numbers[i])
     }
 
-    /// Velocity and rotation.
+    /// Reads velocity and rotation.
     pub(super) fn twist(&mut self, array: usize, row: Row) -> [Vector; 2] {
         let [a, b, c, d, e, f] = self.six(array, row);
         [[a, b, c], [d, e, f]]
@@ -49,9 +49,9 @@ impl Body {
         Frame { axes: [0, 1, 2].map(vector), position: vector(3) }
     }
 
-    /// What becomes of a row.
+    /// Writes nodes to a row.
     pub(super) fn write(&mut self, array: usize, row: Row, nodes: &[Node]) {
-        self.writes.push(Place { array, row });
+        self.writes.push(ArrayRows { array, row });
         self.outputs.extend(nodes);
     }
 

@@ -1,4 +1,4 @@
-//! A routine while it is written: its arrays, and its stages so far.
+//! Builder of a routine: its arrays and its stages so far.
 
 use abbe_core::Orientation;
 use abbe_core::function::Count;
@@ -7,9 +7,9 @@ use super::body::Body;
 use super::span::Loops;
 use crate::chain::Rows;
 use crate::graph::Vector;
-use crate::program::routine::{Array, Place, Repeated, Role, Row, Stage};
+use crate::program::routine::{Array, ArrayRows, Repeated, Role, Row, Stage};
 
-/// The dimensions of a pose.
+/// Dimensions of a pose.
 pub(super) const POSE: [Count; 2] = [Count::Exactly(4), Count::Exactly(3)];
 
 pub(super) struct Draft<'d, 'm> {
@@ -19,22 +19,22 @@ pub(super) struct Draft<'d, 'm> {
 }
 
 impl<'d, 'm> Draft<'d, 'm> {
-    /// No stages yet, of a routine that takes and fills these arrays.
+    /// Creates a draft without stages of a routine with these arguments and results.
     pub(super) fn new(loops: &'d Loops<'m>, arrays: &'d mut Vec<Array>) -> Self {
         Self { loops, arrays, stages: Vec::new() }
     }
 
-    /// The argument or result of that name.
+    /// Returns the index of the argument or result with this name.
     pub(super) fn array(&self, name: &str) -> usize {
         self.arrays.iter().position(|array| array.name == name).expect("the signature has it")
     }
 
-    /// The index of the margin, if there is one.
+    /// Returns the index of the margin, if there is one.
     pub(super) fn margin(&self) -> Option<usize> {
         self.arrays.iter().position(|array| array.role == Role::Margin)
     }
 
-    /// An array of its own that begins as zeros.
+    /// Adds a local array, initialized with zeros.
     pub(super) fn zeros(&mut self, name: &'static str, shape: &[Count]) -> usize {
         self.arrays.push(Array { name, shape: shape.to_vec(), role: Role::Zeros });
         self.arrays.len() - 1
@@ -44,9 +44,9 @@ impl<'d, 'm> Draft<'d, 'm> {
         self.stages.push(Stage::Call { routine, arrays: arrays.to_vec() });
     }
 
-    /// An array becomes what rows of another one are.
+    /// Copies rows of an array to another one.
     pub(super) fn copy(&mut self, from: usize, row: Row, to: usize) {
-        self.stages.push(Stage::Copy { from: Place { array: from, row }, to });
+        self.stages.push(Stage::Copy { from: ArrayRows { array: from, row }, to });
     }
 
     pub(super) fn once(&mut self, body: Body) {
@@ -61,7 +61,8 @@ impl<'d, 'm> Draft<'d, 'm> {
         self.stages.push(body.stage(Some(Repeated { count: Count::Frames, backwards: true })));
     }
 
-    /// The margin, if there is one, from the x axis of the tool in an array: for what has no rows 4–6 to compute.
+    /// Computes the margin, if there is one, from the x axis of the tool, for functions that
+    /// compute no rows 4–6.
     pub(super) fn margin_alone(&mut self, axis: impl FnOnce(&mut Body) -> Vector) {
         let Some(margin) = self.margin() else { return };
         let mut body = Body::new();
@@ -71,7 +72,7 @@ impl<'d, 'm> Draft<'d, 'm> {
         self.once(body);
     }
 
-    /// What rows 4–6 take, and the margin, from the x axis of the tool in an array.
+    /// Computes the coefficients of rows 4–6 and the margin from the x axis of the tool.
     pub(super) fn rows(&mut self, axis: impl FnOnce(&mut Body) -> Vector) -> RowsArray {
         if self.loops.orientation == Orientation::RotationVector {
             return RowsArray::ROTATION_VECTOR;
@@ -89,11 +90,11 @@ impl<'d, 'm> Draft<'d, 'm> {
     }
 }
 
-/// Where what rows 4–6 take is kept; rotation vectors take nothing.
+/// Array that holds the coefficients of rows 4–6; a rotation vector needs none.
 pub(super) struct RowsArray(Option<usize>);
 
 impl RowsArray {
-    /// That of rotation vectors.
+    /// Coefficients of a rotation vector.
     pub(super) const ROTATION_VECTOR: Self = Self(None);
 
     pub(super) fn read(&self, body: &mut Body) -> Rows {

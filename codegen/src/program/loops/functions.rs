@@ -1,4 +1,4 @@
-//! Jacobians and what is accumulated over the frames.
+//! Loops of the Jacobians and of the quantities accumulated over the frames.
 
 use abbe_core::Orientation;
 use abbe_core::function::Count;
@@ -11,7 +11,7 @@ use crate::graph::Node;
 use crate::program::routine::{Row, Stage};
 
 impl Draft<'_, '_> {
-    /// `J_e`, all of its columns or what of them is neither zero nor repeated.
+    /// Computes `J_e`: all of its columns, or only the entries that are neither zero nor repeated.
     pub(super) fn error_jacobian(&mut self, distinct: bool) {
         let terms = self.terms();
         let frames = self.frames(terms);
@@ -41,7 +41,7 @@ impl Draft<'_, '_> {
         self.each(Count::Frames, body);
     }
 
-    /// `∂X_T/∂x` of variables or parameters, rows as the spec's orientation says.
+    /// Computes `∂X_T/∂x` of variables or parameters, with rows by the spec's orientation.
     pub(super) fn symbol_jacobian(&mut self, by_parameters: bool) {
         let terms = self.terms();
         let frames = self.frames(terms);
@@ -50,7 +50,7 @@ impl Draft<'_, '_> {
         let twists = if by_parameters { &self.loops.parameters } else { &self.loops.joints };
         let axis = |body: &mut Body| body.frame(pose, Row::All).axes[0];
         if twists.count == 0 {
-            // Nothing moves anything.
+            // No symbol moves any frame.
             self.margin_alone(axis);
             self.stages.push(Stage::Clear(self.array("columns")));
             return;
@@ -59,7 +59,7 @@ impl Draft<'_, '_> {
         self.columns_of_twists(twists, terms, frames, &rows);
     }
 
-    /// The pose with errors, and `J_q` with rotation-vector rows.
+    /// Computes the pose with errors, and `J_q` with rotation-vector rows.
     pub(super) fn compensator_step(&mut self) {
         if self.loops.joints.count == 0 {
             self.stages.push(Stage::Clear(self.array("columns")));
@@ -72,7 +72,8 @@ impl Draft<'_, '_> {
         self.call("real_pose", &arrays);
     }
 
-    /// The columns of what symbols do to the transforms: with the frame (R, p) before a transform
+    /// Computes the columns from the twists of the transforms. With the frame (R, p) before a
+    /// transform:
     ///
     /// ```text
     /// ω = R ω_l        v = R v_l + ω × (p_T − p)
@@ -98,7 +99,8 @@ impl Draft<'_, '_> {
         self.each(Count::Exactly(twists.count), body);
     }
 
-    /// From the tip to the base: what the errors of all frames, or their variances, do to the tool point.
+    /// Accumulates the effects of all frames' errors, or of their variances, on the tool point from
+    /// the tip to the base.
     pub(super) fn accumulate<A: Accumulated>(&mut self, errors: usize, result: &'static str) {
         let links = self.links();
         let euler = self.loops.orientation == Orientation::EulerYzx;
@@ -146,7 +148,7 @@ impl Draft<'_, '_> {
         self.once(body);
     }
 
-    /// ΔX of each source by itself from the columns of `J_e`.
+    /// Computes ΔX of each source alone from the columns of `J_e`.
     pub(super) fn by_source(&mut self) {
         if self.loops.model.effects.is_empty() {
             if self.margin().is_some() {
@@ -181,7 +183,7 @@ impl Draft<'_, '_> {
         self.each(Count::Effects, body);
     }
 
-    /// `ΔX = J_e ε` of the repeatable sources.
+    /// Computes `ΔX = J_e ε` of the repeatable sources.
     pub(super) fn predicted_displacement(&mut self) {
         let errors = self.generalized_errors();
         let [q, s, displacement] = ["q", "s", "displacement"].map(|name| self.array(name));

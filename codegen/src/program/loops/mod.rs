@@ -1,9 +1,10 @@
 //! The functions of long chains as loops over their frames.
 //!
-//! Straight-line code of long chains outgrows the instruction cache and takes its time to compile. The bodies of the
-//! loops are built by what builds straight-line code, from the entries of any transform in place of those of one.
-//! `sums` has the transforms as sums of few terms, `span` is what loops go over, `body` is the body of a loop, `draft` a routine made of such bodies;
-//! `walk` goes along the frames, `functions` are the loops of the functions.
+//! Straight-line code of long chains outgrows the instruction cache and takes long to compile. The
+//! same builders generate the bodies of the loops, with symbols in place of the entries of one
+//! transform. `sums` expresses the transforms as sums of few terms, `span` collects the data of the
+//! loops, `body` builds a loop body, `draft` builds a routine from such bodies, `walk` follows the
+//! frames, and `functions` has the loops of each function.
 
 mod body;
 mod draft;
@@ -20,12 +21,13 @@ use super::routine::{Array, Routine, Stage, Sums, Table};
 use crate::chain::{Covariance, Displacement};
 
 impl Loops<'_> {
-    /// The helpers, tables and sums.
+    /// Returns the helper routines, tables and sums.
     pub(super) fn finish(self) -> (Vec<Routine>, Vec<Table>, Vec<Sums>) {
         (walk::helpers(&self), self.tables, self.sums)
     }
 
-    /// The stages of a function, and the arrays that they need; none if it has no loop.
+    /// Returns the stages of a function and adds the arrays that they need. Returns `None` for a
+    /// function without loops.
     pub(super) fn stages(&mut self, function: Function, arrays: &mut Vec<Array>) -> Option<Vec<Stage>> {
         let mut draft = Draft::new(self, arrays);
         match function {

@@ -1,4 +1,4 @@
-//! What loops go over.
+//! Data of the loops.
 
 use abbe_core::Orientation;
 use abbe_spec::Spec;
@@ -8,7 +8,7 @@ use crate::chain::Model;
 use crate::graph::Node;
 use crate::program::routine::{Sums, Table};
 
-/// What loops go over, and what helps them.
+/// Data of the loops, and their tables and sums.
 pub(in crate::program) struct Loops<'m> {
     pub(super) model: &'m Model,
     pub(super) orientation: Orientation,
@@ -37,7 +37,7 @@ impl<'m> Loops<'m> {
         });
         let mut terms: Vec<Node> = terms.into_iter().collect();
         if terms.is_empty() {
-            // Nothing moves: there is an array of terms all the same.
+            // A chain without motion still needs a nonempty array of terms.
             terms.extend(model.transforms.first().map(|first| first.position[0]));
         }
         Self { model, orientation: spec.orientation, motions, joints, parameters, terms, sums, tables }

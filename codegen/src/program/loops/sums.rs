@@ -1,4 +1,4 @@
-//! What is not the same in all transforms: entries as sums of constants and of constants times few terms.
+//! Differences between transforms: entries as sums of constants and of constants times few terms.
 
 use std::collections::BTreeMap;
 
@@ -8,22 +8,22 @@ use crate::chain::LocalTwist;
 use crate::graph::{Frame, Graph, Node, Op};
 use crate::program::{Sums, Table};
 
-/// Sums and tables as they are collected.
+/// Collects sums and tables.
 pub(super) struct Sum<'g> {
     graph: &'g Graph,
-    /// All that is not constant.
+    /// Terms that are not constant.
     pub(super) terms: IndexSet<Node>,
     pub(super) sums: Vec<Sums>,
     pub(super) tables: Vec<Table>,
 }
 
-/// What symbols do to transforms.
+/// Twists of transforms per unit of symbols.
 pub(super) struct Twists {
-    /// How many of them there are.
+    /// Number of nonzero twists.
     pub(super) count: usize,
-    /// Index of the table that says which transform moves which column.
+    /// Index of the table with the transform and the column of each twist.
     pub(super) table: usize,
-    /// Index of the sums of their entries.
+    /// Index of the sums of the entries.
     pub(super) sums: usize,
 }
 
@@ -32,7 +32,7 @@ impl<'g> Sum<'g> {
         Self { graph, terms: IndexSet::new(), sums: Vec::new(), tables: Vec::new() }
     }
 
-    /// The entries of `F_0`, which is no motion, and of all transforms.
+    /// Adds the entries of the identity (for `F_0`) and of all transforms.
     pub(super) fn motions(&mut self, transforms: &[Frame]) -> usize {
         let entries = transforms.iter().flat_map(|frame| frame.axes.iter().flatten().chain(&frame.position));
         let entries: Vec<Node> = entries.copied().collect();
@@ -44,10 +44,10 @@ impl<'g> Sum<'g> {
         sums
     }
 
-    /// The velocities and rotations that symbols cause.
+    /// Adds the velocities and rotations per unit of symbols.
     pub(super) fn twists(&mut self, [table, name]: [&'static str; 2], twists: &[LocalTwist]) -> Twists {
         let rows = twists.iter().map(|twist| [twist.transform, twist.column]).collect();
-        let documentation = "Transform and column of everything that a symbol moves.";
+        let documentation = "Transform and column of every nonzero twist.";
         self.tables.push(Table { name: table, documentation, rows });
         let entries: Vec<Node> = twists.iter().flat_map(|twist| twist.twist).collect();
         let sums = self.entries(name, &entries);

@@ -1,4 +1,4 @@
-//! The way along the frames, and the routines that several functions go it by.
+//! Loops along the frames, and the helper routines that several functions share.
 
 use abbe_core::function::Count;
 
@@ -7,13 +7,13 @@ use super::draft::{Draft, POSE};
 use super::span::Loops;
 use crate::chain::displaced;
 use crate::graph::Node;
-use crate::program::routine::{Array, Block, Place, Role, Routine, Row, Stage};
+use crate::program::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage};
 use crate::program::{Operations, Program};
 
-/// The poses of the base, of all frames and of the tool.
+/// Dimensions of the poses of the base, of all frames and of the tool.
 const CHAIN: [Count; 3] = [Count::BaseToTool, POSE[0], POSE[1]];
 
-/// Terms, links and frames.
+/// Returns the helper routines: terms, links and frames.
 pub(super) fn helpers(loops: &Loops<'_>) -> Vec<Routine> {
     let array = |name, shape: &[Count], role| Array { name, shape: shape.to_vec(), role };
     let terms = |role| array("terms", &[Count::Exactly(loops.terms.len())], role);
@@ -29,27 +29,26 @@ pub(super) fn helpers(loops: &Loops<'_>) -> Vec<Routine> {
     let [q, s] = [("q", Count::Variables), ("s", Count::Parameters)]
         .map(|(name, count)| array(name, &[count], Role::Argument));
     let program = Program::new(&loops.model.graph, &loops.terms);
-    let writes = vec![Place::all(2)];
+    let writes = vec![ArrayRows::all(2)];
     let once = Stage::Block(Block { reads: vec![], program, writes, repeated: None });
     let arrays = vec![q, s, terms(Role::Result)];
     let terms_of_q =
-        routine("chain_terms", "What the entries of all transforms are sums of.", arrays, vec![once]);
+        routine("chain_terms", "Terms of which the entries of all transforms are sums.", arrays, vec![once]);
 
     let sums = Stage::Sums { sums: loops.motions, terms: 0, entries: 1 };
     let arrays = vec![terms(Role::Argument), array("links", &CHAIN, Role::Result)];
-    let links =
-        routine("chain_links", "No motion, `A_1 … A_n` and the tool, each by itself.", arrays, vec![sums]);
+    let links = routine("chain_links", "Identity, `A_1 … A_n` and the tool transform.", arrays, vec![sums]);
 
     let mut arrays = vec![terms(Role::Argument), array("frames", &CHAIN, Role::Result)];
     let mut draft = Draft::new(loops, &mut arrays);
     draft.walk();
     let stages = draft.stages;
-    let frames = routine("chain_frames", "`F_0 … F_n` and the tool, all in `F_0`.", arrays, stages);
+    let frames = routine("chain_frames", "Poses of `F_0 … F_n` and the tool in `F_0`.", arrays, stages);
     vec![terms_of_q, links, frames]
 }
 
 impl Draft<'_, '_> {
-    /// What the entries of all transforms are sums of.
+    /// Computes the terms that the entries of all transforms are sums of.
     pub(super) fn terms(&mut self) -> usize {
         let (q, s) = (self.array("q"), self.array("s"));
         let terms = self.zeros("terms", &[Count::Exactly(self.loops.terms.len())]);
@@ -57,7 +56,7 @@ impl Draft<'_, '_> {
         terms
     }
 
-    /// No motion, `A_1 … A_n` and the tool.
+    /// Computes the identity, `A_1 … A_n` and the tool transform.
     pub(super) fn links(&mut self) -> usize {
         let terms = self.terms();
         let links = self.zeros("links", &CHAIN);
@@ -65,14 +64,14 @@ impl Draft<'_, '_> {
         links
     }
 
-    /// `F_0 … F_n` and the tool in `F_0`, from the terms.
+    /// Computes `F_0 … F_n` and the tool in `F_0` from the terms.
     pub(super) fn frames(&mut self, terms: usize) -> usize {
         let frames = self.zeros("frames", &CHAIN);
         self.call("chain_frames", &[terms, frames]);
         frames
     }
 
-    /// From the base to the tip, `F_i = F_{i-1} A_i`: each frame takes the place of the link to it.
+    /// Computes `F_i = F_{i-1} A_i` from the base to the tip. Each frame overwrites the link to it.
     fn walk(&mut self) {
         let [terms, frames] = ["terms", "frames"].map(|name| self.array(name));
         self.call("chain_links", &[terms, frames]);
@@ -83,14 +82,14 @@ impl Draft<'_, '_> {
         self.each(Count::FramesAndTool, body);
     }
 
-    /// `A_1 … A_n` and the tool, each by itself.
+    /// Computes `A_1 … A_n` and the tool transform.
     pub(super) fn transforms(&mut self) {
         let links = self.links();
         let transforms = self.array("transforms");
         self.copy(links, Row::AllButFirst, transforms);
     }
 
-    /// From the tip to the base, equation (2): `X ← A_i X`, beginning with the tool.
+    /// Computes equation (2) from the tip to the base: `X ← A_i X`, starting with the tool.
     pub(super) fn pose(&mut self) {
         let links = self.links();
         let pose = self.array("pose");
@@ -102,8 +101,8 @@ impl Draft<'_, '_> {
         self.backwards(body);
     }
 
-    /// From the base to the tip, equation (6): `X ← X A_i E_i`; the tool has no error.
-    /// The errors are those that are given, or ε.
+    /// Computes equation (6) from the base to the tip: `X ← X A_i E_i`, where the tool has no
+    /// error. The errors are the given ones, or ε.
     pub(super) fn real_pose(&mut self, errors: Option<&[[Node; 6]]>) {
         let errors = match errors {
             Some(errors) => self.errors(errors),
@@ -126,16 +125,16 @@ impl Draft<'_, '_> {
         self.once(body);
     }
 
-    /// Six errors of every frame, one by one.
+    /// Computes six errors for every frame, one by one.
     fn errors(&mut self, errors: &[[Node; 6]]) -> usize {
         let array = self.zeros("errors", &[Count::Frames, Count::Exactly(6)]);
         let program = Program::new(&self.loops.model.graph, errors.as_flattened());
-        let writes = vec![Place { array, row: Row::All }];
+        let writes = vec![ArrayRows { array, row: Row::All }];
         self.stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
         array
     }
 
-    /// ε of the repeatable sources.
+    /// Computes ε of the repeatable sources.
     pub(super) fn generalized_errors(&mut self) -> usize {
         let [q, s, u] = ["q", "s", "u"].map(|name| self.array(name));
         let errors = self.zeros("errors", &[Count::Frames, Count::Exactly(6)]);

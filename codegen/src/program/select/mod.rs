@@ -1,40 +1,40 @@
-//! Of nodes that are equal those whose program takes the fewest operations.
+//! Selects, among equal nodes, those whose program takes the fewest operations.
 //!
-//! All that are equal are a class, and each of them is a way to compute it. The search begins with the nodes that the
-//! outputs were made of, so that it never ends with more; `moves` says how it goes on. Finding the fewest of all is as
-//! hard as any problem of covering: this finds few.
+//! Equal nodes form a class; each member is one alternative. The search starts from the nodes that
+//! the outputs were built from, so that it never ends with more operations; `moves` improves on
+//! that. Finding the optimum is a covering problem and NP-hard; this search is a heuristic.
 
 use std::rc::Rc;
 
+mod alternatives;
 mod moves;
 mod search;
-mod ways;
 
 use crate::graph::{Graph, Node, Signed};
+use alternatives::Alternatives;
 use search::Search;
-use ways::Ways;
 
-/// Of how many classes there may be more than descents: all of six or seven axes, where long chains would take the square of
-/// their length.
+/// Largest number of classes for which moves beyond descent are tried. It covers chains of six or
+/// seven axes; for long chains these moves would take time quadratic in their length.
 const LARGEST_SEARCHED: usize = 4000;
 
-/// What stands for every node that is needed.
+/// Selected node of every class.
 pub(super) struct Selection {
-    /// The number of the class that a node stands for.
+    /// Index of the class that each node represents.
     classes: Vec<Option<u32>>,
-    /// What is computed for each class.
+    /// Selected member of each class.
     chosen: Vec<Signed>,
 }
 
-/// What was selected, and for which outputs: several functions have the same.
+/// Selections by outputs, as several functions have the same outputs.
 #[derive(Default)]
 pub(super) struct Selections {
     known: Vec<(Vec<Node>, Rc<Selection>)>,
 }
 
 impl Selections {
-    /// What to compute for some outputs.
-    pub(super) fn of(&mut self, graph: &Graph, outputs: &[Node]) -> Rc<Selection> {
+    /// Returns the selection for some outputs.
+    pub(super) fn select(&mut self, graph: &Graph, outputs: &[Node]) -> Rc<Selection> {
         let mut firsts: Vec<Node> = outputs.iter().map(|output| graph.class(*output).node).collect();
         firsts.sort_unstable();
         firsts.dedup();
@@ -46,9 +46,10 @@ impl Selections {
         selection
     }
 
-    /// What to compute for some outputs if others come with the operations that were selected for them alone.
+    /// Returns the selection for `outputs`, in which `others` keep the operations selected for them
+    /// alone.
     pub(super) fn after(&mut self, graph: &Graph, others: &[Node], outputs: &[Node]) -> Rc<Selection> {
-        let selection = self.of(graph, others);
+        let selection = self.select(graph, others);
         Rc::new(Selection::new(graph, outputs, Some((others, &selection))))
     }
 }
@@ -58,40 +59,40 @@ impl Selection {
         if graph.classes().next().is_none() {
             return Self { classes: Vec::new(), chosen: Vec::new() };
         }
-        let ways = Ways::new(graph, outputs);
-        let mut chosen = ways.as_made(graph, outputs);
-        let mut fixed = vec![false; ways.count()];
+        let alternatives = Alternatives::new(graph, outputs);
+        let mut chosen = alternatives.as_made(graph, outputs);
+        let mut fixed = vec![false; alternatives.count()];
         if let Some((others, selection)) = given {
             let mut stack: Vec<Node> = others.iter().map(|node| graph.class(*node).node).collect();
             while let Some(first) = stack.pop() {
-                let node = selection.of(first).node;
-                if let Some((class, way)) = ways.find(graph, node)
+                let node = selection.member(first).node;
+                if let Some((class, alternative)) = alternatives.find(graph, node)
                     && !std::mem::replace(&mut fixed[class as usize], true)
                 {
-                    chosen[class as usize] = way;
+                    chosen[class as usize] = alternative;
                     stack.extend(graph.op(node).operands().map(|operand| graph.class(operand).node));
                 }
             }
         }
-        let mut search = Search::new(&ways, chosen, fixed);
+        let mut search = Search::new(&alternatives, chosen, fixed);
         search.descend();
-        if ways.count() <= LARGEST_SEARCHED {
+        if alternatives.count() <= LARGEST_SEARCHED {
             search.give();
             search.change_together(graph);
             search.compute_anew();
         }
-        let chosen = search.chosen().map(|way| ways.node(way)).collect();
-        Self { classes: ways.classes, chosen }
+        let chosen = search.chosen().map(|alternative| alternatives.node(alternative)).collect();
+        Self { classes: alternatives.classes, chosen }
     }
 
-    /// The node to compute for one that stands for all that are equal, and whether that is its negative.
-    pub(super) fn of(&self, first: Node) -> Signed {
+    /// Returns the selected member of the class with this representative.
+    pub(super) fn member(&self, first: Node) -> Signed {
         let class = self.classes.get(first.index()).copied().flatten();
         class.map_or(Signed { node: first, negative: false }, |class| self.chosen[class as usize])
     }
 
-    /// Whether a node is what is computed for itself.
+    /// Returns `true` if the representative itself is selected.
     pub(super) fn is(&self, first: Node) -> bool {
-        self.classes.get(first.index()) != Some(&None) && self.of(first).node == first
+        self.classes.get(first.index()) != Some(&None) && self.member(first).node == first
     }
 }

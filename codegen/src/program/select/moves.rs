@@ -1,32 +1,33 @@
-//! How fewer operations are found: each move stays only if it leaves fewer.
+//! Moves of the search. A move is kept only if it saves operations.
 //!
-//! A class is computed in another way; each value that is not computed yet is given for nothing once, and if what could
-//! use it saves more than it takes, it stays; what was proposed together is changed together; and results are computed
-//! anew as if they were the last.
+//! The moves are: switch a class to another alternative; provide an unused value for free and keep
+//! it if its users save more than it costs; switch a proposed group together; recompute results
+//! after all others.
 
 use super::search::Search;
 use crate::graph::Graph;
 
-/// A value that takes more is never a gift: hardly more than this is saved.
+/// Largest cost of a value that is provided for free. More expensive values hardly ever pay.
 const LARGEST_GIFT: u32 = 5;
 
-/// So much less than it seems a way may take, as what it uses shares operations.
+/// Amount by which the actual cost of an alternative may be below its estimate, because its
+/// operands share operations.
 const SHARED: u32 = 4;
 
-/// So much more a move may take at first.
+/// Amount by which a move may increase the cost at first.
 const FURTHER: u32 = 3;
 
 impl Search<'_> {
-    /// Changes ways as long as that leaves fewer operations.
+    /// Switches alternatives as long as that saves operations.
     pub(super) fn descend(&mut self) {
-        let several = self.ways.several();
+        let several = self.alternatives.several();
         self.forget();
         while self.improve(&several) {
             self.forget();
         }
     }
 
-    /// Whether any of these classes is computed in a better way.
+    /// Tries to improve these classes; returns `true` if that saved operations.
     fn improve(&mut self, classes: &[u32]) -> bool {
         let before = self.cost;
         for &class in classes {
@@ -34,12 +35,12 @@ impl Search<'_> {
                 continue;
             }
             let mut alone = self.alone(class);
-            for way in self.ways.of(class) {
-                if way == self.way(class) || self.seems(way) >= alone + SHARED {
+            for alternative in self.alternatives.of_class(class) {
+                if alternative == self.alternative(class) || self.seems(alternative) >= alone + SHARED {
                     continue;
                 }
                 let mark = self.mark();
-                self.change(class, way);
+                self.change(class, alternative);
                 if self.cost < mark.1 && !self.are_circular(std::iter::once(class)) {
                     alone = self.alone(class);
                 } else {
@@ -50,23 +51,23 @@ impl Search<'_> {
         self.cost < before
     }
 
-    /// Changes to what was proposed together, with all that follows from it.
+    /// Switches the proposed groups together, and then improves the rest.
     pub(super) fn change_together(&mut self, graph: &Graph) {
         let before = self.cost;
-        let several = self.ways.several();
+        let several = self.alternatives.several();
         for nodes in graph.together() {
             self.forget();
             let mark = self.mark();
             let changes: Vec<(u32, u32)> =
-                nodes.iter().filter_map(|node| self.ways.find(graph, *node)).collect();
+                nodes.iter().filter_map(|node| self.alternatives.find(graph, *node)).collect();
             if changes.len() < nodes.len() {
-                // Of another function.
+                // The group belongs to another function.
                 continue;
             }
-            for &(class, way) in &changes {
+            for &(class, alternative) in &changes {
                 self.held[class as usize] = true;
-                if way != self.way(class) && self.is_free(class) {
-                    self.change(class, way);
+                if alternative != self.alternative(class) && self.is_free(class) {
+                    self.change(class, alternative);
                 }
             }
             changes.iter().for_each(|(class, _)| self.held[*class as usize] = false);
@@ -82,10 +83,10 @@ impl Search<'_> {
         self.finish(before);
     }
 
-    /// Computes results anew after all others: all of them, then each half.
+    /// Recomputes results after all others: first all of them, then each half.
     pub(super) fn compute_anew(&mut self) {
         let before = self.cost;
-        let (outputs, several) = (self.ways.outputs.clone(), self.ways.several());
+        let (outputs, several) = (self.alternatives.outputs.clone(), self.alternatives.several());
         let halves = outputs.chunks(outputs.len().div_ceil(2).max(1));
         for group in std::iter::once(&outputs[..]).chain(halves) {
             self.forget();
@@ -103,16 +104,16 @@ impl Search<'_> {
         self.finish(before);
     }
 
-    /// Gives each value that is not used for nothing.
+    /// Provides each unused value for free and keeps it if that pays.
     pub(super) fn give(&mut self) {
         let before = self.cost;
-        for gift in 0..self.ways.count() as u32 {
+        for gift in 0..self.alternatives.count() as u32 {
             if self.is_used(gift) || self.estimated(gift) > LARGEST_GIFT {
                 continue;
             }
             let users = self.used_users(gift);
             if users.len() < 2 {
-                // Whether that one uses it was tried.
+                // A single user has been tried by the other moves.
                 continue;
             }
             self.forget();
@@ -127,7 +128,7 @@ impl Search<'_> {
         self.finish(before);
     }
 
-    /// What follows from moves that stayed.
+    /// Estimates costs and descends again if moves were kept.
     fn finish(&mut self, before: u32) {
         if self.cost < before {
             self.estimate();
@@ -135,12 +136,13 @@ impl Search<'_> {
         }
     }
 
-    /// The classes in use that have a way to use one, by some that are not in use.
+    /// Returns the used classes with an alternative that uses a class, directly or through up to
+    /// two unused ones.
     fn used_users(&self, class: u32) -> Vec<u32> {
         let mut found = Vec::new();
         let mut stack = vec![(class, 0)];
         while let Some((class, depth)) = stack.pop() {
-            for &user in self.ways.users(class) {
+            for &user in self.alternatives.users(class) {
                 if self.is_used(user) {
                     found.push(user);
                 } else if depth < 2 {

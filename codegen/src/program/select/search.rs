@@ -1,59 +1,60 @@
-//! Which way each class is computed in: what is used how often, what that takes in all, and the way back.
+//! State of the search: selected alternative and number of uses of each class, total cost, and a
+//! log for undo.
 
-use super::ways::Ways;
+use super::alternatives::Alternatives;
 
-/// More than anything takes.
+/// Larger than any cost.
 const UNKNOWN: u32 = u32::MAX / 4;
 
 pub(super) struct Search<'w> {
-    pub(super) ways: &'w Ways,
+    pub(super) alternatives: &'w Alternatives,
     chosen: Vec<u32>,
     uses: Vec<u32>,
-    /// What all that is used takes.
+    /// Total cost of all used classes.
     pub(super) cost: u32,
-    /// What a class would take that is not used: as it was estimated last, and nothing while it is used.
+    /// Marginal cost of using a class: 0 if it is used, else its last estimate.
     price: Vec<u32>,
     estimate: Vec<u32>,
-    /// Whether the way of a class stays when it comes into use.
+    /// Classes that keep their alternative when they come into use.
     pub(super) held: Vec<bool>,
-    /// Whether it stays at all times.
+    /// Classes that always keep their alternative.
     fixed: Vec<bool>,
-    /// What was before: class, uses, way.
+    /// Undo log: class, previous uses, previous alternative.
     log: Vec<(u32, u32, u32)>,
 }
 
 impl<'w> Search<'w> {
-    /// Uses the outputs.
-    pub(super) fn new(ways: &'w Ways, chosen: Vec<u32>, fixed: Vec<bool>) -> Self {
-        let count = ways.count();
+    /// Starts with the given alternatives and uses the outputs.
+    pub(super) fn new(alternatives: &'w Alternatives, chosen: Vec<u32>, fixed: Vec<bool>) -> Self {
+        let count = alternatives.count();
         let mut search = Self {
-            ways,
+            alternatives,
             chosen,
             uses: vec![0; count],
             cost: 0,
-            // After all classes there is what a way does not use.
+            // The last element is the price of an absent operand.
             price: vec![0; count + 1],
             estimate: vec![0; count + 1],
             held: vec![true; count],
             fixed,
             log: Vec::new(),
         };
-        ways.outputs.iter().for_each(|output| search.take(*output));
+        alternatives.outputs.iter().for_each(|output| search.take(*output));
         search.held.fill(false);
         search.estimate();
         search
     }
 
-    /// The way of each class.
+    /// Returns the alternative of each class.
     pub(super) fn chosen(&self) -> impl Iterator<Item = u32> {
         self.chosen.iter().copied()
     }
 
-    pub(super) fn way(&self, class: u32) -> u32 {
+    pub(super) fn alternative(&self, class: u32) -> u32 {
         self.chosen[class as usize]
     }
 
-    /// Whether the way of a class may be another one.
+    /// Returns `true` if the alternative of a class may change.
     pub(super) fn is_free(&self, class: u32) -> bool {
         !self.fixed[class as usize]
     }
@@ -62,12 +63,13 @@ impl<'w> Search<'w> {
         self.uses[class as usize] > 0
     }
 
-    /// What a class that is not used was estimated to take.
+    /// Returns the estimated cost of an unused class.
     pub(super) fn estimated(&self, class: u32) -> u32 {
         self.estimate[class as usize]
     }
 
-    /// One more use of a class. What was not used comes to be computed in the way that seems to take the least.
+    /// Adds a use of a class. A class that was unused takes the alternative with the lowest
+    /// estimate.
     pub(super) fn take(&mut self, class: u32) {
         let at = class as usize;
         self.log.push((class, self.uses[at], self.chosen[at]));
@@ -75,58 +77,59 @@ impl<'w> Search<'w> {
         if self.uses[at] > 1 {
             return;
         }
-        // Nothing that it uses may use it.
+        // The operands must not use the class.
         self.price[at] = UNKNOWN;
         if !self.held[at] && !self.fixed[at] {
-            let ways = self.ways.of(class);
-            if ways.len() > 1 {
-                let best = ways.min_by_key(|way| self.seems(*way));
+            let alternatives = self.alternatives.of_class(class);
+            if alternatives.len() > 1 {
+                let best = alternatives.min_by_key(|alternative| self.seems(*alternative));
                 self.chosen[at] = best.unwrap_or(self.chosen[at]);
             }
         }
-        let way = self.chosen[at];
-        self.cost += self.ways.way(way).cost;
-        self.ways.operands(way).for_each(|operand| self.take(operand));
+        let alternative = self.chosen[at];
+        self.cost += self.alternatives.alternative(alternative).cost;
+        self.alternatives.operands(alternative).for_each(|operand| self.take(operand));
         self.price[at] = 0;
     }
 
-    /// One use less.
+    /// Removes a use of a class.
     pub(super) fn drop(&mut self, class: u32) {
         let at = class as usize;
         self.log.push((class, self.uses[at], self.chosen[at]));
         self.uses[at] -= 1;
         if self.uses[at] == 0 {
             self.price[at] = self.estimate[at];
-            let way = self.chosen[at];
-            self.cost -= self.ways.way(way).cost;
-            self.ways.operands(way).for_each(|operand| self.drop(operand));
+            let alternative = self.chosen[at];
+            self.cost -= self.alternatives.alternative(alternative).cost;
+            self.alternatives.operands(alternative).for_each(|operand| self.drop(operand));
         }
     }
 
-    /// Another way for a class.
-    pub(super) fn change(&mut self, class: u32, way: u32) {
+    /// Switches a class to another alternative.
+    pub(super) fn change(&mut self, class: u32, alternative: u32) {
         let at = class as usize;
         let old = self.chosen[at];
         if self.uses[at] == 0 {
             self.log.push((class, 0, old));
-            self.chosen[at] = way;
+            self.chosen[at] = alternative;
             return;
         }
         self.price[at] = UNKNOWN;
-        self.ways.operands(way).for_each(|operand| self.take(operand));
+        self.alternatives.operands(alternative).for_each(|operand| self.take(operand));
         self.price[at] = 0;
         self.log.push((class, self.uses[at], old));
-        self.chosen[at] = way;
-        self.cost = self.cost + self.ways.way(way).cost - self.ways.way(old).cost;
-        self.ways.operands(old).for_each(|operand| self.drop(operand));
+        self.chosen[at] = alternative;
+        self.cost = self.cost + self.alternatives.alternative(alternative).cost
+            - self.alternatives.alternative(old).cost;
+        self.alternatives.operands(old).for_each(|operand| self.drop(operand));
     }
 
-    /// From here there is a way back.
+    /// Returns a mark to which [`back`](Self::back) can return.
     pub(super) fn mark(&self) -> (usize, u32) {
         (self.log.len(), self.cost)
     }
 
-    /// Back to a mark.
+    /// Restores the state at a mark.
     pub(super) fn back(&mut self, (length, cost): (usize, u32)) {
         for (class, uses, chosen) in self.log.drain(length..).rev() {
             let at = class as usize;
@@ -136,44 +139,47 @@ impl<'w> Search<'w> {
         self.cost = cost;
     }
 
-    /// There is no way back to marks that were made.
+    /// Clears the undo log, which invalidates all marks.
     pub(super) fn forget(&mut self) {
         self.log.clear();
     }
 
-    /// What a way seems to take.
-    pub(super) fn seems(&self, way: u32) -> u32 {
-        self.ways.way(way).price(&self.price).min(UNKNOWN)
+    /// Returns the estimated cost of an alternative.
+    pub(super) fn seems(&self, alternative: u32) -> u32 {
+        self.alternatives.alternative(alternative).price(&self.price).min(UNKNOWN)
     }
 
-    /// What a class takes that nothing else needs.
+    /// Returns the cost of a class including all operands that nothing else uses.
     pub(super) fn alone(&mut self, class: u32) -> u32 {
-        let way = self.way(class);
-        let [first, second] = self.ways.way(way).operands;
+        let alternative = self.alternative(class);
+        let [first, second] = self.alternatives.alternative(alternative).operands;
         let is_shared = |operand: u32| self.uses.get(operand as usize).is_none_or(|uses| *uses > 1);
         if first != second && is_shared(first) && is_shared(second) {
-            return self.ways.way(way).cost;
+            return self.alternatives.alternative(alternative).cost;
         }
         let mark = self.mark();
-        self.ways.operands(way).for_each(|operand| self.drop(operand));
-        let alone = self.ways.way(way).cost + mark.1 - self.cost;
+        self.alternatives.operands(alternative).for_each(|operand| self.drop(operand));
+        let alone = self.alternatives.alternative(alternative).cost + mark.1 - self.cost;
         self.back(mark);
         alone
     }
 
-    /// Estimates what every class would take that is not used.
+    /// Estimates the costs of all unused classes.
     pub(super) fn estimate(&mut self) {
         for (price, uses) in self.price.iter_mut().zip(&self.uses) {
             *price = if *uses > 0 { 0 } else { UNKNOWN };
         }
-        // Each after what it uses, as far as that goes; then, in this order again, whatever uses what was found to take less. As soon as
-        // that is found, and not in this order, prices would fall again and again, along every way to what they are of.
-        let count = self.ways.count();
+        // First visit all classes in order, operands before users as far as possible. Then revisit,
+        // again in this order, the users of classes whose cost has decreased. Without this order
+        // prices would decrease many times along every path.
+        let count = self.alternatives.count();
         let mut open = vec![false; count];
         let mut first = count;
         for class in 0..count {
             if self.lower(class as u32) {
-                for user in self.ways.users(class as u32).iter().take_while(|user| **user as usize <= class) {
+                for user in
+                    self.alternatives.users(class as u32).iter().take_while(|user| **user as usize <= class)
+                {
                     open[*user as usize] = true;
                     first = first.min(*user as usize);
                 }
@@ -184,7 +190,7 @@ impl<'w> Search<'w> {
                 if !std::mem::take(&mut open[class]) || !self.lower(class as u32) {
                     continue;
                 }
-                for user in self.ways.users(class as u32) {
+                for user in self.alternatives.users(class as u32) {
                     open[*user as usize] = true;
                     if *user as usize <= class {
                         first = first.min(*user as usize);
@@ -195,21 +201,22 @@ impl<'w> Search<'w> {
         self.estimate.copy_from_slice(&self.price);
     }
 
-    /// Whether a class takes less than it was estimated to.
+    /// Lowers the price of a class to its cheapest alternative; returns `true` if it decreased.
     fn lower(&mut self, class: u32) -> bool {
-        let ways = self.ways.list(class).iter();
-        let least = ways.fold(UNKNOWN, |least, way| least.min(way.price(&self.price)));
+        let alternatives = self.alternatives.list(class).iter();
+        let least =
+            alternatives.fold(UNKNOWN, |least, alternative| least.min(alternative.price(&self.price)));
         let price = &mut self.price[class as usize];
         let is_less = least < *price;
         *price = least.min(*price);
         is_less
     }
 
-    /// Whether any of these classes uses itself, or what it uses does.
+    /// Returns `true` if any of these classes depends on itself.
     pub(super) fn are_circular(&self, classes: impl Iterator<Item = u32>) -> bool {
         const OPEN: u8 = 1;
         const DONE: u8 = 2;
-        let mut states = vec![0; self.ways.count()];
+        let mut states = vec![0; self.alternatives.count()];
         let mut stack: Vec<u32> = classes.collect();
         while let Some(&class) = stack.last() {
             if states[class as usize] != 0 {
@@ -218,7 +225,7 @@ impl<'w> Search<'w> {
                 continue;
             }
             states[class as usize] = OPEN;
-            for operand in self.ways.operands(self.way(class)) {
+            for operand in self.alternatives.operands(self.alternative(class)) {
                 match states[operand as usize] {
                     OPEN => return true,
                     DONE => {}

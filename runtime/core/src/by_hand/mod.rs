@@ -1,4 +1,4 @@
-//! Two robots written by hand: what tests of the analysis and of laws are about.
+//! Two robots written by hand, for tests of the laws.
 
 mod pps;
 mod puma;

@@ -1,5 +1,5 @@
-//! The paper's patient positioning system, written by hand with loops over its frames: the analysis is tested
-//! on it, and it is what the shipped `pps.toml` must agree with. mm, rad.
+//! The paper's patient positioning system, written by hand with loops over its frames, in mm and
+//! rad. Tests of the laws use it, and the shipped `pps.toml` must agree with it.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -32,7 +32,7 @@ const RANDOM: Class = Class::Random(Distribution::Uniform);
 /// Signs of the assembly errors, frame by frame.
 const SIGNS: &[u8; 36] = b"++---+-+-----++--+-+---+--+-+++--+++";
 
-/// Nine effects of the physical sources, then the 36 of assembly.
+/// Nine effects of the physical sources, followed by the 36 of assembly.
 const EFFECTS: [Effect; 45] = {
     let mut effects = [effect(0, 0, Component::Z); 45];
     effects[1] = effect(0, 0, Component::Spin);
@@ -91,7 +91,7 @@ pub(super) fn translation(x: f64, y: f64, z: f64) -> Pose {
     Pose([a, b, c, [x, y, z]])
 }
 
-/// The rotation by an angle about axis 0 = x, 1 = y, 2 = z.
+/// Returns the rotation by an angle about axis 0 = x, 1 = y, 2 = z.
 pub(super) fn rotation(axis: usize, angle: f64) -> Pose {
     let (s, c) = angle.sin_cos();
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -113,7 +113,7 @@ pub(super) fn check(quantity: Quantity, values: &[f64], expected: usize) -> Resu
     }
 }
 
-/// `A_1 … A_6`, `T`.
+/// Returns `A_1 … A_6`, `T`.
 fn transforms(q: &[f64], s: &[f64]) -> Result<[Pose; 7], Error> {
     check(Quantity::Variables, q, 6)?;
     check(Quantity::Parameters, s, 3)?;
@@ -128,10 +128,11 @@ fn transforms(q: &[f64], s: &[f64]) -> Result<[Pose; 7], Error> {
     ])
 }
 
-/// Where a frame's variable acts: offset before it, its axis.
+/// Offset before the axis of each joint variable, and the axis.
 const JOINTS: [(f64, usize); 6] = [(0.0, 0), (0.0, 1), (0.0, 2), (0.0, 1), (300.0, 2), (0.0, 0)];
 
-/// `(v; 0)` along, or `(v × (p_T − p); v)` about, an axis `v` through `p`; rows 4–6 as Euler rates.
+/// Returns `(v; 0)` along, or `(v × (p_T − p); v)` about, an axis `v` through `p`, with rows 4–6 as
+/// Euler rates.
 fn column(turns: bool, v: [f64; 3], p: [f64; 3], tool: &Pose) -> Result<[f64; 6], Error> {
     if !turns {
         return Ok([v[0], v[1], v[2], 0.0, 0.0, 0.0]);
@@ -217,7 +218,8 @@ impl Manipulator for Pps {
         into[0] = -0.000_062 * q[0] - 0.060_706 * phase.sin();
         into[1] = 0.000_062 + 0.000_119 * phase.cos();
         into[2] = 0.000_063;
-        // A cantilever of length L with a load W at its end, 700 mm from the spin axis along the couch.
+        // Cantilever of length L with a load W at its end, 700 mm from the spin axis along the
+        // couch.
         let (load, lever, length) = (2806.0, 700.0, 718.0 + q[2]);
         let (bending, torsion) = (2.354e13, 3.245e13);
         let (sin, cos) = q[3].sin_cos();

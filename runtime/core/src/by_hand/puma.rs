@@ -1,11 +1,12 @@
-//! A PUMA 560 in metres with rotation-vector rows: a second opinion, all joints revolute, one without limits.
+//! A PUMA 560 in metres with rotation-vector rows: all joints are revolute, one has no limits.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::pps::{check, rotation, translation};
 use abbe_core::*;
 
-/// A PUMA 560 by standard Denavit–Hartenberg parameters, its tool off the axis of the last joint.
+/// PUMA 560 by standard Denavit–Hartenberg parameters, with its tool off the axis of the last
+/// joint.
 pub(crate) struct Puma;
 
 /// `d`, `a`, `α` of `Rz(q) Tz(d) Tx(a) Rx(α)`.
@@ -48,7 +49,7 @@ fn transforms(q: &[f64], s: &[f64]) -> Result<[Pose; 7], Error> {
     Ok(core::array::from_fn(|i| if i < 6 { link(i) } else { tool }))
 }
 
-/// `(v; 0)` along, or `(v × (p_T − p); v)` about, an axis of a frame.
+/// Returns `(v; 0)` along, or `(v × (p_T − p); v)` about, an axis of a frame.
 fn column(turns: bool, axis: usize, frame: &Pose, tool: &Pose) -> [f64; 6] {
     let v = frame.0[axis];
     if !turns {

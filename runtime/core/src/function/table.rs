@@ -1,13 +1,16 @@
-//! The table of functions: name, arguments, results and documentation of each, and the arrays that they take and fill.
+//! Table of functions: name, arguments, results and documentation of each, and the arrays that they
+//! take and fill.
 //!
-//! Everything else that names a function is derived from it: [`Function`](crate::Function) and its
-//! [`Signature`](super::Signature), the checked functions of generated modules, functions as types for lanes, and through
-//! signatures the printers, the interpreter, batches, laws and the Python module. A new function is an entry here, its nodes
-//! in `chain::Model`, and an arm wherever the compiler then asks for one.
+//! All other mentions of functions are derived from this table: [`Function`](crate::Function) and
+//! its [`Signature`](super::Signature), the checked functions of generated modules, functions as
+//! types for lanes, and through signatures the printers, the interpreter, batches, laws and the
+//! Python module. To add a function, add an entry here, its nodes in `chain::Model`, and the match
+//! arms that the compiler then requires.
 
-/// Hands every function to the macro `$then`, behind an identifier that is passed on.
+/// Passes every function to the macro `$then`, after an optional identifier.
 ///
-/// `oriented` functions have rows 4–6 as the manipulator's orientation says. A second text is for Rust alone.
+/// The rows 4–6 of `oriented` functions depend on the manipulator's orientation. A second text is
+/// for Rust only.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! for_each_function {
@@ -16,7 +19,7 @@ macro_rules! for_each_function {
             $($passed_on)?:
 
             Transforms = transforms(q, s) -> (transforms):
-                "`A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.";
+                "Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.";
 
             Pose = pose(q, s) -> (pose):
                 "Pose of the tool point in `F_0`: columns x, y, z axis and position.";
@@ -31,58 +34,60 @@ macro_rules! for_each_function {
                 "Pose and `∂X_T/∂s`: one column per structural parameter.";
 
             Effects = effects(q, s, u) -> (effects):
-                "The errors that the sources cause, one per entry of the description's effects.";
+                "Errors that each source causes, one per entry of the description's effects.";
 
             GeneralizedErrors = generalized_errors(q, s, u) -> (errors):
-                "ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.";
+                "Generalized errors ε of the repeatable sources: `e_x e_y e_z` (along x, y, z) and `e_s e_r e_p` (about y, z, x) \
+                 of each frame.";
 
             ErrorJacobianDistinct = error_jacobian_distinct(q, s) -> (pose, distinct) oriented:
-                "Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the moments (rows \
-                 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows 4–6. `abbe::distinct` makes the columns of \
-                 it.";
+                "Pose and the distinct entries of `J_e`, which are neither zero nor repeated: for each frame its x, y and z axis, \
+                 then the moments (rows 1–3) of `e_s e_r e_p`, and for Euler angles their rows 4–6. `abbe::distinct` expands \
+                 them to columns.";
 
             Displacement = displacement(q, s, errors) -> (displacement) oriented:
-                "`ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.";
+                "Displacement `ΔX = J_e ε` for any ε, with the rows of `J_e`.";
 
             Covariance = covariance(q, s, variances) -> (covariance) oriented:
-                "`J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.",
-                "Exact to rounding errors of the largest variance of its three axes: one that ought to be 0 can come out that \
-                 much below it.";
+                "Covariance `J_e diag(σ²) J_eᵀ` of ΔX, column-major, from the variance of each error of each frame, in the order \
+                 of ε.",
+                "Rounding errors are relative to the largest variance of the three axes: a variance that should be 0 can be \
+                 negative by that much.";
 
             PredictedDisplacement = predicted_displacement(q, s, u) -> (displacement) oriented:
-                "`ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.";
+                "Displacement `ΔX = J_e ε` due to the repeatable sources, with the rows of `J_e`.";
 
             SourceDisplacements = source_displacements(q, s, u) -> (displacements) oriented:
-                "`ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.";
+                "Displacement ΔX due to each source alone, for a random source at its magnitude, with the rows of `J_e`.";
 
             RealPose = real_pose(q, s, u) -> (pose):
-                "Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.";
+                "Exact pose of the tool point in `F_0` with the errors of the repeatable sources: `A_1 E_1 … A_n E_n T`.";
 
             DrawnPose = drawn_pose(q, s, u, magnitudes) -> (pose):
-                "Pose of the tool point in `F_0` with the errors of every source times a magnitude of its own, exactly: numbers \
-                 of `A_i` as they are, errors elsewhere on its link, then those of the frame.";
+                "Exact pose of the tool point in `F_0` with the errors of every source times its magnitude. In each link the \
+                 order is: deviations of the numbers of `A_i`, errors elsewhere on the link, errors of the frame.";
 
             CompensatorStep = compensator_step(q, s, u) -> (pose, joint_columns):
-                "The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.",
-                "A step towards a pose `X*` is `δq = J_q⁺ (X* ⊖ X_real)`, with the rows of [`deviation`](::abbe::deviation) \
-                 from the real pose to `X*`.";
+                "Pose of `real_pose`, and nominal `J_q` with rotation-vector rows: one column per variable.",
+                "One step towards a pose `X*` is `δq = J_q⁺ (X* ⊖ X_real)`, where `⊖` is [`deviation`](::abbe::deviation) from \
+                 the real pose to `X*`.";
         }
     };
 }
 
-/// Hands an array to the macro `$then`: its name in generated code, what it holds, its shape as a type of Rust, the units of
-/// its numbers, and what they are, in which order and frame.
+/// Passes an array to the macro `$then`: its name in generated code, its quantity, its shape as a
+/// Rust type, the units of its elements, and its documentation with order and frame.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! function_array {
     (q: $($then:tt)+) => {
-        $($then)+!("q", Variables, [f64; VARIABLES], "length unit, rad", "The joint variables.")
+        $($then)+!("q", Variables, [f64; VARIABLES], "length unit, rad", "Joint variables.")
     };
     (s: $($then:tt)+) => {
-        $($then)+!("s", Parameters, [f64; PARAMETERS], "coherent", "The structural parameters.")
+        $($then)+!("s", Parameters, [f64; PARAMETERS], "coherent", "Structural parameters.")
     };
     (u: $($then:tt)+) => {
-        $($then)+!("u", Inputs, [f64; INPUTS], "coherent", "The inputs.")
+        $($then)+!("u", Inputs, [f64; INPUTS], "coherent", "Inputs.")
     };
     (errors: $($then:tt)+) => {
         $crate::function_array!(by_frame "errors", "length unit, rad": $($then)+)
@@ -96,7 +101,7 @@ macro_rules! function_array {
             Errors,
             [[f64; 6]; FRAMES],
             $unit,
-            "Six per frame, in the order of ε: `e_x e_y e_z e_s e_r e_p`, frame 1 first."
+            "Six per frame, frame 1 first, in the order of ε: `e_x e_y e_z` (along x, y, z), `e_s e_r e_p` (about y, z, x)."
         )
     };
     (magnitudes: $($then:tt)+) => {
@@ -105,7 +110,7 @@ macro_rules! function_array {
             Magnitudes,
             [f64; SOURCES],
             "1",
-            "What the errors of each source are multiplied with: 1 of a repeatable source, of a random one what was drawn."
+            "Factor of the errors of each source: 1 for a repeatable source, a random number for a random source."
         )
     };
     (transforms: $($then:tt)+) => {
@@ -114,7 +119,7 @@ macro_rules! function_array {
             Pose,
             [[[f64; 3]; 4]; FRAMES + 1],
             "length unit",
-            "`A_i` from `F_i` to `F_{i-1}`, frame 1 first, the tool last."
+            "Transforms `A_i` from `F_i` to `F_{i-1}`, frame 1 first, tool last."
         )
     };
     (pose: $($then:tt)+) => {
@@ -141,7 +146,7 @@ macro_rules! function_array {
             Jacobian,
             [[f64; 6]; $count],
             "length unit or rad, per length unit or rad",
-            "Columns of six rows: the tool point in `F_0`, then its orientation."
+            "Columns of six rows: position of the tool point in `F_0`, then orientation."
         )
     };
     (distinct: $($then:tt)+) => {
@@ -150,7 +155,7 @@ macro_rules! function_array {
             Jacobian,
             [[[f64; 3]; DISTINCT]; FRAMES],
             "length unit or 1 per length unit or rad",
-            "The distinct vectors of each frame, frame 1 first."
+            "Distinct vectors of each frame, frame 1 first."
         )
     };
     (effects: $($then:tt)+) => {
@@ -159,7 +164,7 @@ macro_rules! function_array {
             Effects,
             [f64; EFFECTS],
             "length unit, rad",
-            "Of a repeatable source the error, of a random one its magnitude."
+            "Error of a repeatable source, or magnitude of a random source."
         )
     };
     (displacement: $($then:tt)+) => {
@@ -168,7 +173,7 @@ macro_rules! function_array {
             Displacement,
             [f64; 6],
             "length unit, rad",
-            "ΔX of the tool point in `F_0`: real minus ideal."
+            "ΔX of the tool point in `F_0`, real minus ideal pose."
         )
     };
     (displacements: $($then:tt)+) => {
@@ -177,7 +182,7 @@ macro_rules! function_array {
             Displacement,
             [[f64; 6]; SOURCES],
             "length unit, rad",
-            "ΔX of the tool point in `F_0`, source by source."
+            "ΔX of the tool point in `F_0`, one row of six numbers per source."
         )
     };
     (covariance: $($then:tt)+) => {
@@ -186,7 +191,7 @@ macro_rules! function_array {
             Displacement,
             [[f64; 6]; 6],
             "products of the length unit and rad",
-            "Of ΔX at the tool point in `F_0`: rows and columns as the rows of a Jacobian."
+            "Covariance of ΔX at the tool point in `F_0`, in the order of the rows of `J_e`."
         )
     };
     (corrected: $($then:tt)+) => {
@@ -195,7 +200,7 @@ macro_rules! function_array {
             Variables,
             [f64; VARIABLES],
             "length unit, rad",
-            "The commands to be given instead, in the order of `q`."
+            "Commands to use instead of `q`, in the same order."
         )
     };
     (before: $($then:tt)+) => {
@@ -204,15 +209,15 @@ macro_rules! function_array {
             Displacement,
             [f64; 6],
             "length unit, rad",
-            "ΔX at `q`, real minus ideal: the tool point in `F_0`, then the rotation vector."
+            "ΔX at `q`, real minus ideal pose: position of the tool point in `F_0`, then rotation vector."
         )
     };
     (after: $($then:tt)+) => {
-        $($then)+!("after", Displacement, [f64; 6], "length unit, rad", "ΔX at `corrected`, as `before`.")
+        $($then)+!("after", Displacement, [f64; 6], "length unit, rad", "ΔX at `corrected`, in the form of `before`.")
     };
 }
 
-/// The [`Signature`](super::Signature) of an entry.
+/// Expands to the [`Signature`](super::Signature) of an entry.
 macro_rules! signature {
     ($name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?: $documentation:literal) => {
         $crate::function::Signature {
@@ -225,7 +230,7 @@ macro_rules! signature {
     };
 }
 
-/// Whether a function is `oriented`.
+/// Expands to `true` for an `oriented` function.
 macro_rules! is_oriented {
     () => {
         false
@@ -235,7 +240,7 @@ macro_rules! is_oriented {
     };
 }
 
-/// The [`Array`](super::Array) of an entry.
+/// Expands to the [`Array`](super::Array) of an entry.
 macro_rules! constant {
     ($name:literal, $quantity:ident, $shape:tt, $unit:literal, $documentation:literal) => {
         $crate::function::Array {
@@ -248,7 +253,7 @@ macro_rules! constant {
     };
 }
 
-/// The dimensions of a type, the outermost first.
+/// Expands to the dimensions of a type, the outermost first.
 macro_rules! counts {
     ([[[f64; $($third:tt)+]; $($second:tt)+]; $($first:tt)+]) => {
         &[
@@ -265,7 +270,7 @@ macro_rules! counts {
     };
 }
 
-/// A dimension by the constant that generated modules have for it.
+/// Expands to a dimension from its constant in generated modules.
 macro_rules! count {
     (FRAMES) => {
         $crate::function::Count::Frames
@@ -301,16 +306,17 @@ macro_rules! count {
 
 pub(crate) use {constant, count, counts, is_oriented, signature};
 
-/// What generated code has as `compensated`: not a function of nodes, but steps on two of them, `pose` and `compensator_step`, as
-/// [`compensator`](crate::compensator) takes them.
+/// Signature of `compensated` in generated code. It is no function of nodes, but an iteration with
+/// `pose` and `compensator_step`, as in [`compensator`](crate::compensator).
 ///
-/// Behind its results it says whether it converged: [`CONVERGED`].
+/// In addition to its results it returns whether it converged: [`CONVERGED`].
 pub const COMPENSATED: super::Signature = signature!(
     compensated(q, s, u) -> (corrected, before, after):
-        "Commands that put the real tool where the ideal one is at `q`, within the limits of the variables: a fixed number of \
-         steps. Where not all can be had the tool point comes first."
+        "Corrected commands, at which the real tool has the pose of the ideal tool at `q`, within the limits of the \
+         variables. The number of steps is fixed. If the pose cannot be reached, the position has priority over the \
+         orientation."
 );
 
-/// What it means that corrected commands have converged.
-pub const CONVERGED: &str = "Whether the steps came to rest. If not, more of them were needed, at a limit or near a singular pose; \
-                             `corrected` is the best that was seen.";
+/// Documentation of the convergence flag of corrected commands.
+pub const CONVERGED: &str = "True if the steps converged. If not, more steps are needed, at a limit or near a singular pose; \
+                             `corrected` is then the best result so far.";

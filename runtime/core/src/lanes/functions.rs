@@ -1,12 +1,8 @@
-//! The functions of a manipulator as types, for what is compiled where it is named.
+//! The functions of a manipulator as types, for static dispatch.
 
-/// A [`Function`](crate::Function) as a type: what [`run`](super::run) compiles, and nothing else.
-pub trait Named {
-    /// The function.
-    const FUNCTION: crate::Function;
-}
+use super::Named;
 
-/// Lets the functions of a generated module be named for batches.
+/// Implements [`Evaluate`](crate::lanes::Evaluate) for every function of a generated module.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! evaluate_functions {
@@ -36,10 +32,11 @@ macro_rules! types {
             }
         )+
 
-        /// All functions of a manipulator in batches, by value: whoever makes a trait object of it has all of them
-        /// compiled. For tests; programs name what they need and [`run`](super::run) it.
+        /// The functions of a manipulator in batches, selected at run time. A trait object of it
+        /// compiles all functions. It is for tests; programs call [`run`](super::run) with the
+        /// functions they need.
         pub trait Batches: crate::Manipulator {
-            /// Evaluates a function in all configurations. Errors as for [`run`](super::run).
+            /// Evaluates a function at all configurations. Errors as for [`run`](super::run).
             fn batch(
                 &self,
                 function: crate::Function,

@@ -1,4 +1,4 @@
-//! The instruction sets that a kernel is compiled for, and the choice among them.
+//! Instruction sets that kernels are compiled for, and the selection at run time.
 
 use core::fmt;
 
@@ -8,23 +8,24 @@ use pulp::x86::{V3, V4};
 
 use super::Register;
 
-/// The register with two lanes that every machine has.
+/// Register with two lanes that every machine of this architecture has.
 #[cfg(target_arch = "x86_64")]
 type Two = crate::x86::Sse2;
 #[cfg(not(target_arch = "x86_64"))]
 type Two = [f64; 2];
 
-/// Work on lanes, to be compiled for every instruction set.
+/// Computation on lanes, compiled for every instruction set.
 ///
-/// Everything that it calls must be `#[inline(always)]`: what is not stays compiled for the oldest machine.
+/// Everything it calls must be `#[inline(always)]`: other functions are compiled for the baseline
+/// instruction set.
 pub trait Kernel {
-    /// What it returns.
+    /// Result of the computation.
     type Output;
-    /// Does the work with lanes of this register.
+    /// Runs the computation with lanes of this register.
     fn run<R: Register>(self) -> Self::Output;
 }
 
-/// An instruction set that this machine has.
+/// Instruction set that this machine has.
 #[derive(Clone, Copy)]
 pub struct InstructionSet(Level);
 
@@ -38,10 +39,10 @@ enum Level {
 }
 
 impl InstructionSet {
-    /// What every machine has.
+    /// Instruction set that every machine of this architecture has.
     pub const BASELINE: Self = Self(Level::Baseline);
 
-    /// The widest that this machine has. Found out once, then remembered.
+    /// Returns the widest instruction set of this machine. The detection is cached.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -55,7 +56,7 @@ impl InstructionSet {
         Self::BASELINE
     }
 
-    /// All that this machine has, the narrowest first.
+    /// Iterates over the instruction sets of this machine, the narrowest first.
     pub fn all() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
         let more = [V3::try_new().map(Level::Avx2), V4::try_new().map(Level::Avx512)];
@@ -64,7 +65,7 @@ impl InstructionSet {
         [Some(Level::Baseline)].into_iter().chain(more).flatten().map(Self)
     }
 
-    /// How many lanes it has.
+    /// Returns the number of lanes.
     pub fn width(self) -> usize {
         match self.0 {
             Level::Baseline => 2,
@@ -75,7 +76,7 @@ impl InstructionSet {
         }
     }
 
-    /// Its name.
+    /// Returns the name.
     pub fn name(self) -> &'static str {
         match self.0 {
             Level::Baseline => "baseline",
@@ -86,7 +87,7 @@ impl InstructionSet {
         }
     }
 
-    /// Runs a kernel, compiled for this instruction set.
+    /// Runs a kernel compiled for this instruction set.
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
@@ -99,7 +100,7 @@ impl InstructionSet {
     }
 }
 
-/// A kernel with its register.
+/// Kernel with its register type.
 struct With<K, R>(K, core::marker::PhantomData<R>);
 
 impl<K, R> With<K, R> {

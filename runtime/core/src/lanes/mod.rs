@@ -1,6 +1,7 @@
-//! Many configurations at once: the lanes of the machine's widest registers.
+//! Batches: many configurations at once, in the lanes of the machine's widest registers.
 //!
-//! [`run`] evaluates a function of a manipulator in every configuration, and is compiled where it is called:
+//! [`run`] evaluates a function of a manipulator at every configuration. It is compiled where it is
+//! called:
 //!
 //! ```
 //! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/pps.rs"));
@@ -26,16 +27,17 @@
 //! # }
 //! ```
 //!
-//! A [`Kernel`] is written once, for [`Lanes`] of any register; [`InstructionSet::run`] compiles it for each
-//! instruction set and chooses when the program runs, so that an ordinary build is as fast as the machine.
-//! [`Tiles`] hold the numbers of many configurations as lanes want them. Every configuration is computed by
-//! itself: the same bits wherever it stands in a batch, as long as the instruction set is the same.
+//! A [`Kernel`] is written once, for [`Lanes`] of any register. [`InstructionSet::run`] compiles it
+//! for each instruction set and selects one at run time, so that an ordinary build uses the full
+//! width of the machine. [`Tiles`] hold the numbers of many configurations in the layout of the
+//! lanes. Configurations are computed independently: for one instruction set the bits of a result
+//! do not depend on its position in the batch.
 //!
 //! | instruction set | lanes | `a · b + c` |
 //! |---|---|---|
 //! | AVX-512 | 8 | rounded once |
 //! | AVX2 and FMA | 4 | rounded once |
-//! | any other: SSE2, NEON | 2 | rounded twice, as in scalar code |
+//! | all others: SSE2, NEON | 2 | rounded twice, as in scalar code |
 
 mod functions;
 mod instruction_set;
@@ -59,6 +61,6 @@ pub(crate) use register::by_array;
 pub use register::{Lanes, Mask, Register};
 #[doc(hidden)]
 pub use rows::{Rows, put_margin};
-pub use run::{Evaluate, check, run};
+pub use run::{Evaluate, Named, check, run};
 pub use sweepable::Sweepable;
 pub use tiles::Tiles;

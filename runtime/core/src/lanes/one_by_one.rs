@@ -1,4 +1,4 @@
-//! A manipulator that has no code for lanes, in batches: configuration after configuration.
+//! Batches for a manipulator without code for lanes: one configuration after the other.
 
 use super::{Batches, Tiles, check};
 use crate::twist::{roll_cosine, twist};
@@ -6,9 +6,10 @@ use crate::{
     Delegate, Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, repeatable_magnitudes,
 };
 
-/// Any manipulator, with batches: each configuration is evaluated by itself, by the methods of [`Manipulator`].
+/// Wrapper that gives any manipulator batches: each configuration is evaluated by the methods of
+/// [`Manipulator`].
 ///
-/// What is not finite, or not defined, becomes NaN in its configuration.
+/// A configuration whose result is not finite or not defined has NaN results.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OneByOne<M>(pub M);
 
@@ -55,7 +56,7 @@ pub fn one_by_one(
     Ok(())
 }
 
-/// A manipulator at one configuration.
+/// Manipulator at one configuration.
 struct Configuration<'a, M: ?Sized> {
     manipulator: &'a M,
     description: &'a Description,
@@ -64,7 +65,8 @@ struct Configuration<'a, M: ?Sized> {
 }
 
 impl<M: Manipulator + ?Sized> Configuration<'_, M> {
-    /// What a function gives, the margin last. Its third argument is u, ε, or variances, its fourth magnitudes.
+    /// Returns the results of a function, the margin last. `third` is the third argument: u, ε, or
+    /// variances.
     fn values(&self, function: Function, third: &[f64], magnitudes: &[f64]) -> Result<Vec<f64>, Error> {
         let Self { manipulator, description, q, s } = *self;
         let mut values = match function {
@@ -136,7 +138,8 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
         Ok(errors)
     }
 
-    /// Pose, then of each frame the numbers that [`distinct::number`] names.
+    /// Returns the pose, then the distinct numbers of each frame in the order of
+    /// [`distinct::number`].
     fn distinct(&self) -> Result<Vec<f64>, Error> {
         let (pose, columns) = self.error_jacobian()?;
         let mut values = flat(&[pose]);
@@ -149,14 +152,14 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
         Ok(values)
     }
 
-    /// `J_e ε`.
+    /// Returns `J_e ε`.
     fn displacement(&self, errors: &[f64]) -> Result<[f64; 6], Error> {
         let (_, columns) = self.error_jacobian()?;
         let parts = columns.iter().zip(errors).map(|(column, error)| column.map(|entry| entry * error));
         Ok(parts.fold([0.0; 6], |sum, part| core::array::from_fn(|row| sum[row] + part[row])))
     }
 
-    /// `J_e diag(σ²) J_eᵀ`.
+    /// Returns `J_e diag(σ²) J_eᵀ`.
     fn covariance(&self, variances: &[f64]) -> Result<[[f64; 6]; 6], Error> {
         let (_, columns) = self.error_jacobian()?;
         let mut covariance = [[0.0; 6]; 6];

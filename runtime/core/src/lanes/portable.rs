@@ -1,5 +1,5 @@
-//! Two lanes in an array, for machines without a register here: they have instructions for pairs (NEON), and the
-//! compiler finds them.
+//! Two lanes in an array, for machines without a register type here: the compiler finds their
+//! instructions for pairs (NEON).
 
 use super::Register;
 use super::register::by_array;

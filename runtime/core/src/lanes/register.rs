@@ -1,6 +1,6 @@
-//! A number per lane.
+//! [`Lanes`]: one number per lane, over any [`Register`].
 //!
-//! What is rare goes lane by lane; the rest is one instruction for all of them.
+//! Rare functions run lane by lane; the others are one instruction for all lanes.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -14,7 +14,7 @@ impl<R: Register> Real for Lanes<R> {
     const FUSED: bool = R::FUSED;
 
     #[inline(always)]
-    fn number(value: f64) -> Self {
+    fn splat(value: f64) -> Self {
         Self(R::splat(value))
     }
 
@@ -49,27 +49,27 @@ impl<R: Register> Real for Lanes<R> {
     }
 }
 
-/// The most lanes that a register has.
+/// Largest number of lanes of a register.
 const WIDEST: usize = 8;
 
-/// A register, and the instructions that lanes are computed with: those of [`InstructionSet`](super::InstructionSet).
+/// SIMD register and its operations, one type per [`InstructionSet`](super::InstructionSet).
 ///
-/// Each method does to every lane what its name says to a number; `mul_add` and its kin round once where
-/// the instruction set can.
+/// Each method applies the operation of its name to every lane. `mul_add`, `mul_sub` and
+/// `neg_mul_add` round once where the instruction set has fused operations.
 pub trait Register: Pod + Send + Sync {
-    /// How many lanes it has.
+    /// Number of lanes.
     const WIDTH: usize;
-    /// Whether `a · b + c` is rounded once.
+    /// `true` if `a · b + c` is rounded once.
     const FUSED: bool;
-    /// All lanes with the same value.
+    /// Returns all lanes with the same value.
     fn splat(value: f64) -> Self;
-    /// The value of every lane: `f` of its number.
+    /// Returns the lanes `f(0), f(1), …`.
     fn from_fn(f: impl Fn(usize) -> f64) -> Self;
-    /// The value of every lane: `f` of the lanes of three registers.
+    /// Returns `f` applied lane by lane to three registers.
     fn map(a: Self, b: Self, c: Self, f: impl Fn(f64, f64, f64) -> f64) -> Self;
-    /// The values of the lanes.
+    /// Returns the values of the lanes.
     fn lanes(&self) -> &[f64];
-    /// Four registers from a row of four numbers for each lane.
+    /// Transposes rows of four numbers, one row per lane, into four registers.
     #[inline(always)]
     fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
         let mut rows = [&[0.0; 4]; WIDEST];
@@ -78,43 +78,43 @@ pub trait Register: Pod + Send + Sync {
         }
         [0, 1, 2, 3].map(|column| Self::from_fn(|lane| rows[lane][column]))
     }
-    /// `a + b`.
+    /// Returns `a + b`.
     fn add(a: Self, b: Self) -> Self;
-    /// `a − b`.
+    /// Returns `a − b`.
     fn sub(a: Self, b: Self) -> Self;
-    /// `a · b`.
+    /// Returns `a · b`.
     fn mul(a: Self, b: Self) -> Self;
-    /// `a / b`.
+    /// Returns `a / b`.
     fn div(a: Self, b: Self) -> Self;
-    /// `a · b + c`.
+    /// Returns `a · b + c`.
     fn mul_add(a: Self, b: Self, c: Self) -> Self;
-    /// `a · b − c`.
+    /// Returns `a · b − c`.
     fn mul_sub(a: Self, b: Self, c: Self) -> Self;
-    /// `c − a · b`.
+    /// Returns `c − a · b`.
     fn neg_mul_add(a: Self, b: Self, c: Self) -> Self;
-    /// `√a`.
+    /// Returns `√a`.
     fn sqrt(a: Self) -> Self;
-    /// `a` if it is less than `b`, else `b`.
+    /// Returns `a` if it is less than `b`, otherwise `b`.
     fn min(a: Self, b: Self) -> Self;
-    /// `a` if it is more than `b`, else `b`.
+    /// Returns `a` if it is greater than `b`, otherwise `b`.
     fn max(a: Self, b: Self) -> Self;
-    /// Exclusive or of the bits.
+    /// Returns the bitwise exclusive or.
     fn xor(a: Self, b: Self) -> Self;
-    /// And of the bits.
+    /// Returns the bitwise and.
     fn and(a: Self, b: Self) -> Self;
-    /// Or of the bits.
+    /// Returns the bitwise or.
     fn or(a: Self, b: Self) -> Self;
-    /// And of the bits of `a` and of those that are not set in `b`.
+    /// Returns the bits of `a` that are not set in `b`.
     fn and_not(a: Self, b: Self) -> Self;
-    /// All bits where `a` is more than `b`, none elsewhere.
+    /// Returns all bits set where `a` is greater than `b`, otherwise none.
     fn more_than(a: Self, b: Self) -> Self;
-    /// All bits where the lowest bit is set, none elsewhere.
+    /// Returns all bits set where the lowest bit is set, otherwise none.
     fn odd(a: Self) -> Self;
-    /// The bits moved up by so many places.
+    /// Returns the bits shifted left.
     fn shifted<const PLACES: u32>(a: Self) -> Self;
 }
 
-/// What every register does by way of an array.
+/// Implements the operations that every register performs through an array.
 macro_rules! by_array {
     ($width:literal, fused: $fused:literal) => {
         const WIDTH: usize = $width;
@@ -145,65 +145,65 @@ macro_rules! by_array {
 }
 pub(crate) use by_array;
 
-/// A number per lane: the [`Scalar`] of a batch.
+/// One number per lane: the [`Scalar`] of a batch.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
 pub struct Lanes<R>(R)
 where
     R: Register;
 
-/// A truth per lane: all bits of the lane, or none.
+/// One truth value per lane: all bits of the lane, or none.
 #[derive(Clone, Copy, Debug)]
 pub struct Mask<R: Register>(R);
 
 impl<R: Register> Lanes<R> {
-    /// How many lanes there are.
+    /// Number of lanes.
     pub const WIDTH: usize = R::WIDTH;
 
-    /// The value of every lane, by its number.
+    /// Returns the lanes `f(0), f(1), …`.
     #[inline(always)]
     pub fn from_fn(f: impl Fn(usize) -> f64) -> Self {
         Self(R::from_fn(f))
     }
 
-    /// The value of every lane.
+    /// Returns the values of the lanes.
     #[inline(always)]
     pub fn to_slice(&self) -> &[f64] {
         self.0.lanes()
     }
 
-    /// `f` of every lane.
+    /// Applies `f` to every lane.
     #[inline(always)]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self(R::map(self.0, self.0, self.0, |a, _, _| f(a)))
     }
 
-    /// `f` of every lane of two.
+    /// Applies `f` to every pair of lanes.
     #[inline(always)]
     pub fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         Self(R::map(self.0, other.0, self.0, |a, b, _| f(a, b)))
     }
 
-    /// Sine and cosine, lane by lane.
+    /// Returns sine and cosine, lane by lane.
     #[cold]
     #[inline(never)]
     fn far(self) -> (Self, Self) {
         (self.map(|a| Scalar::sin_cos(a).0), self.map(|a| Scalar::sin_cos(a).1))
     }
 
-    /// The smaller of two values, lane by lane; `other` if one is not a number.
+    /// Returns the smaller of two values, lane by lane. Returns `other` if either is NaN.
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
         Self(R::min(self.0, other.0))
     }
 
-    /// The larger of two values, lane by lane; `other` if one is not a number.
+    /// Returns the larger of two values, lane by lane. Returns `other` if either is NaN.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         Self(R::max(self.0, other.0))
     }
 
-    /// Where it is more than another.
+    /// Returns the lanes that are greater than those of `other`.
     #[inline(always)]
     pub fn more_than(self, other: Self) -> Mask<R> {
         Mask(R::more_than(self.0, other.0))
@@ -211,14 +211,14 @@ impl<R: Register> Lanes<R> {
 }
 
 impl<R: Register> Mask<R> {
-    /// `yes` where it is set, `no` elsewhere.
+    /// Selects `yes` in the lanes that are set, `no` in the others.
     #[inline(always)]
     pub fn select(self, yes: Lanes<R>, no: Lanes<R>) -> Lanes<R> {
         let change = R::and(R::xor(yes.0, no.0), self.0);
         Lanes(R::xor(no.0, change))
     }
 
-    /// Whether it is set in any lane.
+    /// Returns whether any lane is set.
     #[inline(always)]
     pub fn any(&self) -> bool {
         self.0.lanes().iter().fold(0, |bits, lane| bits | lane.to_bits()) != 0
@@ -281,10 +281,10 @@ impl<R: Register> Scalar for Lanes<R> {
 
     #[inline(always)]
     fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-        // Loops, and no closures: those could stay without the instruction set.
+        // Loops instead of closures, which could be compiled without the instruction set.
         let (mut far, reach) = (Self::constant(0.0), Self::constant(sin_cos::REACH));
         for angle in &angles {
-            // Bits that differ from those of what is near. What is not a number stays so either way.
+            // Nonzero bits mark lanes beyond the reach. A NaN lane yields NaN either way.
             let size = angle.abs();
             far = Self(R::or(far.0, R::xor(reach.min(size).0, size.0)));
         }
@@ -360,7 +360,7 @@ impl<R: Register> Scalar for Lanes<R> {
         self.zip(exponent, Scalar::powf)
     }
 
-    /// The steps of `LookupTable::find`, of all lanes together where they are the same.
+    /// Vectorizes `LookupTable::find`: the steps that all lanes share run in all lanes together.
     #[inline(always)]
     fn piece(self, table: &LookupTable<'_>) -> (Self, [Self; 4]) {
         let number = <Self as Scalar>::constant;

@@ -1,13 +1,13 @@
-//! The arrays that generated functions take and fill, as rows of a batch: one array after the other.
+//! Arrays that generated functions take and fill, as consecutive rows of a batch.
 
 use crate::Scalar;
 use crate::checks::Margin;
 
-/// An array of numbers, in as many rows as it has numbers.
+/// Array of numbers that occupies one row per number.
 pub trait Rows<T>: Sized {
-    /// The array in the first rows, and the rest of them. None if there are not enough.
+    /// Splits the array off the first rows of `rest`. Returns `None` if there are too few.
     fn take<'t>(rest: &mut &'t [T]) -> Option<&'t Self>;
-    /// The same, to be filled.
+    /// Splits a mutable array off the first rows of `rest`. Returns `None` if there are too few.
     fn fill<'t>(rest: &mut &'t mut [T]) -> Option<&'t mut Self>;
 }
 

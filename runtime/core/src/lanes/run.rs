@@ -1,26 +1,36 @@
-//! A function of a manipulator, run over tiles.
+//! Evaluation of a function of a manipulator over tiles.
 
-use super::{Kernel, Named, Register, Tiles};
+use super::{Kernel, Register, Tiles};
 use crate::{Description, Error, Function, Manipulator, Quantity, Scalar};
 
-/// A manipulator whose function `F` is compiled for any scalar: lanes, too. Generated ones have all functions so.
+/// [`Function`] as a type, so that [`run`] compiles this function
+/// only.
+pub trait Named {
+    /// The function.
+    const FUNCTION: Function;
+}
+
+/// Manipulator whose function `F` is compiled for any scalar type, including lanes. Generated
+/// manipulators implement it for all functions.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no code for lanes",
     note = "a manipulator that is not generated is evaluated as `abbe::lanes::OneByOne(manipulator)`"
 )]
 pub trait Evaluate<F: Named>: Manipulator {
-    /// Fills the results of one configuration, or of one in each lane: rows as the function's
-    /// [`Signature`](crate::function::Signature) says. None if there are not enough rows.
+    /// Fills the results of one configuration, or of one configuration per lane. Rows follow the
+    /// function's [`Signature`](crate::function::Signature). Returns `None` if a slice has too few
+    /// rows.
     ///
-    /// Everything in it must be `#[inline(always)]`, as in any [`Kernel`].
+    /// Everything it calls must be `#[inline(always)]`, as in any [`Kernel`].
     fn evaluate<T: Scalar>(&self, arguments: &[T], results: &mut [T]) -> Option<()>;
 }
 
-/// Evaluates a function in all configurations, in the lanes of the instruction set that the tiles are laid out for.
+/// Evaluates a function at all configurations, in the lanes of the instruction set of the tiles.
 ///
-/// Rows of arguments and results are as the function's [`Signature`](crate::function::Signature) says. This is compiled
-/// where it is called, for this function of this manipulator and for every instruction set. Nothing but counts is
-/// checked ([`Error::Count`]): what is not finite, or not defined, stays so in its configuration.
+/// Rows of arguments and results follow the function's [`Signature`](crate::function::Signature).
+/// The function is compiled here, for this manipulator and for every instruction set. Only counts
+/// are checked ([`Error::Count`]): values that are not finite or not defined propagate to the
+/// results of their configuration.
 pub fn run<M: Evaluate<F> + ?Sized, F: Named>(
     manipulator: &M,
     _function: F,
@@ -37,7 +47,7 @@ pub fn run<M: Evaluate<F> + ?Sized, F: Named>(
     Ok(())
 }
 
-/// A function and what it works on.
+/// Function with its arguments and results.
 struct Over<'a, M: ?Sized, F> {
     manipulator: &'a M,
     arguments: &'a Tiles,
@@ -56,8 +66,8 @@ impl<M: Evaluate<F> + ?Sized, F: Named> Kernel for Over<'_, M, F> {
     }
 }
 
-/// [`Error::Count`] unless arguments and results have the rows of this function, as many configurations as each
-/// other, and the layout of one instruction set.
+/// Returns [`Error::Count`] unless arguments and results have the rows of this function, equal
+/// numbers of configurations, and the layout of one instruction set.
 pub fn check(
     function: Function,
     description: &Description,

@@ -1,24 +1,24 @@
-//! What a sweep over a workspace asks of a manipulator.
+//! The functions of a manipulator that a workspace sweep evaluates in batches.
 
 use crate::lanes::{Batches, Evaluate, OneByOne, Pose, SourceDisplacements, Tiles, run};
 use crate::{Error, Function, Manipulator};
 
-/// A manipulator that can be swept over a workspace: the two functions that sweeps need, in batches.
+/// Manipulator that can be swept over a workspace: the two functions that sweeps need, in batches.
 ///
-/// Generated manipulators are sweepable as they are, and only where somebody says `&dyn Sweepable` are these two
-/// compiled for lanes. Any other [`Manipulator`] is, [`OneByOne`].
+/// Generated manipulators implement it. The two functions are compiled for lanes only where a
+/// `&dyn Sweepable` is made. Wrap any other [`Manipulator`] in [`OneByOne`].
 ///
-/// Rows of arguments and results are as the [`Signature`](crate::function::Signature) of the function says; errors as for
-/// [`run`].
+/// Rows of arguments and results follow the [`Signature`](crate::function::Signature) of the
+/// function. Errors as for [`run`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no code for lanes",
     note = "a manipulator that is not generated is swept as `abbe::lanes::OneByOne(manipulator)`"
 )]
 pub trait Sweepable: Manipulator {
-    /// The pose of the tool point: [`Function::Pose`].
+    /// Evaluates the pose of the tool point: [`Function::Pose`].
     fn poses(&self, arguments: &Tiles, poses: &mut Tiles) -> Result<(), Error>;
 
-    /// ΔX of every source by itself: [`Function::SourceDisplacements`].
+    /// Evaluates ΔX of every source by itself: [`Function::SourceDisplacements`].
     fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<(), Error>;
 }
 

@@ -2,7 +2,7 @@
 
 use super::{InstructionSet, Kernel, Register, Tiles};
 
-/// Numbers of all kinds, three at a time.
+/// Returns triples of numbers of all kinds.
 fn numbers() -> Vec<[f64; 3]> {
     let some =
         [0.0, -0.0, 1.0, -2.5, 1e-310, f64::MAX, f64::INFINITY, f64::NAN, 0.1, -1e17, 3.0, f64::MIN_POSITIVE];
@@ -12,17 +12,17 @@ fn numbers() -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Equal to the last bit; what is not a number may be any such.
+/// Returns whether two numbers have the same bits. All NaNs are equal.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
 struct Check;
 
-/// What a register does with three others, and what plain numbers give.
+/// Operation on three registers, and the same on plain numbers.
 type Arithmetic<R> = (&'static str, fn(R, R, R) -> R, fn(f64, f64, f64) -> f64);
 
-/// The same with the bits of two.
+/// Operation on the bits of two registers, and the same on plain bits.
 type Bits<R> = (&'static str, fn(R, R) -> R, fn(u64, u64) -> u64);
 
 impl Kernel for Check {
@@ -84,7 +84,7 @@ impl Kernel for Check {
 #[test]
 fn registers_compute_what_numbers_do() {
     InstructionSet::all().for_each(|set| set.run(Check));
-    // What other machines take.
+    // The register of other architectures.
     Check.run::<[f64; 2]>();
 }
 

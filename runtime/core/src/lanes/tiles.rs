@@ -1,4 +1,4 @@
-//! The numbers of many configurations, as lanes want them.
+//! Numbers of many configurations, in the layout of lanes.
 
 use core::ops::Range;
 
@@ -6,15 +6,16 @@ use bytemuck::{Pod, Zeroable};
 
 use super::{InstructionSet, Lanes, Register};
 
-/// A cache line: what registers are read from and written to in one go.
+/// Cache line: the unit of loads and stores of registers.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 struct Line([f64; 8]);
 
-/// So many rows of numbers for so many configurations.
+/// Table of numbers: `rows` numbers for each of `count` configurations.
 ///
-/// As many configurations as the instruction set has lanes make a tile; tile after tile, row after row in it, the
-/// lanes of a row next to each other. The lanes after the last configuration hold what was set last, or 0.
+/// A tile holds as many configurations as the instruction set has lanes. Tiles are consecutive;
+/// within a tile, rows are consecutive; within a row, lanes are adjacent. The lanes after the last
+/// configuration hold the value last set, or 0.
 #[derive(Clone, Debug)]
 pub struct Tiles {
     set: InstructionSet,
@@ -23,7 +24,7 @@ pub struct Tiles {
     lines: Vec<Line>,
 }
 
-/// No rows, no configurations.
+/// Has no rows and no configurations.
 impl Default for Tiles {
     fn default() -> Self {
         Self::new(InstructionSet::BASELINE, 0, 0)
@@ -31,51 +32,52 @@ impl Default for Tiles {
 }
 
 impl Tiles {
-    /// Room for `rows` numbers of each of `count` configurations, all 0, for an instruction set.
+    /// Creates a table of zeros for an instruction set.
     pub fn new(set: InstructionSet, rows: usize, count: usize) -> Self {
         let mut tiles = Self { set, rows, count: 0, lines: Vec::new() };
         tiles.resize(count);
         tiles
     }
 
-    /// Makes room for `count` configurations. What they hold is 0 or what was there.
+    /// Changes the number of configurations. Their values are 0 or left over.
     pub fn resize(&mut self, count: usize) {
         self.count = count;
         let numbers = self.tiles() * self.set.width() * self.rows;
         self.lines.resize(numbers.div_ceil(8), Line([0.0; 8]));
     }
 
-    /// Makes it as if it were new, but for what the numbers are: anything.
+    /// Changes instruction set, rows and configurations without clearing: the values are
+    /// unspecified.
     pub fn reshape(&mut self, set: InstructionSet, rows: usize, count: usize) {
         (self.set, self.rows) = (set, rows);
         self.resize(count);
     }
 
-    /// The instruction set that it is laid out for.
+    /// Returns the instruction set of the layout.
     pub fn instruction_set(&self) -> InstructionSet {
         self.set
     }
 
-    /// How many numbers each configuration has.
+    /// Returns the number of rows: numbers per configuration.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// How many configurations there are.
+    /// Returns the number of configurations.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// How many tiles they fill.
+    /// Returns the number of tiles.
     pub fn tiles(&self) -> usize {
         self.count.div_ceil(self.set.width())
     }
 
-    /// A number of a configuration.
+    /// Returns a number of a configuration.
     ///
     /// # Panics
     ///
-    /// If there is no such row or configuration, as for a slice.
+    /// Panics if the row or the configuration is out of range.
     #[inline]
     pub fn get(&self, row: usize, configuration: usize) -> f64 {
         self.numbers()[self.place(row, configuration)]
@@ -85,18 +87,18 @@ impl Tiles {
     ///
     /// # Panics
     ///
-    /// If there is no such row or configuration, as for a slice.
+    /// Panics if the row or the configuration is out of range.
     #[inline]
     pub fn set_value(&mut self, row: usize, configuration: usize, value: f64) {
         let place = self.place(row, configuration);
         self.numbers_mut()[place] = value;
     }
 
-    /// Sets a row to one value in all configurations.
+    /// Sets a row to one value at all configurations.
     ///
     /// # Panics
     ///
-    /// If there is no such row, as for a slice.
+    /// Panics if the row is out of range.
     pub fn fill_row(&mut self, row: usize, value: f64) {
         assert!(row < self.rows, "row {row} of {}", self.rows);
         for lane in 0..self.tiles() * self.set.width() {
@@ -105,12 +107,12 @@ impl Tiles {
         }
     }
 
-    /// Sets some rows of `count` configurations from `first` on, configuration after configuration: `value` is asked
-    /// for each, by its place in `rows`.
+    /// Sets some rows of `count` configurations from `first` on, configuration after configuration.
+    /// `value` is called with the index into `rows`.
     ///
     /// # Panics
     ///
-    /// If there is no such row or configuration, as for a slice.
+    /// Panics if a row or a configuration is out of range.
     pub fn set_each(
         &mut self,
         rows: &[usize],
@@ -133,7 +135,7 @@ impl Tiles {
         }
     }
 
-    /// Repeats the last configuration in the lanes behind it.
+    /// Repeats the last configuration in the unused lanes after it.
     pub fn pad(&mut self) {
         let Some(last) = self.count.checked_sub(1) else { return };
         for row in 0..self.rows {
@@ -145,11 +147,11 @@ impl Tiles {
         }
     }
 
-    /// The first rows of all configurations, as tiles of their own.
+    /// Copies the first rows of all configurations to new tiles.
     ///
     /// # Panics
     ///
-    /// If there are not so many rows, as for a slice.
+    /// Panics if there are fewer rows.
     pub fn first_rows(&self, rows: usize) -> Self {
         let mut first = Self::new(self.set, rows, self.count);
         let size = rows * self.set.width();
@@ -160,19 +162,20 @@ impl Tiles {
         first
     }
 
-    /// Copies some rows of a configuration out.
+    /// Copies some rows of a configuration to `values`.
     pub fn copy_rows(&self, rows: Range<usize>, configuration: usize, values: &mut [f64]) {
         for (row, value) in rows.zip(values) {
             *value = self.get(row, configuration);
         }
     }
 
-    /// Copies some rows of configurations from `first` on, as many as there is room for: configuration after
-    /// configuration, in the order of `rows`. The opposite of [`set_each`](Self::set_each).
+    /// Copies some rows of the configurations from `first` on to `values`, as many as fit:
+    /// configuration after configuration, in the order of `rows`. The inverse of
+    /// [`set_each`](Self::set_each).
     ///
     /// # Panics
     ///
-    /// If there is no such row or configuration, as for a slice.
+    /// Panics if a row or a configuration is out of range.
     pub fn copy_each(&self, rows: &[usize], first: usize, values: &mut [f64]) {
         let count = if rows.is_empty() { 0 } else { values.len() / rows.len() };
         assert!(
@@ -190,22 +193,22 @@ impl Tiles {
         }
     }
 
-    /// The rows of a tile.
+    /// Returns the rows of a tile.
     ///
     /// # Panics
     ///
-    /// If there is no such tile, or the lanes are those of another instruction set.
+    /// Panics if the tile is out of range, or the lanes are those of another instruction set.
     #[inline(always)]
     pub fn tile<R: Register>(&self, tile: usize) -> &[Lanes<R>] {
         let (lanes, _) = self.lanes::<R>();
         &lanes[tile * self.rows..][..self.rows]
     }
 
-    /// The rows of a tile, to be written.
+    /// Returns the rows of a tile for writing.
     ///
     /// # Panics
     ///
-    /// As [`tile`](Self::tile).
+    /// Panics as [`tile`](Self::tile) does.
     #[inline(always)]
     pub fn tile_mut<R: Register>(&mut self, tile: usize) -> &mut [Lanes<R>] {
         assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
@@ -238,7 +241,7 @@ impl Tiles {
 
     #[inline]
     fn place_of_lane(&self, row: usize, lane: usize) -> usize {
-        // Widths are powers of two: no division.
+        // Widths are powers of two: shifts replace divisions.
         let (width, shift) = (self.set.width(), self.set.width().trailing_zeros());
         ((((lane >> shift) * self.rows) + row) << shift) + (lane & (width - 1))
     }

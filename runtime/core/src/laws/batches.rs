@@ -1,4 +1,4 @@
-//! Batches say what single configurations say, on every instruction set.
+//! Batches equal single configurations, on every instruction set.
 
 use super::samples::Subject;
 use super::{Discrepancy, Failure};
@@ -8,15 +8,15 @@ use crate::lanes::{Batches, InstructionSet, Tiles, one_by_one};
 use crate::sampling;
 use crate::{Error, Function, Manipulator, Quantity};
 
-/// Every function in batches against the same from the methods for one configuration, on every instruction set that
-/// the machine has. Lengths in arm lengths.
+/// Compares every function evaluated in batches with the methods for one configuration, on every
+/// instruction set of this machine. Lengths are relative to the arm length.
 pub fn batches(manipulator: &dyn Batches, samples: usize) -> Result<Discrepancy, Failure> {
     compare(manipulator, &Function::ALL, samples, &|function, arguments, results| {
         manipulator.batch(function, arguments, results)
     })
 }
 
-/// The same for the two functions that sweeps need.
+/// Compares the two functions that sweeps need, as [`batches`] does.
 pub fn sweeps(manipulator: &dyn Sweepable, samples: usize) -> Result<Discrepancy, Failure> {
     let functions = [Function::Pose, Function::SourceDisplacements];
     compare(manipulator, &functions, samples, &|function, arguments, results| match function {
@@ -50,7 +50,7 @@ fn compare(
                         Quantity::Variables => sample.q.clone(),
                         Quantity::Parameters => subject.s.clone(),
                         Quantity::Inputs => subject.u.clone(),
-                        // Errors or variances.
+                        // Errors or variances: small values.
                         _ => (0..array.len(description))
                             .map(|k| 1e-3 * sampling::halton(i + 1, k % 30))
                             .collect(),
@@ -81,7 +81,7 @@ fn compare(
     Ok(discrepancy)
 }
 
-/// What the rows of a result are measured in.
+/// Returns the scale of each row of a result: the arm length for lengths, 1 for angles.
 fn scales(array: &Array, subject: &Subject) -> Vec<f64> {
     let description = subject.manipulator.description();
     let arm = subject.arm;

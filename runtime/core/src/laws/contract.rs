@@ -1,10 +1,10 @@
-//! What the trait promises besides derivatives: one pose, finite outputs, guarded inputs.
+//! The promises of the trait besides derivatives: one pose, finite outputs, guarded inputs.
 
 use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
 use crate::{Error, Manipulator, Pose};
 
-/// The pose, wherever it is returned, against the product of the transforms.
+/// Compares the pose, from every method that returns it, with the product of the transforms.
 pub fn pose(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let subject = Subject::new(manipulator)?;
     let (samples, skipped) = subject.samples(samples)?;
@@ -17,8 +17,8 @@ pub fn pose(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy
     Ok(discrepancy)
 }
 
-/// Every output is finite and ε is the sum of the repeatable effects (the discrepancy is between those), and NaN or a
-/// slice of the wrong length is refused.
+/// Checks that every output is finite, that ε is the sum of the repeatable effects, and that NaN
+/// and slices of the wrong length are refused. The discrepancy is that of ε.
 pub fn contract(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let subject = Subject::new(manipulator)?;
     let (samples, skipped) = subject.samples(samples)?;
@@ -34,9 +34,9 @@ pub fn contract(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrep
     Ok(discrepancy)
 }
 
-/// What the methods give at one configuration, all of it finite.
+/// Results of the methods at one configuration, all of them finite.
 struct Outputs {
-    /// From `pose`, `error_jacobian`, `joint_jacobian` and `parameter_jacobian`.
+    /// Poses from `pose`, `error_jacobian`, `joint_jacobian` and `parameter_jacobian`.
     poses: [Pose; 4],
     /// ε from `generalized_errors`, and as the sum of the repeatable effects.
     errors: [Vec<[f64; 6]>; 2],
@@ -80,7 +80,7 @@ impl Outputs {
     }
 }
 
-/// The largest difference between two poses, lengths in arm lengths.
+/// Returns the largest difference between two poses, lengths relative to the arm length.
 fn difference(subject: &Subject, a: &Pose, b: &Pose) -> f64 {
     let scale = |i: usize| if i < 9 { 1.0 } else { subject.arm };
     let entries = a.0.as_flattened().iter().zip(b.0.as_flattened()).enumerate();
@@ -88,7 +88,7 @@ fn difference(subject: &Subject, a: &Pose, b: &Pose) -> f64 {
     differences.fold(0.0, |largest, d| if d.is_nan() { f64::INFINITY } else { largest.max(d) })
 }
 
-/// `pose`, `error_jacobian` and `effects` refuse NaN and slices that are too long.
+/// Checks that `pose`, `error_jacobian` and `effects` refuse NaN and slices that are too long.
 fn guarded(subject: &Subject, at: &Sample) -> Result<(), Failure> {
     let Subject { manipulator, s, u, .. } = subject;
     let description = manipulator.description();

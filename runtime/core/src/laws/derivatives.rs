@@ -6,26 +6,30 @@ use super::{Discrepancy, Failure};
 use crate::chain::displacement;
 use crate::{Component, Error, Manipulator, Orientation, Pose, VariableKind, chain, deviation, drawn_pose};
 
-/// The first step of the differences: rad, or arm lengths.
+/// First step of the differences, in rad or arm lengths.
 const STEP: f64 = 0.1;
 
-/// The same where that finds another derivative: what has kinks, such as a table, has one between them that long steps do
-/// not see; one that is wrong is so for short steps too.
+/// First step of a second try, made where the long step finds another derivative. A function with
+/// kinks, such as a table, has kinks that long steps skip. A wrong Jacobian disagrees with short
+/// steps too.
 const SHORT_STEP: f64 = 1e-4;
 
-/// From which difference on, relative to the larger number, short steps are tried.
+/// Relative difference from which on short steps are tried.
 const DIFFERENT: f64 = 1e-9;
 
-/// How many derivatives are taken of a Jacobian by joints or parameters: one for each column, or for so many sums of columns.
+/// Largest number of derivatives taken of a Jacobian by joints or parameters. Larger Jacobians are
+/// compared along this many sums of columns.
 const DIRECTIONS: usize = 60;
 
-/// `J_e` against `∂(X_real − X_ideal)/∂ε`: central differences of equation (6) with true rotations.
+/// Compares `J_e` with `∂(X_real − X_ideal)/∂ε`: central differences of equation (6) with exact
+/// rotations.
 pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let orientation = manipulator.description().orientation;
     let frames = manipulator.description().frames.len();
     compare(manipulator, samples, 6 * frames, |subject, _, at, columns| {
         manipulator.error_jacobian(&at.q, &subject.s, columns)?;
-        // With one error, equation (6) is `(A_1 … A_i) E_i (A_{i+1} … T)`: what stands around it is multiplied once.
+        // With one error, equation (6) is `(A_1 … A_i) E_i (A_{i+1} … T)`: multiply both factors
+        // once.
         let mut after = at.transforms.clone();
         for i in (1..after.len()).rev() {
             after[i - 1] = after[i - 1].then(&after[i]);
@@ -49,10 +53,10 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
     })
 }
 
-/// `J_q` against `∂X_T/∂q`: central differences of the product of the transforms.
+/// Compares `J_q` with `∂X_T/∂q`: central differences of the product of the transforms.
 ///
-/// Of more than 60 joints, differences are taken along 60 directions, in which all joints move together: those of each
-/// configuration have every joint in one of them.
+/// With more than 60 joints, differences are taken along 60 directions that move several joints at
+/// once. At each configuration every joint belongs to one direction.
 pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     compare(manipulator, samples, description.variables.len(), |subject, sample, at, columns| {
@@ -73,7 +77,8 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
     })
 }
 
-/// `∂X_T/∂s` against central differences of the product of the transforms; of more than 60 parameters as [`joint_jacobian`].
+/// Compares `∂X_T/∂s` with central differences of the product of the transforms. More than 60
+/// parameters are treated as in [`joint_jacobian`].
 pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     compare(manipulator, samples, description.parameters.len(), |subject, sample, at, columns| {
@@ -94,7 +99,8 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
     })
 }
 
-/// `ΔX = J_e ε` of every source by itself against the derivative of the exact chain by its magnitude.
+/// Compares the column `ΔX = J_e ε` of every source with the derivative of the exact chain by the
+/// source's magnitude.
 pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     let sources = description.sources.len();
@@ -104,7 +110,8 @@ pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Re
         manipulator.error_jacobian(&at.q, &subject.s, &mut by_error)?;
         manipulator.effects(&at.q, &subject.s, &subject.u, &mut effects)?;
         columns.fill([0.0; 6]);
-        // The largest error of a source, in rad and arm lengths: steps make it of order 1.
+        // The largest error of each source, in rad or arm lengths; its inverse scales the steps to
+        // order 1.
         let mut sizes = vec![0.0_f64; sources];
         for (effect, value) in description.effects.iter().zip(effects) {
             let unit = if effect.component.is_rotation() { 1.0 } else { subject.arm };
@@ -128,18 +135,18 @@ pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Re
     })
 }
 
-/// Numbers that change together, each by its share.
+/// Direction in which several values change together: index and weight of each.
 struct Direction(Vec<(usize, f64)>);
 
 impl Direction {
-    /// So far in this direction.
+    /// Returns the values after a step in this direction.
     fn from(&self, values: &[f64], step: f64) -> Vec<f64> {
         let mut moved = values.to_vec();
         self.0.iter().for_each(|(i, share)| moved[*i] += step * share);
         moved
     }
 
-    /// The derivative in this direction, from those by each number.
+    /// Returns the derivative in this direction from the partial derivatives `columns`.
     fn sum(&self, columns: &[[f64; 6]]) -> [f64; 6] {
         let mut sum = [0.0; 6];
         for (i, share) in &self.0 {
@@ -149,8 +156,9 @@ impl Direction {
     }
 }
 
-/// One for each number, by its unit; of many numbers sums of them, others in each sample, in which each is once: a step is no
-/// longer than that of one alone.
+/// Returns one direction per value, scaled by its unit. More than [`DIRECTIONS`] values are
+/// grouped, differently in each sample, so that each value is in one direction. No step is longer
+/// than that of a single value.
 fn directions(units: impl ExactSizeIterator<Item = f64>, sample: usize) -> Vec<Direction> {
     let count = units.len().min(DIRECTIONS);
     let together = units.len().div_ceil(count.max(1)) as f64;
@@ -164,7 +172,8 @@ fn directions(units: impl ExactSizeIterator<Item = f64>, sample: usize) -> Vec<D
     directions
 }
 
-/// The derivative of a pose, lengths in arm lengths; if two are found, the one that is nearer to a column.
+/// Returns the derivative of a pose, lengths in arm lengths. If long and short steps disagree,
+/// returns the derivative nearer to `column`.
 fn differences(
     subject: &Subject,
     orientation: Orientation,
@@ -191,10 +200,11 @@ fn differences(
     }
 }
 
-/// Derivatives as they were found, and by differences.
+/// Derivatives from the Jacobian, and by differences where those exist.
 type Expected = Vec<([f64; 6], Option<[f64; 6]>)>;
 
-/// Compares the derivatives that `evaluate` finds, with columns to use, at each of the samples.
+/// Compares the pairs of derivatives that `evaluate` returns at each sample. `evaluate` receives
+/// `count` columns as scratch space.
 fn compare(
     manipulator: &dyn Manipulator,
     samples: usize,
@@ -216,13 +226,13 @@ fn compare(
                 difference = larger(difference, (found - expected).abs());
             }
         }
-        // Of an empty or zero Jacobian nothing can be relative; 1 is the order of all others.
+        // An empty or zero Jacobian has no scale of its own: 1 is the order of all others.
         discrepancy.add(difference / if largest > 0.0 { largest } else { 1.0 }, &at.q);
     }
     Ok(discrepancy)
 }
 
-/// The larger of two; NaN stays.
+/// Returns the larger of two numbers, or NaN if one is NaN.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b <= a { a } else { b }
 }

@@ -1,13 +1,13 @@
-//! Numeric derivatives, to check analytic ones against.
+//! Numerical differentiation, to verify analytic derivatives.
 
-/// Halvings of the step.
+/// Number of steps, each half the one before.
 const LEVELS: i32 = 10;
 
-/// The derivative of `f` at 0 by Ridders' method: central differences at `step`, `step / 2`, … extrapolated
-/// to a step of zero until rounding takes over.
+/// Returns the derivative of `f` at 0 by Ridders' method: central differences at `step`,
+/// `step / 2`, … extrapolated to a step of zero until rounding errors dominate.
 ///
-/// `f` and its argument should be of order 1. Steps at which `f` does not exist are too large ones; none if
-/// there were only such.
+/// `f` and its argument should be of order 1. `f` returns `None` where it is undefined; such steps
+/// are skipped as too long. Returns `None` if `f` is undefined at all steps.
 pub(super) fn derivative(step: f64, f: impl Fn(f64) -> Option<[f64; 6]>) -> Option<[f64; 6]> {
     let mut coarser: Vec<[f64; 6]> = Vec::new();
     let (mut best, mut uncertainty) = (None, f64::INFINITY);

@@ -1,25 +1,25 @@
-//! How well a law holds, and how it fails to.
+//! The discrepancy of a law, and its failure.
 
 use core::fmt;
 
 use crate::Error;
 
-/// The largest difference between two ways to compute the same, over all samples.
+/// Largest difference between two ways to compute the same values, over all samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Discrepancy {
-    /// The largest difference, relative to the largest entry; lengths in arm lengths, so that m, mm and rad
-    /// weigh the same. Infinite where there was nothing to compare with.
+    /// Largest difference, relative to the largest entry. Lengths are in arm lengths, so that m, mm
+    /// and rad have the same weight. Infinite if a value is NaN.
     pub relative: f64,
-    /// The joint variables where it occurs.
+    /// Joint variables at which it occurs.
     pub q: Vec<f64>,
-    /// How many configurations were compared.
+    /// Number of configurations compared.
     pub compared: usize,
-    /// How many were left out because Euler rows are nearly singular there.
+    /// Number of configurations skipped because Euler rows are nearly singular there.
     pub skipped: usize,
 }
 
 impl Discrepancy {
-    /// [`Failure::Discrepant`] if it is larger than a tolerance.
+    /// Returns [`Failure::Discrepant`] if the discrepancy exceeds a tolerance.
     pub fn within(&self, law: &'static str, tolerance: f64) -> Result<(), Failure> {
         if self.relative <= tolerance {
             return Ok(());
@@ -28,7 +28,7 @@ impl Discrepancy {
         Err(Failure::Discrepant { law, relative, tolerance, q })
     }
 
-    /// Takes in a difference; one that is not a number is an infinite one.
+    /// Adds a difference. NaN counts as infinity.
     pub(super) fn add(&mut self, relative: f64, q: &[f64]) {
         let relative = if relative.is_nan() { f64::INFINITY } else { relative };
         if relative >= self.relative {
@@ -38,51 +38,52 @@ impl Discrepancy {
     }
 }
 
-/// How a manipulator breaks a law.
+/// Violation of a law by a manipulator.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// It could not be evaluated at a configuration within its limits.
+    /// The manipulator could not be evaluated at a configuration within its limits.
     Evaluation {
         /// The joint variables.
         q: Vec<f64>,
-        /// Why.
+        /// Cause.
         error: Error,
     },
-    /// It gave NaN or infinity without saying so.
+    /// A method returned NaN or infinity instead of an error.
     NotFinite {
         /// The method.
         method: &'static str,
         /// The joint variables.
         q: Vec<f64>,
     },
-    /// It took NaN, or a slice of the wrong length, without saying so.
+    /// A method accepted NaN, or a slice of the wrong length, instead of returning an error.
     Unguarded {
         /// The method.
         method: &'static str,
-        /// What it took.
+        /// Description of the invalid input.
         input: &'static str,
     },
-    /// Fewer than half of the configurations are far enough from Euler singularities to be compared.
+    /// Fewer than half of the configurations are far enough from Euler singularities to be
+    /// compared.
     Skipped {
-        /// How many were left out.
+        /// Number of configurations skipped.
         skipped: usize,
-        /// Of how many.
+        /// Number of configurations sampled.
         samples: usize,
     },
     /// Two ways to compute the same differ.
     Discrepant {
-        /// What differs.
+        /// Name of the law.
         law: &'static str,
-        /// By how much, relative.
+        /// Relative difference.
         relative: f64,
-        /// How much it may be.
+        /// Tolerance.
         tolerance: f64,
-        /// The joint variables where it differs most.
+        /// Joint variables at which the difference is largest.
         q: Vec<f64>,
     },
     /// The first-order remainder does not fall with the square of the errors.
     Slope {
-        /// The slope instead of 2.
+        /// Slope found.
         slope: f64,
         /// The joint variables.
         q: Vec<f64>,

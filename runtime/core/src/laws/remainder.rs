@@ -1,27 +1,27 @@
-//! What `ΔX ≈ J_e ε` neglects is of second order.
+//! The remainder that `ΔX ≈ J_e ε` neglects is of second order.
 
 use super::Failure;
 use super::samples::{Sample, Subject};
 use crate::{Component, Manipulator, deviation, real_pose};
 
-/// The sizes of the errors: rad, and arm lengths.
+/// Sizes of the errors, in rad and arm lengths.
 const SIZES: [f64; 5] = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 
-/// The slope of the first-order remainder that is furthest from 2.
+/// Slope of the first-order remainder that is furthest from 2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slope {
-    /// `d log ‖deviation − J_e ε‖ / d log ‖ε‖`, fitted.
+    /// Fitted `d log ‖deviation − J_e ε‖ / d log ‖ε‖`.
     pub slope: f64,
-    /// The joint variables where it occurs.
+    /// Joint variables at which it occurs.
     pub q: Vec<f64>,
-    /// How many configurations were fitted.
+    /// Number of configurations fitted.
     pub fitted: usize,
-    /// How many were left out because Euler rows are nearly singular there.
+    /// Number of configurations skipped because Euler rows are nearly singular there.
     pub skipped: usize,
 }
 
 impl Slope {
-    /// [`Failure::Slope`] if it is further from 2 than a tolerance.
+    /// Returns [`Failure::Slope`] if the slope is further from 2 than a tolerance.
     pub fn within(&self, tolerance: f64) -> Result<(), Failure> {
         if (self.slope - 2.0).abs() <= tolerance {
             return Ok(());
@@ -30,9 +30,11 @@ impl Slope {
     }
 }
 
-/// The slope with which `‖deviation − J_e ε‖` falls as ε shrinks, all errors at once, at the worst sample.
+/// Returns the slope with which `‖deviation − J_e ε‖` falls as ε shrinks, with all errors at once,
+/// at the worst sample.
 ///
-/// 2 if `J_e` is right; 1 if a column of it is wrong. A chain without any remainder has slope 2 by definition.
+/// The slope is 2 if `J_e` is right and 1 if one of its columns is wrong. A chain without remainder
+/// has slope 2 by definition.
 pub fn remainder_slope(manipulator: &dyn Manipulator, samples: usize) -> Result<Slope, Failure> {
     let subject = Subject::new(manipulator)?;
     let (samples, skipped) = subject.samples(samples)?;
@@ -84,12 +86,12 @@ fn slope_at(subject: &Subject, at: &Sample, sample: usize) -> Result<f64, Failur
     Ok(fitted_slope(points.map(|[size, remainder]| [size, remainder.ln()])))
 }
 
-/// Number `index` of a sequence that fills (−1, 1) evenly: multiples of the golden ratio.
+/// Returns term `index` of a low-discrepancy sequence in (−1, 1): multiples of the golden ratio.
 fn direction(index: usize) -> f64 {
     2.0 * ((index + 1) as f64 * 0.618_033_988_749_894_9).fract() - 1.0
 }
 
-/// The slope of the least-squares line through the points.
+/// Returns the slope of the least-squares line through the points.
 fn fitted_slope<const N: usize>(points: [[f64; 2]; N]) -> f64 {
     let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / N as f64;
     let (x, y) = (mean(0), mean(1));

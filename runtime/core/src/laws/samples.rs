@@ -4,25 +4,25 @@ use super::Failure;
 use crate::sampling;
 use crate::{Error, Manipulator, Orientation, Pose, chain};
 
-/// Euler rows are compared where `cos ρ` is at least this: nearer to the singularity differences lose digits.
+/// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
 
-/// A manipulator with nominal parameters and inputs.
+/// Manipulator under test, with its nominal parameters and inputs.
 pub(super) struct Subject<'a> {
     pub(super) manipulator: &'a dyn Manipulator,
     pub(super) s: Vec<f64>,
     pub(super) u: Vec<f64>,
-    /// What lengths are measured in.
+    /// Arm length: the unit of lengths.
     pub(super) arm: f64,
 }
 
-/// One configuration, and the exact chain there.
+/// Configuration with the exact chain evaluated at it.
 pub(super) struct Sample {
     pub(super) q: Vec<f64>,
     /// `A_1 … A_n` and `T`.
     pub(super) transforms: Vec<Pose>,
     pub(super) pose: Pose,
-    /// `cos ρ` for Euler rows, otherwise 1: how far steps may go, in shares.
+    /// `cos ρ` for Euler rows, otherwise 1: factor by which steps are reduced.
     pub(super) margin: f64,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Subject<'a> {
         Ok(Self { manipulator, s, u, arm })
     }
 
-    /// The samples where all rows exist, and how many do not.
+    /// Returns the samples at which all rows exist, and the number of those skipped.
     pub(super) fn samples(&self, count: usize) -> Result<(Vec<Sample>, usize), Failure> {
         let description = self.manipulator.description();
         let moved = (0..description.variables.len()).collect::<Vec<_>>();
@@ -61,7 +61,7 @@ impl<'a> Subject<'a> {
         Ok((samples, skipped))
     }
 
-    /// `A_1 … A_n` and `T`.
+    /// Returns `A_1 … A_n` and `T`.
     pub(super) fn transforms(&self, q: &[f64], s: &[f64]) -> Result<Vec<Pose>, Error> {
         let frames = self.manipulator.description().frames.len();
         let mut transforms = vec![Pose::IDENTITY; frames + 1];
@@ -69,7 +69,7 @@ impl<'a> Subject<'a> {
         Ok(transforms)
     }
 
-    /// Rows 1–3 in arm lengths.
+    /// Returns ΔX with rows 1–3 in arm lengths.
     pub(super) fn scaled(&self, row: [f64; 6]) -> [f64; 6] {
         core::array::from_fn(|i| if i < 3 { row[i] / self.arm } else { row[i] })
     }

@@ -1,4 +1,4 @@
-//! Laws hold for robots that are right, by a wide margin, and break for ones that are not.
+//! Laws hold for correct robots by a wide margin, and fail for wrong ones.
 
 use super::*;
 use crate::by_hand::{Pps, Puma};
@@ -22,7 +22,7 @@ fn right_robots_pass_by_a_wide_margin() {
     }
 }
 
-/// The patient positioning system with something wrong.
+/// The patient positioning system with a corrupted Jacobian.
 struct Wrong(fn(&mut [[f64; 6]]));
 
 impl Manipulator for Wrong {
@@ -62,7 +62,7 @@ impl Manipulator for Wrong {
 
 #[test]
 fn wrong_robots_fail() {
-    // Spin and pitch exchanged: the likeliest bug.
+    // Spin and pitch swapped: the most likely bug.
     let exchanged = OneByOne(Wrong(|columns| columns.chunks_exact_mut(6).for_each(|frame| frame.swap(3, 5))));
     assert!(matches!(all(&exchanged, 20), Err(Failure::Discrepant { law: "error Jacobian", .. })));
     // One entry in 10⁷, in the smallest rows.

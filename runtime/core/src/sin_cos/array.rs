@@ -1,4 +1,5 @@
-//! Two numbers in an array, for machines without a register here: compilers find what instructions for pairs they have.
+//! Two numbers in an array, for machines without a register type here: the compiler finds their
+//! instructions for pairs.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -58,7 +59,7 @@ impl Real for Array {
     const FUSED: bool = false;
 
     #[inline(always)]
-    fn number(value: f64) -> Self {
+    fn splat(value: f64) -> Self {
         Self([value; 2])
     }
 

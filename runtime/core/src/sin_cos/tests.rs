@@ -1,4 +1,4 @@
-//! Against 100 bits of the exact sine and cosine.
+//! Tests against the exact sine and cosine to 100 bits.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -12,7 +12,7 @@ type Function = fn(f64) -> (f64, f64);
 
 const VARIANTS: [Function; 3] = [scalar, near, fused];
 
-/// [`near`] where `a · b + c` is rounded once, as in lanes with FMA.
+/// Returns [`near`] with `a · b + c` rounded once, as in lanes with FMA.
 fn fused(x: f64) -> (f64, f64) {
     let (Fused(sine), Fused(cosine)) = near(Fused(x));
     (sine, cosine)
@@ -36,7 +36,7 @@ fused!(Add add, Sub sub, Mul mul);
 
 impl Real for Fused {
     const FUSED: bool = true;
-    fn number(value: f64) -> Self {
+    fn splat(value: f64) -> Self {
         Self(value)
     }
     fn times_plus(self, b: Self, c: Self) -> Self {
@@ -59,7 +59,7 @@ impl Real for Fused {
     }
 }
 
-/// Errors in units in the last place of the correctly rounded result.
+/// Measures errors in units in the last place of the correctly rounded result.
 struct Reference {
     context: Context<HalfEven>,
     constants: ConstCache,
@@ -70,7 +70,7 @@ impl Reference {
         Self { context: Context::new(100), constants: ConstCache::new() }
     }
 
-    /// The larger error of sine and cosine.
+    /// Returns the larger error of sine and cosine.
     fn error(&mut self, function: Function, x: f64) -> f64 {
         self.errors(&[function], x)[0]
     }
@@ -88,7 +88,7 @@ impl Reference {
             .collect()
     }
 
-    /// The largest error of each variant over these angles, and where.
+    /// Returns the largest error of each variant over the angles, and its angle.
     fn worst(&mut self, angles: impl Iterator<Item = f64>) -> [(f64, f64); 3] {
         let mut worst = [(0.0, 0.0); 3];
         for x in angles {
@@ -103,7 +103,7 @@ impl Reference {
     }
 }
 
-/// The nearest `f64` and what is left.
+/// Splits a number into the nearest `f64` and the remainder.
 fn split(exact: Exact) -> (f64, f64) {
     let nearest = exact.to_f64().value();
     let rest = exact - Exact::try_from(nearest).unwrap();
@@ -115,7 +115,7 @@ fn ulps(value: f64, (nearest, rest): (f64, f64)) -> f64 {
     (((value - nearest) - rest) / (size.next_up() - size)).abs()
 }
 
-/// Evenly spread in `[0, 1)` for any count: the fractions of multiples of the golden ratio.
+/// Returns an evenly spread sequence in `[0, 1)` for any count: multiples of the golden ratio.
 fn spread(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(|i| (i as f64 * 0.618_033_988_749_894_9).fract())
 }
@@ -124,19 +124,20 @@ fn signed(u: f64) -> f64 {
     2.0 * u - 1.0
 }
 
-/// In size from subnormal numbers to the reach, each decade alike.
+/// Returns an angle of any size from subnormal numbers to the reach, uniform in its logarithm.
 fn of_any_size(u: f64) -> f64 {
     let x = REACH * 10_f64.powf(-u * 328.0);
     if (u * 1e6).fract() < 0.5 { x } else { -x }
 }
 
-/// The `f64` nearest to kπ/2 and those a few places beside it.
+/// Returns the `f64` nearest to kπ/2 and its neighbors.
 fn near_quarter_turns(k: u32) -> impl Iterator<Item = f64> {
     let middle = f64::from(k) * FRAC_PI_2;
     (-4..=4).map(move |places| f64::from_bits(middle.to_bits().wrapping_add_signed(places)))
 }
 
-/// Where the error is largest: `r` just above a power of two, so that its sine has a smaller last place.
+/// Returns an angle with a large error: `r` just above a power of two, so that its sine has a
+/// smaller last place.
 fn above_powers_of_two(u: f64) -> f64 {
     let power = 2_f64.powi(-1 - (u * 64.0) as i32 % 12);
     let turns = (signed((u * 4096.0).fract()) * 63_000.0).round();
@@ -162,13 +163,13 @@ fn within_ulps_of_the_exact_values() {
 #[test]
 fn within_ulps_beside_multiples_of_a_quarter_turn() {
     let mut reference = Reference::new();
-    // No other f64 within the reach is as near to a multiple of π/2 as the one at 29 · 2^j.
+    // The `f64` nearest to a multiple of π/2 within the reach is the one at 29 · 2^j.
     let nearest = (0..12).map(|j| 29 << j);
     let multiples = (1..64).chain(nearest).chain((64..63_662).step_by(331)).chain([63_661]);
     assert_within(reference.worst(multiples.flat_map(near_quarter_turns)));
 }
 
-/// `cargo test --release -p abbe -- --ignored widely`: minutes.
+/// Runs for minutes: `cargo test --release -p abbe -- --ignored widely`.
 #[test]
 #[ignore = "minutes, and only in a release build"]
 fn widely_within_ulps_of_the_exact_values() {
@@ -213,7 +214,7 @@ fn squares_add_to_one() {
     for function in VARIANTS {
         for x in spread(20_000).map(|u| REACH * signed(u)) {
             let (s, c) = function(x);
-            // Twice each relative error of 1.7 ulp, and three roundings.
+            // Twice the relative error of 1.7 ulp of each, and three roundings.
             assert!((s * s + c * c - 1.0).abs() <= 5.0 * f64::EPSILON, "at {x:e}");
         }
     }

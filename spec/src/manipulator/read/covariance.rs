@@ -1,4 +1,4 @@
-//! `[covariance]`: how well the errors of an identified machine are known, and how they depend on each other.
+//! `[covariance]`: the covariance of the errors of an identified machine.
 
 use abbe_core::Component;
 
@@ -9,7 +9,7 @@ use crate::expr::{Allowed, Dimension, Entry, Scope};
 use crate::manipulator::{Cause, Covariance, Identified, Source};
 use crate::value::find_name;
 
-/// Reads the table, if there is one.
+/// Reads the table; the covariance is empty without one.
 pub(super) fn read_covariance(
     root: &Section<'_>,
     sources: &[Source],
@@ -41,13 +41,13 @@ pub(super) fn read_covariance(
     let message = if !square {
         format!("this covariance must have {count} rows of {count} numbers")
     } else if (0..count).any(|i| rows[i][i] < 0.0) {
-        "a variance is not negative".to_owned()
+        "a variance cannot be negative".to_owned()
     } else if (0..count).any(|i| (0..i).any(|j| rows[i][j] != rows[j][i])) {
-        "a covariance is the same above and below its diagonal".to_owned()
+        "a covariance matrix must be symmetric".to_owned()
     } else {
         return Some(Covariance { of: all, rows });
     };
-    let help = "`abbe identify --out` writes it; leave the table out if it is not known";
+    let help = "`abbe identify --out` writes this table; remove it if the covariance is unknown";
     document.mistake(Diagnostic::new(rows_item.span(), message).help(help));
     None
 }
@@ -71,7 +71,7 @@ fn identified(item: &Item<'_>, sources: &[Source], document: &mut Document) -> O
     let effect = sources[source].effects.iter().find(|effect| effect.at.is_empty() && has(&effect.cause));
     if effect.is_none() {
         let message = format!("`{text}` has no {} of a frame", component.name());
-        let help = "name an error that the source has, or leave `error` out for all of it";
+        let help = "name an error of the source, or omit `error` to refer to the magnitude of the source";
         document.mistake(Diagnostic::new(error.span(), message).help(help));
     }
     effect.map(|effect| Identified::Error(effect.frame, component))

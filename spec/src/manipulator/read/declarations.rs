@@ -1,4 +1,6 @@
-//! Parameters, inputs and variables: everything an expression can name.
+//! Parameters, inputs and variables: the names that expressions may use.
+
+use std::f64::consts::TAU;
 
 use abbe_core::{LengthUnit, VariableKind};
 
@@ -10,10 +12,10 @@ use crate::keys::Keys;
 use crate::manipulator::names::check_identifier;
 use crate::manipulator::{Input, Parameter, Variable};
 
-/// The most parameters of a manipulator, and the most inputs.
+/// Maximum number of parameters, and of inputs.
 const MOST: usize = 10_000;
 
-/// The names of a spec, and what was declared with them.
+/// Names of a spec and their declarations.
 pub(super) struct Declarations {
     pub(super) scope: Scope,
     pub(super) parameters: Vec<Parameter>,
@@ -27,11 +29,11 @@ impl Declarations {
         Self { scope, parameters: Vec::new(), inputs: Vec::new(), variables: Vec::new() }
     }
 
-    /// `[parameters]`.
+    /// Reads `[parameters]`.
     pub(super) fn read_parameters(&mut self, root: &Section<'_>, document: &mut Document) {
         let Some(item) = root.get("parameters") else { return };
         let Some(section) = document.section(&item) else { return };
-        let help = "numbers that are never set at run time can stand where they are used";
+        let help = "write constants that are never changed where they are used";
         if document.at_most(&item, section.items().count(), MOST, "parameters", help).is_none() {
             return;
         }
@@ -47,11 +49,11 @@ impl Declarations {
         }
     }
 
-    /// `[inputs]`.
+    /// Reads `[inputs]`.
     pub(super) fn read_inputs(&mut self, root: &Section<'_>, document: &mut Document) {
         let Some(item) = root.get("inputs") else { return };
         let Some(section) = document.section(&item) else { return };
-        let help = "numbers that are the same at every use are parameters, or stand where they are used";
+        let help = "use parameters, or write constants where they are used";
         if document.at_most(&item, section.items().count(), MOST, "inputs", help).is_none() {
             return;
         }
@@ -82,7 +84,7 @@ impl Declarations {
         }
     }
 
-    /// The `variable` of a frame; its index.
+    /// Reads the `variable` of a frame and returns its index.
     pub(super) fn read_variable(
         &mut self,
         frame: usize,
@@ -119,14 +121,20 @@ impl Declarations {
                 home = document.constant(item, &self.scope, expected).map_or(home, |read| read.0);
             }
             if !(limits[0]..=limits[1]).contains(&home) {
+                let is_bare = home_item.as_ref().is_some_and(|item| !item.is_text());
                 let span = home_item.map(|item| item.span()).or(entry.map(|entry| entry.span()));
                 document.mistake(
                     Diagnostic::new(
                         span.unwrap_or(item.key_span.clone()),
                         format!("home of `{name}` is outside its limits"),
                     )
-                    .label(format!("home is {home}, the limits are {} … {}", limits[0], limits[1]))
-                    .help("give a `home` within the limits; it is 0 if not given"),
+                    .label(format!("home is {home}, the limits are {} to {}", limits[0], limits[1]))
+                    .help(
+                        match dimension == Dimension::NONE && is_bare && home.abs() > TAU {
+                            true => format!("is this in degrees? write `\"{home} deg\"`"),
+                            false => "give a `home` within the limits; it is 0 if not given".to_owned(),
+                        },
+                    ),
                 );
             }
         }
@@ -137,7 +145,8 @@ impl Declarations {
         Some(index)
     }
 
-    /// The value of a parameter or input: `x = 5`, `x = "5 mm"` or `x = { value = "5 mm", … }`.
+    /// Reads the value of a parameter or input: `x = 5`, `x = "5 mm"` or `x = { value = "5 mm", …
+    /// }`.
     fn valued<'d>(
         &self,
         item: &Item<'d>,
@@ -159,7 +168,7 @@ impl Declarations {
         (value.and_then(|value| document.constant(&value, &self.scope, entry)), Some(table))
     }
 
-    /// Two ends of an interval, the lower one first.
+    /// Reads the two ends of an interval, the lower one first.
     pub(super) fn interval(
         &self,
         item: &Item<'_>,
@@ -173,7 +182,7 @@ impl Declarations {
         let (lower, upper) = (lower?.0, upper?.0);
         if lower > upper {
             document.mistake(
-                Diagnostic::new(item.span(), format!("`{}` is the wrong way round", item.key))
+                Diagnostic::new(item.span(), format!("the ends of `{}` are reversed", item.key))
                     .label(format!("{lower} is more than {upper}"))
                     .help("write the lower end first"),
             );
@@ -196,19 +205,19 @@ impl Declarations {
         dimension: Option<Dimension>,
         document: &mut Document,
     ) {
-        // A name that cannot be one is declared all the same: that it is used is not another mistake.
+        // An invalid name is declared anyway, so that its uses are not reported as well.
         check_identifier(name, span.clone(), document);
         if self.scope.tables.iter().any(|table| table.name == name) {
-            let message = format!("`{name}` is the name of a table already");
+            let message = format!("duplicate name `{name}`: there is a table with this name");
             document.mistake(Diagnostic::new(span, message).help("rename one of them"));
             return;
         }
         if let Some(first) = self.scope.names.get(name) {
             document.mistake(
-                Diagnostic::new(span, format!("the name `{name}` is used twice"))
-                    .label("second use")
-                    .context(first.span.clone(), "first use")
-                    .help("parameters, inputs and variables share their names; rename one"),
+                Diagnostic::new(span, format!("duplicate name `{name}`"))
+                    .label("second declaration")
+                    .context(first.span.clone(), "first declaration")
+                    .help("rename one; parameters, inputs and variables share one namespace"),
             );
             return;
         }

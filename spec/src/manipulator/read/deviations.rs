@@ -1,4 +1,5 @@
-//! Sources at a number of the nominal chain itself: a joint, a structural parameter, a Denavit-Hartenberg number.
+//! Deviations of numbers of the nominal chain: joints, structural parameters, Denavit-Hartenberg
+//! numbers.
 
 use super::effects::find_frame;
 use super::frames::motion_dimension;
@@ -9,7 +10,7 @@ use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
 use crate::manipulator::{ChainNumber, Deviation, DhNumber, Factor, Frame};
 use crate::value::find_name;
 
-/// The nominal chain as far as it could be read: none of the tool if it is mistaken.
+/// Nominal chain as far as it could be read; `tool` is `None` after a mistake in it.
 #[derive(Clone, Copy)]
 pub(super) struct Chain<'a> {
     pub(super) frames: &'a [Frame],
@@ -18,7 +19,8 @@ pub(super) struct Chain<'a> {
 }
 
 impl Chain<'_> {
-    /// Whether a symbol stands in an `A_i` or the tool; yes if a mistake there leaves it open.
+    /// Returns `true` if a symbol occurs in an `A_i` or the tool, or may occur in one that has a
+    /// mistake.
     fn uses(&self, symbol: Symbol) -> bool {
         let mistaken = self.tool.is_none() || self.frames.iter().any(|frame| frame.factors.is_empty());
         let factors =
@@ -27,7 +29,7 @@ impl Chain<'_> {
     }
 }
 
-/// Reads what a source, or one of its `[[source.effect]]` tables, says of numbers of the chain.
+/// Reads the deviations in a source or in one of its `[[source.effect]]` tables.
 pub(super) fn read_deviations(
     section: &Section<'_>,
     chain: Chain<'_>,
@@ -38,8 +40,8 @@ pub(super) fn read_deviations(
     let Some(place) = places.first() else {
         let item = section.get("error")?;
         document.mistake(
-            Diagnostic::new(item.key_span, "`error` needs to know of what")
-                .label("of which joint or parameter?")
+            Diagnostic::new(item.key_span, "`error` needs a `joint` or `parameter`")
+                .label("error of an unspecified quantity")
                 .help("add `joint = …` or `parameter = …`; errors of a frame are called e_x, e_y, e_z, e_s, e_r, e_p"),
         );
         return None;
@@ -54,17 +56,20 @@ pub(super) fn read_deviations(
     {
         let help = match (other.key.as_str(), is_dh) {
             ("frame", _) => {
-                format!("leave `frame` out: the error acts wherever the {} stands in the chain", place.key)
+                format!("remove `frame`: the error acts wherever the {} occurs in the chain", place.key)
             }
-            ("at", _) => "leave `at` out: it says where on a link the errors e_… of a frame are".to_owned(),
-            ("error", _) => "the errors of `dh` stand in it: dh = { theta = …, a = … }".to_owned(),
+            ("at", _) => "remove `at`: it locates the errors e_… of a frame on its link".to_owned(),
+            ("error", _) => "write the errors in `dh`: dh = { theta = …, a = … }".to_owned(),
             _ => "list them as [[source.effect]] tables of the source".to_owned(),
         };
         document.mistake(
-            Diagnostic::new(other.key_span, format!("`{}` stands beside `{}`", other.key, place.key))
-                .label("one too many")
-                .context(place.key_span.clone(), "the other one")
-                .help(help),
+            Diagnostic::new(
+                other.key_span,
+                format!("`{}` and `{}` cannot be combined", other.key, place.key),
+            )
+            .label("one too many")
+            .context(place.key_span.clone(), "the other one")
+            .help(help),
         );
         return None;
     }
@@ -74,7 +79,7 @@ pub(super) fn read_deviations(
     }
 }
 
-/// `joint` or `parameter`, with its `error`.
+/// Reads `joint` or `parameter` with its `error`.
 fn read_symbol(
     section: &Section<'_>,
     place: &Item<'_>,
@@ -107,7 +112,7 @@ fn find_symbol(
         let (kind, help) = match other.symbol {
             Symbol::Variable(_) => ("a joint", format!("write joint = \"{name}\"")),
             Symbol::Parameter(_) => ("a parameter", format!("write parameter = \"{name}\"")),
-            _ => ("an input", "inputs may stand in `error`, but are not part of the chain".to_owned()),
+            _ => ("an input", "an input can be used in `error`, but is not part of the chain".to_owned()),
         };
         document.mistake(
             Diagnostic::new(place.span(), format!("`{name}` is {kind}, not a {}", place.key))
@@ -132,8 +137,8 @@ fn find_symbol(
     let declared = declared?;
     if !chain.uses(declared.symbol) {
         document.mistake(
-            Diagnostic::new(place.span(), format!("`{name}` stands in no transform"))
-                .label("its error would move nothing")
+            Diagnostic::new(place.span(), format!("`{name}` is not used in any transform"))
+                .label("its error has no effect")
                 .help("use the parameter in a frame or in the tool, or give the errors of a `frame` instead"),
         );
         return None;
@@ -146,7 +151,7 @@ fn find_symbol(
     Some((number, declared.dimension))
 }
 
-/// `dh = { theta, d, a, alpha }`: errors of the numbers of a frame that is given by them.
+/// Reads `dh = { theta, d, a, alpha }`: errors of the Denavit-Hartenberg numbers of a frame.
 fn read_numbers(
     section: &Section<'_>,
     place: &Item<'_>,
@@ -190,8 +195,8 @@ fn read_numbers(
     }
     if table.items().next().is_none() {
         document.mistake(
-            Diagnostic::new(place.span(), "`dh` has no number")
-                .label("which of the four is off?")
+            Diagnostic::new(place.span(), "`dh` is empty")
+                .label("no error here")
                 .help("give at least one of theta, d, a, alpha"),
         );
         return None;

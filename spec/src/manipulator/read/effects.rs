@@ -1,5 +1,5 @@
-//! What a source does to a frame: errors as they are, the sag of a beam, a compliance; there or at another place
-//! on the link.
+//! Effects of a source on a frame: given errors, the deflection of a beam, or a compliance, at the
+//! frame or at another place on its link.
 
 use abbe_core::Component;
 
@@ -10,7 +10,7 @@ use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
 use crate::manipulator::{Cause, Effect, Factor, Frame};
 
-/// Reads the effect that a source, or one of its `[[source.effect]]` tables, describes.
+/// Reads the effect of a source, or of one of its `[[source.effect]]` tables.
 pub(super) fn read_effect(
     section: &Section<'_>,
     frames: &[Frame],
@@ -32,10 +32,13 @@ pub(super) fn read_effect(
     {
         let other = if one.key == first.key { &causes[1] } else { first };
         document.mistake(
-            Diagnostic::new(other.key_span.clone(), format!("`{}` stands beside `{}`", other.key, one.key))
-                .label("one too many")
-                .context(one.key_span.clone(), "the other one")
-                .help("list them as [[source.effect]] tables of the source"),
+            Diagnostic::new(
+                other.key_span.clone(),
+                format!("`{}` and `{}` cannot be combined", other.key, one.key),
+            )
+            .label("one too many")
+            .context(one.key_span.clone(), "the other one")
+            .help("list them as [[source.effect]] tables of the source"),
         );
         return None;
     }
@@ -52,7 +55,7 @@ pub(super) fn read_effect(
     Some(Effect { frame: frame?, at: at?, cause: cause?, span: first.key_span.clone() })
 }
 
-/// The index of the frame that an item names.
+/// Returns the index of the frame that an item names.
 pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame], document: &mut Document) -> Option<usize> {
     let name = document.string(item)?;
     let found = frames.iter().position(|frame| frame.name == name);
@@ -60,7 +63,7 @@ pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame], document: &mut Docum
         let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
         let help = suggestion(document.found.len(), &name, &names, "frames");
         document.mistake(
-            Diagnostic::new(item.span(), format!("there is no frame `{}`", name.escape_debug()))
+            Diagnostic::new(item.span(), format!("unknown frame `{}`", name.escape_debug()))
                 .label("not a frame of this spec")
                 .help(help),
         );

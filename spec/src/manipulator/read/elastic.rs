@@ -1,4 +1,4 @@
-//! What gives way under loads: a `beam`, a `compliance`.
+//! Elastic elements: `beam` and `compliance`.
 
 use abbe_core::Component;
 
@@ -8,7 +8,7 @@ use crate::document::{Document, Item};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
 use crate::manipulator::{Beam, Compliance};
 
-/// Reads a `beam`; `positive` sees to the signs of its quantities.
+/// Reads a `beam`; `positive` checks the signs of its quantities.
 pub(super) fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Beam> {
     let mut table = document.section(item)?;
     table.name = "`beam`".to_owned();
@@ -47,7 +47,7 @@ pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Doc
     table.name = "`compliance`".to_owned();
     table.check_keys(&[&keys::COMPLIANCE], document);
     let entry = |row: usize, column: usize, item: &Item<'_>, document: &mut Document| {
-        let what = format!("{} per unit of {}", Component::ALL[row].name(), WRENCH[column]);
+        let what = format!("the compliance of {} per {}", Component::ALL[row].name(), WRENCH[column]);
         let entry =
             Entry { dimension: Some(dimension(row, column)), what: &what, names: Allowed::Everything };
         document.expression(item, scope, entry)
@@ -72,8 +72,8 @@ pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Doc
         }
         _ => {
             document.mistake(
-                Diagnostic::new(item.key_span.clone(), "a compliance needs its numbers")
-                    .label("`diagonal` or `matrix`?")
+                Diagnostic::new(item.key_span.clone(), "expected either `diagonal` or `matrix`")
+                    .label("exactly one of them is required")
                     .help("write { diagonal = [six] } or { matrix = [[six], …] }, in the order of e_x e_y e_z e_s e_r e_p"),
             );
             return None;
@@ -82,18 +82,18 @@ pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Doc
     Some(compliance)
 }
 
-/// Forces and moments in the order of ε.
+/// Forces and moments, in the order of ε.
 const WRENCH: [&str; 6] =
     ["force along x", "force along y", "force along z", "moment about y", "moment about z", "moment about x"];
 
 fn dimension(row: usize, column: usize) -> Dimension {
     let error = if row < 3 { Dimension::LENGTH } else { Dimension::NONE };
     let wrench = if column < 3 { Dimension::FORCE } else { Dimension::MOMENT };
-    // Both are small powers, whose quotient is one.
+    // Small exponents cannot overflow.
     error.over(wrench).unwrap_or(Dimension::NONE)
 }
 
-/// By reciprocity the work of two loads does not depend on their order.
+/// Checks symmetry, which follows from reciprocity.
 fn check_symmetric(compliance: &Compliance, document: &mut Document) -> Option<()> {
     for (i, row) in compliance.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().take(i) {

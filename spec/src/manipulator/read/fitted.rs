@@ -1,4 +1,5 @@
-//! `[fitted]`: the ranges of joints and inputs on which the errors of an identified machine were fitted.
+//! `[fitted]`: ranges of joints and inputs over which the errors of an identified machine were
+//! fitted.
 
 use abbe_core::VariableKind;
 

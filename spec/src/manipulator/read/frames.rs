@@ -1,4 +1,4 @@
-//! The ways to write an `A_i`, all of which become a product of [`Factor`]s.
+//! Forms of an `A_i`, all of which are converted to a product of [`Factor`]s.
 
 use abbe_core::VariableKind;
 
@@ -11,7 +11,7 @@ use crate::expr::{
 };
 use crate::manipulator::{DhConvention, Factor, Matrix};
 
-/// What a variable brings to an `origin`/`axis` frame.
+/// Index and kind of the frame's own variable, for `origin` and `axis`.
 pub(super) type OwnVariable = Option<(usize, VariableKind)>;
 
 /// Reads the transform of a frame or tool.
@@ -21,7 +21,7 @@ pub(super) fn read_factors(
     scope: &Scope,
     document: &mut Document,
 ) -> Option<Vec<Factor>> {
-    // One of them; `axis` goes with `origin`.
+    // The forms exclude each other; `axis` belongs to `origin`.
     let forms = keys::TRANSFORM.keys.iter().filter(|key| **key != "axis");
     let forms: Vec<Item<'_>> = forms.filter_map(|form| section.get(form)).collect();
     let axis = section.get("axis");
@@ -46,7 +46,7 @@ pub(super) fn read_factors(
         }
         document.mistake(
             Diagnostic::new(section.span.clone(), format!("{} has no transform", section.name))
-                .label("how does one get here from the frame before?")
+                .label("no transform from the previous frame")
                 .help("give one of `transform`, `matrix`, `dh`, `mdh`, `origin`"),
         );
         return None;
@@ -59,7 +59,7 @@ pub(super) fn read_factors(
                 document.mistake(
                     Diagnostic::new(form.span(), "this transform is empty")
                         .label("expected a product of Tx, Ty, Tz, Rx, Ry, Rz")
-                        .help("write `Tx(0)` for a frame in the same place"),
+                        .help("write `Tx(0)` for the identity"),
                 );
                 return None;
             }
@@ -77,7 +77,7 @@ pub(super) fn read_factors(
     }
 }
 
-/// Which Denavit-Hartenberg product a frame is, if it is one.
+/// Returns the Denavit-Hartenberg convention of a frame, if it has one.
 pub(super) fn convention(section: &Section<'_>) -> Option<DhConvention> {
     let forms = [("dh", DhConvention::Standard), ("mdh", DhConvention::Modified)];
     forms.into_iter().find(|(key, _)| section.get(key).is_some()).map(|(_, convention)| convention)
@@ -124,7 +124,7 @@ fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Optio
             document.mistake(
                 Diagnostic::new(entry.span(), "the last row of a rigid motion is 0 0 0 1")
                     .label(format!("expected {expected}"))
-                    .help("rotations stand in the upper left 3×3, the position in the last column"),
+                    .help("the upper left 3×3 block is the rotation, the last column is the position"),
             );
             return None;
         }
@@ -155,7 +155,7 @@ fn denavit_hartenberg(
     factors.into_iter().collect()
 }
 
-/// URDF: `T(xyz) Rz(y) Ry(p) Rx(r)`.
+/// Reads a URDF origin: `T(xyz) Rz(y) Ry(p) Rx(r)`.
 fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
     let mut section = document.section(item)?;
     section.name = "`origin`".to_owned();
@@ -180,7 +180,7 @@ fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec
     Some(factors)
 }
 
-/// The motion of the frame's own variable along or about its axis.
+/// Reads the motion of the frame's own variable along or about its axis.
 fn about_axis(
     item: Option<&Item<'_>>,
     section: &Section<'_>,
@@ -195,7 +195,7 @@ fn about_axis(
                     item.key_span.clone(),
                     format!("{} has an axis but no variable", section.name),
                 )
-                .label("nothing moves along or about it")
+                .label("no variable to move along or about it")
                 .help("add `variable = { … }`, or leave `axis` out"),
             );
             return None;
@@ -219,12 +219,12 @@ fn about_axis(
         let length = (x * x + y * y + z * z).sqrt();
         if (length - 1.0).abs() > rigid::TOLERANCE {
             let help = if length > 0.0 {
-                format!("of length 1 is [{}, {}, {}]", x / length, y / length, z / length)
+                format!("write [{}, {}, {}]", x / length, y / length, z / length)
             } else {
                 "an axis is a unit vector such as [0, 0, 1]".to_owned()
             };
             document.mistake(
-                Diagnostic::new(item.span(), "`axis` must be of length 1")
+                Diagnostic::new(item.span(), "`axis` must be a unit vector")
                     .label(format!("its length is {length}"))
                     .help(help),
             );

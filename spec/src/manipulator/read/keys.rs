@@ -1,4 +1,4 @@
-//! Every key of a spec file.
+//! Keys of a spec file.
 
 crate::tables! {
     FILE: ["the file"],

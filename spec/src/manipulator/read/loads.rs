@@ -1,4 +1,4 @@
-//! `[[load]]` and `gravity`: what acts on beams and compliances.
+//! `[[load]]` and `gravity`: loads on beams and compliances.
 
 use super::effects::find_frame;
 use super::keys;
@@ -7,14 +7,14 @@ use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
 use crate::manipulator::{Axes, Cause, Effect, Frame, Load, Point, Source};
 
-/// Reads every load of a spec.
+/// Reads all loads of a spec.
 pub(super) fn read_loads(
     root: &Section<'_>,
     frames: &[Frame],
     scope: &Scope,
     document: &mut Document,
 ) -> Vec<Load> {
-    let items = root.get("load").and_then(|item| document.array(&item, "tables, each a [[load]]"));
+    let items = root.get("load").and_then(|item| document.array_of_tables(&item, "load"));
     let mut loads = Vec::new();
     for item in items.unwrap_or_default() {
         if let Some(mut section) = document.section(&item) {
@@ -39,17 +39,17 @@ fn read_load(
     let acts = ["mass", "force", "moment"].map(|key| section.get(key));
     if acts.iter().all(Option::is_none) {
         document.mistake(
-            Diagnostic::new(section.span.clone(), "this [[load]] does not act")
+            Diagnostic::new(section.span.clone(), "this [[load]] is empty")
                 .label("no `mass`, `force` or `moment` here")
-                .help("give it a `mass`, which weighs under gravity, or a `force` or `moment` of three components"),
+                .help("add a `mass`, whose weight acts under gravity, or a `force` or `moment` of three components"),
         );
     }
     let [mass, force, moment] = acts;
     if let (None, None, Some(axes)) = (&force, &moment, section.get("axes")) {
         document.mistake(
-            Diagnostic::new(axes.key_span, "a mass has no axes")
-                .label("whose axes `force` and `moment` are in")
-                .help("leave `axes` out: a mass weighs along `gravity`"),
+            Diagnostic::new(axes.key_span, "`axes` without `force` or `moment`")
+                .label("the axes of `force` and `moment`")
+                .help("remove `axes`: the weight of a mass acts along `gravity`"),
         );
     }
     let mass = optional(mass, |item| {
@@ -92,7 +92,7 @@ fn optional<'d, T>(item: Option<Item<'d>>, read: impl FnOnce(&Item<'d>) -> Optio
     }
 }
 
-/// `point = "tool"`: the tool moves with the last frame.
+/// Reads `point = "tool"`. The tool is fixed to the last frame.
 fn read_tool_point(
     item: &Item<'_>,
     frame: Option<usize>,
@@ -104,8 +104,8 @@ fn read_tool_point(
         && frame.is_some_and(|frame| frame + 1 < frames.len())
     {
         document.mistake(
-            Diagnostic::new(item.span(), "the tool point does not move with this frame")
-                .label(format!("it moves with \"{}\"", last.name))
+            Diagnostic::new(item.span(), "the tool point is not fixed to this frame")
+                .label(format!("it is fixed to \"{}\"", last.name))
                 .help(format!("write frame = \"{}\", or the three coordinates of the point", last.name)),
         );
         return None;
@@ -113,7 +113,7 @@ fn read_tool_point(
     Some(Point::Tool)
 }
 
-/// Reads `gravity`, which stands in [manipulator] or at the top of the file.
+/// Reads `gravity`, in `[manipulator]` or at the top of the file.
 pub(super) fn read_gravity(
     item: &Item<'_>,
     scope: &Scope,
@@ -136,7 +136,7 @@ fn vector(
     Some([x?, y?, z?])
 }
 
-/// Beams and compliances move only under loads, and masses weigh only under gravity.
+/// Checks that elastic elements have loads and masses have gravity.
 pub(super) fn check_loaded(
     root: &Section<'_>,
     sources: &[Source],
@@ -156,10 +156,10 @@ pub(super) fn check_loaded(
                 document.mistake(
                     Diagnostic::new(
                         effect.span.clone(),
-                        format!("nothing weighs on the source \"{}\"", source.name),
+                        format!("no load acts on the source \"{}\"", source.name),
                     )
-                    .label("it would cause no error")
-                    .help("add a [[load]] at its frame or at one behind it, or `mass_per_length` to a beam"),
+                    .label("without a load it causes no error")
+                    .help("add a [[load]] at its frame or a later one, or `mass_per_length` to a beam"),
                 );
             }
         }
@@ -169,13 +169,13 @@ pub(super) fn check_loaded(
     }
     if let Some(item) = root.get("load").filter(|_| loads.iter().any(|load| load.mass.is_some())) {
         document.mistake(
-            Diagnostic::new(item.key_span, "there are loads but no gravity")
-                .label("they weigh nothing")
+            Diagnostic::new(item.key_span, "masses have no weight without `gravity`")
+                .label("a load with a mass")
                 .help("add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0"),
         );
     } else if let Some(mass) = effects().find_map(weight) {
         document.mistake(
-            Diagnostic::new(mass.span(), "there is a mass but no gravity")
+            Diagnostic::new(mass.span(), "`mass_per_length` has no effect without `gravity`")
                 .label("it weighs nothing")
                 .help("add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0"),
         );

@@ -1,8 +1,10 @@
 //! Reads a manipulator's spec file and checks it.
 //!
-//! `spec` goes from top to bottom: `declarations` reads the names, `tables` (with `points`) the functions given by points, `frames` the
-//! transforms, `sources`, `effects`, `elastic`, `deviations` and `loads` the physical errors, `fitted` and `covariance` what was
-//! identified. `positive` checks the signs of masses and stiffnesses, and `rigid` that every matrix is a rigid motion, at `samples`.
+//! `spec` reads the file from top to bottom: `declarations` the names, `tables` (with `points`) the
+//! functions defined by points, `frames` the transforms, `sources`, `effects`, `elastic`,
+//! `deviations` and `loads` the physical errors, `fitted` and `covariance` the results of
+//! identification. `positive` checks the signs of masses and stiffnesses, and `rigid` that every
+//! matrix is a rigid motion, at `samples`.
 
 mod covariance;
 mod declarations;

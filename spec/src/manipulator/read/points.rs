@@ -1,4 +1,4 @@
-//! The points of a table: where they come from, and whether a function can go through them.
+//! Points of a table: reads and checks them.
 
 use std::path::PathBuf;
 
@@ -8,33 +8,30 @@ use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::{Document, Item};
 use crate::expr::LARGEST as LARGEST_NUMBER;
 
-/// The largest file of points that is read.
+/// Maximum size of a file of points, in bytes.
 const LARGEST: u64 = 16 << 20;
 
-/// The columns of a CSV file.
+/// Columns of a CSV file.
 pub(super) struct Columns {
-    /// The file, as the spec names it.
+    /// The file, as written in the spec.
     pub(super) file: String,
     span: Span,
     names: Vec<String>,
-    /// Each with its line.
+    /// Rows with their line numbers.
     rows: Vec<(u64, csv::StringRecord)>,
 }
 
 impl Columns {
-    /// Reads the file that an item names, relative to the spec. It is noted as one that the spec is made of.
+    /// Reads the file that an item names, relative to the spec, and records it as part of the spec.
     pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Self> {
         let (file, span) = (document.string(item)?, item.span());
         let fail = |document: &mut Document, message: String, help: &str| {
             document.mistake(Diagnostic::new(span.clone(), message).help(help));
         };
         let Some(folder) = &document.folder else {
-            let message = format!("`{file}` cannot be read: this spec is a text, and in no folder");
-            fail(
-                document,
-                message,
-                "read the spec from its file, or write the points here: `x = […]`, `y = […]`",
-            );
+            let message =
+                format!("cannot read `{file}`: this spec is not in a file, so relative paths have no folder");
+            fail(document, message, "read the spec from a file, or include the points: `x = […]`, `y = […]`");
             return None;
         };
         let path: PathBuf = folder.join(&file);
@@ -78,7 +75,7 @@ impl Columns {
         }
     }
 
-    /// The numbers of a column.
+    /// Returns the numbers of a column.
     pub(super) fn numbers(&self, item: &Item<'_>, document: &mut Document) -> Option<Vec<f64>> {
         let name = document.string(item)?;
         let Some(index) = self.names.iter().position(|known| *known == name) else {
@@ -99,18 +96,15 @@ impl Columns {
                 Ok(number) if number.is_finite() => {
                     let message =
                         format!("line {line} of `{}`: `{name}` is too large to compute with", self.file);
-                    let mistake =
-                        Diagnostic::new(item.span(), message).label(format!("`{number:e}` stands there"));
-                    document.mistake(
-                        mistake.help("numbers go up to 1e150; leave rows out that were not measured"),
-                    );
+                    let mistake = Diagnostic::new(item.span(), message).label(format!("found `{number:e}`"));
+                    document.mistake(mistake.help("the maximum is 1e150; remove rows without a measurement"));
                     return None;
                 }
                 _ => {
                     let message = format!("line {line} of `{}`: `{name}` is not a number", self.file);
-                    let label = format!("`{}` stands there", cell.escape_debug());
+                    let label = format!("found `{}`", cell.escape_debug());
                     let mistake = Diagnostic::new(item.span(), message).label(label);
-                    document.mistake(mistake.help("leave rows out that were not measured"));
+                    document.mistake(mistake.help("remove rows without a measurement"));
                     return None;
                 }
             }
@@ -119,45 +113,45 @@ impl Columns {
     }
 }
 
-/// What a file of points must be.
-const FORM: &str = "a CSV file of a spec has a line of names, then rows; commas stand between cells, and decimals have a point";
+/// Required form of a file of points.
+const FORM: &str =
+    "expected a CSV file with a line of names, then rows; separate cells by commas, and use a decimal point";
 
-/// What is wrong with the form of a file.
+/// Describes an error in the form of a file.
 fn in_words(error: &csv::Error) -> String {
     match error.kind() {
         csv::ErrorKind::UnequalLengths { pos: Some(place), expected_len, len } => {
-            format!("line {} has {len} cells, those before it {expected_len}", place.line())
+            format!("line {}: expected {expected_len} cells, found {len}", place.line())
         }
-        csv::ErrorKind::Utf8 { pos: Some(place), .. } => format!("line {} is no UTF-8 text", place.line()),
+        csv::ErrorKind::Utf8 { pos: Some(place), .. } => format!("line {} is not UTF-8 text", place.line()),
         _ => error.to_string(),
     }
 }
 
-/// Numbers that are to be points.
+/// Numbers to be checked as points.
 pub(super) struct Points<'c> {
     pub(super) x: Vec<f64>,
     pub(super) y: Vec<f64>,
-    /// Where each x stands; empty if in another file.
+    /// Location of each x; empty if they are in another file.
     pub(super) places: Vec<Span>,
     pub(super) columns: Option<&'c Columns>,
 }
 
 impl Points<'_> {
-    /// The points by ascending x, or a mistake with its row.
+    /// Returns the points sorted by x, or records a mistake with its row.
     pub(super) fn check(self, table: &Item<'_>, document: &mut Document) -> Option<Vec<[f64; 2]>> {
         let Self { x, y, .. } = &self;
         if x.len() != y.len() {
-            let message = format!("`x` has {} numbers and `y` {}", x.len(), y.len());
+            let message = format!("`x` has {} numbers, but `y` has {}", x.len(), y.len());
             let mistake = Diagnostic::new(table.key_span.clone(), message);
-            document.mistake(mistake.help("every point has an x and a y"));
+            document.mistake(mistake.help("every point needs an x and a y"));
             return None;
         }
         if x.len() < 2 {
             let message =
                 format!("`{}` has {}", table.key, if x.is_empty() { "no points" } else { "one point" });
             let mistake = Diagnostic::new(table.key_span.clone(), message);
-            document
-                .mistake(mistake.label("at least two are needed").help("what never changes is a parameter"));
+            document.mistake(mistake.label("at least two are needed").help("use a parameter for a constant"));
             return None;
         }
         let falls = x[1] < x[0];
@@ -173,7 +167,7 @@ impl Points<'_> {
                 mistake = mistake.context(first.0, format!("and {} here", x[before]));
             }
             document.mistake(
-                mistake.help("x must rise from row to row, or fall; average what was measured twice"),
+                mistake.help("x must increase or decrease from row to row; average repeated measurements"),
             );
             return None;
         }
@@ -184,7 +178,7 @@ impl Points<'_> {
         Some(points)
     }
 
-    /// Where a point stands, and what it is called.
+    /// Returns the location and the name of a point.
     fn place(&self, index: usize, table: &Item<'_>) -> (Span, String) {
         match (self.columns, self.places.get(index)) {
             (Some(columns), _) => {

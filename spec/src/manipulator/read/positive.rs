@@ -1,4 +1,4 @@
-//! What must be positive: lengths and stiffnesses of beams, masses, what a compliance gives.
+//! Checks signs: lengths and stiffnesses of beams, masses, compliances.
 
 use abbe_core::Component;
 
@@ -8,11 +8,12 @@ use crate::document::Document;
 use crate::expr::{Dimension, Expression, Symbol};
 use crate::manipulator::{Beam, Cause, Compliance, Load, Source};
 
-/// How far below zero rounding may bring the energy of a compliance, as a share of its entries.
+/// Rounding tolerance for a negative energy of a compliance, relative to its entries.
 const ROUNDING: f64 = 1e-9;
 
-/// Finds what is negative, or zero where it must not be: with the nominal parameters, and with inputs at their values and
-/// at the ends of their ranges. What depends on a joint is not looked at.
+/// Records quantities that are negative, or zero where that is not allowed. They are evaluated at
+/// the nominal parameters, and at the values and the ends of the ranges of inputs. A quantity that
+/// depends on a joint is not checked.
 pub(super) fn check_signs(
     sources: &[Source],
     loads: &[Load],
@@ -28,7 +29,7 @@ pub(super) fn check_signs(
         }
     }
     for mass in loads.iter().filter_map(|load| load.mass.as_ref()) {
-        check.not_negative(mass, "the mass of a load", "a load that pulls upwards is a `force`", document);
+        check.not_negative(mass, "the mass of a load", "write an upward load as a `force`", document);
     }
 }
 
@@ -48,9 +49,9 @@ impl Check<'_> {
                     Diagnostic::new(value.span(), format!("`{key}` of a beam must be positive"))
                         .label(label)
                         .help(match key {
-                            "length" => "it is the distance from where the beam is clamped to its end",
-                            "GJ" | "EA" => "leave it out where the beam is rigid",
-                            _ => "a beam resists bending; leave the source out where it is rigid",
+                            "length" => "it is the distance from the clamped end to the tip",
+                            "GJ" | "EA" => "leave it out if the beam is rigid",
+                            _ => "a bending stiffness is positive; leave the source out if the beam is rigid",
                         }),
                 );
             }
@@ -59,18 +60,19 @@ impl Check<'_> {
             self.not_negative(
                 mass,
                 "`mass_per_length`",
-                "leave it out where a beam weighs nothing",
+                "leave it out if the weight of the beam does not matter",
                 document,
             );
         }
     }
 
-    /// `wᵀ C w` is twice the energy: no diagonal entry is negative, nor is any pivot of a symmetric elimination.
+    /// Checks that a compliance is positive semidefinite, because `wᵀ C w` is twice the energy: no
+    /// diagonal entry and no pivot of a symmetric elimination is negative.
     fn compliance(&self, compliance: &Compliance, document: &mut Document) {
         for (i, row) in compliance.iter().enumerate() {
             if let Some(entry) = &row[i] {
                 let what = format!("the compliance of {}", Component::ALL[i].name());
-                let help = "what is pulled gives way in the direction of the pull; write 0 where it is rigid";
+                let help = "the displacement under a load has the direction of the load; write 0 for a rigid direction";
                 if self.not_negative(entry, &what, help, document) {
                     return;
                 }
@@ -90,14 +92,14 @@ impl Check<'_> {
             let above =
                 Component::ALL[..i].iter().map(|component| component.name()).collect::<Vec<_>>().join(", ");
             document.mistake(
-                Diagnostic::new(entry.span(), "some load would gain energy from this compliance")
-                    .label(format!("too small for what couples {} with {above}", Component::ALL[i].name()))
-                    .help("the square of an entry off the diagonal is at most the product of the two on it: C must be positive semidefinite"),
+                Diagnostic::new(entry.span(), "this compliance matrix is not positive semidefinite")
+                    .label(format!("too small for the entries that couple {} with {above}", Component::ALL[i].name()))
+                    .help("the square of an off-diagonal entry is at most the product of the two diagonal entries"),
             );
         }
     }
 
-    /// Whether a mistake was found.
+    /// Records a negative value; returns `true` if it is negative.
     fn not_negative(&self, value: &Expression, what: &str, help: &str, document: &mut Document) -> bool {
         let Some((_, label)) = self.least(value).filter(|(least, _)| *least < 0.0) else {
             return false;
@@ -107,7 +109,8 @@ impl Check<'_> {
         true
     }
 
-    /// The least value, and what makes it so; none of what depends on a joint.
+    /// Returns the least value and the input that causes it; `None` if the value depends on a
+    /// joint.
     fn least(&self, expression: &Expression) -> Option<(f64, String)> {
         if let Some(value) = expression.constant() {
             return Some((value, String::new()));
@@ -144,7 +147,7 @@ impl Check<'_> {
     }
 }
 
-/// The first row whose pivot is negative, by Gaussian elimination of a symmetric matrix.
+/// Returns the first row with a negative pivot, by symmetric Gaussian elimination.
 fn first_negative_pivot(mut rest: [[f64; 6]; 6]) -> Option<usize> {
     let diagonal: [f64; 6] = std::array::from_fn(|i| rest[i][i]);
     for i in 0..6 {
@@ -153,7 +156,7 @@ fn first_negative_pivot(mut rest: [[f64; 6]; 6]) -> Option<usize> {
             return Some(i);
         }
         for j in i + 1..6 {
-            // Beside a pivot of zero nothing may stand.
+            // The rest of a row with a zero pivot must be zero.
             if rest[i][i] <= small {
                 if rest[j][i].powi(2) > ROUNDING * diagonal[i] * diagonal[j] {
                     return Some(j);

@@ -1,17 +1,19 @@
-//! Checks that a matrix is a rigid motion, `R Rᵀ = I` and `det R = 1`, at fixed sample configurations.
+//! Checks that a matrix is a rigid motion, `R Rᵀ = I` and `det R = 1`, at fixed sample
+//! configurations.
 
 use super::samples::{SAMPLES, configuration};
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expression, Scope, Symbol};
 use crate::manipulator::{Matrix, Variable};
 
-/// How far a product of rows may be from what it must be: what is left of numbers with ten digits.
+/// Tolerance of products of rows, for numbers with ten digits.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// What rows are about: one has length 1, two are perpendicular, and all three make no mirror image.
+/// Rows that each condition involves: unit length of one, orthogonality of two, a right-handed
+/// system of all three.
 const LAWS: [&[usize]; 7] = [&[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]];
 
-/// Returns the first law that a matrix breaks, as a mistake. Parameters are at their nominal values.
+/// Returns the first violated condition as a diagnostic. Parameters have their nominal values.
 pub(super) fn check_rigid(
     matrix: &Matrix,
     scope: &Scope,
@@ -39,7 +41,8 @@ pub(super) fn check_rigid(
     None
 }
 
-/// The product of some rows, and what it must be: the square of one, the inner product of two, the determinant of all.
+/// Returns the product of some rows and its required value: the square of one, the inner product of
+/// two, the determinant of three.
 fn product(law: &[usize], rows: &[[f64; 3]; 3]) -> (f64, f64) {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     match *law {
@@ -54,23 +57,19 @@ fn product(law: &[usize], rows: &[[f64; 3]; 3]) -> (f64, f64) {
 
 fn mistake(matrix: &Matrix, law: &[usize], value: f64, at: &str) -> Diagnostic {
     let broken = match *law {
-        [i] => format!("row {} is not of length 1: the sum of its squares is {value}", i + 1),
+        [i] => format!("row {} is not a unit vector: its sum of squares is {value}", i + 1),
         [i, j] => {
-            format!(
-                "rows {} and {} are not perpendicular: the sum of their products is {value}",
-                i + 1,
-                j + 1
-            )
+            format!("rows {} and {} are not orthogonal: their scalar product is {value}", i + 1, j + 1)
         }
-        _ => format!("the rows make a mirror image, not a rotation: their determinant is {value}"),
+        _ => format!("the rotation part is a reflection: its determinant is {value}"),
     };
-    // The last row at fault is marked, the others shown.
+    // The last row involved is marked, the others are shown.
     let row = |i: usize| matrix.rows[i][0].span().start..matrix.rows[i][2].span().end;
     let (last, others) = law.split_last().expect("a law is about at least one row");
     let message = format!("this matrix is not a rigid motion: {broken}{at}");
     let mut mistake = Diagnostic::new(row(*last), message)
         .label(format!("row {}", last + 1))
-        .help("check the signs, and that every sine has its cosine; write constants in full, as cos(45 deg)");
+        .help("check signs, and that sines and cosines match; write constants exactly, as cos(45 deg)");
     for other in others {
         mistake = mistake.context(row(*other), format!("row {}", other + 1));
     }

@@ -1,10 +1,10 @@
-//! Sample configurations: fixed ones, so that a spec is judged alike every time.
+//! Sample configurations: fixed ones, so that checks are deterministic.
 
 use super::declarations::Declarations;
 use crate::expr::{Binary, Expression, Function, Kind, Symbol};
 use crate::manipulator::Variable;
 
-/// How many configurations are tried.
+/// Number of sample configurations.
 pub(super) const SAMPLES: usize = 16;
 
 /// Returns sample configuration 1, 2, …: values of all variables within their limits.
@@ -12,12 +12,13 @@ pub(super) fn configuration(variables: &[Variable], sample: usize) -> Vec<f64> {
     variables.iter().enumerate().map(|(i, variable)| value(variable, i, sample)).collect()
 }
 
-/// Whether an expression depends on a variable. That the variable occurs is not enough: `q - q` is the same everywhere.
+/// Returns `true` if the value of an expression depends on a variable. In `q - q` it occurs without
+/// effect.
 pub(super) fn depends(expression: &Expression, own: usize, declarations: &Declarations) -> bool {
     if !expression.symbols().any(|symbol| symbol == Symbol::Variable(own)) {
         return false;
     }
-    // Steps and corners may be where no sample is.
+    // Steps and kinks may lie between the samples.
     let smooth = expression.terms().iter().all(|term| {
         !matches!(
             term.kind,
@@ -40,10 +41,10 @@ pub(super) fn depends(expression: &Expression, own: usize, declarations: &Declar
     !(smooth && values.all(|value| (value - first).abs() <= 1e-12 * first.abs()))
 }
 
-/// The golden ratio's fractional part, whose multiples are spread evenly.
+/// Fractional part of the golden ratio, whose multiples are evenly spread.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// A value within the limits: a golden-ratio sequence, another for each variable.
+/// Returns a value within the limits, by a golden-ratio sequence that differs for each variable.
 fn value(variable: &Variable, index: usize, sample: usize) -> f64 {
     let [lower, upper] = variable.limits.map(|limit| limit.clamp(-1e6, 1e6));
     let [lower, upper] =

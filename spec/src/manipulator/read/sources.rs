@@ -1,4 +1,4 @@
-//! `[[source]]`: physical errors and the generalized errors they cause.
+//! `[[source]]`: physical errors and the generalized errors that they cause.
 
 use abbe_core::{Class, Distribution};
 
@@ -12,18 +12,18 @@ use crate::keys::Keys;
 use crate::manipulator::names::title_of;
 use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source};
 
-/// What a source may say: of itself, and of what it does.
+/// Keys of a source: its own, and those of its effects.
 const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION];
 
-/// The most sources of a manipulator.
+/// Maximum number of sources.
 const MOST_SOURCES: usize = 10_000;
 
-/// Reads every source of a spec.
+/// Reads all sources of a spec.
 pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut Document) -> Vec<Source> {
     let mut sources: Vec<Source> = Vec::new();
     let Some(item) = root.get("source") else { return sources };
-    let Some(items) = document.array(&item, "tables, each a [[source]]") else { return sources };
-    let help = "what is known of many alike is one source with the root of the sum of their squares";
+    let Some(items) = document.array_of_tables(&item, "source") else { return sources };
+    let help = "combine similar random sources to one with the root sum of squares of their values";
     if document.at_most(&item, items.len(), MOST_SOURCES, "sources", help).is_none() {
         return sources;
     }
@@ -42,7 +42,7 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut 
             section.span = name_item.span();
             if let Some((_, first)) = spans.iter().find(|(known, _)| *known == name) {
                 document.mistake(
-                    Diagnostic::new(name_item.span(), format!("two sources are called \"{name}\""))
+                    Diagnostic::new(name_item.span(), format!("duplicate source name \"{name}\""))
                         .label("second use")
                         .context(first.clone(), "first use")
                         .help(
@@ -78,8 +78,7 @@ fn read_source(
         None => None,
     };
     let mut acts = Acts::default();
-    let tables =
-        section.get("effect").and_then(|item| document.array(&item, "tables, each a [[source.effect]]"));
+    let tables = section.get("effect").and_then(|item| document.array_of_tables(&item, "source.effect"));
     if tables.is_none() || section.items().any(|item| KNOWN[1..].iter().any(|keys| keys.contain(&item.key))) {
         acts.read(section, chain, document);
     }
@@ -112,8 +111,9 @@ fn read_source(
     })
 }
 
-/// A half-width or standard deviation has no sign. The effects of a random source share one magnitude, so that their
-/// signs matter against each other: what cannot be is that all are negative.
+/// Checks that a half-width or standard deviation is not negative. The effects of a random source
+/// share one random number, so that their relative signs matter; only sources whose effects are all
+/// negative are rejected.
 fn check_half_width(
     distribution: Distribution,
     effects: &[Effect],
@@ -134,11 +134,11 @@ fn check_half_width(
     document.mistake(
         Diagnostic::new(first.span(), message)
             .label(format!("this is {}", first.constant().unwrap_or_default()))
-            .help("a random error goes either way: leave the minus out"),
+            .help("random errors have both signs: remove the minus sign"),
     );
 }
 
-/// What a source does, and to what.
+/// Effects and deviations of a source.
 #[derive(Default)]
 struct Acts {
     effects: Vec<Effect>,
@@ -146,7 +146,7 @@ struct Acts {
 }
 
 impl Acts {
-    /// Takes in a table that says one thing: errors of a frame, or of a number of the chain.
+    /// Reads a table with one effect: errors of a frame, or of a number of the chain.
     fn read(&mut self, section: &Section<'_>, chain: Chain<'_>, document: &mut Document) {
         if section.items().any(|item| keys::DEVIATION.contain(&item.key)) {
             self.deviations.extend(read_deviations(section, chain, document).unwrap_or_default());
@@ -156,7 +156,7 @@ impl Acts {
     }
 }
 
-/// `degrees_of_freedom` of a normal error; infinite if it is not there.
+/// Reads `degrees_of_freedom` of a normal error; infinite without it.
 fn read_degrees_of_freedom(
     section: &Section<'_>,
     class: Option<Class>,
@@ -168,10 +168,10 @@ fn read_degrees_of_freedom(
         None | Some(Class::Random(Distribution::Normal)) => return positive(&item, chain, document),
         Some(Class::Repeatable) => (
             "a repeatable error has no degrees of freedom",
-            "they say from how many measurements a standard deviation was estimated: leave them out, or write them into `magnitude`",
+            "degrees of freedom belong to an estimated standard deviation: remove them, or move them to `magnitude`",
         ),
         Some(Class::Random(_)) => (
-            "limits have no degrees of freedom",
+            "a half-width has no degrees of freedom",
             "they say from how many measurements a standard deviation was estimated: write distribution = \"normal\", or leave them out",
         ),
     };
@@ -179,7 +179,7 @@ fn read_degrees_of_freedom(
     None
 }
 
-/// A positive number of degrees of freedom.
+/// Reads a positive number of degrees of freedom.
 fn positive(item: &Item<'_>, chain: Chain<'_>, document: &mut Document) -> Option<f64> {
     let what = "`degrees_of_freedom`";
     let entry = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
@@ -189,13 +189,13 @@ fn positive(item: &Item<'_>, chain: Chain<'_>, document: &mut Document) -> Optio
     }
     document.mistake(
         Diagnostic::new(item.span(), "`degrees_of_freedom` must be positive").help(
-            "n measurements and their mean leave n - 1; leave it out if the standard deviation is known",
+            "a standard deviation of n measurements has n - 1; leave it out if the standard deviation is known exactly",
         ),
     );
     None
 }
 
-/// `magnitude = { value, standard_deviation, degrees_of_freedom }`: pure numbers.
+/// Reads `magnitude = { value, standard_deviation, degrees_of_freedom }`: pure numbers.
 fn read_magnitude(
     item: &Item<'_>,
     class: Option<Class>,
@@ -204,8 +204,8 @@ fn read_magnitude(
 ) -> Option<Magnitude> {
     if let Some(Class::Random(_)) = class {
         document.mistake(
-            Diagnostic::new(item.key_span.clone(), "a random error has no magnitude to be found")
-                .help("leave `magnitude` out: its distribution says how large it is"),
+            Diagnostic::new(item.key_span.clone(), "a random error has no `magnitude`")
+                .help("remove `magnitude`: the distribution gives the size of a random error"),
         );
         return None;
     }
@@ -227,7 +227,7 @@ fn read_magnitude(
             if read <= 0.0 {
                 document.mistake(
                     Diagnostic::new(item.span(), "`standard_deviation` must be positive")
-                        .help("leave it out if nothing is known of the magnitude"),
+                        .help("leave it out if the magnitude is unknown"),
                 );
                 return None;
             }
@@ -238,8 +238,8 @@ fn read_magnitude(
     let degrees_of_freedom = match table.get("degrees_of_freedom") {
         Some(item) if standard_deviation.is_none() => {
             document.mistake(
-                Diagnostic::new(item.key_span, "these are degrees of freedom of nothing")
-                    .help("they belong to a `standard_deviation`"),
+                Diagnostic::new(item.key_span, "`degrees_of_freedom` without `standard_deviation`")
+                    .help("add `standard_deviation`, or remove `degrees_of_freedom`"),
             );
             return None;
         }

@@ -24,20 +24,21 @@ use crate::manipulator::names::{check_identifier, title_of};
 use crate::manipulator::{Factor, Frame, Spec};
 
 impl Spec {
-    /// Reads and checks a spec file. All mistakes of its syntax, or else all of its meaning, come at once.
+    /// Reads and checks a spec file. All syntax errors are reported at once; without any, all
+    /// semantic errors.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let document = Document::read(path.as_ref())?;
         Self::from_document(document)
     }
 
-    /// Reads and checks a spec's text as if it were in a folder, where the files of its tables are; `path` is what
-    /// mistakes are shown under.
+    /// Reads and checks a spec's text. Files of tables are relative to `folder`; `path` is the name
+    /// shown in diagnostics.
     pub fn parse_in(folder: &Path, path: &str, text: &str) -> Result<Self, Diagnostics> {
         Self::from_document(Document { folder: Some(folder.to_owned()), ..Document::new(path, text) })
     }
 
-    /// Reads and checks a spec's text; `path` is what mistakes are shown under. It is in no folder: tables have their points in
-    /// it.
+    /// Reads and checks a spec's text; `path` is the name shown in diagnostics. There is no folder,
+    /// so tables must contain their points.
     ///
     /// ```
     /// # use abbe_spec::Spec;
@@ -72,10 +73,10 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     }
     root.check_keys(&[&keys::FILE], document);
     let head = root.required("manipulator", document).and_then(|item| read_head(&item, document));
-    // Without a length unit the rest could only be read by guessing.
+    // Without a length unit, nothing else can be read.
     let head = head?;
     let mut declarations = Declarations::new(head.length);
-    // What takes a function that is mistaken would be another mistake.
+    // Uses of an invalid table would be reported as well.
     declarations.read_tables(root, document)?;
     declarations.read_parameters(root, document);
     declarations.read_inputs(root, document);
@@ -145,7 +146,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     })
 }
 
-/// The most frames of a manipulator: its analysis takes seconds, and 200 MB.
+/// Maximum number of frames. The analysis then takes seconds and 200 MB.
 const MOST_FRAMES: usize = 3000;
 
 struct Head {
@@ -166,8 +167,8 @@ fn read_head(item: &Item<'_>, document: &mut Document) -> Option<Head> {
         let valid = check_identifier(&name, item.span(), document);
         if valid && name.contains(|c: char| c.is_ascii_uppercase()) {
             document.mistake(
-                Diagnostic::new(item.span(), "the name of a manipulator is in lower case")
-                    .label("this names a module; its type is named after it")
+                Diagnostic::new(item.span(), "the name of a manipulator must be in lower case")
+                    .label("this becomes the name of a module")
                     .help(format!("write `{}`", name.to_ascii_lowercase())),
             );
         }
@@ -198,7 +199,7 @@ fn read_head(item: &Item<'_>, document: &mut Document) -> Option<Head> {
     })
 }
 
-/// A frame whose transform is still to be read: it may use names that are declared after it.
+/// A frame whose transform has not been read yet, because it may use names declared later.
 struct RawFrame<'d> {
     section: Section<'d>,
     name: String,
@@ -212,7 +213,7 @@ fn read_frames<'d>(
     document: &mut Document,
 ) -> Option<Vec<RawFrame<'d>>> {
     let item = root.required_list("frame", document)?;
-    let items = document.array(&item, "tables, each a [[frame]]")?;
+    let items = document.array_of_tables(&item, "frame")?;
     if items.is_empty() {
         document.mistake(
             Diagnostic::new(item.span(), "a manipulator needs at least one frame").help("add a [[frame]]"),
@@ -224,7 +225,7 @@ fn read_frames<'d>(
         items.len(),
         MOST_FRAMES,
         "frames",
-        "leave out frames that have no errors: products of transforms are one",
+        "merge frames without errors: a transform can be a product",
     )?;
     let mut frames: Vec<RawFrame<'d>> = Vec::new();
     for (index, item) in items.iter().enumerate() {
@@ -243,10 +244,10 @@ fn read_frames<'d>(
             && let Some(first) = frames.iter().find(|frame| frame.name == name)
         {
             document.mistake(
-                Diagnostic::new(section.span.clone(), format!("two frames are called \"{name}\""))
+                Diagnostic::new(section.span.clone(), format!("duplicate frame name \"{name}\""))
                     .label("second use")
                     .context(first.section.span.clone(), "first use")
-                    .help("sources name frames; give each its own name"),
+                    .help("rename one; sources refer to frames by name"),
             );
         }
         section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
@@ -311,7 +312,7 @@ fn check_matrices(
     Some(())
 }
 
-/// Whether a product of factors depends on a variable.
+/// Returns `true` if a product of factors depends on a variable.
 fn moves(factors: &[Factor], own: usize, declarations: &Declarations) -> bool {
     factors.iter().flat_map(Factor::expressions).any(|expression| depends(expression, own, declarations))
 }

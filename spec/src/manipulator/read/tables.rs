@@ -1,4 +1,4 @@
-//! `[tables.NAME]`: functions that are given by points, in the spec or in a file beside it.
+//! `[tables.NAME]`: functions defined by points, in the spec or in a separate file.
 
 use std::sync::Arc;
 
@@ -10,21 +10,21 @@ use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Interpolation, Outside, Scope, Table, Unit, parse_unit};
 use crate::manipulator::names::check_identifier;
 
-/// The most tables of a manipulator.
+/// Maximum number of tables.
 const MOST: usize = 1000;
 
 impl Declarations {
-    /// `[tables]`.
+    /// Reads `[tables]`.
     pub(super) fn read_tables(&mut self, root: &Section<'_>, document: &mut Document) -> Option<()> {
         let Some(item) = root.get("tables") else { return Some(()) };
         let section = document.section(&item)?;
         let before = document.found.len();
-        let help = "leave out those that no expression takes";
+        let help = "remove tables that no expression uses";
         document.at_most(&item, section.items().count(), MOST, "tables", help)?;
         for item in section.items() {
             check_identifier(&item.key, item.key_span.clone(), document);
             if self.scope.tables.iter().any(|table| table.name.eq_ignore_ascii_case(&item.key)) {
-                let message = format!("`{}` is the name of another table, up to capital letters", item.key);
+                let message = format!("`{}` differs from the name of another table only in case", item.key);
                 document.mistake(Diagnostic::new(item.key_span.clone(), message).help("rename one of them"));
             } else if let Some(table) = self.read_table(&item, document) {
                 self.scope.tables.push(Arc::new(table));
@@ -63,13 +63,14 @@ impl Declarations {
         if !table.is_finite() {
             let message = format!("the numbers of `{}` are too large to interpolate", item.key);
             let mistake = Diagnostic::new(item.key_span.clone(), message);
-            document.mistake(mistake.help("are their units right?"));
+            document.mistake(mistake.help("check the units"));
             return None;
         }
         Some(table)
     }
 
-    /// The numbers of an axis: a list, a list with a unit, or a column of the file with a unit.
+    /// Reads the numbers of an axis: a list, a list with a unit, or a column of the file with a
+    /// unit.
     fn read_axis(&self, item: &Item<'_>, columns: Option<&Columns>, document: &mut Document) -> Option<Axis> {
         if !item.is_table() {
             if let Some(columns) = columns {
@@ -104,9 +105,9 @@ impl Declarations {
                 let values = section.required("values", document)?;
                 let list = self.read_list(&values, document)?;
                 if list.dimension != Dimension::NONE {
-                    let message = format!("the numbers of `{}` have their units already", item.key);
+                    let message = format!("the numbers of `{}` already have units", item.key);
                     let mistake = Diagnostic::new(values.span(), message);
-                    document.mistake(mistake.help("leave `unit` out, or the units of the numbers"));
+                    document.mistake(mistake.help("remove `unit`, or the units of the numbers"));
                     return None;
                 }
                 (list.values, list.places)
@@ -116,7 +117,7 @@ impl Declarations {
         Some(Axis { values, dimension: unit.dimension, places })
     }
 
-    /// Numbers of one kind.
+    /// Reads a list of numbers of the same dimension.
     fn read_list(&self, item: &Item<'_>, document: &mut Document) -> Option<Axis> {
         let what = format!("a number of `{}`", item.key);
         let entry = Entry { dimension: None, what: &what, names: Allowed::Nothing };
@@ -128,7 +129,7 @@ impl Declarations {
             let is_bare_zero = value == 0.0 && found == Dimension::NONE;
             if !is_bare_zero && found != *dimension.get_or_insert(found) {
                 let expected = dimension.unwrap_or(Dimension::NONE);
-                let message = format!("the numbers of `{}` must be of one kind", item.key);
+                let message = format!("the numbers of `{}` must have the same dimension", item.key);
                 let mistake = Diagnostic::new(item.span(), message);
                 document.mistake(
                     mistake
@@ -145,11 +146,11 @@ impl Declarations {
     }
 }
 
-/// The numbers of an axis, in the coherent system.
+/// Numbers of an axis, in coherent units.
 struct Axis {
     values: Vec<f64>,
     dimension: Dimension,
-    /// Where they stand; empty if in another file.
+    /// Their locations; empty if they are in another file.
     places: Vec<Span>,
 }
 

@@ -1,19 +1,19 @@
-//! Bins that double their width when there are too many: sorting without knowing the range in advance.
+//! Histogram bins that double their width when there are too many, for data of unknown range.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize, Serializer};
 
-/// What bins hold.
+/// Content of a bin.
 pub trait Merge: Default {
-    /// Takes in what a neighbour holds.
+    /// Merges the content of a neighbouring bin.
     fn merge(&mut self, other: Self);
 }
 
-/// Bins of width 2^exponent, at most so many that are not empty.
+/// Bins of width 2^exponent, with a limit on the number of non-empty bins.
 ///
-/// The narrowest that are few enough: what comes in decides the width, not the order in which it comes. Serialized they can be
-/// read again; [`listed`] is what a report shows.
+/// The width is the smallest that keeps the limit. It depends on the values, not on their order.
+/// Derived serialization is for reading back; reports use [`listed`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bins<T> {
     finest: i32,
@@ -23,13 +23,13 @@ pub struct Bins<T> {
 }
 
 impl<T: Merge> Bins<T> {
-    /// No bins yet; the first ones are so narrow that different values stay apart.
+    /// Creates empty bins with the smallest width, 2^finest, and at most `most` non-empty bins.
     pub fn new(finest: i32, most: usize) -> Self {
         Self { finest, exponent: finest, most: most.max(1), bins: BTreeMap::new() }
     }
 
-    /// The bin of a value.
-    pub fn at(&mut self, value: f64) -> &mut T {
+    /// Returns the bin that holds a value, and creates it if necessary.
+    pub fn bin_mut(&mut self, value: f64) -> &mut T {
         while self.key(value).unsigned_abs() > 1 << 52 {
             self.double();
         }
@@ -40,7 +40,7 @@ impl<T: Merge> Bins<T> {
         self.bins.entry(key).or_default()
     }
 
-    /// Widens the bins until they span no more than so many, empty ones included.
+    /// Widens the bins until they span at most `most` bins, empty ones included.
     pub fn span_at_most(&mut self, most: i64) {
         while self.span() > most.max(1) {
             self.double();
@@ -53,7 +53,8 @@ impl<T: Merge> Bins<T> {
     }
 
     fn key(&self, value: f64) -> i64 {
-        // 0 and other round values in the middle of the first bins: rounding does not tear them apart.
+        // Shift by half of the smallest width, so that rounding does not split 0 and other round
+        // values.
         let offset = 2f64.powi(self.finest - 1);
         ((value + offset) / self.width()).floor() as i64
     }
@@ -65,7 +66,7 @@ impl<T: Merge> Bins<T> {
         }
     }
 
-    /// Whether other bins, which may come from a file, can be merged with these.
+    /// Returns true if other bins can be merged with these. Checks untrusted data from a file.
     pub fn accepts(&self, other: &Self) -> bool {
         let widest = f64::MAX_EXP + 1;
         (other.finest, other.most) == (self.finest, self.most)
@@ -74,7 +75,7 @@ impl<T: Merge> Bins<T> {
             && other.bins.keys().all(|key| key.unsigned_abs() <= 1 << 53)
     }
 
-    /// Takes in other bins that began as fine as these.
+    /// Merges other bins that have the same smallest width.
     pub fn merge(&mut self, mut other: Self) {
         while self.exponent < other.exponent {
             self.double();
@@ -97,12 +98,13 @@ impl<T: Merge> Bins<T> {
         }
     }
 
-    /// The width is 2 to the power of this.
+    /// Returns the exponent of the width, a power of 2.
     pub fn exponent(&self) -> i32 {
         self.exponent
     }
 
-    /// Whether different values may share a bin.
+    /// Returns true if the bins are wider than the smallest width, so that different values may
+    /// share one.
     pub fn are_wide(&self) -> bool {
         self.exponent > self.finest
     }
@@ -111,28 +113,28 @@ impl<T: Merge> Bins<T> {
         2f64.powi(self.exponent)
     }
 
-    /// Lower and upper edge of a bin.
+    /// Returns the lower and upper edge of a bin.
     pub fn edges(&self, key: i64) -> [f64; 2] {
         [key, key + 1].map(|edge| edge as f64 * self.width())
     }
 
-    /// The contents of a bin, if there is any.
+    /// Returns the content of a bin; `None` if it is empty.
     pub fn get(&self, key: i64) -> Option<&T> {
         self.bins.get(&key)
     }
 
-    /// What the bins hold, in ascending order.
+    /// Iterates over the contents in ascending order.
     pub fn into_contents(self) -> impl Iterator<Item = T> {
         self.bins.into_values()
     }
 
-    /// The bins that are not empty, in ascending order, with their numbers.
+    /// Iterates over the non-empty bins in ascending order, with their keys.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (i64, &T)> {
         self.bins.iter().map(|(key, content)| (*key, content))
     }
 }
 
-/// A list: the edges of every bin, and what it holds.
+/// Serializes bins as a list of `[edges, content]`.
 pub fn listed<T: Merge + Serialize, S: Serializer>(bins: &Bins<T>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(bins.iter().map(|(key, content)| (bins.edges(key), content)))
 }
@@ -149,7 +151,7 @@ mod tests {
 
     fn counted(values: &[f64], most: usize) -> Vec<([f64; 2], usize)> {
         let mut bins = Bins::<usize>::new(-20, most);
-        values.iter().for_each(|value| *bins.at(*value) += 1);
+        values.iter().for_each(|value| *bins.bin_mut(*value) += 1);
         bins.iter().map(|(key, count)| (bins.edges(key), *count)).collect()
     }
 
@@ -160,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn many_values_share_bins_whatever_their_order() {
+    fn many_values_share_bins_in_any_order() {
         let mut values = (-700..900).map(|i| f64::from(i) * 0.37).collect::<Vec<_>>();
         let forth = counted(&values, 64);
         values.reverse();
@@ -174,11 +176,11 @@ mod tests {
     }
 
     #[test]
-    fn merged_is_as_if_counted_together() {
+    fn merging_equals_counting_together() {
         let values = (0..400).map(|i| f64::from(i * i)).collect::<Vec<_>>();
         let mut parts = [Bins::<usize>::new(-20, 32), Bins::new(-20, 32)];
         for (i, value) in values.iter().enumerate() {
-            *parts[i % 2].at(*value) += 1;
+            *parts[i % 2].bin_mut(*value) += 1;
         }
         let [mut bins, other] = parts;
         bins.merge(other);

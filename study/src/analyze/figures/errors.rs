@@ -1,9 +1,9 @@
-//! The error of the tool point that a figure shows, and where.
+//! Tool point error that a figure shows, and its configuration.
 
 use abbe::analysis::Configuration;
 use serde::{Deserialize, Serialize};
 
-/// The error of the tool point: the repeatable part, and the bound of the random one, plus or minus.
+/// Error of three rows: the signed repeatable part, and the bound ± of the random part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Errors {
     pub(super) repeatable: [f64; 3],
@@ -11,21 +11,21 @@ pub(super) struct Errors {
 }
 
 impl Errors {
-    /// Both norms, added: as the radius of all sources together.
+    /// Returns the sum of both norms, as in the combined radius.
     pub(super) fn norm(&self) -> f64 {
         norm(self.repeatable) + norm(self.random)
     }
 }
 
-/// The Euclidean norm.
+/// Returns the Euclidean norm.
 pub fn norm(vector: [f64; 3]) -> f64 {
     vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
-/// A configuration, serialized.
+/// Serialized form of a configuration.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Configuration")]
-pub(super) struct Place {
+pub(super) struct SerializedConfiguration {
     q: Vec<f64>,
     s: Vec<f64>,
     u: Vec<f64>,

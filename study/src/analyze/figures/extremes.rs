@@ -1,20 +1,20 @@
-//! The least and the largest errors within a bin, and where they are worst.
+//! Smallest and largest errors in a bin, and the worst configuration.
 
 use abbe::analysis::Configuration;
 use serde::{Deserialize, Serialize};
 
 use super::bins::{Bins, Merge, listed};
-use super::errors::{Errors, Place};
+use super::errors::{Errors, SerializedConfiguration};
 
-/// The narrowest bins: a micrometre or a microradian.
+/// Exponent of the smallest bin width, 2^-20: about a micrometre or a microradian.
 const FINEST: i32 = -20;
 
-/// From the least to the largest.
+/// Closed interval of values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Range {
-    /// The lower end.
+    /// Lower end.
     pub least: f64,
-    /// The upper end.
+    /// Upper end.
     pub largest: f64,
 }
 
@@ -25,52 +25,52 @@ impl Default for Range {
 }
 
 impl Range {
-    /// Takes in a value.
+    /// Extends the range to a value.
     pub fn add(&mut self, value: f64) {
         self.least = self.least.min(value);
         self.largest = self.largest.max(value);
     }
 
-    /// Takes in another range.
+    /// Extends the range to another range.
     pub fn join(&mut self, other: Self) {
         self.add(other.least);
         self.add(other.largest);
     }
 
-    /// Half way between the ends.
+    /// Returns the midpoint.
     pub fn middle(self) -> f64 {
         f64::midpoint(self.least, self.largest)
     }
 
-    /// The end that is farther from zero, with its sign.
+    /// Returns the end that is farther from zero, with its sign.
     pub fn farther(self) -> f64 {
         if -self.least > self.largest { self.least } else { self.largest }
     }
 }
 
-/// A largest norm, and where.
+/// Largest norm, and its configuration.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Worst {
-    /// In the length unit.
+    /// Norm of the error: the length unit, or rad.
     pub norm: f64,
-    /// Where.
-    #[serde(with = "Place")]
+    /// Configuration with this norm.
+    #[serde(with = "SerializedConfiguration")]
     pub configuration: Configuration,
 }
 
-/// What happens within a bin.
+/// Extremes of the errors in a bin.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Extremes {
-    /// Which values of the travel fell into it.
+    /// Range of the travel values in the bin.
     pub travel: Range,
-    /// Along x, y and z.
+    /// Ranges of the errors in three rows, random bounds included.
     pub errors: [Range; 3],
-    /// The largest norm, and where.
+    /// Largest norm; `None` if the bin is empty.
     pub worst: Option<Worst>,
 }
 
 impl Extremes {
-    /// Takes in the errors at a configuration.
+    /// Adds the errors at a configuration.
     pub(super) fn add(&mut self, travel: f64, errors: &Errors, configuration: &Configuration) {
         self.travel.add(travel);
         let parts = errors.repeatable.into_iter().zip(errors.random);
@@ -98,22 +98,22 @@ impl Merge for Extremes {
     }
 }
 
-/// The errors along a travel.
+/// Errors over a travel, in bins.
 #[derive(Clone, Debug, Serialize)]
 pub struct Envelope(#[serde(serialize_with = "listed")] pub Bins<Extremes>);
 
 impl Envelope {
-    /// So many different values are drawn as they are.
+    /// Number of distinct values up to which each is drawn separately.
     const APART: usize = 512;
-    /// Where there are more, so many bins of them.
+    /// Number of bins if there are more distinct values.
     const TOGETHER: i64 = 48;
 
-    /// Begins the gathering.
+    /// Creates the empty bins.
     pub(super) fn bins() -> Bins<Extremes> {
         Bins::new(FINEST, Self::APART)
     }
 
-    /// Ends the gathering.
+    /// Creates the envelope from the filled bins.
     pub(super) fn new(mut bins: Bins<Extremes>) -> Self {
         if bins.are_wide() {
             bins.span_at_most(Self::TOGETHER);
@@ -122,7 +122,8 @@ impl Envelope {
     }
 }
 
-/// The errors over two travels: lines of bins, all of the same width in the end.
+/// Errors over two travels: a line of bins for each bin of the first travel, all of the same final
+/// width.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::analyze) struct Grid(Bins<Line>);
 
@@ -133,28 +134,28 @@ struct Line {
 }
 
 impl Grid {
-    /// The most lines, and bins in a line.
+    /// Largest number of lines, and of bins in a line.
     const MOST: usize = 64;
 
-    /// The bin of two values.
-    pub(super) fn at(&mut self, first: f64, second: f64) -> &mut Extremes {
-        let line = self.0.at(first);
+    /// Returns the bin for the values of both travels.
+    pub(super) fn bin_mut(&mut self, first: f64, second: f64) -> &mut Extremes {
+        let line = self.0.bin_mut(first);
         line.travel.add(first);
-        line.bins.at(second)
+        line.bins.bin_mut(second)
     }
 
-    /// Whether another one, which may come from a file, can be merged with this one.
+    /// Returns true if another grid can be merged with this one. Checks untrusted data from a file.
     pub(super) fn accepts(&self, other: &Self) -> bool {
         let line = Line::default();
         self.0.accepts(&other.0) && other.0.iter().all(|(_, other)| line.bins.accepts(&other.bins))
     }
 
-    /// Takes in another one.
+    /// Merges another grid.
     pub(super) fn merge(&mut self, other: Self) {
         self.0.merge(other.0);
     }
 
-    /// The values of both travels, and what happens there, line by line; nothing where nothing fell.
+    /// Returns the mesh of both travels; a cell is `None` where no configuration fell.
     pub(super) fn mesh(self) -> Mesh {
         let exponents = self.0.iter().map(|(_, line)| line.bins.exponent());
         let exponent = exponents.max().unwrap_or(FINEST);
@@ -162,7 +163,7 @@ impl Grid {
         columns.widen(exponent);
         let lines = self.0.into_contents().map(|mut line| {
             line.bins.widen(exponent);
-            line.bins.iter().for_each(|(_, cell)| columns.at(cell.travel.least).join(cell.travel));
+            line.bins.iter().for_each(|(_, cell)| columns.bin_mut(cell.travel.least).join(cell.travel));
             line
         });
         let lines = lines.collect::<Vec<_>>();
@@ -178,14 +179,14 @@ impl Grid {
     }
 }
 
-/// Errors over two travels.
+/// Errors over a mesh of two travels.
 #[derive(Clone, Debug, Serialize)]
 pub struct Mesh {
-    /// The values of the first travel.
+    /// Values of the first travel.
     pub first: Vec<f64>,
-    /// The values of the second.
+    /// Values of the second travel.
     pub second: Vec<f64>,
-    /// One line for each value of the first.
+    /// Extremes, one row per value of the first travel and one column per value of the second.
     pub cells: Vec<Vec<Option<Extremes>>>,
 }
 

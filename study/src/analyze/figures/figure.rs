@@ -1,4 +1,4 @@
-//! A figure: what was asked for, and what was gathered.
+//! A figure: the request in the study, and the gathered data.
 
 use serde::Serialize;
 
@@ -8,42 +8,43 @@ use super::points::Points;
 use super::stick::Stick;
 use crate::study_file;
 
-/// The figures of a study.
+/// Figures of a study.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Figures {
-    /// In the order of the study.
+    /// Figures in the order of the study.
     pub figures: Vec<Figure>,
-    /// The sources that had a figure and are switched off.
+    /// Names of sources with a figure that are switched off.
     pub left_out: Vec<String>,
 }
 
-/// A figure, ready to be drawn. Lengths in the spec's unit and along the axes of `F_0`.
+/// Data of one figure. Lengths are in the spec's unit, along the axes of `F_0`; angles are in rad.
 #[derive(Clone, Debug, Serialize)]
 pub struct Figure {
-    /// What was asked for.
-    pub asked: study_file::Figure,
-    /// Whether there are only bounds to show, of one random source or of many.
+    /// Request in the study.
+    #[serde(rename = "asked")]
+    pub request: study_file::Figure,
+    /// Shows error bounds instead of signed errors: every source that contributes is random.
     pub bounds: bool,
-    /// Of a workspace of its own: how many configurations were reached, and how many were not.
+    /// Numbers of reached and unreachable configurations, if the figure has its own workspace.
     pub own_workspace: Option<[usize; 2]>,
-    /// What it shows.
-    pub data: Gathered,
+    /// Data to draw.
+    pub data: FigureData,
 }
 
-/// What a figure shows.
+/// Data of a figure, by its kind.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Gathered {
-    /// The errors along a travel.
+pub enum FigureData {
+    /// Errors over the travel of one variable, parameter or input.
     Travel(Envelope),
-    /// The errors over two travels.
+    /// Errors over two travels.
     Surface(Mesh),
-    /// The errors in space.
+    /// Errors as points in space.
     Cloud(Points),
-    /// How often which error occurs.
+    /// Frequencies of errors.
     Histogram(Histogram),
-    /// The frames at home.
+    /// Frames at the home configuration.
     Manipulator(Stick),
-    /// The shares of the sources: they follow from the budget.
+    /// Shares of the sources, which follow from the budget.
     Pareto,
 }

@@ -1,11 +1,11 @@
-//! How often which error occurs.
+//! Histograms of errors.
 
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::bins::{Bins, Merge, listed};
 use super::errors::norm;
 
-/// How often errors are in a bin: along x, y, z, and of the norm.
+/// Histograms of the errors in x, y, z and of their norm.
 #[derive(Clone, Debug, Serialize)]
 pub struct Histogram(#[serde(serialize_with = "all_listed")] pub [Bins<Count>; 4]);
 
@@ -20,7 +20,7 @@ fn all_listed<S: Serializer>(all: &[Bins<Count>; 4], serializer: S) -> Result<S:
     serializer.collect_seq(all.iter().map(Listed))
 }
 
-/// How often.
+/// Number of configurations in a bin.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Count(pub usize);
 
@@ -31,20 +31,20 @@ impl Merge for Count {
 }
 
 impl Histogram {
-    /// Begins the gathering.
+    /// Creates the empty bins.
     pub(super) fn bins() -> [Bins<Count>; 4] {
-        // Finer than any error that matters, in m or mm.
+        // The width 2^-50 is finer than any relevant error in m or mm.
         std::array::from_fn(|_| Bins::new(-50, 1024))
     }
 
-    /// Takes in an error.
+    /// Counts an error.
     pub(super) fn add(all: &mut [Bins<Count>; 4], error: [f64; 3]) {
         let [x, y, z] = error;
         let values = [x, y, z, norm(error)];
-        all.iter_mut().zip(values).for_each(|(bins, value)| bins.at(value).0 += 1);
+        all.iter_mut().zip(values).for_each(|(bins, value)| bins.bin_mut(value).0 += 1);
     }
 
-    /// Ends the gathering: some twenty to forty bars.
+    /// Creates the histogram, with at most 40 bars per component.
     pub(super) fn new(mut all: [Bins<Count>; 4]) -> Self {
         all.iter_mut().for_each(|bins| bins.span_at_most(40));
         Self(all)

@@ -1,15 +1,15 @@
-//! What the figures of a study show, gathered while the sweep goes on.
+//! Data of the study's figures, gathered during the sweep.
 //!
-//! `gathering` is all of them, `gather` one; `extremes` the envelope of errors over travels, `points` errors in space,
-//! `histogram` how often they occur, all in `bins` that need no range in advance; `stick` the frames at home. `figure` is the
-//! result.
+//! `figures_builder` handles all figures and `figure_builder` one. `extremes` holds envelopes over
+//! travels, `points` error clouds, and `histogram` frequencies, all in `bins` that need no range in
+//! advance. `stick` holds the frames at home, and `figure` the result.
 
 mod bins;
 mod errors;
 mod extremes;
 mod figure;
-mod gather;
-mod gathering;
+mod figure_builder;
+mod figures_builder;
 mod histogram;
 mod points;
 mod stick;
@@ -17,9 +17,9 @@ mod stick;
 pub use bins::{Bins, Merge, listed};
 pub use errors::norm;
 pub use extremes::{Envelope, Extremes, Mesh, Range, Worst};
-pub use figure::{Figure, Figures, Gathered};
-pub(super) use gather::Data;
-pub(super) use gathering::Gathering;
+pub use figure::{Figure, FigureData, Figures};
+pub(super) use figure_builder::PartialFigure;
+pub(super) use figures_builder::FiguresBuilder;
 pub use histogram::{Count, Histogram};
 pub use points::{Point, Points};
-pub use stick::{Place, Stick};
+pub use stick::{FrameOrigin, Stick};

@@ -1,41 +1,41 @@
-//! A part of the configurations, spread evenly over all of them.
+//! Subset of the configurations, spread evenly over the workspace.
 
 use abbe::analysis::Configuration;
 use serde::{Deserialize, Serialize};
 
-use super::errors::{Errors, Place};
+use super::errors::{Errors, SerializedConfiguration};
 
-/// An error in space.
+/// Error at one configuration.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
-    /// Its index in the workspace.
+    /// Index of the configuration in the workspace.
     pub index: usize,
-    /// Along x, y and z.
+    /// Error along x, y and z of `F_0`, in the length unit; of orientations, rows 4–6 in rad.
     pub error: [f64; 3],
-    /// Where.
-    #[serde(with = "Place")]
+    /// The configuration.
+    #[serde(with = "SerializedConfiguration")]
     pub configuration: Configuration,
 }
 
-/// Every so many configurations of the workspace, and the worst of all.
+/// Errors at every n-th configuration of the workspace, and the worst of all.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Points {
-    /// Those are kept whose index is a multiple of this, the least power of 2 that leaves few enough.
+    /// Spacing of the kept indices: the smallest power of 2 that keeps the limit.
     stride: usize,
     seen: usize,
-    /// Those that are kept.
+    /// Kept points.
     pub kept: Vec<Point>,
-    /// The worst of all, with the norm of both parts, added.
+    /// Worst configuration of all, with its norm: repeatable + random.
     pub worst: Option<(f64, Point)>,
 }
 
 impl Points {
-    /// The most points that are kept.
+    /// Largest number of kept points.
     const MOST: usize = 5000;
 
-    /// Takes in the errors at the configuration of that index.
+    /// Adds the errors at the configuration with this index.
     ///
-    /// What is kept are the repeatable errors, or the bounds of the random ones.
+    /// Keeps the repeatable errors, or with `bounds` those of the random bounds.
     pub(super) fn add(&mut self, index: usize, errors: &Errors, bounds: bool, configuration: &Configuration) {
         let error = if bounds { errors.random } else { errors.repeatable };
         let point = || Point { index, error, configuration: configuration.clone() };
@@ -50,13 +50,13 @@ impl Points {
         }
     }
 
-    /// Whether others, which may come from a file, can follow these.
+    /// Returns true if other points can follow these. Checks untrusted data from a file.
     pub(super) fn accepts(&self, other: &Self) -> bool {
         let indices = self.kept.last().into_iter().chain(&other.kept).map(|point| point.index);
         other.stride.is_power_of_two() && other.kept.len() <= Self::MOST && indices.is_sorted_by(|a, b| a < b)
     }
 
-    /// Takes in what follows.
+    /// Appends the points that follow.
     pub(super) fn append(&mut self, other: Self) {
         self.stride = self.stride.max(other.stride);
         self.kept.extend(other.kept);
@@ -76,8 +76,8 @@ impl Points {
         }
     }
 
-    /// How many configurations there were.
-    pub fn seen(&self) -> usize {
+    /// Returns the number of configurations that were added.
+    pub fn total(&self) -> usize {
         self.seen
     }
 }
@@ -98,7 +98,7 @@ mod tests {
     use super::Points;
 
     #[test]
-    fn they_are_few_and_evenly_spread() {
+    fn points_are_few_and_evenly_spaced() {
         let configuration = Configuration { q: Vec::new(), s: Vec::new(), u: Vec::new() };
         let over = |range: Range<usize>| {
             let mut points = Points::default();
@@ -114,7 +114,7 @@ mod tests {
             assert_eq!(pair[1].error[0] - pair[0].error[0], 16.0);
         }
         assert_eq!(points.worst.as_ref().map(|(norm, _)| *norm), Some(54_320.0));
-        // In parts they are the same.
+        // Points gathered in parts equal those gathered in one run.
         let mut parts = over(0..17);
         parts.append(over(17..40_001));
         parts.append(over(40_001..54_321));

@@ -1,31 +1,32 @@
-//! The manipulator as a stick figure: its frames at home.
+//! Stick figure of the manipulator at home.
 
 use abbe::analysis::Configuration;
 use abbe::{Error, Manipulator, Pose};
 use serde::Serialize;
 
-/// Frames of the chain, base to tip.
+/// Origins of the frames, base to tip.
 #[derive(Clone, Debug, Serialize)]
 pub struct Stick {
-    /// What stands at each: several frames may share an origin.
-    pub places: Vec<Place>,
-    /// The longest side of the box around it, in the length unit.
+    /// Distinct origins; several frames may share one.
+    #[serde(rename = "places")]
+    pub origins: Vec<FrameOrigin>,
+    /// Longest side of the bounding box, in the length unit; 1 if all origins coincide.
     pub size: f64,
 }
 
-/// An origin.
+/// An origin with its frames.
 #[derive(Clone, Debug, Serialize)]
-pub struct Place {
-    /// The names of the frames here.
+pub struct FrameOrigin {
+    /// Names of the frames at this origin.
     pub label: String,
-    /// In `F_0`, in the length unit.
+    /// Position in `F_0`, in the length unit.
     pub origin: [f64; 3],
-    /// The axes of the last frame here, unit vectors in `F_0`.
+    /// Axes of the last frame at this origin, unit vectors in `F_0`.
     pub axes: [[f64; 3]; 3],
 }
 
 impl Stick {
-    /// At the home configuration.
+    /// Evaluates the frames at the home configuration.
     pub(super) fn at_home(manipulator: &dyn Manipulator, home: &Configuration) -> Result<Self, Error> {
         let frames = &manipulator.description().frames;
         let mut transforms = vec![Pose::IDENTITY; frames.len() + 1];
@@ -44,18 +45,18 @@ impl Stick {
         });
         let size = size.fold(0.0, f64::max);
         let size = if size > 0.0 { size } else { 1.0 };
-        let mut places: Vec<Place> = Vec::new();
+        let mut origins: Vec<FrameOrigin> = Vec::new();
         for (label, Pose([x, y, z, origin])) in all {
-            let near = |place: &&mut Place| distance(place.origin, origin) < 1e-6 * size;
-            match places.iter_mut().find(near) {
-                Some(place) => {
-                    place.label += &format!(" · {label}");
-                    place.axes = [x, y, z];
+            let near = |shared: &&mut FrameOrigin| distance(shared.origin, origin) < 1e-6 * size;
+            match origins.iter_mut().find(near) {
+                Some(shared) => {
+                    shared.label += &format!(" · {label}");
+                    shared.axes = [x, y, z];
                 }
-                None => places.push(Place { label, origin, axes: [x, y, z] }),
+                None => origins.push(FrameOrigin { label, origin, axes: [x, y, z] }),
             }
         }
-        Ok(Self { places, size })
+        Ok(Self { origins, size })
     }
 }
 

@@ -1,4 +1,4 @@
-//! How parts are written: `docs/scale.md` has the format.
+//! File format of parts, described in `docs/scale.md`.
 
 use std::path::Path;
 
@@ -8,25 +8,26 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::part::Part;
 use crate::{hash, mistake};
 
-/// What every part begins with, and the version of the format.
+/// Prefix of each part file, followed by the format version.
 const BEGINNING: &str = "abbe part ";
 const VERSION: &str = "2";
-/// The length of the checksum at the end, with its line end.
+/// Length of the checksum line at the end, newline included.
 const CHECKSUM: usize = 65;
-/// The longest file that is read, in bytes.
+/// Largest file that is read, in bytes.
 const LONGEST: u64 = 1 << 30;
 
 impl Part {
-    /// Returns the bytes of its file, three lines: the version of the format, the part in JSON, and the SHA-256 of both.
+    /// Returns the file content, three lines: the format version, the part as JSON, and the SHA-256
+    /// of both.
     pub fn to_bytes(&self) -> Vec<u8> {
-        // A part has finite numbers, and maps whose keys are integers.
+        // Infallible: numbers are finite, and map keys are integers.
         let json = serde_json::to_string(self).expect("a part is JSON");
         let content = format!("{BEGINNING}{VERSION}\n{json}\n");
-        let checksum = hash::of_text(&content);
+        let checksum = hash::text(&content);
         format!("{content}{checksum}\n").into_bytes()
     }
 
-    /// Reads what [`to_bytes`](Self::to_bytes) wrote; `name` is what mistakes are shown under.
+    /// Parses the output of [`to_bytes`](Self::to_bytes). Mistakes are reported under `name`.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Diagnostics> {
         let wrong = |message: &str, help: &str| mistake::with_help(name, message, help);
         let Some(rest) = bytes.strip_prefix(BEGINNING.as_bytes()) else {
@@ -35,18 +36,14 @@ impl Part {
                 "`abbe analyze SPEC --shard I/N --out FILE` writes one",
             ));
         };
-        let damaged = || {
-            wrong(
-                "this part is damaged: it is not what its checksum says",
-                "make it again, or copy it again from where it was made",
-            )
-        };
+        let damaged =
+            || wrong("this part is damaged: its checksum differs", "create it again, or copy it again");
         let end = rest.iter().take(20).position(|byte| *byte == b'\n').ok_or_else(damaged)?;
         if &rest[..end] != VERSION.as_bytes() {
             let version = String::from_utf8_lossy(&rest[..end]);
             let message =
                 format!("this part is of format {version}, and this version of abbe reads {VERSION}");
-            return Err(wrong(&message, "make and merge all parts with one version of abbe"));
+            return Err(wrong(&message, "use one version of abbe for all parts and for the merge"));
         }
         let text = std::str::from_utf8(bytes).map_err(|_| damaged())?;
         let (content, checksum) = text
@@ -54,21 +51,21 @@ impl Part {
             .checked_sub(CHECKSUM)
             .and_then(|end| text.split_at_checked(end))
             .ok_or_else(damaged)?;
-        if hash::of_text(content) + "\n" != checksum {
+        if hash::text(content) + "\n" != checksum {
             return Err(damaged());
         }
         let json = &content[BEGINNING.len() + end + 1..];
         let part: Result<Self, String> = serde_json::from_str(json).map_err(|error| error.to_string());
-        let checked = part.and_then(|part| part.question.check_draws().map(|()| part));
+        let checked = part.and_then(|part| part.request.check_draws().map(|()| part));
         checked.map_err(|message| {
             wrong(
-                &format!("this part holds what no part of this version of abbe does: {message}"),
-                "make it again; make and merge all parts with one version of abbe",
+                &format!("this part has content that this version of abbe does not write: {message}"),
+                "create it again; use one version of abbe for all parts and for the merge",
             )
         })
     }
 
-    /// Reads a file.
+    /// Reads a part file.
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
         let bytes = Bounded::read_all(path, LONGEST).map_err(|error| {
             let Unfit { message, help } = Unfit::from_error(&error, "give the path of a part");

@@ -1,20 +1,20 @@
-//! Puts parts together.
+//! Merges parts.
 
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::part::{Maker, Part};
+use super::part::{Build, Part};
 use super::shard::Shard;
 use crate::analyze::{Analyze, Report};
 use crate::mistake;
 use crate::notes::Notes;
 
-/// The report of all parts of an analysis, byte for byte that of one run, and the job that it answers. Each comes with what
-/// messages call it, in any order.
+/// Merges all parts of an analysis. Returns its job, and a report that is byte for byte that of a
+/// single run. Each part comes with its name for messages; their order does not matter.
 pub fn merge(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<(Analyze, Report), Diagnostics> {
-    let parts = in_order(parts)?;
-    // What is computed here must have the bits of what was computed there.
-    for (name, Part { made_by: Maker { version, machine }, .. }) in parts.iter().take(1) {
-        let here = Maker::here();
+    let parts = sorted_and_complete(parts)?;
+    // The remaining computations must agree bit for bit with those of the parts.
+    for (name, Part { made_by: Build { version, machine }, .. }) in parts.iter().take(1) {
+        let here = Build::current();
         if (version, machine) != (&here.version, &here.machine) {
             let message = format!(
                 "this part was made by abbe {version} on {machine}; this is abbe {} on {}",
@@ -27,38 +27,40 @@ pub fn merge(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<(Analy
     let Some((name, first)) = parts.first() else {
         return Err(mistake::with_help("merge", "there is no part", "give all parts of one analysis"));
     };
-    let (name, question) = (name.clone(), first.question.clone());
-    let job = question.job(notes)?;
-    if question.identity(&job)? != first.identity {
-        let message =
-            "what the spec or the study read besides is no longer what it was when this part was made";
+    let (name, request) = (name.clone(), first.request.clone());
+    let job = request.job(notes)?;
+    if request.identity(&job)? != first.identity {
+        let message = "a file that the spec or the study reads has changed since this part was created";
         return Err(mistake::with_help(&name, message, "make all parts again"));
     }
     let named = parts.into_iter().map(|(name, part)| (name, part.shard, part.gathered));
-    let report = job.finish(named.collect(), notes)?;
+    let report = job.report_on_parts(named.collect(), notes)?;
     Ok((job, report))
 }
 
-/// Whether the parts are all of one analysis, each once: in the order of their shards.
-fn in_order(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Part)>, Diagnostics> {
+/// Sorts the parts by shard, and checks that they are one analysis, complete and without
+/// duplicates.
+fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Part)>, Diagnostics> {
     parts.sort_by_key(|(_, part)| part.shard);
     let Some((first_name, first)) = parts.first() else { return Ok(parts) };
-    let Maker { version, machine } = &first.made_by;
+    let Build { version, machine } = &first.made_by;
     for (name, part) in &parts {
-        let Maker { version: other, machine: another } = &part.made_by;
+        let Build { version: other, machine: another } = &part.made_by;
         let (message, help) = if other != version {
             let message = format!("this part was made by abbe {other}, {first_name} by abbe {version}");
-            (message, "make and merge all parts with one version of abbe".to_owned())
+            (message, "use one version of abbe for all parts and for the merge".to_owned())
         } else if another != machine {
             let message =
                 format!("this part was made on {another}, {first_name} on {machine}: the last digits differ");
             (message, "make all parts on machines of one kind".to_owned())
         } else if part.identity != first.identity {
-            let message =
-                format!("this part and {first_name} are not of one analysis: {}", difference(first, part));
+            let message = format!(
+                "this part and {first_name} belong to different analyses: {}",
+                difference(first, part)
+            );
             (message, "merge the parts of one spec, one study and the same options".to_owned())
-        } else if part.shard.of() != first.shard.of() {
-            let [one, other] = [first.shard.of(), part.shard.of()];
+        } else if part.shard.count() != first.shard.count() {
+            let [one, other] = [first.shard.count(), part.shard.count()];
             let message = format!("this is one of {other} parts, {first_name} one of {one}");
             (message, "merge parts of one division: `--shard I/N` with the same N".to_owned())
         } else {
@@ -72,10 +74,10 @@ fn in_order(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Part)>, Diagn
             return Err(mistake::with_help(other, message, "give every part once"));
         }
     }
-    let of = first.shard.of();
-    let missing = (1..=of)
+    let count = first.shard.count();
+    let missing = (1..=count)
         .filter(|number| parts.binary_search_by_key(number, |(_, part)| part.shard.number()).is_err());
-    let missing = missing.filter_map(|number| Shard::new(number, of).ok()).collect::<Vec<_>>();
+    let missing = missing.filter_map(|number| Shard::new(number, count).ok()).collect::<Vec<_>>();
     if let Some(shard) = missing.first() {
         let shown = missing.iter().take(5).map(Shard::to_string).collect::<Vec<_>>().join(", ");
         let more = if missing.len() > 5 { format!(" and {} more", missing.len() - 5) } else { String::new() };
@@ -83,17 +85,17 @@ fn in_order(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Part)>, Diagn
         let message = format!("missing: {is} {shown}{more}");
         let help = format!(
             "make it: `abbe analyze {} --shard {shard} --out FILE`, with the same options",
-            first.question.spec
+            first.request.spec
         );
         return Err(mistake::with_help("merge", message, help));
     }
     Ok(parts)
 }
 
-/// In what two questions differ.
+/// Describes the first difference between two questions.
 fn difference(one: &Part, other: &Part) -> &'static str {
-    let (a, b) = (&one.question, &other.question);
-    let text = |written: &Option<super::Written>| written.as_ref().map(|written| written.text.clone());
+    let (a, b) = (&one.request, &other.request);
+    let text = |file: &Option<super::FileText>| file.as_ref().map(|file| file.text.clone());
     if a.spec_text.is_none() && b.spec_text.is_none() && a.spec != b.spec
         || text(&a.spec_text) != text(&b.spec_text)
     {

@@ -1,16 +1,16 @@
-//! An analysis in parts, on as many machines as there are: each sweeps a share of the workspace, and the parts merge into the
-//! report of one run, byte for byte.
+//! An analysis divided over several machines. Each sweeps a share of the workspace, and the merged
+//! report is byte for byte that of a single run.
 //!
-//! `question` is what is asked, with the texts of its files; `shard` which share of it; `part` what was gathered there, and
-//! `file` how that is written. `merge` puts the parts together.
+//! `request` holds the options and file texts, `shard` identifies a share, `part` holds its data,
+//! and `file` its format. `merge` combines the parts.
 
 mod file;
 mod merge;
 mod part;
-mod question;
+mod request;
 pub(super) mod shard;
 
 pub use merge::merge;
 pub use part::Part;
-pub use question::{Change, Question, Written};
+pub use request::{AnalysisRequest, Change, FileText};
 pub use shard::Shard;

@@ -1,4 +1,4 @@
-//! Which share of a workspace.
+//! A share of a workspace.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,47 +6,47 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// Share `number` of `of`, counted from 1: `3/7`. As text it is serialized, too.
+/// Share `number` of `count`, counted from 1. Serialized as text: `3/7`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct Shard {
     number: u32,
-    of: u32,
+    count: u32,
 }
 
 impl Shard {
-    /// The most shares of one analysis.
-    pub const MOST: u32 = 100_000;
+    /// Largest number of shards of one analysis.
+    pub const MAX: u32 = 100_000;
 
-    /// Share `number` of `of`; what is wrong with them otherwise.
-    pub fn new(number: u32, of: u32) -> Result<Self, String> {
-        match (number, of) {
-            (_, 1..=Self::MOST) if (1..=of).contains(&number) => Ok(Self { number, of }),
-            (_, 1..=Self::MOST) => Err(format!("shards are counted from 1: 1/{of} to {of}/{of}")),
-            _ => Err(format!("from 1 to {} shards", Self::MOST)),
+    /// Creates the shard; returns a message if the numbers are out of range.
+    pub fn new(number: u32, count: u32) -> Result<Self, String> {
+        match (number, count) {
+            (_, 1..=Self::MAX) if (1..=count).contains(&number) => Ok(Self { number, count }),
+            (_, 1..=Self::MAX) => Err(format!("shards are counted from 1: 1/{count} to {count}/{count}")),
+            _ => Err(format!("from 1 to {} shards", Self::MAX)),
         }
     }
 
-    /// Which one it is, from 1 on.
+    /// Returns the number of this shard, from 1.
     pub fn number(self) -> u32 {
         self.number
     }
 
-    /// Of how many.
-    pub fn of(self) -> u32 {
-        self.of
+    /// Returns the number of shards.
+    pub fn count(self) -> u32 {
+        self.count
     }
 
-    /// Its share of so many chunks; of few, some shards have none.
-    pub(in crate::analyze) fn chunks(self, count: usize) -> Range<usize> {
-        let end = |number: u32| (count as u128 * u128::from(number) / u128::from(self.of)) as usize;
+    /// Returns this shard's range of the chunks. It may be empty if there are few chunks.
+    pub(in crate::analyze) fn chunks(self, chunks: usize) -> Range<usize> {
+        let end = |number: u32| (chunks as u128 * u128::from(number) / u128::from(self.count)) as usize;
         end(self.number - 1)..end(self.number)
     }
 }
 
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.number, self.of)
+        write!(f, "{}/{}", self.number, self.count)
     }
 }
 
@@ -68,10 +68,11 @@ impl FromStr for Shard {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let numbers =
-            text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
-        let (number, of) = numbers.ok_or("write I/N: 3/7 is the third of seven shards")?;
-        Self::new(number, of)
+        let numbers = text
+            .split_once('/')
+            .and_then(|(number, count)| Some((number.parse().ok()?, count.parse().ok()?)));
+        let (number, count) = numbers.ok_or("write I/N: 3/7 is the third of seven shards")?;
+        Self::new(number, count)
     }
 }
 
@@ -81,20 +82,20 @@ mod tests {
 
     #[test]
     fn shards_are_all_chunks_one_after_the_other() {
-        for (count, of) in [(0, 3), (1, 1), (5, 7), (64, 7), (244_141, 64)] {
+        for (all, count) in [(0, 3), (1, 1), (5, 7), (64, 7), (244_141, 64)] {
             let mut next = 0;
-            for number in 1..=of {
-                let chunks = Shard::new(number, of).unwrap().chunks(count);
+            for number in 1..=count {
+                let chunks = Shard::new(number, count).unwrap().chunks(all);
                 assert_eq!(chunks.start, next);
-                assert!(chunks.len() <= count.div_ceil(of as usize));
+                assert!(chunks.len() <= all.div_ceil(count as usize));
                 next = chunks.end;
             }
-            assert_eq!(next, count);
+            assert_eq!(next, all);
         }
     }
 
     #[test]
-    fn they_are_written_as_they_are_read() {
+    fn text_round_trips() {
         assert_eq!("3/7".parse::<Shard>().unwrap().to_string(), "3/7");
         for text in ["0/7", "8/7", "1/0", "1/100001", "3", "a/b", "-1/3", "1/3/4"] {
             assert!(text.parse::<Shard>().is_err(), "{text}");

@@ -1,4 +1,4 @@
-//! The position errors of all sources together.
+//! Position errors of all sources together.
 
 use abbe::analysis::{Combined, Sphere};
 use serde::Serialize;
@@ -6,18 +6,19 @@ use serde::Serialize;
 use super::error_sites::ErrorSites;
 use crate::number::Named;
 
-/// Errors of all sources together over the workspace: position in the length unit, orientation in rad.
+/// Combined errors over the workspace, as the paper adds them. Position: along x, y, z of `F_0`, in
+/// the length unit; orientation: rows 4–6, in rad. Each entry is the largest over the workspace.
 #[derive(Clone, Debug, Serialize)]
 pub struct Radii {
-    /// The largest norm of the sum of the repeatable sources.
+    /// Norm of the sum of the repeatable sources.
     pub repeatable_radius: f64,
-    /// The largest root sum of squares of the random sources at their bounds.
+    /// Norm of the root sum of squares of the random sources at their bounds.
     pub random_radius: f64,
-    /// The largest sum of both norms.
+    /// Sum of both norms at one configuration.
     pub radius: f64,
-    /// The largest sum of the repeatable sources, row by row.
+    /// Absolute value of the sum of the repeatable sources, row by row.
     pub repeatable: [f64; 3],
-    /// The largest root sum of squares of the random sources, row by row.
+    /// Root sum of squares of the random sources, row by row.
     pub random: [f64; 3],
 }
 
@@ -33,56 +34,56 @@ impl From<&Combined> for Radii {
     }
 }
 
-/// Position errors of all sources together over the workspace, in the length unit.
+/// Combined position errors over the workspace, along x, y, z of `F_0`, in the length unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct CombinedReport {
-    /// The errors as the paper adds them.
+    /// Errors as the paper adds them.
     #[serde(flatten)]
     pub radii: Radii,
-    /// Configuration with the largest radius.
+    /// Configuration with the largest radius: joint variables and varying inputs.
     pub worst: Named,
-    /// Parameters of that configuration which the workspace moves.
+    /// Parameters of that configuration that vary over the workspace.
     pub worst_parameters: Named,
-    /// Root mean squares over the configurations.
+    /// Root mean squares of the norms over the configurations.
     pub rms: RootMeanSquares,
-    /// The largest standard deviation along x, y, z.
+    /// Largest standard deviations along x, y, z.
     pub standard_deviation: [f64; 3],
-    /// The largest standard deviation of the position.
+    /// Largest standard deviation of the position, √(trace of the covariance).
     pub standard_radius: f64,
-    /// The largest sum of absolute values along x, y, z.
+    /// Largest sums of absolute values of all sources along x, y, z.
     pub worst_case: [f64; 3],
-    /// The largest sum of the norms of all sources.
+    /// Largest sum of the norms of all sources.
     pub worst_case_radius: f64,
-    /// The longest of the 95 % ellipsoids.
+    /// Longest of the 95 % ellipsoids.
     pub ellipsoid: LongestEllipsoid,
-    /// The smallest sphere around the repeatable errors.
+    /// Smallest sphere that encloses the repeatable errors of all configurations.
     pub enclosing_sphere: Sphere,
 }
 
-/// Root mean squares over the configurations of three norms.
+/// Root mean squares of three norms over the configurations, in the length unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct RootMeanSquares {
-    /// Of the repeatable sources.
+    /// Sum of the repeatable sources.
     pub repeatable: f64,
-    /// Of the random sources.
+    /// Root sum of squares of the random sources at their bounds.
     pub random: f64,
-    /// Of both, added.
+    /// Sum of both norms.
     pub both: f64,
 }
 
-/// The longest of the 95 % ellipsoids.
+/// Longest of the 95 % ellipsoids of the random errors.
 #[derive(Clone, Debug, Serialize)]
 pub struct LongestEllipsoid {
-    /// Half its lengths, the largest first.
+    /// Semi-axes, longest first, in the length unit.
     pub semi_axes: [f64; 3],
-    /// Their directions in `F_0`.
+    /// Directions of the semi-axes, unit vectors in `F_0`.
     pub axes: [[f64; 3]; 3],
-    /// Configuration where it is.
+    /// Configuration with this ellipsoid.
     pub worst: Named,
 }
 
 impl CombinedReport {
-    /// Names the configurations of what a budget has of all sources together.
+    /// Creates the report from a budget, with the names of configurations.
     pub(in crate::analyze) fn new(combined: &Combined, sites: &ErrorSites) -> Self {
         let [repeatable, random, both] = combined.rms;
         let (ellipsoid, sphere) = (&combined.ellipsoid, combined.enclosing);
@@ -98,7 +99,7 @@ impl CombinedReport {
             worst_case_radius: combined.worst_case_radius.value,
             ellipsoid: LongestEllipsoid {
                 semi_axes: ellipsoid.semi_axes,
-                // Never −0.
+                // Avoids −0.
                 axes: ellipsoid.principal.axes.map(|axis| axis.map(|value| value + 0.0)),
                 worst: sites.variables(ellipsoid.configuration),
             },

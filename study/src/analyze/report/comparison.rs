@@ -1,4 +1,4 @@
-//! Our figures beside published ones.
+//! Comparison with published figures.
 
 use abbe::analysis::{Combined, Figures};
 use serde::{Serialize, Serializer};
@@ -6,38 +6,38 @@ use serde::{Serialize, Serializer};
 use super::source_report::SourceReport;
 use crate::study_file::{CombinedFigure, Metric, Published, Subject};
 
-/// A published figure: of a source in a metric, or of all together.
+/// A published figure, of one source in one metric or of all sources together.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// Name of the source, or `combined`.
     pub figure: String,
     /// Name of the metric, or of the combined figure.
     pub metric: &'static str,
-    /// Along x, y, z and of the norm, as far as they are printed.
+    /// Published values for x, y, z and norm, in the length unit; `None` where nothing is printed.
     #[serde(flatten, serialize_with = "by_axis")]
     pub figures: [Option<f64>; 4],
-    /// Largest difference that counts as equal: half a unit of the last printed digit.
+    /// Largest difference that counts as agreement: half a unit of the last printed digit.
     pub within: f64,
-    /// Whether it is met.
+    /// Agreement with the computed figure. Serialized as a Boolean.
     #[serde(rename = "met", serialize_with = "is_met")]
     pub agreement: Agreement,
-    /// Where it is printed.
+    /// Table or page where it is printed.
     pub reference: String,
-    /// What it is about.
+    /// Source and metric, or combined figure.
     #[serde(skip)]
     pub subject: Subject,
 }
 
-/// Whether a published figure is met.
+/// Agreement with a published figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Agreement {
-    /// To its last digit.
+    /// Agrees to its last digit.
     Met,
-    /// Not, by this difference at most, which is this share of the published figure.
+    /// Differs from it.
     Missed {
-        /// In the length unit.
+        /// Computed − published, for the component with the largest difference, in the length unit.
         difference: f64,
-        /// None where the published figure is 0.
+        /// Difference divided by the published value; `None` if that is 0.
         share: Option<f64>,
     },
 }
@@ -49,7 +49,8 @@ impl Agreement {
         let misses =
             pairs.filter_map(|(found, published)| published.map(|published| (found - published, published)));
         match misses.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) {
-            // Printed figures are decimal, ours are binary: half of the last digit may be off by a rounding.
+            // Printed figures are decimal, computed ones binary: half of the last digit may be off
+            // by rounding.
             Some((difference, printed)) if difference.abs() > published.within * (1.0 + 1e-9) => {
                 let share = (printed != 0.0).then(|| difference / printed);
                 Self::Missed { difference, share }
@@ -60,7 +61,7 @@ impl Agreement {
 }
 
 impl Comparison {
-    /// Compares with all published figures; those of sources that are switched off are left out.
+    /// Compares all published figures. Leaves out those of disabled sources.
     pub(in crate::analyze) fn all(
         published: &[Published],
         sources: &[SourceReport],

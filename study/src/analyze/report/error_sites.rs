@@ -1,4 +1,4 @@
-//! The configurations where errors are largest, with names.
+//! Configurations with the largest errors, with names.
 
 use std::collections::BTreeMap;
 
@@ -7,26 +7,28 @@ use abbe_spec::Spec;
 
 use crate::number::Named;
 
-/// A configuration where errors were evaluated, and the names of what moves there.
+/// A configuration where errors were evaluated, with the names of the variables, inputs and
+/// parameters that vary.
 #[derive(Clone, Debug)]
 pub(in crate::analyze) struct ErrorSite {
     /// The configuration.
     pub(in crate::analyze) configuration: Configuration,
-    /// Its variables, and the inputs that the workspace moves.
+    /// Joint variables, and the inputs that vary over the workspace.
     pub(super) variables: Named,
-    /// The parameters that the workspace moves.
+    /// Parameters that vary over the workspace.
     pub(super) parameters: Named,
 }
 
-/// Home, and the configurations that a budget names by their index in the workspace.
+/// Home, and the configurations that a budget refers to by their index in the workspace.
 #[derive(Clone, Debug)]
 pub(in crate::analyze) struct ErrorSites {
     pub(in crate::analyze) home: ErrorSite,
-    of_index: BTreeMap<usize, ErrorSite>,
+    by_index: BTreeMap<usize, ErrorSite>,
 }
 
 impl ErrorSites {
-    /// Finds those of a budget; `varying` and `moving_inputs` are the indices of what the workspace moves.
+    /// Collects the sites of a budget. `varying` and `moving_inputs` are the indices of the
+    /// parameters and inputs that vary over the workspace.
     pub(in crate::analyze) fn new(
         budget: &Budget,
         workspace: &dyn Workspace,
@@ -59,20 +61,20 @@ impl ErrorSites {
         let indices = indices.chain([all.ellipsoid.configuration]).flatten();
         let indices = indices.chain(budget.least_likely.iter().flatten().copied());
         let site = |index: usize| Some((index, named(workspace.configuration(index).ok()?)));
-        Self { home: named(workspace.home().clone()), of_index: indices.filter_map(site).collect() }
+        Self { home: named(workspace.home().clone()), by_index: indices.filter_map(site).collect() }
     }
 
-    /// Returns the site of an index; none of an empty workspace.
+    /// Returns the site of a workspace index; `None` for an empty workspace.
     pub(in crate::analyze) fn get(&self, index: Option<usize>) -> Option<&ErrorSite> {
-        self.of_index.get(&index?)
+        self.by_index.get(&index?)
     }
 
-    /// Names the variables and inputs of an index.
+    /// Returns the variables and inputs of a workspace index.
     pub(super) fn variables(&self, index: Option<usize>) -> Named {
         self.get(index).map(|site| site.variables.clone()).unwrap_or_default()
     }
 
-    /// Names the parameters of an index.
+    /// Returns the parameters of a workspace index.
     pub(super) fn parameters(&self, index: Option<usize>) -> Named {
         self.get(index).map(|site| site.parameters.clone()).unwrap_or_default()
     }

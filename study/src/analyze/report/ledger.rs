@@ -1,4 +1,4 @@
-//! The ledger: the sources by rank, then their sums.
+//! The ledger: sources by rank, followed by their sums.
 
 use abbe::analysis::{Budget, Extreme};
 use serde::Serialize;
@@ -6,32 +6,32 @@ use serde::Serialize;
 use super::source_report::SourceReport;
 use crate::number;
 
-/// Norms of the position error, in the length unit.
+/// Ledger of the position errors: norms in the length unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Ledger {
-    /// The sources, the largest first.
+    /// Sources, largest maximum first.
     pub sources: Vec<LedgerEntry>,
-    /// Sums over the sources: repeatable, random, all together, worst case.
+    /// Sums over the sources: repeatable, random, all, worst case.
     pub sums: [LedgerEntry; 4],
 }
 
-/// A source, or a sum over the sources.
+/// Row of the ledger: a source, or a sum over the sources.
 #[derive(Clone, Debug, Serialize)]
 pub struct LedgerEntry {
-    /// Its name.
+    /// Name of the source or sum.
     pub name: String,
-    /// The largest norm.
+    /// Largest norm over the workspace.
     pub max: f64,
-    /// Root mean square over the configurations; the worst case has none.
+    /// Root mean square of the norm over the configurations; `None` for the worst case.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rms: Option<f64>,
-    /// The largest norm as a share of the tolerance.
+    /// Largest norm divided by the tolerance; `None` without a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share_of_tolerance: Option<f64>,
-    /// Class of a source.
+    /// Class of the source; `None` for sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub class: Option<&'static str>,
-    /// Rank of a source by its largest norm, 1 for the largest.
+    /// Rank of the source by its largest norm, 1 for the largest; `None` for sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rank: Option<usize>,
     /// Index of the configuration with the largest norm.
@@ -40,7 +40,7 @@ pub struct LedgerEntry {
 }
 
 impl Ledger {
-    /// Ranks the sources of a budget.
+    /// Creates the ledger of a budget.
     pub(in crate::analyze) fn new(budget: &Budget, sources: &[SourceReport], tolerance: Option<f64>) -> Self {
         let entry = |name: &str, largest: Extreme, rms| LedgerEntry {
             name: name.to_owned(),

@@ -1,15 +1,17 @@
-//! The answer: what was found over a workspace.
+//! Report of an analysis.
 //!
-//! Each file is one part of it, with the names of sources and of `error_sites`: `source_report` each source alone, `combined` all
-//! together, `orientation` rows 4–6, `ledger` the ranks, `error_allowance` the budget backwards, `tolerance_verdict` the verdict,
-//! `uncertainty_budget` the budget after the GUM with `source_value`, `comparison` what is published, `drawn` Monte Carlo.
+//! Each file is one part of it: `source_report` holds each source alone, `combined` all sources,
+//! `orientation` rows 4–6, `ledger` the ranking, `error_allowance` the inverse budget,
+//! `tolerance_verdict` the verdicts, `uncertainty_budget` and `source_value` the budget after the
+//! GUM, `comparison` the published figures, `monte_carlo` the draws, and `error_sites` the
+//! names of configurations.
 
 mod combined;
 mod comparison;
-mod drawn;
 mod error_allowance;
 mod error_sites;
 mod ledger;
+mod monte_carlo;
 mod orientation;
 mod source_report;
 mod source_value;
@@ -24,10 +26,10 @@ use serde::{Serialize, Serializer};
 
 pub use combined::{CombinedReport, LongestEllipsoid, Radii, RootMeanSquares};
 pub use comparison::{Agreement, Comparison};
-pub use drawn::{Drawn, DrawnErrors};
 pub use error_allowance::{ErrorAllowance, SourceAllowance};
 pub(super) use error_sites::ErrorSites;
 pub use ledger::{Ledger, LedgerEntry};
+pub use monte_carlo::{MonteCarloErrors, MonteCarloReport};
 pub use orientation::{OrientationReport, OrientationSource};
 pub use source_report::SourceReport;
 pub use source_value::Quantity;
@@ -37,14 +39,15 @@ pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 
 use super::figures::Figures;
 use super::first_order::FirstOrder;
-use super::unreachable::Reason;
-use crate::bound::Norms;
+use super::unreachable::UnreachableReason;
+use crate::bound::CertifiedNorms;
 use crate::number;
 use crate::study_file::{CombinedFigure, PublishedResidual, Study, Subject};
 
-/// What the sources do over a workspace. Lengths in the spec's unit and along the axes of `F_0`, angles in rad.
+/// Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`;
+/// angles are in rad.
 ///
-/// Serialized it is what `abbe analyze --json` prints.
+/// Serialized, this is the output of `abbe analyze --json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the manipulator.
@@ -53,87 +56,90 @@ pub struct Report {
     pub configurations: usize,
     /// Number of configurations that could not be reached.
     pub unreachable: usize,
-    /// Position errors of each source alone. These are the sources that are switched on.
+    /// Position errors of each enabled source alone.
     pub sources: Vec<SourceReport>,
     /// Position errors of all sources together.
     pub combined: CombinedReport,
     /// Title of the study.
     #[serde(rename = "study")]
     pub title: String,
-    /// The workspace in a sentence.
+    /// Description of the workspace in a sentence.
     pub workspace: String,
     /// Symbol of the length unit.
     pub length: &'static str,
-    /// The study's tolerance of the position error.
+    /// Tolerance of the position error, from the study.
     #[serde(rename = "tolerance", skip_serializing_if = "Option::is_none")]
     pub position_tolerance: Option<f64>,
-    /// Verdicts on the tolerances of the study; none if it has no tolerance.
+    /// Verdicts on the tolerances; `None` if the study has none.
     #[serde(rename = "verdict", skip_serializing_if = "Option::is_none")]
     pub verdicts: Option<Verdicts>,
-    /// Uncertainty budget of the position after the GUM; none if no random source moves the tool point.
+    /// Uncertainty budget of the position after the GUM; `None` if no random source moves the tool
+    /// point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyBudget>,
-    /// Errors of the orientation.
+    /// Orientation errors.
     pub orientation: OrientationReport,
-    /// Published figures beside ours.
+    /// Published figures compared with the computed ones.
     #[serde(rename = "published")]
     pub comparisons: Vec<Comparison>,
-    /// The published residual after compensation, with our random errors.
+    /// Published residual after compensation, combined with the computed random errors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub after_compensation: Option<AfterCompensation>,
-    /// What first order neglects.
+    /// First-order error.
     pub first_order: FirstOrder,
-    /// What the norms of all errors are at most; none if the workspace has no box, or too many names move.
+    /// Certified upper bounds on the norms; `None` if the workspace has no enclosing box, or too
+    /// many names vary.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub certified: Option<Norms>,
-    /// Reasons why configurations could not be reached, the most frequent first.
-    pub unreachable_reasons: Vec<Reason>,
-    /// What cannot be reproduced of what was published, one sentence each.
+    pub certified: Option<CertifiedNorms>,
+    /// Reasons for unreachable configurations, most frequent first.
+    pub unreachable_reasons: Vec<UnreachableReason>,
+    /// Published figures that cannot be reproduced, one sentence each.
     pub not_reproducible: Vec<String>,
-    /// The sources by rank, and their sums.
+    /// Sources by rank, and their sums.
     pub ledger: Ledger,
-    /// What the tolerance of the position allows.
+    /// Errors that the position tolerance allows; `None` without one.
     #[serde(rename = "budget", skip_serializing_if = "Option::is_none")]
     pub allowance: Option<ErrorAllowance>,
-    /// What compensation leaves, if the study asks for it.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "values")]
+    /// Errors that remain after compensation; `None` if the study does not request it.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_values")]
     pub compensation: Option<RemainingErrors>,
-    /// What was drawn, if it was asked for.
+    /// Monte Carlo draws; `None` if they were not requested.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub monte_carlo: Option<Drawn>,
+    pub monte_carlo: Option<MonteCarloReport>,
 
-    /// The manipulator, with all changes.
+    /// Spec of the manipulator, with all changes.
     #[serde(skip)]
     pub spec: Arc<Spec>,
-    /// The study that was asked for.
+    /// The study.
     #[serde(skip)]
     pub study: Study,
-    /// The home configuration, with which those of the workspace are compared.
+    /// Home configuration, against which labels of configurations are relative.
     #[serde(skip)]
     pub home: Configuration,
-    /// Indices of the inputs that the workspace moves; the others are nominal.
+    /// Indices of the inputs that vary over the workspace; the others are nominal.
     #[serde(skip)]
     pub moving_inputs: Vec<usize>,
-    /// Every source alone, and all together, by index: sources are counted as in [`sources`](Self::sources).
+    /// Budget by index, sources counted as in [`sources`](Self::sources).
     #[serde(skip)]
     pub budget: Budget,
-    /// What the figures of the study show, if it was asked for.
+    /// Data of the study's figures; `None` if they were not requested.
     #[serde(skip)]
     pub figures: Option<Figures>,
     #[serde(skip)]
     pub(super) sites: ErrorSites,
 }
 
-/// The published residual after compensation, with our random errors.
+/// Published residual after compensation, combined with the computed random errors. In the length
+/// unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct AfterCompensation {
-    /// The published residual of the repeatable errors.
+    /// Published residual of the repeatable errors.
     pub residual: f64,
-    /// Our random errors.
+    /// Computed random radius.
     pub random: f64,
-    /// Both, added.
+    /// Sum of both.
     pub total: f64,
-    /// What is published.
+    /// The published figures.
     pub published: PublishedResidual,
 }
 
@@ -144,7 +150,7 @@ impl AfterCompensation {
     }
 }
 
-fn values<S: Serializer>(left: &Option<RemainingErrors>, serializer: S) -> Result<S::Ok, S::Error> {
+fn serialize_values<S: Serializer>(left: &Option<RemainingErrors>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(left.iter().flat_map(|left| {
         [("residual", left.residual), ("residual_sum", left.residual_sum), ("total", left.total)]
             .map(|(name, extreme)| (name, extreme.value))
@@ -152,12 +158,12 @@ fn values<S: Serializer>(left: &Option<RemainingErrors>, serializer: S) -> Resul
 }
 
 impl Report {
-    /// The configuration of an index of the budget.
+    /// Returns the configuration of a workspace index in the budget.
     pub fn configuration(&self, index: Option<usize>) -> Option<&Configuration> {
         self.sites.get(index).map(|site| &site.configuration)
     }
 
-    /// The tolerance of a measurand.
+    /// Returns the tolerance of a measurand.
     pub fn tolerance(&self, measurand: Measurand) -> Option<f64> {
         match measurand {
             Measurand::Position => self.position_tolerance,
@@ -165,7 +171,7 @@ impl Report {
         }
     }
 
-    /// What it allows.
+    /// Returns the errors that the tolerance of a measurand allows.
     pub fn allowance(&self, measurand: Measurand) -> Option<&ErrorAllowance> {
         match measurand {
             Measurand::Position => self.allowance.as_ref(),
@@ -173,22 +179,23 @@ impl Report {
         }
     }
 
-    /// The uncertainty budgets, that of position first.
+    /// Iterates over the uncertainty budgets, position first.
     pub fn uncertainty_budgets(&self) -> impl Iterator<Item = &UncertaintyBudget> {
         self.uncertainty.iter().chain(&self.orientation.uncertainty)
     }
 
-    /// The worst verdict on the tolerances of the study; none if it has no tolerance.
+    /// Returns the worst verdict; `None` if the study has no tolerance.
     pub fn verdict(&self) -> Option<Verdict> {
         self.verdicts.as_ref().map(|verdicts| verdicts.verdict)
     }
 
-    /// What is published on something; none of a source that is switched off.
+    /// Returns the comparison with a published figure; `None` if nothing is published or the source
+    /// is disabled.
     pub fn published(&self, subject: &Subject) -> Option<&Comparison> {
         self.comparisons.iter().find(|comparison| comparison.subject == *subject)
     }
 
-    /// One of the three figures of all sources together; the radius has no components.
+    /// Returns one of the three combined figures: its components, if it has any, and its norm.
     pub fn combined_figure(&self, figure: CombinedFigure) -> ([Option<f64>; 3], f64) {
         let radii = &self.combined.radii;
         match figure {
@@ -198,7 +205,8 @@ impl Report {
         }
     }
 
-    /// The inputs in words: `payload within 0 kg … 5 kg (0 kg at home)`, or `payload = 0 kg` of one that does not move.
+    /// Returns the inputs in words: `payload within 0 kg … 5 kg (0 kg at home)`, or `payload = 0
+    /// kg` for one that does not vary.
     pub fn inputs(&self) -> Vec<String> {
         let inputs = self.spec.inputs.iter().enumerate();
         let inputs = inputs.map(|(i, input)| {
@@ -212,12 +220,12 @@ impl Report {
         inputs.collect()
     }
 
-    /// Who printed the published figures.
+    /// Returns the publisher of the published figures.
     pub fn publisher(&self) -> &str {
         if self.study.publisher.is_empty() { "what is published" } else { &self.study.publisher }
     }
 
-    /// What is not at home at a configuration.
+    /// Describes a configuration by its differences from home.
     pub fn label(&self, configuration: &Configuration) -> String {
         number::configuration(configuration, &self.home, &self.spec)
     }

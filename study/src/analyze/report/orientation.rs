@@ -1,4 +1,4 @@
-//! The orientation errors of the sources: rows 4–6 and their norm, rad.
+//! Orientation errors of the sources: rows 4–6 and their norm, in rad.
 
 use abbe::Orientation;
 use abbe::analysis::{Budget, Figures, Measurand, SourceErrors};
@@ -11,43 +11,43 @@ use super::error_sites::ErrorSites;
 use super::uncertainty_budget::UncertaintyBudget;
 use crate::number::Named;
 
-/// Orientation errors over the workspace, rad.
+/// Orientation errors over the workspace, in rad.
 #[derive(Clone, Debug, Serialize)]
 pub struct OrientationReport {
     /// Names of rows 4–6.
     pub rows: [&'static str; 3],
-    /// Each source alone.
+    /// Errors of each source alone.
     pub sources: Vec<OrientationSource>,
-    /// All sources together, as the paper adds them.
+    /// Combined errors, as the paper adds them.
     #[serde(flatten)]
     pub radii: Radii,
-    /// The largest standard deviation, row by row.
+    /// Largest standard deviations, row by row.
     pub standard_deviation: [f64; 3],
-    /// The largest standard deviation of the norm.
+    /// Largest standard deviation of the norm.
     pub standard_radius: f64,
-    /// Configuration with the largest radius.
+    /// Configuration with the largest radius: joint variables and varying inputs.
     pub worst: Named,
-    /// The study's tolerance of the norm.
+    /// Tolerance of the norm, from the study.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// What this tolerance allows.
+    /// Errors that this tolerance allows.
     #[serde(rename = "budget", skip_serializing_if = "Option::is_none")]
     pub allowance: Option<ErrorAllowance>,
-    /// Uncertainty budget after the GUM; none if no random source turns the tool.
+    /// Uncertainty budget after the GUM; `None` if no random source rotates the tool.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyBudget>,
 }
 
-/// Orientation errors of one source over the workspace, rad.
+/// Orientation errors of one source alone over the workspace: rows 4–6 and their norm, in rad.
 #[derive(Clone, Debug, Serialize)]
 pub struct OrientationSource {
     /// Name of the source.
     pub name: String,
-    /// The largest error.
+    /// Largest absolute error. Random sources count at their bounds.
     pub plain_max: Figures,
-    /// Half of what the error varies by.
+    /// Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere.
     pub half_peak_to_peak: Figures,
-    /// The largest difference from the error at home.
+    /// Largest difference from the error at home.
     pub relative_to_home: Figures,
     /// Root mean square of the norm over the configurations.
     pub rms: f64,
@@ -56,7 +56,7 @@ pub struct OrientationSource {
 }
 
 impl OrientationReport {
-    /// Names the sources and configurations of a budget.
+    /// Creates the report from a budget, with the names of sources and configurations.
     pub(in crate::analyze) fn new(
         budget: &Budget,
         spec: &Spec,

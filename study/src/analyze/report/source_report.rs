@@ -1,4 +1,4 @@
-//! The position errors of one source.
+//! Position errors of one source.
 
 use abbe::Class;
 use abbe::analysis::{Budget, Figures, SourceErrors};
@@ -9,30 +9,33 @@ use super::error_sites::ErrorSites;
 use crate::number::{self, Named};
 use crate::study_file::Metric;
 
-/// Position errors of one source over the workspace, in the length unit.
+/// Position errors of one source alone over the workspace: along x, y, z of `F_0` and their norm,
+/// in the length unit. Random sources count at their bounds.
 #[derive(Clone, Debug, Serialize)]
 pub struct SourceReport {
     /// Name of the source.
     pub name: String,
-    /// Where in the chain it is.
+    /// Element of the chain that the source acts on.
     pub at: String,
-    /// Repeatable or random.
+    /// Class of the source: `repeatable` or `random`.
     #[serde(serialize_with = "class")]
     pub class: Class,
-    /// The largest error.
+    /// Largest absolute error.
     pub plain_max: Figures,
-    /// Half of what the error varies by.
+    /// Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere. For a
+    /// random source, its largest bound.
     pub half_peak_to_peak: Figures,
-    /// The largest difference from the error at home.
+    /// Largest difference from the error at home. For a random source, the largest difference of
+    /// two draws.
     pub relative_to_home: Figures,
-    /// Configuration with the largest norm.
+    /// Configuration with the largest norm: joint variables and varying inputs.
     pub worst: Named,
-    /// Distribution of a random source.
+    /// Distribution of a random source; `None` for a repeatable one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distribution: Option<&'static str>,
-    /// Parameters of that configuration which the workspace moves.
+    /// Parameters of that configuration that vary over the workspace.
     pub worst_parameters: Named,
-    /// The largest errors of rows 4–6, rad.
+    /// Largest absolute orientation errors, rows 4–6, in rad.
     pub orientation: [f64; 3],
     /// Index of the configuration with the largest norm.
     #[serde(skip)]
@@ -40,7 +43,7 @@ pub struct SourceReport {
 }
 
 impl SourceReport {
-    /// Names the sources of a budget.
+    /// Creates the reports of all sources in a budget.
     pub(in crate::analyze) fn all(budget: &Budget, spec: &Spec, sites: &ErrorSites) -> Vec<Self> {
         let errors = budget.sources.iter().zip(&budget.orientation.sources);
         let named = spec.enabled_sources().zip(errors).map(|(source, (errors, turned))| {
@@ -63,7 +66,7 @@ impl SourceReport {
         named.collect()
     }
 
-    /// The errors in one metric.
+    /// Returns the errors in one metric.
     pub fn figures(&self, metric: Metric) -> Figures {
         match metric {
             Metric::PlainMaximum => self.plain_max,

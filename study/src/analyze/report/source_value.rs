@@ -1,33 +1,34 @@
-//! What the value of a random source is, as it stands in the spec.
+//! Value of a random source, as stated in the spec.
 
 use abbe::analysis::Contribution;
 use abbe::{Component, VariableKind};
 use abbe_spec::{ChainNumber, DhNumber, Source, Spec};
 
-/// The value of a source, in the spec's coherent system, and what it is a value of.
+/// Value of a source in the spec's coherent units, and its quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SourceValue {
-    /// 1 if it causes several errors.
+    /// Value of the source; 1 if it causes several errors.
     pub(super) value: f64,
     pub(super) quantity: Quantity,
 }
 
-/// The quantity that the value of a source is.
+/// Quantity of a source's value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Quantity {
-    /// A multiple of what the spec says.
+    /// Factor of the errors in the spec.
     Multiple,
-    /// A length, in the length unit.
+    /// Length, in the length unit.
     Length,
-    /// An angle, rad.
+    /// Angle, in rad.
     Angle,
-    /// A parameter, in this unit.
+    /// Parameter in this unit, or a plain number if the unit is empty.
     Parameter(String),
 }
 
 impl SourceValue {
-    /// The standard deviation of a magnitude, if that is what is not known; the error of a joint or parameter if that is all
-    /// the source has and it is constant; else the one generalized error that it causes at the configuration.
+    /// Determines the value of a source: the standard deviation of a magnitude; or the deviation of
+    /// a joint or parameter, if it is the only one and constant; or the only generalized error at
+    /// the configuration.
     pub(super) fn new(spec: &Spec, source: &Source, one: &Contribution) -> Self {
         if let Some(magnitude) = source.magnitude {
             return Self { value: magnitude.value, quantity: Quantity::Parameter(String::new()) };

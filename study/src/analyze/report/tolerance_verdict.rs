@@ -1,4 +1,4 @@
-//! Tolerances held against a budget.
+//! Verdicts on the tolerances of a study.
 
 use abbe::analysis::{Budget, Compliance, ErrorsAt, Measurand, compliance, normal_compliance};
 use serde::Serialize;
@@ -6,26 +6,26 @@ use serde::Serialize;
 use super::error_sites::ErrorSites;
 use crate::number::Named;
 
-/// The draws of verdicts and budgets are always the same: they are to be as good as integrals.
+/// Fixed seed of the draws for verdicts and uncertainty budgets, which stand in for integrals.
 pub(in crate::analyze) const SEED: u64 = 0;
 
 /// Verdicts on the tolerances of a study.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdicts {
-    /// The worst of them.
+    /// Worst of the verdicts.
     pub verdict: Verdict,
-    /// Probability with which a tolerance must be met.
+    /// Required probability of meeting each tolerance.
     pub probability_asked: f64,
-    /// On the position error.
+    /// Verdict on the position error; `None` without a position tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<ToleranceVerdict>,
-    /// On the orientation error.
+    /// Verdict on the orientation error; `None` without an orientation tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orientation: Option<ToleranceVerdict>,
 }
 
 impl Verdicts {
-    /// Returns none if there is no tolerance.
+    /// Combines the verdicts; returns `None` if there is no tolerance.
     pub(in crate::analyze) fn new(
         probability_asked: f64,
         [position, orientation]: [Option<ToleranceVerdict>; 2],
@@ -35,59 +35,63 @@ impl Verdicts {
         Some(Self { verdict, probability_asked, position, orientation })
     }
 
-    /// Returns the verdicts that there are, that on position first.
+    /// Iterates over the verdicts, position first.
     pub fn all(&self) -> impl Iterator<Item = &ToleranceVerdict> {
         self.position.iter().chain(&self.orientation)
     }
 }
 
-/// Whether a tolerance is met.
+/// Result of comparing an error with its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// For certain: all random sources are bounded, and no draw of any of them exceeds it at any
-    /// configuration of the workspace, to first order.
+    /// Certainly met: all random sources are bounded, and to first order no draw exceeds the
+    /// tolerance at any configuration of the workspace.
     Met,
-    /// With the probability that the study asks for, or more, at every configuration where that was evaluated.
+    /// Met with at least the required probability at each evaluated configuration.
     MetWithProbability,
-    /// With less than that at one of them.
+    /// Met with less than the required probability at some configuration.
     NotMet,
 }
 
-/// At how many configurations a probability is drawn at most. One is an integral if all sources are normal, and then it
-/// is evaluated at all that the budget has listed.
+/// Largest number of configurations at which the probability is estimated by draws. If all sources
+/// are normal it is an integral, which is evaluated at all configurations that the budget lists.
 const DRAWN: usize = 4;
 
-/// The verdict on position or orientation. Lengths in the spec's unit, angles in rad.
+/// Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 ///
-/// The probability is the least of those at the configurations that were looked at: the one with the largest radius (the
-/// norm of the repeatable errors and that of the random bounds, added), and those where an approximation has the tolerance
-/// least likely met, [`Budget::least_likely`]. Repeatable sources are as they are, random ones drawn, to first order.
+/// The probability is the smallest over the evaluated configurations: the one with the largest
+/// radius (norm of the repeatable errors + norm of the random bounds), and those that an
+/// approximation ranks least likely to meet the tolerance, [`Budget::least_likely`]. To first
+/// order; repeatable sources have their nominal values, random sources are distributed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ToleranceVerdict {
-    /// What it is about.
+    /// Position or orientation.
     #[serde(skip)]
     pub measurand: Measurand,
-    /// Whether the tolerance is met.
+    /// Verdict on the tolerance.
     pub verdict: Verdict,
-    /// How large the norm of the error may be.
+    /// Largest permitted norm of the error.
     pub tolerance: f64,
-    /// How likely the tolerance is met: 1 if for certain.
+    /// Probability of meeting the tolerance; 1 if certain.
     #[serde(flatten)]
     pub compliance: Compliance,
-    /// What no draw exceeds, all bounds added, each in the worst direction; none if a random source is not bounded.
+    /// Largest possible error over the workspace: the norm of the repeatable errors + the norms of
+    /// all random bounds. `None` if a random source is unbounded.
     pub largest: Option<f64>,
-    /// Configuration with that probability; with the largest radius, if the tolerance is met for certain.
+    /// Configuration with that probability. If the tolerance is certainly met, the configuration
+    /// with the largest radius.
     pub at: Named,
-    /// At how many configurations the probability was evaluated.
+    /// Number of configurations at which the probability was evaluated.
     pub configurations: usize,
-    /// Index of the configuration.
+    /// Index of the configuration in the workspace.
     #[serde(skip)]
     pub configuration: Option<usize>,
 }
 
 impl ToleranceVerdict {
-    /// Judges the errors of a budget; `errors_at` are those at a configuration.
+    /// Compares the errors of a budget with a tolerance and a required probability. `errors_at`
+    /// evaluates the errors at a configuration.
     pub(in crate::analyze) fn new<'a, E>(
         budget: &Budget,
         sites: &ErrorSites,
@@ -99,7 +103,7 @@ impl ToleranceVerdict {
         let bounded = sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
         let largest = bounded.then_some(combined.bounded_radius.value);
         let radius = combined.radius.configuration;
-        let judged = |verdict, compliance, configuration, configurations| Self {
+        let new_verdict = |verdict, compliance, configuration, configurations| Self {
             measurand,
             verdict,
             tolerance,
@@ -111,24 +115,24 @@ impl ToleranceVerdict {
         };
         if largest.is_some_and(|largest| largest <= tolerance) {
             let certain = Compliance { probability: 1.0, error: 0.0, draws: None };
-            return Ok(judged(Verdict::Met, certain, radius, 0));
+            return Ok(new_verdict(Verdict::Met, certain, radius, 0));
         }
-        let listed = budget.least_likely_of(measurand).iter().map(|index| Some(*index));
-        let mut places = Vec::new();
+        let listed = budget.least_likely_for(measurand).iter().map(|index| Some(*index));
+        let mut candidates = Vec::new();
         for index in [radius].into_iter().chain(listed.filter(|index| *index != radius)) {
             let errors = errors_at(index)?;
             let likely = normal_compliance(&errors, measurand, tolerance).probability;
-            places.push((likely, index, errors));
+            candidates.push((likely, index, errors));
         }
-        // Where several are alike the largest radius comes first.
-        places.sort_by(|a, b| a.0.total_cmp(&b.0));
-        if places.iter().any(|(.., errors)| !errors.is_normal(measurand)) {
-            places.truncate(DRAWN);
+        // A stable sort: among equals the configuration with the largest radius stays first.
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if candidates.iter().any(|(.., errors)| !errors.is_normal(measurand)) {
+            candidates.truncate(DRAWN);
         }
-        let configurations = places.len();
+        let configurations = candidates.len();
         let evaluate = |errors: &ErrorsAt| compliance(errors, measurand, tolerance, SEED);
-        let (mut compliance, mut configuration) = (evaluate(&places[0].2), places[0].1);
-        for (_, index, errors) in &places[1..] {
+        let (mut compliance, mut configuration) = (evaluate(&candidates[0].2), candidates[0].1);
+        for (_, index, errors) in &candidates[1..] {
             let here = evaluate(errors);
             if here.probability < compliance.probability {
                 (compliance, configuration) = (here, *index);
@@ -136,6 +140,6 @@ impl ToleranceVerdict {
         }
         let met = compliance.probability >= probability;
         let verdict = if met { Verdict::MetWithProbability } else { Verdict::NotMet };
-        Ok(judged(verdict, compliance, configuration, configurations))
+        Ok(new_verdict(verdict, compliance, configuration, configurations))
     }
 }

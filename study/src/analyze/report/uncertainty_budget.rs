@@ -1,4 +1,4 @@
-//! The uncertainty budget of a workspace, after the GUM.
+//! Uncertainty budget of a workspace, after the GUM.
 
 use abbe::Distribution;
 use abbe::analysis::{COVERAGE, Compliance, Contribution, Measurand, Statement};
@@ -9,39 +9,40 @@ use super::error_sites::ErrorSites;
 use super::source_value::{Quantity, SourceValue};
 use crate::number::Named;
 
-/// Uncertainty budget where the combined standard uncertainty of the norm is largest: three rows and the norm, lengths in the
-/// spec's unit, angles in rad.
+/// Uncertainty budget at the configuration with the largest combined standard uncertainty of the
+/// norm. Arrays hold three rows and the norm; lengths are in the spec's unit, angles in rad.
 #[derive(Clone, Debug, Serialize)]
 pub struct UncertaintyBudget {
-    /// What it is about.
+    /// Position or orientation.
     #[serde(skip)]
     pub measurand: Measurand,
-    /// Index of the configuration.
+    /// Index of the configuration in the workspace.
     #[serde(skip)]
     pub configuration: Option<usize>,
-    /// The configuration.
+    /// Joint variables and varying inputs of the configuration.
     pub at: Named,
-    /// Its parameters which the workspace moves.
+    /// Parameters of the configuration that vary over the workspace.
     pub at_parameters: Named,
-    /// The random sources that do something, the largest share first.
+    /// Random sources that contribute, largest share first.
     pub sources: Vec<SourceUncertainty>,
-    /// The sum of the repeatable sources.
+    /// Sum of the repeatable sources, with signs, and its norm.
     pub bias: [f64; 4],
     /// Combined standard uncertainties u.
     pub standard_uncertainty: [f64; 4],
-    /// Effective degrees of freedom; infinite if all standard uncertainties are known.
+    /// Effective degrees of freedom; infinite if all standard uncertainties are exact.
     pub effective_degrees_of_freedom: [f64; 4],
-    /// Probability that U is to cover.
+    /// Coverage probability of U.
     pub coverage_probability: f64,
     /// Coverage factors k.
     pub coverage_factor: [f64; 4],
     /// Expanded uncertainties `U = k u`.
     pub expanded_uncertainty: [f64; 4],
-    /// The share of the errors whose norm is within U, about the bias.
+    /// Probability that the deviation from the bias has a norm within U, with the actual
+    /// distributions.
     pub coverage: Compliance,
 }
 
-/// Contribution of one random source: figures are of three rows and their norm.
+/// Contribution of one random source. Arrays hold three rows and the norm.
 #[derive(Clone, Debug, Serialize)]
 pub struct SourceUncertainty {
     /// Name of the source.
@@ -49,25 +50,26 @@ pub struct SourceUncertainty {
     /// Distribution of its error.
     #[serde(serialize_with = "distribution")]
     pub distribution: Distribution,
-    /// Its value; none if it causes several errors: then it is a multiple of what the spec says.
+    /// Value of the source in the spec's unit; `None` if it causes several errors, whose common
+    /// factor is 1.
     pub value: Option<f64>,
-    /// The quantity that its value is.
+    /// Quantity of the value.
     #[serde(skip)]
     pub quantity: Quantity,
     /// Divisor of the value: `u = value × sensitivity / divisor`.
     pub divisor: f64,
-    /// `|∂ΔX / ∂value|`.
+    /// Sensitivity `|∂ΔX / ∂value|`.
     pub sensitivity: [f64; 4],
     /// Standard uncertainties u.
     pub standard_uncertainty: [f64; 4],
-    /// Degrees of freedom of the standard uncertainty; infinite if it is known.
+    /// Degrees of freedom of the standard uncertainty; infinite if it is exact.
     pub degrees_of_freedom: f64,
-    /// Its share of the variance.
+    /// Share of the variance of the norm, from 0 to 1.
     pub share: f64,
 }
 
 impl UncertaintyBudget {
-    /// Names the sources and the configuration of a statement.
+    /// Creates the budget from a statement, with the names of sources and configuration.
     pub(in crate::analyze) fn new(
         statement: &Statement,
         configuration: Option<usize>,
@@ -83,7 +85,7 @@ impl UncertaintyBudget {
             at: sites.variables(configuration),
             at_parameters: sites.parameters(configuration),
             sources: sources.collect(),
-            // Never −0.
+            // Avoids −0.
             bias: statement.bias.map(|value| value + 0.0),
             standard_uncertainty: statement.standard,
             effective_degrees_of_freedom: statement.degrees_of_freedom,
@@ -94,7 +96,7 @@ impl UncertaintyBudget {
         }
     }
 
-    /// Whether any standard uncertainty has a finite number of degrees of freedom.
+    /// Returns true if any standard uncertainty has finite degrees of freedom.
     pub(in crate::analyze) fn is_estimated(&self) -> bool {
         self.sources.iter().any(|one| one.degrees_of_freedom.is_finite())
     }

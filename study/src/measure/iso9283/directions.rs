@@ -1,7 +1,7 @@
 //! Multi-directional pose accuracy variation, 7.2.3.
 //!
-//! `vAP_p = max |ḡ_h − ḡ_k|` over the barycentres of one configuration approached from directions h and k;
-//! `vAP_a = max |ā_h − ā_k|`.
+//! `vAP_p = max |ḡ_h − ḡ_k|` over the barycentres of a configuration approached from directions h
+//! and k; `vAP_a = max |ā_h − ā_k|`.
 
 use std::collections::BTreeMap;
 
@@ -14,11 +14,11 @@ use super::visits::mean;
 /// Configurations that were approached from several directions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Directions {
-    /// How many there are.
+    /// Number of configurations.
     pub configurations: usize,
-    /// The fewest directions of one of them; the standard asks for three.
+    /// Smallest number of directions; the standard requires three.
     pub fewest: usize,
-    /// The fewest visits from one of these directions; the standard asks for 30.
+    /// Smallest number of visits from a direction; the standard requires 30.
     pub fewest_visits: usize,
     /// `vAP_p`.
     pub vap: MeanAndMax,
@@ -27,7 +27,7 @@ pub struct Directions {
 }
 
 impl Directions {
-    /// None where nothing was approached from two directions.
+    /// Returns none if no configuration was approached from two directions.
     pub(super) fn new(rows: &[Visit], oriented: bool) -> Option<Self> {
         let mut configurations: BTreeMap<u32, BTreeMap<u32, Vec<&Visit>>> = BTreeMap::new();
         for row in rows {
@@ -55,7 +55,7 @@ impl Directions {
     }
 }
 
-/// The largest difference of two.
+/// Returns the largest difference of two values.
 fn largest(values: &[[f64; 3]], size: impl Fn([f64; 3]) -> f64) -> f64 {
     let pairs = values.iter().enumerate().flat_map(|(i, a)| values[..i].iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| size(std::array::from_fn(|k| a[k] - b[k]))).fold(0.0, f64::max)

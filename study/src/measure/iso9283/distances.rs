@@ -1,7 +1,8 @@
 //! Distance accuracy and distance repeatability, 7.3.2 and 7.3.3.
 //!
-//! With `D_j = |P_1j − P_2j|` between the j-th visits of two configurations and `D_c` as commanded, `AD = D̄ − D_c` and
-//! `RD = ±3 √(Σ (D_j − D̄)²/(n − 1))`; of turns `D_a = a_1 − a_2`.
+//! With `D_j = |P_1j − P_2j|` between the j-th visits of two configurations and the commanded
+//! `D_c`, `AD = D̄ − D_c` and `RD = ±3 √(Σ (D_j − D̄)²/(n − 1))`; for orientations
+//! `D_a = a_1 − a_2`.
 
 use serde::Serialize;
 
@@ -9,26 +10,26 @@ use super::super::errors::{Visit, norm};
 use super::mean_and_max::MeanAndMax;
 use super::visits::{Visits, deviation};
 
-/// Pairs of configurations that were visited equally often.
+/// Pairs of configurations with equal numbers of visits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Distances {
-    /// How many pairs.
+    /// Number of pairs.
     pub pairs: usize,
-    /// `AD_p` without its sign.
+    /// Absolute value of `AD_p`.
     pub ad: MeanAndMax,
-    /// `AD_a`, `AD_b`, `AD_c` without their signs: rad.
+    /// Absolute values of `AD_a`, `AD_b`, `AD_c`, in rad.
     pub ad_turns: Option<[MeanAndMax; 3]>,
     /// `RD_p`.
     pub rd: MeanAndMax,
-    /// `RD_a`, `RD_b`, `RD_c`: rad.
+    /// `RD_a`, `RD_b`, `RD_c`, in rad.
     pub rd_turns: Option<[MeanAndMax; 3]>,
 }
 
-/// All pairs of the first so many configurations.
+/// Number of configurations whose pairs are evaluated.
 const CONFIGURATIONS: usize = 20;
 
 impl Distances {
-    /// None where no two configurations were visited equally often.
+    /// Returns none if no two configurations have equal numbers of visits.
     pub(super) fn new(groups: &[Visits<'_>], oriented: bool) -> Option<Self> {
         let groups = &groups[..groups.len().min(CONFIGURATIONS)];
         let pairs = groups.iter().enumerate().flat_map(|(i, a)| groups[..i].iter().map(move |b| (a, b)));
@@ -36,7 +37,7 @@ impl Distances {
         let (mut ad, mut rd, mut ad_turns, mut rd_turns) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (a, b) in &pairs {
             let visits = || a.iter().zip(b.iter());
-            // D_j − D_c: what is commanded may differ from visit to visit by what the joints resolve.
+            // D_j − D_c: commands of one configuration can differ by the resolution of the joints.
             let distances: Vec<f64> = visits()
                 .map(|(a, b)| distance(a.point, b.point) - distance(commanded(a), commanded(b)))
                 .collect();

@@ -1,6 +1,7 @@
 //! Drift of pose characteristics, 7.6.
 //!
-//! The visits of a configuration in the order of time, ten after ten: `dAP = max |AP_{t=0} − AP_T|`, `dRP = max |RP_{t=0} − RP_T|`.
+//! Visits of a configuration in order of time, in groups of ten: `dAP = max |AP_{t=0} − AP_T|`,
+//! `dRP = max |RP_{t=0} − RP_T|`.
 
 use serde::Serialize;
 
@@ -8,28 +9,28 @@ use super::mean_and_max::MeanAndMax;
 use super::pose::Characteristics;
 use super::visits::Visits;
 
-/// So many visits make one value of AP and RP, as the standard has it.
+/// Number of visits in a value of AP and RP, as in the standard.
 const CYCLES: usize = 10;
 
-/// Configurations that were visited long enough.
+/// Configurations with at least twenty visits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Drift {
-    /// How many there are.
+    /// Number of configurations.
     pub configurations: usize,
-    /// The most times at which one of them was judged.
+    /// Largest number of groups of one configuration.
     pub most: usize,
     /// `dAP_p`.
     pub dap: MeanAndMax,
-    /// `dAP_a`, `dAP_b`, `dAP_c`: rad.
+    /// `dAP_a`, `dAP_b`, `dAP_c`, in rad.
     pub dap_turns: Option<[MeanAndMax; 3]>,
     /// `dRP_l`.
     pub drp: MeanAndMax,
-    /// `dRP_a`, `dRP_b`, `dRP_c`: rad.
+    /// `dRP_a`, `dRP_b`, `dRP_c`, in rad.
     pub drp_turns: Option<[MeanAndMax; 3]>,
 }
 
 impl Drift {
-    /// None where nothing was visited twenty times.
+    /// Returns none if no configuration has twenty visits.
     pub(super) fn new(groups: &[Visits<'_>], oriented: bool) -> Option<Self> {
         let series = |group: &Visits<'_>| {
             let blocks = group.chunks_exact(CYCLES).map(Characteristics::new);

@@ -1,7 +1,8 @@
-//! What ISO 9283:1998 says of configurations that were visited again.
+//! Characteristics of ISO 9283:1998 from repeated visits.
 //!
-//! Errors are real minus commanded, `e_j` of visit j; turns are the rotation vector from the commanded orientation to the real one:
-//! to first order the deviations of the standard's angles a, b, c about x, y, z.
+//! Errors `e_j` of visit j are real minus commanded. Orientation errors are rotation vectors from
+//! the commanded to the real orientation: to first order, the deviations of the standard's angles
+//! a, b, c about x, y, z.
 
 mod directions;
 mod distances;
@@ -21,26 +22,27 @@ pub use drift::Drift;
 pub use mean_and_max::MeanAndMax;
 use visits::{Visits, mean, visits};
 
-/// Configurations that were visited more than once.
+/// Characteristics of configurations with more than one visit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Repeated {
-    /// How many there are.
+    /// Number of configurations.
     pub configurations: usize,
-    /// How many visits they had.
+    /// Number of visits.
     pub visits: usize,
-    /// The fewest visits of a configuration that counts; the standard asks for 30.
+    /// Smallest number of visits of a configuration; the standard requires 30.
     pub fewest: usize,
-    /// Pose accuracy AP_p, 7.2.1; none without repeated configurations.
+    /// Pose accuracy AP_p, 7.2.1; none without repeated visits.
     pub ap: Option<MeanAndMax>,
-    /// AP_a, AP_b, AP_c, 7.2.1, either sign: rad; none where orientations were not measured.
+    /// Absolute values of AP_a, AP_b, AP_c, 7.2.1, in rad; none without measured orientations.
     pub ap_turns: Option<[MeanAndMax; 3]>,
     /// Pose repeatability RP_l, 7.2.2.
     pub rp: Option<MeanAndMax>,
-    /// RP_a, RP_b, RP_c, 7.2.2: rad.
+    /// RP_a, RP_b, RP_c, 7.2.2, in rad.
     pub rp_turns: Option<[MeanAndMax; 3]>,
     /// Three standard deviations about the barycentres, along x, y, z.
     pub three_sigma: Option<[f64; 3]>,
-    /// Multi-directional variation, 7.2.3: where configurations were approached from several directions.
+    /// Multi-directional pose accuracy variation, 7.2.3; none without several directions of
+    /// approach.
     pub directions: Option<Directions>,
     /// Distance accuracy and repeatability, 7.3.
     pub distances: Option<Distances>,
@@ -48,7 +50,7 @@ pub struct Repeated {
     pub drift: Option<Drift>,
 }
 
-/// The errors of every visit about the barycentre of its configuration.
+/// Returns the errors of each visit relative to the barycentre of its configuration.
 pub(super) fn about_barycentres(rows: &[Visit]) -> Vec<[f64; 3]> {
     visits(rows).iter().flat_map(about).collect()
 }
@@ -58,7 +60,7 @@ fn about(visits: &Visits) -> Vec<[f64; 3]> {
     visits.iter().map(|row| std::array::from_fn(|k| row.error[k] - centre[k])).collect()
 }
 
-/// All characteristics that the rows admit; `oriented` where orientations were measured.
+/// Computes all characteristics that the rows admit; `oriented` if orientations were measured.
 pub(super) fn repeated(rows: &[Visit], oriented: bool) -> Repeated {
     let groups = visits(rows);
     let every: Vec<pose::Characteristics> =
@@ -68,7 +70,7 @@ pub(super) fn repeated(rows: &[Visit], oriented: bool) -> Repeated {
         MeanAndMax::of_turns(&values).filter(|_| oriented)
     };
     let visits: usize = groups.iter().map(Vec::len).sum();
-    // One degree of freedom of each configuration goes into its barycentre.
+    // The barycentre of each configuration takes one degree of freedom.
     let freedom = visits.saturating_sub(groups.len()) as f64;
     let about: Vec<[f64; 3]> = groups.iter().flat_map(about).collect();
     let three_sigma =

@@ -1,15 +1,15 @@
 //! Pose accuracy and pose repeatability of one configuration, 7.2.1 and 7.2.2.
 //!
-//! `AP_p = |ē|` from the commanded point to the barycentre, `AP_a = ā − a_c`; with `l_j = |e_j − ē|`, `RP_l = l̄ + 3 S_l`, and
-//! `RP_a = ±3 S_a`.
+//! `AP_p = |ē|` is the distance of the barycentre from the commanded point, `AP_a = ā − a_c`; with
+//! `l_j = |e_j − ē|`, `RP_l = l̄ + 3 S_l`, and `RP_a = ±3 S_a`.
 
 use super::super::errors::{Visit, norm};
 use super::visits::{deviation, mean};
 
-/// Of one configuration.
+/// Characteristics of one configuration.
 pub(super) struct Characteristics {
     pub(super) ap: f64,
-    /// Without their signs.
+    /// Absolute values of AP_a, AP_b, AP_c.
     pub(super) ap_turns: [f64; 3],
     pub(super) rp: f64,
     pub(super) rp_turns: [f64; 3],

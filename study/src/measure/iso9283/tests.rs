@@ -1,8 +1,8 @@
-//! Against examples computed by hand.
+//! Characteristics against examples computed by hand.
 
 use super::{MeanAndMax, Visit, repeated};
 
-/// A visit of a configuration that is commanded to `at`.
+/// Returns a visit of a configuration commanded to `at`.
 fn visit(configuration: u32, at: [f64; 3], error: [f64; 6]) -> Visit {
     let point = std::array::from_fn(|k| at[k] + error[k]);
     Visit { configuration, direction: 0, time: 0.0, error, point }
@@ -12,7 +12,8 @@ fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
 }
 
-/// Errors x = 1, 3; y = 2, 2; turns about x 0.1 and 0.3: the barycentre is (2, 2, 0), both are 1 from it.
+/// Errors x = 1, 3; y = 2, 2; turns about x 0.1 and 0.3: the barycentre is (2, 2, 0), both are 1
+/// from it.
 #[test]
 fn accuracy_and_repeatability() {
     let rows = [
@@ -79,7 +80,8 @@ fn distances_between_two_configurations() {
     near(found.rd_turns.unwrap()[0].max, 0.0);
 }
 
-/// Ten visits at 1 ± 0.5, ten at 4 ± 0.5, in the order of time: dAP = 3, dRP = 0. RP = 0.5 both times.
+/// Ten visits at 1 ± 0.5, ten at 4 ± 0.5, in the order of time: dAP = 3, dRP = 0. RP = 0.5 both
+/// times.
 #[test]
 fn drift_in_the_order_of_time() {
     let at = |i: usize| {
@@ -88,7 +90,7 @@ fn drift_in_the_order_of_time() {
         row.time = i as f64;
         row
     };
-    // The file has them in another order.
+    // The file has another order.
     let rows: Vec<Visit> = (0..20).rev().map(at).collect();
     let found = repeated(&rows, false).drift.unwrap();
     assert_eq!((found.configurations, found.most, found.dap_turns), (1, 2, None));

@@ -1,10 +1,10 @@
-//! Rows by the configuration that they visit.
+//! Visits grouped by configuration.
 
 use std::collections::BTreeMap;
 
 use super::Visit;
 
-/// The rows of one configuration, in the order of time.
+/// Visits of one configuration, in order of time.
 pub(super) type Visits<'r> = Vec<&'r Visit>;
 
 impl Visit {
@@ -17,10 +17,10 @@ impl Visit {
     }
 }
 
-/// Configurations that were visited more than once, in the order in which they come first.
+/// Returns configurations with more than one visit, in order of first occurrence.
 pub(super) fn visits(rows: &[Visit]) -> Vec<Visits<'_>> {
     let mut order: Vec<&Visit> = rows.iter().collect();
-    // A stable sort: rows without a time stay in their order.
+    // A stable sort keeps the order of rows without a time.
     let time = |row: &Visit| row.time;
     order.sort_by(|a, b| time(a).total_cmp(&time(b)));
     let mut groups: BTreeMap<u32, Visits<'_>> = BTreeMap::new();
@@ -34,7 +34,7 @@ pub(super) fn mean(visits: &[&Visit], value: impl Fn(&Visit) -> [f64; 3]) -> [f6
     std::array::from_fn(|k| visits.iter().map(|row| value(row)[k]).sum::<f64>() / visits.len() as f64)
 }
 
-/// `√(Σ (v − v̄)² / (n − 1))`.
+/// Returns `√(Σ (v − v̄)² / (n − 1))`.
 pub(super) fn deviation(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

@@ -1,4 +1,4 @@
-//! Another robot, by the macro: no build script is needed for it.
+//! Another robot, defined by the macro without a build script.
 
 abbe_macro::manipulator!("robots/wrist.toml");
 

@@ -1,5 +1,5 @@
-//! Generated C gives what Rust gives, bit by bit: every function of every shipped robot, of a long chain, of tables, and of
-//! names that mean something in C. It is compiled with every warning as an error.
+//! Generated C equals Rust bit by bit: every function of every shipped robot, of a long chain, of
+//! tables, and of names with a meaning in C. It is compiled with every warning as an error.
 
 use std::fs;
 use std::path::Path;
@@ -128,20 +128,21 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
             .output()
             .unwrap();
         let said = String::from_utf8_lossy(&checked.stderr);
-        // What is a matter of style elsewhere is one here.
+        // Violations of MISRA rules are reported with the severity "style".
         let matters = |line: &&str| ["error: ", "warning: ", "misra"].iter().any(|what| line.contains(what));
         let found = said.lines().filter(matters);
         let is_listed =
             |line: &str| listed.iter().any(|rule| line.ends_with(&format!("[misra-c2012-{rule}]")));
         let (those, others): (Vec<&str>, Vec<&str>) = found.partition(|line| is_listed(line));
         assert!(others.is_empty(), "{}: {others:#?}", spec.name);
-        // Products before sums are everywhere: without one the addon has not looked.
+        // Products in sums occur everywhere: without one the addon has not run.
         assert!(those.iter().any(|line| line.ends_with("[misra-c2012-12.1]")), "{}: {said}", spec.name);
     }
     Ok(())
 }
 
-/// The same bits as Rust in so many configurations; corrected commands to 1e-9; and the self-test passes.
+/// Compares `count` configurations with Rust bit by bit, compensated commands to 1e-9, and runs the
+/// self-test.
 fn assert_equal(spec: Spec, count: usize) {
     let name = spec.name.clone();
     let folder = tempfile::tempdir().unwrap();

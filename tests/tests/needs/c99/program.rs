@@ -11,7 +11,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_tests::languages::given_arrays;
 
-/// How it is compiled. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
+/// Compiler options. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
 pub(crate) const STRICT: [&str; 9] = [
     "-std=c99",
     "-Wall",
@@ -30,7 +30,8 @@ pub(crate) fn write(folder: &Path, spec: &Spec, real: Real) {
     }
 }
 
-/// The numbers of the self-test, then of every function and of corrected commands at every configuration, each after its status.
+/// Returns the numbers of the self-test, and of every function and of compensated commands at every
+/// configuration, each after its status.
 pub(crate) fn called(
     compiler: &[&str],
     folder: &Path,
@@ -48,7 +49,7 @@ pub(crate) fn called(
     bytes.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap())).collect()
 }
 
-/// What a compiler, with options after those that are always given, makes of sources.
+/// Compiles sources with the common options, followed by those of the compiler.
 pub(crate) fn compiled(compiler: &[&str], program: &Path, sources: &[&Path]) {
     let mut command = Command::new(compiler[0]);
     command.args(STRICT).args(&compiler[1..]).arg("-o").arg(program).args(sources).arg("-lm");
@@ -61,7 +62,7 @@ pub(crate) fn succeeds(command: &mut Command) -> Vec<u8> {
     run.stdout
 }
 
-/// A program that reads configurations and writes what the functions give.
+/// Returns a program that reads configurations and writes the results of the functions.
 fn caller(robot: &Interpreter, real: Real) -> String {
     let description = robot.description();
     let name = &description.name;

@@ -1,4 +1,4 @@
-//! Generated C in single precision, held against the same in double precision.
+//! Generated C in single precision, compared with double precision.
 
 use std::fs;
 use std::path::Path;
@@ -18,24 +18,24 @@ use abbe_tests::{is_tested, specs, thorough};
 
 use super::program::{called, compiled, succeeds, write};
 
-/// What single precision makes of a manipulator: the largest differences from double precision.
+/// Largest differences of single from double precision.
 #[derive(Default)]
 struct Differences {
-    /// Of the position of `pose`, in the length unit.
+    /// Difference of the position of `pose`, in the length unit.
     position: f64,
-    /// Of `J_e`, by its largest number.
+    /// Difference of `J_e`, relative to its largest number.
     jacobian: f64,
-    /// Of the tool point's displacement by errors of 1e-3, in the length unit.
+    /// Difference of the tool point's displacement by errors of 1e-3, in the length unit.
     displacement: f64,
-    /// How far the tool is from where it should be, and how far it is turned, computed in double precision: at commands, and at
-    /// those that single precision makes of them, if both precisions came to rest.
+    /// Errors of position and rotation, computed in double precision: at the commands, and at the
+    /// commands compensated in single precision, if both precisions converge.
     before: [f64; 2],
     after: [f64; 2],
-    /// How many corrected commands came to rest, in double and in single precision.
+    /// Number of compensated commands that converge, in double and in single precision.
     rest: [usize; 2],
 }
 
-/// The same configurations in both, as single precision holds them.
+/// Compares both precisions at the same configurations, rounded to single precision.
 fn differences(spec: &Spec, given: Vec<Vec<f64>>) -> Differences {
     let name = spec.name.clone();
     let robot = Interpreter::new(spec.clone());
@@ -114,7 +114,7 @@ impl Differences {
         };
         self.rest[0] += usize::from(double == 0.0);
         self.rest[1] += usize::from(single == 0.0);
-        // What neither can reach says nothing of their precision.
+        // Targets that neither can reach are no measure of precision.
         let (length, angle) = left(&exact);
         let metre = 1.0 / description.length.in_metres();
         if [double, single] == [0.0; 2] && length < 1e-8 * metre && angle < 1e-8 {
@@ -124,7 +124,7 @@ impl Differences {
     }
 }
 
-/// The chapter's table has a row for each, and the header says the most of all.
+/// Checks the rows of the chapter's table, and that the header states the largest differences.
 pub(crate) fn shipped_robots() -> Result<(), Missing> {
     tool("cc", "")?;
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/in-a-controller.md");
@@ -160,32 +160,32 @@ pub(crate) fn shipped_robots() -> Result<(), Missing> {
     }
     println!("shares: {:?}", most.map(upwards));
     assert!(wrong.is_empty(), "the chapter has other figures than\n{}", wrong.join("\n"));
-    // The header has the largest of all robots.
+    // The header states the largest differences of all robots.
     if !thorough() {
         return Ok(());
     }
     let spec = Spec::parse("ur5.toml", SHIPPED.iter().find(|shipped| shipped.name == "ur5").unwrap().spec);
     let header = Language::C(Real::Float).files(&spec.unwrap()).swap_remove(0).text;
-    let (_, told) = header.split_once("In single precision").unwrap();
+    let (_, told) = header.split_once("computes in single precision").unwrap();
     let (told, _) = told.split_once("*/").unwrap();
     let told: String = told.lines().map(|line| line.trim_start_matches(" *")).collect();
     assert!(agree(&numbers(&told), &most), "{told}: {most:?}");
     Ok(())
 }
 
-/// With two digits, the last one rounded up.
+/// Formats a number with two digits, the last one rounded up.
 fn upwards(value: f64) -> String {
     let digit = 10_f64.powf(value.log10().floor() - 1.0);
     format!("{:.1e}", (value / digit).ceil() * digit)
 }
 
-/// The numbers with an exponent in a text.
+/// Returns the numbers with an exponent in a text.
 fn numbers(text: &str) -> Vec<f64> {
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '|'));
     words.filter(|word| word.contains('e')).filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Whether nothing is larger than is told, and nothing much smaller.
+/// Returns whether every documented bound holds and none is much too large.
 fn agree(told: &[f64], found: &[f64]) -> bool {
     let fits = |(told, found): (&f64, &f64)| found <= told && *told <= 1.3 * found;
     told.len() == found.len() && told.iter().zip(found).all(fits)
@@ -202,12 +202,12 @@ pub(crate) fn long_chains_and_tables() -> Result<(), Missing> {
         let robot = Interpreter::new(spec.clone());
         let arm = arm_length(&robot, &nominal_parameters(robot.description())).unwrap();
         let mut given = configurations(&robot, 50);
-        // Where tables end.
+        // At the ends of tables.
         let limits = robot.description().variables[0].limits;
         let limits = limits.into_iter().filter(|limit| limit.is_finite());
         given.iter_mut().zip(limits).for_each(|(given, limit)| given[0] = limit);
         let Differences { position, jacobian, .. } = differences(&spec, given);
-        // Twice what six frames are off by for every six frames.
+        // Twice the differences of six frames for every six frames.
         let frames = robot.description().frames.len().div_ceil(6) as f64;
         assert!(position > 0.0 && position <= frames * 1e-6 * arm, "{position} of {arm}");
         assert!(jacobian > 0.0 && jacobian <= frames * 1e-6, "{jacobian}");
@@ -215,8 +215,8 @@ pub(crate) fn long_chains_and_tables() -> Result<(), Missing> {
     Ok(())
 }
 
-/// Sine and cosine against those of double precision, for one in 61 of all numbers they are for; and their polynomials against
-/// the best there are.
+/// Compares sine and cosine with double precision, for one in 61 of all numbers in their range, and
+/// their polynomials with the minimax ones.
 pub(crate) fn sines() -> Result<(), Missing> {
     tool("cc", "")?;
     let folder = tempfile::tempdir().unwrap();
@@ -231,13 +231,13 @@ pub(crate) fn sines() -> Result<(), Missing> {
     let text = fs::read_to_string(folder.path().join(format!("{}.c", spec.name))).unwrap();
     for worst in said.split_whitespace() {
         let worst: f64 = worst.parse().unwrap();
-        let (_, told) = text.split_once("Sine and cosine, below ").unwrap();
+        let (_, told) = text.split_once("the error is below ").unwrap();
         let told: f64 = told.split(' ').next().unwrap().parse().unwrap();
         assert!(worst < told && told < 1.3 * worst, "{worst}");
     }
     is_minimax(&factors(&text, "s"), |z| {
         let r = z.sqrt();
-        // z (S − (sin r − r)/r³), as a share of sin r / r
+        // z (S − (sin r − r)/r³), relative to sin r / r
         let series: f64 =
             (0..12).rev().fold(0.0, |sum, k| (1.0 - z * sum) / ((2 * k + 2) * (2 * k + 3)) as f64);
         (-series, z * r / r.sin())
@@ -249,7 +249,7 @@ pub(crate) fn sines() -> Result<(), Missing> {
     Ok(())
 }
 
-/// Reads like a header: the sources of a manipulator and of this program are one.
+/// Program that includes the source: manipulator and program are one translation unit.
 const SINES: &str = r#"
 #include "NAME.c"
 #include <stdint.h>
@@ -279,7 +279,8 @@ int main(void)
 }
 "#;
 
-/// The factors of a polynomial of degree 2, the lowest power first: of the sine after r, of the cosine after −1/2.
+/// Returns the coefficients of a polynomial of degree 2, the lowest power first: of the sine after
+/// r, of the cosine after −1/2.
 fn factors(text: &str, name: &str) -> [f64; 3] {
     let (_, text) = text.split_once(&format!("    float {name} = ")).unwrap();
     let words = text.split(|c: char| c.is_whitespace() || c == ';');
@@ -288,8 +289,10 @@ fn factors(text: &str, name: &str) -> [f64; 3] {
     [first, second, third]
 }
 
-/// A polynomial whose error has four extrema of alternating signs is worse than the best by no more than from the least to the
-/// largest of them (de la Vallée-Poussin); at each z on (0, (π/4)²] what is approached, and the error's weight.
+/// Checks that a polynomial is minimax. A polynomial whose error has four extrema of alternating
+/// signs exceeds the best error by at most the difference of the largest and the smallest extremum
+/// (de la Vallée-Poussin). `at` returns the approximated value and the weight of the error at each
+/// z on (0, (π/4)²].
 fn is_minimax(factors: &[f64; 3], at: impl Fn(f64) -> (f64, f64)) {
     let mut extrema: Vec<f64> = Vec::new();
     for k in 1..=100_000 {
@@ -307,7 +310,8 @@ fn is_minimax(factors: &[f64; 3], at: impl Fn(f64) -> (f64, f64)) {
     assert!(extrema.len() == 4 && largest <= 1.2 * least, "{extrema:?}");
 }
 
-/// With other compilers and fused operations it passes; with a length that is wrong in the fourth digit, or for `double` in the eleventh, it does not.
+/// Checks that the self-test passes with other compilers and fused operations, and fails for a
+/// length wrong in the fourth digit, or for `double` in the eleventh.
 pub(crate) fn self_tests() -> Result<(), Missing> {
     tool("gcc", "")?;
     tool("clang", "")?;
@@ -343,7 +347,7 @@ pub(crate) fn self_tests() -> Result<(), Missing> {
     Ok(())
 }
 
-/// What it returns.
+/// Returns the result of the self-test.
 fn self_test(folder: &Path, name: &str, compiler: &[&str]) -> i32 {
     let [source, program] = ["main.c", "program"].map(|file| folder.join(file));
     fs::write(&source, format!("#include \"{name}.h\"\nint main(void) {{ return {name}_self_test(); }}\n"))

@@ -1,4 +1,5 @@
-//! What is accepted compiles, without a warning: specs with hostile names, titles and expressions, each a module of one crate.
+//! Accepted specs compile without a warning: specs with hostile names, titles and expressions, each
+//! a module of one crate.
 
 use std::fs;
 use std::path::Path;
@@ -43,7 +44,7 @@ const MANIPULATORS: [&str; 28] = [
     "d1",
 ];
 
-/// A crate with these modules, checked by the compiler: what it says, if it does not accept them.
+/// Checks a crate with these modules by the compiler. Returns its messages if it fails.
 fn check(folder: &Path, modules: &[String]) -> Option<String> {
     let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime").canonicalize().unwrap();
     let manifest = format!(
@@ -52,7 +53,7 @@ fn check(folder: &Path, modules: &[String]) -> Option<String> {
     );
     fs::create_dir_all(folder.join("src")).unwrap();
     fs::write(folder.join("Cargo.toml"), manifest).unwrap();
-    // The versions of the workspace, which are there.
+    // The versions of the workspace, which are downloaded.
     fs::copy(runtime.join("../Cargo.lock"), folder.join("Cargo.lock")).unwrap();
     let mut root = "//! Hostile.\n#![deny(warnings)]\n".to_owned();
     for (i, module) in modules.iter().enumerate() {
@@ -67,7 +68,8 @@ fn check(folder: &Path, modules: &[String]) -> Option<String> {
     (!output.status.success()).then(|| String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-/// Chains long enough for loops, in which there is little to go over: no parameters, none that moves anything, no joints.
+/// Returns chains long enough for loops over almost nothing: no parameters, no moving joints, no
+/// joints.
 fn bare_chains() -> [String; 3] {
     let revolute = revolute_chain(40);
     let euler = |text: &str| text.replace("length = \"m\"", "length = \"m\"\norientation = \"euler-yzx\"");

@@ -1,9 +1,9 @@
-//! Small files of every kind, that are right: what damage is done to.
+//! Small valid files of every kind, to be damaged.
 
 use abbe_spec::Spec;
 use abbe_study::Machine;
 
-/// An arm with everything a spec can have, and quick to compute.
+/// Arm with every feature of a spec, and quick to compute.
 pub(crate) const ARM: &str = r#"
 [manipulator]
 name = "arm"
@@ -201,5 +201,5 @@ name = "one at a time"
 axes = { q2 = { from = "-60 deg", to = "60 deg", count = 5 }, d1 = [0, "400 mm"] }
 "#];
 
-/// Twenty-four rows for all maps, about as the arm is.
+/// Twenty-four rows for all maps, consistent with the arm.
 pub(crate) const DATA: &str = include_str!("data.csv");

@@ -1,4 +1,4 @@
-//! What is asked about an input that can be read.
+//! Jobs that are run on every readable input.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -20,10 +20,10 @@ use abbe_study::plan::{Choice, Plan, Sets};
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Machine, Notes, Study};
 
-/// How long a job may take before it is stopped, as an interruption would stop it.
+/// Time after which a job is stopped, in the way an interruption stops it.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Somebody who does not wait.
+/// Notes that stop a job after [`PATIENCE`].
 struct Impatient(Instant);
 
 impl Notes for Impatient {
@@ -36,7 +36,8 @@ fn notes() -> Impatient {
     Impatient(Instant::now())
 }
 
-/// All that is asked of a spec: its code, its errors at home, over a few samples, and, if asked, its laws.
+/// Runs all jobs of a spec: its code, its errors at home and over a few samples, and its laws if
+/// `with_laws`.
 pub(crate) fn of_spec(machine: Machine, with_laws: bool) -> Result<(), Diagnostics> {
     for language in Language::ALL.into_iter().chain([Language::C(Real::Float)]) {
         assert!(language.files(&machine.spec).iter().all(|file| !file.text.is_empty()));
@@ -58,7 +59,7 @@ pub(crate) fn analyze(machine: &Machine, study: Study) -> Result<(), Diagnostics
     job.run(&mut notes()).map(drop)
 }
 
-/// What is asked of measurements.
+/// Job on measurements.
 pub(crate) enum Asked {
     Measure,
     Identify(Vec<Family>, Loss),
@@ -123,7 +124,8 @@ pub(crate) fn plan(machine: &Machine, map: &Map, sets: Sets) -> Result<(), Diagn
     Plan { machine, map, choice, study, model_error: 0.0, seed: None }.run(&mut notes()).map(drop)
 }
 
-/// Equation (6) by the interpreter and by products of transforms: whether there was something to compare.
+/// Compares equation (6) by the interpreter and by products of transforms. Returns whether a pose
+/// exists.
 pub(crate) fn is_computed_alike(interpreter: &Interpreter, seed: u64, text: &str) -> bool {
     let description = interpreter.description();
     let q: Vec<f64> = (0..description.variables.len())

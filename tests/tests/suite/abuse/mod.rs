@@ -1,8 +1,10 @@
-//! No input ends it, and no answer is none: files with damage, and specs made to break what is generated from them.
+//! Robustness: no input causes a panic or a meaningless result. Inputs are damaged files, and specs
+//! made to break generated code.
 //!
-//! Of every input holds: no panic; an end, in seconds; what is refused is refused with a place and a way out; and no number of an
-//! answer is NaN or infinite. Seeded: the same inputs every time. `ABBE_ABUSE=2000 cargo test -p abbe-tests abuse::` takes
-//! so many of every kind, and prints the figures with `-- --nocapture`.
+//! Requirements of every input: no panic; an end within seconds; diagnostics with a location and a
+//! help; and no NaN or infinity in a result. The inputs are seeded.
+//! `ABBE_ABUSE=2000 cargo test -p abbe-tests abuse::` sets their number per kind; `-- --nocapture`
+//! prints the figures.
 
 mod compiled;
 mod files;
@@ -24,7 +26,7 @@ use files::{ARM, DATA, MAPS, PLANS, STUDIES, machine};
 use jobs::Asked;
 use watch::{Figures, many, watched};
 
-/// A file as it comes, if it is text.
+/// Returns a file as text, if it is.
 fn text(bytes: &[u8]) -> Option<&str> {
     std::str::from_utf8(bytes).ok()
 }
@@ -36,7 +38,7 @@ fn specs() {
     let mut figures = Figures::new("specs");
     for seed in 0..many(400) {
         let mut c = Choices::seeded(seed);
-        let whole = *c.of(&all);
+        let whole = *c.one_of(&all);
         let file = damaged(&mut c, whole.as_bytes());
         let Some(text) = text(&file) else { continue };
         figures.add(watched("spec", seed, text, || {
@@ -68,7 +70,7 @@ fn studies() {
     let mut figures = Figures::new("studies");
     for seed in 0..many(400) {
         let mut c = Choices::seeded(seed);
-        let whole = *c.of(&STUDIES);
+        let whole = *c.one_of(&STUDIES);
         let file = damaged(&mut c, whole.as_bytes());
         let Some(text) = text(&file) else { continue };
         figures.add(watched("study", seed, text, || {
@@ -88,7 +90,7 @@ fn maps() {
     let mut figures = Figures::new("maps");
     for seed in 0..many(400) {
         let mut c = Choices::seeded(seed);
-        let whole = *c.of(&MAPS);
+        let whole = *c.one_of(&MAPS);
         let file = damaged(&mut c, whole.as_bytes());
         let Some(text) = text(&file) else { continue };
         figures.add(watched("map", seed, text, || {
@@ -126,7 +128,7 @@ fn plans() {
     let mut figures = Figures::new("plans");
     for seed in 0..many(200) {
         let mut c = Choices::seeded(seed);
-        let whole = *c.of(&PLANS);
+        let whole = *c.one_of(&PLANS);
         let file = damaged(&mut c, whole.as_bytes());
         std::fs::write(&path, &file).unwrap();
         figures.add(watched("plan", seed, &String::from_utf8_lossy(&file), || {
@@ -136,7 +138,7 @@ fn plans() {
     figures.print();
 }
 
-/// The interpreter's real pose is that of the exact chain, product by product.
+/// Compares the interpreter's real pose with the exact chain, product by product.
 #[test]
 fn random_specs_are_computed_alike() {
     let mut compared = 0;
@@ -148,7 +150,7 @@ fn random_specs_are_computed_alike() {
     assert!(compared * 2 > many(300) as usize, "{compared}");
 }
 
-/// A file that is something else is called by its name, or at least said not to be what is read here.
+/// Checks that a file of another kind is recognized, or at least rejected as unexpected.
 #[test]
 fn other_files_are_named() {
     let folder = tempdir().unwrap();
@@ -178,7 +180,7 @@ fn other_files_are_named() {
     assert!(folder.contains("directory"), "{folder}");
 }
 
-/// What damage is done to is right.
+/// Checks that the undamaged files are valid.
 #[test]
 fn whole_files_are_answered() {
     let machine = machine();

@@ -1,4 +1,4 @@
-//! Every input is watched: how it ends, and that it does.
+//! Supervision of every input: its outcome and its time.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::exit;
@@ -9,16 +9,18 @@ use std::time::{Duration, Instant};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_tests::thorough;
 
-/// How long anything may take: in tests that are not optimized, on computers that are busy.
+/// Time limit of an input: in unoptimized tests, on busy computers.
 const LONGEST: Duration = Duration::from_secs(30);
 
-/// How many times as long if it is asked for more than usual, which may be at a low priority.
+/// Factor of the time limit for more than the usual number of inputs, which may run at low
+/// priority.
 const PATIENT: u32 = 40;
 
-/// How much of the processors' time nothing should take; what does is named.
+/// Processor time above which an input is reported.
 const LONG: Duration = Duration::from_secs(5);
 
-/// How many inputs of a kind: so many in a thorough run, an eighth of it otherwise, if nobody asks for another number.
+/// Returns the number of inputs of a kind: `ABBE_ABUSE` if set, otherwise `thoroughly` in a
+/// thorough run and an eighth of it in an ordinary one.
 pub(crate) fn many(thoroughly: u64) -> u64 {
     asked().unwrap_or(if thorough() { thoroughly } else { thoroughly / 8 })
 }
@@ -27,16 +29,18 @@ fn asked() -> Option<u64> {
     std::env::var("ABBE_ABUSE").ok().and_then(|many| many.parse().ok())
 }
 
-/// The time that the processors have worked for this process, where it can be told: of one test, if it is alone.
+/// Returns the processor time of this process, if the system reports it: the time of one test, if
+/// it runs alone.
 fn worked() -> Option<Duration> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // Behind the name, which may have any letters: the user's and the system's, in hundredths of a second.
+    // After the name, which may contain any character: user and system time, in hundredths of a
+    // second.
     let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
     let mut ticks = || fields.next()?.parse::<u64>().ok();
     Some(Duration::from_millis(10 * (ticks()? + ticks()?)))
 }
 
-/// How inputs ended.
+/// Outcomes of the inputs.
 #[derive(Default)]
 pub(crate) struct Figures {
     kind: &'static str,
@@ -72,8 +76,9 @@ impl Figures {
     }
 }
 
-/// Runs one input: whether it was answered, and how long the processors worked, or else how long it took. A panic, and a refusal without a place or a way out, fail the
-/// test; what does not end, ends it.
+/// Runs one input. Returns whether it succeeded, and its processor time, or wall time if that is
+/// unknown. A panic, and a diagnostic without a location or a help, fail the test; exceeding the
+/// time limit aborts it.
 pub(crate) fn watched(
     kind: &str,
     seed: u64,

@@ -1,6 +1,6 @@
-//! Circles of a directed graph: its strongly connected components of more than one node.
+//! Cycles of a directed graph: its strongly connected components of more than one node.
 
-/// The nodes of each circle, in order; `arrows` has for each node those that it points to.
+/// Returns the nodes of each cycle, sorted. `arrows` lists the successors of each node.
 pub(crate) fn circles(arrows: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let reached: Vec<Vec<bool>> = (0..arrows.len()).map(|node| reached(arrows, node)).collect();
     let mut circles: Vec<Vec<usize>> = (0..arrows.len())
@@ -14,7 +14,7 @@ pub(crate) fn circles(arrows: &[Vec<usize>]) -> Vec<Vec<usize>> {
     circles
 }
 
-/// Which nodes a node leads to.
+/// Returns which nodes are reachable from a node.
 fn reached(arrows: &[Vec<usize>], node: usize) -> Vec<bool> {
     let (mut reached, mut open) = (vec![false; arrows.len()], arrows[node].clone());
     while let Some(next) = open.pop() {

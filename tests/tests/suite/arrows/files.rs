@@ -1,5 +1,5 @@
-//! Which file of a crate uses which: by the paths in its source, followed through what modules re-export. Methods are not seen, nor is
-//! what stands in `#[cfg(test)]` modules.
+//! Dependencies between the files of a crate: the paths in their sources, resolved through
+//! re-exports. Methods and `#[cfg(test)]` modules are ignored.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
@@ -7,16 +7,16 @@ use std::path::Path;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// A source file of a crate.
+/// Source file of a crate.
 pub(crate) struct File {
-    /// The path of its module; empty for `lib.rs` and `main.rs`.
+    /// Path of its module. Empty for `lib.rs` and `main.rs`.
     pub(crate) module: Vec<String>,
-    /// Its path below `src`.
+    /// Path below `src`.
     pub(crate) name: String,
     pub(crate) text: String,
 }
 
-/// The source files of a folder, but those of tests alone.
+/// Returns the source files of a folder, except those of tests.
 pub(crate) fn files(source: &Path) -> Vec<File> {
     let mut files = Vec::new();
     collect(source, &[], &mut files);
@@ -45,20 +45,20 @@ fn collect(folder: &Path, module: &[String], files: &mut Vec<File>) {
     }
 }
 
-/// What a source says: the names that it brings into scope, those that others find there, and every path in it.
+/// Content of a source: its imports, its exports, and every path in it.
 #[derive(Default)]
 struct Source {
-    /// Full paths by the names that stand for them; of `pub use` those that are re-exported.
+    /// Full paths by their local names. For `pub use` these are re-exports.
     imports: HashMap<String, Vec<String>>,
-    /// Modules of which everything is re-exported.
+    /// Modules that are re-exported as a whole.
     globs: Vec<Vec<String>>,
-    /// What it defines.
+    /// Names of its items.
     defined: BTreeSet<String>,
-    /// Paths that it uses, full ones.
+    /// Full paths that it uses.
     paths: Vec<Vec<String>>,
 }
 
-/// For each file the files that it uses.
+/// Returns the files that each file uses.
 pub(crate) fn arrows(files: &[File]) -> Vec<Vec<usize>> {
     let modules: HashMap<&[String], usize> =
         files.iter().enumerate().map(|(i, file)| (&file.module[..], i)).collect();
@@ -84,7 +84,8 @@ pub(crate) fn arrows(files: &[File]) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// The file that defines what a full path names; none for a module, which is used by what is named in it.
+/// Returns the file that defines the item of a full path. `None` for a module, which counts as used
+/// through its items.
 fn resolve(
     path: &[String],
     modules: &HashMap<&[String], usize>,
@@ -115,7 +116,7 @@ fn resolve(
     }
 }
 
-/// Reads the tokens of a module or of what is in it.
+/// Reads the tokens of a module or of a group in it.
 fn read(tokens: TokenStream, module: &[String], is_module: &dyn Fn(&[String]) -> bool, source: &mut Source) {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     let word = |i: usize| match tokens.get(i) {
@@ -131,7 +132,7 @@ fn read(tokens: TokenStream, module: &[String], is_module: &dyn Fn(&[String]) ->
     while i < tokens.len() {
         match (&*word(i), &tokens[i]) {
             ("#", _) => {
-                // Attributes are one group each; `#![…]` has a sign more.
+                // Attributes are one group each; `#![…]` has one more token.
                 let at = if word(i + 1) == "!" { i + 2 } else { i + 1 };
                 let attribute = group(at, Delimiter::Bracket).unwrap_or_default().to_string();
                 is_test |= attribute.replace(' ', "") == "cfg(test)";
@@ -201,7 +202,7 @@ fn read(tokens: TokenStream, module: &[String], is_module: &dyn Fn(&[String]) ->
     }
 }
 
-/// The leaves of a `use`: their paths, and the names by which they are known.
+/// Collects the leaves of a `use`: their paths, and their local names.
 fn flatten(tokens: &[TokenTree], mut path: Vec<String>, leaves: &mut Vec<(Vec<String>, String)>) {
     let mut i = 0;
     while let Some(token) = tokens.get(i) {
@@ -236,7 +237,7 @@ fn flatten(tokens: &[TokenTree], mut path: Vec<String>, leaves: &mut Vec<(Vec<St
     leaves.push((path, name));
 }
 
-/// A path from the root of the crate; none if it leads elsewhere.
+/// Returns a path from the root of the crate, or `None` if it leads elsewhere.
 fn full(path: Vec<String>, module: &[String], is_module: &dyn Fn(&[String]) -> bool) -> Option<Vec<String>> {
     let first = path.first()?.as_str();
     if !["crate", "self", "super"].contains(&first) {

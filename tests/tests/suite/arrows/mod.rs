@@ -1,4 +1,4 @@
-//! Arrows between crates, and between the files of a crate, go one way.
+//! Dependencies between crates, and between the files of a crate, have no cycles.
 
 mod circles;
 mod crates;
@@ -17,7 +17,8 @@ fn root() -> PathBuf {
         .to_owned()
 }
 
-/// Returns the crates of this workspace that a manifest depends on, in order of their names, but those of tests.
+/// Returns the crates of this workspace that a manifest depends on, sorted by name, without
+/// dev-dependencies.
 fn dependencies(manifest: &str) -> Vec<&str> {
     let mut is_counted = false;
     let mut own = Vec::new();
@@ -61,7 +62,7 @@ fn crates_depend_on_what_stands_above_them() {
     }
 }
 
-/// The sources of a crate, and its build script.
+/// Returns the sources of a crate, including its build script.
 fn sources(folder: &str) -> Vec<File> {
     let mut sources = files(&root().join(folder).join("src"));
     if let Ok(text) = fs::read_to_string(root().join(folder).join("build.rs")) {

@@ -1,4 +1,5 @@
-//! Every function of manipulators in batches: those of the single evaluations, of the interpreter, and of any other split.
+//! Every function in batches equals single evaluations, the interpreter, and any other division of
+//! the batch.
 
 use abbe::analysis::sampling::{halton, joint_sample, nominal_inputs, nominal_parameters};
 use abbe::lanes::{Batches, InstructionSet, Tiles};
@@ -9,7 +10,7 @@ use abbe_spec::Spec;
 
 use super::COMPILED;
 
-/// The arguments of a function at spread configurations.
+/// Returns the arguments of a function at spread configurations.
 fn arguments(robot: &dyn Batches, function: Function, set: InstructionSet, count: usize) -> Tiles {
     let description = robot.description();
     let (s, u) = (nominal_parameters(description), nominal_inputs(description));
@@ -46,10 +47,11 @@ fn batches_are_the_single_evaluations() {
     }
 }
 
-/// To the last bit where the compiler orders the arithmetic as the program does, else to the last few.
+/// Checks equality to the last bit where the compiler keeps the order of operations, otherwise to a
+/// few units in the last place.
 #[test]
 fn batches_are_those_of_the_interpreter_on_every_instruction_set() {
-    // More than two blocks of lanes, and a tail.
+    // More than two blocks of lanes, and a remainder.
     let count = 150;
     for compiled in COMPILED {
         let name = &*compiled.description().name;
@@ -72,7 +74,7 @@ fn batches_are_those_of_the_interpreter_on_every_instruction_set() {
     }
 }
 
-/// A configuration's results do not depend on what stands beside it.
+/// Checks that the results of a configuration do not depend on the others of the batch.
 #[test]
 fn any_split_of_a_batch_gives_the_same_to_the_last_bit() {
     for robot in COMPILED {

@@ -1,4 +1,5 @@
-//! Errors that do not depend on the joints are convex in the sine and cosine of each: what is certified at vertices is never exceeded, and close.
+//! Constant errors are convex in sine and cosine of each joint: the bound certified at vertices is
+//! never exceeded, and close.
 
 use std::fmt::Write;
 
@@ -13,8 +14,8 @@ use abbe_tests::thorough;
 
 use super::{ROUNDING, bounded, given, kinds, moving, part, place, sizes};
 
-/// A chain with all six errors of every frame, of both classes; angles have offsets and signs, axes are parallel or not, and one joint in
-/// five slides.
+/// Returns a chain with all six errors of every frame, of both classes. Angles have offsets and
+/// signs, axes are parallel or not, and one joint in five is prismatic.
 fn chain(frames: usize, random: &mut Xoshiro256PlusPlus) -> String {
     let mut text = "[manipulator]\nname = \"chain\"\nlength = \"m\"\n".to_owned();
     for name in 1..=frames {

@@ -1,4 +1,4 @@
-//! Nowhere is the least singular value of `J_q` below what is certified of it.
+//! The smallest singular value of `J_q` is never below its certified bound.
 
 use abbe::{Manipulator, Orientation, VariableKind, deviation};
 use abbe_bound::{Effort, Extreme, Moving, Singular, singular_value};
@@ -12,7 +12,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{given, home, moving, part, place, robot, robots};
 
-/// Of the tool point and of the tool over a box.
+/// Returns the certified values over a box, for the position and for the whole pose.
 fn least(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<Vec<Singular>> {
     let Dexterity { graph, point, pose } = Dexterity::new(spec)?;
     let all = std::iter::once(point).chain(pose);
@@ -23,7 +23,7 @@ fn least(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<Vec<Singular>>
     Some(all.map(least).collect())
 }
 
-/// The same at a place, by central differences in metres and rad.
+/// Returns the singular values at a configuration, by central differences in metres and rad.
 fn values(robot: &Interpreter, q: &[f64]) -> [f64; 2] {
     let description = robot.description();
     let metre = 1.0 / description.length.in_metres();
@@ -84,8 +84,10 @@ fn nothing_is_below_what_is_certified() {
     assert!(known > least && looked > 33 * least, "{known} are above 0, {looked} places looked at");
 }
 
-/// Of the paper's positioner three slides at right angles move the tool point by 1 at least; two bars of 400 mm and 300 mm with a
-/// slide across them, bent by β, have `σ² = (a ∓ √(a² − 4 (400·300 sin β)²))/2` with `a = 400² + 2·300² + 2·400·300 cos β` in mm².
+/// Checks closed forms. The three perpendicular slides of the paper's positioner move the tool
+/// point by at least 1. Two bars of 400 mm and 300 mm with a slide across them, at an elbow angle
+/// β, have `σ² = (a ∓ √(a² − 4 (400·300 sin β)²))/2` with `a = 400² + 2·300² + 2·400·300 cos β` in
+/// mm².
 #[test]
 fn what_is_known_is_found() {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();

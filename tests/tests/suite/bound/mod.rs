@@ -1,5 +1,5 @@
-//! What is certified is never exceeded: random boxes on random robots, boxes that are chosen to break it, and cases that are solved
-//! by hand.
+//! Certified bounds are never exceeded: random boxes on random robots, adversarial boxes, and cases
+//! with closed-form solutions.
 
 mod corners;
 mod dexterity;
@@ -18,7 +18,7 @@ use abbe_tests::thorough;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// A number with rounding of its own: errors are summed here from the columns of `J_e`, another way than the bounds are.
+/// Rounding error of the test, which sums errors from the columns of `J_e`, unlike the bounds.
 const ROUNDING: f64 = 1e-12;
 
 fn moving(spec: &Spec) -> Vec<Moving> {
@@ -56,12 +56,13 @@ fn bounded(
     largest(&mut magnitudes.graph, magnitude, box_, |symbol| home(symbol, spec), effort, &mut |_| true)
 }
 
-/// Of the repeatable sources, of the random ones, and both added.
+/// Returns the magnitudes of the repeatable sources, of the random ones, and of their sum.
 fn kinds(magnitudes: &Magnitudes) -> [[Magnitude; 5]; 3] {
     [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(Clone::clone)
 }
 
-/// Repeatable, random, both added; of each the norm, x, y, z, and the norm of rows 4–6.
+/// Returns the errors of the repeatable sources, the random ones, and their sum: each the norm, x,
+/// y, z, and the norm of rows 4–6.
 fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
     let description = robot.description();
     let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
@@ -80,7 +81,7 @@ fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
         for i in 0..6 {
             match source.class {
                 Class::Repeatable => repeatable[i] += moved[i],
-                // At its bound: 3σ of a normal one.
+                // At its bound: 3σ for a normal one.
                 Class::Random(distribution) => squares[i] += (distribution.bound() * moved[i]).powi(2),
             }
         }
@@ -92,7 +93,8 @@ fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
     Some([first, second, std::array::from_fn(|i| first[i] + second[i])])
 }
 
-/// A box within that of the joints and inputs: often wide, sometimes narrow or a point, sometimes at an end.
+/// Returns a part of the box of joints and inputs: often wide, sometimes narrow or a point,
+/// sometimes at an end.
 fn part(all: &[Moving], random: &mut impl Rng) -> Vec<Moving> {
     all.iter()
         .map(|name| {
@@ -108,7 +110,7 @@ fn part(all: &[Moving], random: &mut impl Rng) -> Vec<Moving> {
         .collect()
 }
 
-/// A place in a box: anywhere, or with some joints at their ends.
+/// Returns a point in a box: anywhere, or with some joints at their limits.
 fn place(box_: &[Moving], random: &mut impl Rng) -> Vec<f64> {
     let within = |name: &Moving, random: &mut dyn FnMut() -> f64| {
         let [low, high] = name.range;
@@ -140,7 +142,7 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
                 sizes(&robot, q, u)
             })
             .collect();
-        // Nor more than the parts allow.
+        // The bound from parts must hold too.
         let apart = magnitudes.apart.clone();
         let limits = limits(&mut magnitudes.graph, &apart, &box_, |symbol| home(symbol, &spec));
         for k in 0..3 {
@@ -154,7 +156,7 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
                 "robot {seed}, {k}: {limits:?}\n{box_:?}\n{text}"
             );
         }
-        // Neither x nor y is more than what is across z.
+        // Neither x nor y exceeds the error perpendicular to z.
         for k in 0..3 {
             let across_z = magnitudes.across_z[k].clone();
             let bound = bounded(&spec, &mut magnitudes, &across_z, &box_, &effort);
@@ -179,7 +181,7 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
                 assert!(!bound.complete || bound.certified <= bound.found * 1.02 + 1e-9, "{bound:?}");
                 let (q, u) = bound.at.split_at(spec.variables.len());
                 if let Some(sizes) = sizes(&robot, q, u) {
-                    // Near an Euler singularity rounding alone moves it by far more than elsewhere.
+                    // Near an Euler singularity rounding errors are amplified.
                     let found = sizes[k][i];
                     assert!(
                         (found - bound.found).abs() <= 1e-6 * (found + 1e-6),
@@ -191,8 +193,8 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
     }
 }
 
-/// How much is looked at: `ABBE_BOXES` of each robot, `ABBE_SAMPLES` of each box; `ABBE_ROBOT` is the first of ten, or thirty in
-/// a thorough run.
+/// Returns a number from the environment: `ABBE_BOXES` per robot, `ABBE_SAMPLES` per box;
+/// `ABBE_ROBOT` is the first of ten robots, or of thirty in a thorough run.
 fn given(name: &str, otherwise: usize) -> usize {
     std::env::var(name).map_or(otherwise, |count| count.parse().expect("a number"))
 }
@@ -208,7 +210,8 @@ fn nothing_exceeds_what_is_certified() {
     robots().for_each(|seed| is_sound(seed, boxes, samples));
 }
 
-/// Two bars in a plane, of which each joint is off: `ΔX = e_1 (l_1 + l_2)` when stretched, and what follows from its box otherwise.
+/// Returns two bars in a plane with an error at each joint: `ΔX = e_1 (l_1 + l_2)` when stretched;
+/// otherwise the maximum depends on the box.
 fn two_bars(limits: &str) -> Spec {
     let text = format!(
         r#"
@@ -256,7 +259,8 @@ fn is(bound: &Bound, exact: f64) {
 #[test]
 fn maxima_that_are_known_exactly_are_enclosed() {
     let effort = Effort { gap: 1e-7, boxes: 200_000, ..Effort::default() };
-    // ‖ΔX‖ = e √(l₁² + l₂² + 2 l₁ l₂ cos q₂): stretched 700 mm, at 60° and beyond √(400² + 300² + 400·300) mm.
+    // ‖ΔX‖ = e √(l₁² + l₂² + 2 l₁ l₂ cos q₂): stretched 700 mm, at 60° and beyond √(400² + 300² +
+    // 400·300) mm.
     for (limits, reach) in
         [("[\"-150 deg\", \"150 deg\"]", 700.0), ("[\"60 deg\", \"150 deg\"]", 370_000.0_f64.sqrt())]
     {
@@ -270,7 +274,7 @@ fn maxima_that_are_known_exactly_are_enclosed() {
         is(&bounded(&random[0]), 2e-3 * 300.0);
         is(&bounded(&radius[0]), 1e-3 * reach + 0.6);
         is(&bounded(&repeatable[4]), 1e-3);
-        // Along x, y of F_0 the first joint turns it wherever it is largest.
+        // The first joint can turn the maximum into x or y of F_0.
         is(&bounded(&repeatable[1]), 1e-3 * reach);
         is(&bounded(&random[2]), 0.6);
         is(&bounded(&across_z[0]), 1e-3 * reach);
@@ -280,7 +284,8 @@ fn maxima_that_are_known_exactly_are_enclosed() {
     }
 }
 
-/// Nine joints are too many for boxes: what is certified comes from the parts, and is less than two and a half times the largest error that is found.
+/// Checks nine joints, which are too many for boxes: the bound comes from the parts, and is less
+/// than two and a half times the largest error found.
 #[test]
 fn of_many_joints_the_parts_are_known() {
     let mut text = abbe_tests::chains::revolute_chain(9);
@@ -312,7 +317,7 @@ fn boxes_that_are_chosen_to_break_it_do_not() {
     };
     let degree = std::f64::consts::PI / 180.0;
     let largest = [
-        // A point; neighbours of the stretched arm; a turn and more; both ends alike.
+        // A point; neighbors of the stretched arm; more than a full turn; symmetric ends.
         (at(0.3, 0.3), 0.3_f64),
         (at(0.0, 0.0_f64.next_up()), 0.0),
         (at(-f64::EPSILON, f64::EPSILON), 0.0),
@@ -328,7 +333,8 @@ fn boxes_that_are_chosen_to_break_it_do_not() {
     }
 }
 
-/// Where a held table begins, the error has a kink; and there it is largest: 1 mm/m until 0, and 2 mm/m less behind it.
+/// Checks an error with a kink at the beginning of a held table, where it is largest: it rises by 1
+/// mm/m up to 0, and falls by 1 mm/m after it.
 #[test]
 fn a_kink_at_the_end_of_a_table_may_be_the_maximum() {
     let text = r#"
@@ -359,7 +365,8 @@ fn a_kink_at_the_end_of_a_table_may_be_the_maximum() {
     }
 }
 
-/// Two large errors that cancel but for a little: the bound is that of the difference, as good as numbers of this size can be known.
+/// Checks two large errors that nearly cancel: the bound is that of the difference, up to the
+/// rounding errors of numbers of this size.
 #[test]
 fn what_cancels_is_known_as_well_as_its_parts() {
     let text = r#"

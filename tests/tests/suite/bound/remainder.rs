@@ -1,4 +1,4 @@
-//! First order and the exact chain never differ by more than what is certified of their difference.
+//! The difference of first order and exact chain never exceeds its certified bound.
 
 use abbe::{Class, Manipulator, deviation, drawn_pose};
 use abbe_bound::{Bound, Effort, Moving, largest};
@@ -17,7 +17,8 @@ fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Bound {
     largest(&mut graph, &magnitude, &moving, |symbol| home(symbol, spec), effort, &mut |_| true)
 }
 
-/// How far the exact chain has the tool point from where `J_e ε` of the repeatable sources has it, and how large its rounding may be.
+/// Returns the distance of the tool point of the exact chain from that of `J_e ε` of the repeatable
+/// sources, and a bound of its rounding error.
 fn difference(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
     let description = robot.description();
     let magnitudes = description.sources.iter().map(|source| match source.class {
@@ -72,8 +73,9 @@ fn nothing_exceeds_what_is_certified() {
     assert!(6 * certified > 5 * boxes, "of {boxes} boxes {certified} are certified");
 }
 
-/// A bar of which the joint is off by φ: the tip is on an arc, and what is certified is the first term of the remainder,
-/// `l φ²/2`; the remainder itself is `l √((1 − cos φ)² + (φ − sin φ)²)`.
+/// Checks a bar whose joint has the error φ: the tip moves on an arc, and the certified bound is
+/// the first term of the remainder, `l φ²/2`. The remainder itself is
+/// `l √((1 − cos φ)² + (φ − sin φ)²)`.
 #[test]
 fn an_arc_is_left_out() {
     for error in ["joint = \"q1\"\nerror = \"10 mrad\"", "frame = \"bar\"\ne_r = \"10 mrad\""] {
@@ -92,7 +94,7 @@ fn an_arc_is_left_out() {
     }
 }
 
-/// Translations alone leave nothing out.
+/// Checks that translations alone have no remainder.
 #[test]
 fn of_translations_nothing_is_left_out() {
     let text = "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n[[frame]]\nname = \"slide\"\n\

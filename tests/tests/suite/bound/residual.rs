@@ -1,4 +1,4 @@
-//! What one step of compensation leaves is never more than what is certified of it.
+//! The error after one step of compensation never exceeds its certified bound.
 
 use abbe::analysis::{compensated, sampling};
 use abbe::compensator::norms;
@@ -14,7 +14,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{given, home, moving, part, place, robot, robots};
 
-/// ½ ‖p″‖ and ½ ‖ω′‖ over a box.
+/// Returns the bounds of ½ ‖p″‖ and ½ ‖ω′‖ over a box.
 fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<[Bound; 2]> {
     let Residual { mut graph, point, turn, share } = Residual::new(spec)?;
     let share = Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 };
@@ -26,7 +26,7 @@ fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<[Bound; 2]> 
     Some([of(&point), turn.as_ref().map_or(none, of)])
 }
 
-/// How far the exact chain has the tool from where the ideal one should be, after one step by a solver of another make.
+/// Returns the errors of the exact chain after one step of an independent solver.
 fn left(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
     let description = robot.description();
     let repeatable = description.sources.iter().map(|source| match source.class {
@@ -43,7 +43,7 @@ fn left(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
         let real = drawn_pose(robot, q, &[], u, magnitudes).ok()?;
         Some(deviation(Orientation::RotationVector, &target, &real))
     };
-    // Central differences in the size of the errors, and along the joints.
+    // Central differences by the size of the errors, and along the joints.
     let (plus, less) = (off(&small, q)?, off(&minus, q)?);
     let error: Vec<f64> = rows(std::array::from_fn(|i| (plus[i] - less[i]) / 2e-4));
     let none = vec![0.0; repeatable.len()];
@@ -87,7 +87,7 @@ fn nothing_exceeds_what_is_certified() {
         for _ in 0..given("ABBE_BOXES", 2) {
             let mut box_ = part(&all, &mut random);
             for name in &mut box_ {
-                // Wide boxes hold singular places.
+                // Wide boxes contain singular configurations.
                 name.range[1] = name.range[1].min(name.range[0] + 0.3);
             }
             let Some(bounds) = bounded(&spec, &box_, &Effort { gap: 0.5, boxes: 60, ..Effort::default() })
@@ -116,8 +116,9 @@ fn nothing_exceeds_what_is_certified() {
     );
 }
 
-/// A slide of which all that it carries is turned by φ: with y the way to the tool, first order moves it by `φ y`, and what is
-/// certified is `½ φ² y`; what is left is `y √((φ − sin φ)² + (1 − cos φ)²)`.
+/// Checks a slide that rotates everything it carries by φ. With y the distance of the tool, the
+/// first-order displacement is `φ y` and the certified bound is `½ φ² y`; the remaining error is
+/// `y √((φ − sin φ)² + (1 − cos φ)²)`.
 #[test]
 fn what_a_turned_slide_leaves_is_known() {
     let slide = |axis: &str, limits: &str| {
@@ -144,7 +145,8 @@ fn what_a_turned_slide_leaves_is_known() {
     assert!((sampled - exact).abs() < 1e-9, "{sampled} {exact}");
 }
 
-/// The compensator, which takes more steps, leaves no more of the paper's positioner than is certified of one.
+/// Checks that the compensator, with more steps, leaves no larger error of the paper's positioner
+/// than the bound for one step.
 #[test]
 fn the_compensator_leaves_no_more() {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use rand::seq::IndexedRandom;
 use rand::{Rng, RngExt};
 
-/// Errors that depend on what stands in for `q`, `p` (a payload of 0–5 kg) and `heat` (a temperature of −10 … 10 K).
+/// Errors as functions of the placeholder `q`, of `p` (a payload of 0–5 kg) and of `heat` (a
+/// temperature of −10 … 10 K).
 const ANGLES: [&str; 12] = [
     "2e-4",
     "1e-4 * sin(3*q + 0.3)",
@@ -21,7 +22,7 @@ const ANGLES: [&str; 12] = [
     "linear(q) + cubic(q)",
 ];
 
-/// A spec; its tables hold beyond their ends.
+/// Returns a random spec, whose tables hold beyond their ends.
 pub(crate) fn spec(random: &mut impl Rng) -> String {
     let frames = random.random_range(2..=6);
     let euler = random.random_bool(0.2);
@@ -101,7 +102,7 @@ pub(crate) fn spec(random: &mut impl Rng) -> String {
     text
 }
 
-/// Every `q` that is a name by itself.
+/// Replaces every `q` that is a whole name.
 fn replaced(angle: &str, q: &str) -> String {
     let letters: Vec<char> = angle.chars().collect();
     let is_name = |k: usize| letters.get(k).is_some_and(char::is_ascii_alphanumeric);

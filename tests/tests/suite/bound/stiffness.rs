@@ -1,4 +1,4 @@
-//! Nowhere does a force at the tool point move it by more than is certified.
+//! The displacement of the tool point by a force never exceeds its certified bound.
 
 use abbe::Manipulator;
 use abbe_bound::{Effort, Extreme, Moving, Singular, singular_value};
@@ -17,7 +17,8 @@ fn largest(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<Singular> {
     Some(singular_value(Extreme::Largest, &graph, &rows, box_, still, effort, &mut |_| true))
 }
 
-/// The same robot under a force of 1 N along an axis of `F_0` at the tool point, or without any.
+/// Returns the robot under a force of 1 N along an axis of `F_0` at the tool point, or without a
+/// force.
 fn loaded(text: &str, axis: Option<usize>) -> Interpreter {
     let frames = text.matches("[[frame]]").count();
     let force = |axis: usize| (0..3).map(|i| if i == axis { "\"1 N\"," } else { "0," }).collect::<String>();
@@ -30,7 +31,8 @@ fn loaded(text: &str, axis: Option<usize>) -> Interpreter {
     Interpreter::new(Spec::parse("robot.toml", &(text.to_owned() + &load.unwrap_or_default())).unwrap())
 }
 
-/// By how much 1 N moves the tool point at most: the difference of what the errors are with and without it.
+/// Returns the largest displacement of the tool point by 1 N: the difference of the errors with and
+/// without it.
 fn compliance(robots: &[Interpreter; 4], q: &[f64], u: &[f64]) -> f64 {
     let shift = |robot: &Interpreter| {
         let description = robot.description();
@@ -101,8 +103,8 @@ fn nothing_gives_way_more_than_is_certified() {
     );
 }
 
-/// A quill that comes out of its bearing by L is a clamped beam, `3EI/L³`; two bars of which each joint gives way by c are stretched
-/// `c ((l_1 + l_2)² + l_2²)`.
+/// Checks textbook cases. A quill that extends from its bearing by L is a clamped beam, `3EI/L³`.
+/// Two bars with a compliance c at each joint give `c ((l_1 + l_2)² + l_2²)` when stretched.
 #[test]
 fn what_textbooks_know_is_found() {
     let quill = "[manipulator]\nname = \"quill\"\nlength = \"mm\"\n\

@@ -1,4 +1,5 @@
-//! The compensator on the true model: corrected commands put the real tool where the ideal one is.
+//! The compensator on the true model: compensated commands put the real tool where the ideal one
+//! is.
 
 mod bounded;
 
@@ -15,7 +16,7 @@ use abbe_spec::Spec;
 
 use bounded::hard_rows;
 
-/// The paper's treatment volume, 27 points presented at the isocentre in every angle of spin.
+/// Returns the paper's treatment volume, 27 points presented at the isocenter at every spin angle.
 fn treatment_volume() -> impl Workspace {
     let indices = |names: [&str; 3]| {
         names.map(|name| pps::DESCRIPTION.parameters.iter().position(|p| p.name == name).unwrap())
@@ -41,7 +42,7 @@ fn within(robot: &dyn Manipulator, q: &[f64]) -> bool {
     robot.description().variables.iter().zip(q).all(|(v, q)| (v.limits[0]..=v.limits[1]).contains(q))
 }
 
-/// What the module documentation of `abbe::compensator` says of the PPS.
+/// Checks the figures for the PPS in the module documentation of `abbe::compensator`.
 #[test]
 fn the_treatment_volume_is_compensated_within_limits() {
     let (volume, u) = (treatment_volume(), pps::Inputs::NOMINAL);
@@ -55,7 +56,7 @@ fn the_treatment_volume_is_compensated_within_limits() {
         let s = pps::Parameters { x: tool("x"), y: tool("y"), z: tool("z"), ..pps::Parameters::NOMINAL };
         let command = pps::compensated(&q, &s, &u).unwrap();
         assert!(within(&pps::Pps, &command.q), "{:?}", command.q);
-        // On the exact chain, frame by frame: nothing that the compensator itself computes.
+        // On the exact chain, frame by frame, independently of the compensator.
         let (mut transforms, errors) =
             ([abbe::Pose::IDENTITY; pps::FRAMES + 1], pps::generalized_errors(&command.q, &s, &u).unwrap());
         pps::Pps.transforms(&command.q, &s.to_array(), &mut transforms).unwrap();
@@ -64,7 +65,7 @@ fn the_treatment_volume_is_compensated_within_limits() {
         assert!(left.iter().all(|number| number.is_finite()), "{left:?}");
         before = before.max(norms(&command.before).0);
         after = after.max(norms(&left).0);
-        // A limit takes the turn, not the tool point.
+        // A limit affects the orientation, not the tool point.
         let at_limit = pps::DESCRIPTION.variables.iter().zip(&command.q).any(|(v, q)| v.limits.contains(q));
         held += usize::from(at_limit);
         let turn = if at_limit { &mut turned_at_limit } else { &mut turned };
@@ -76,7 +77,7 @@ fn the_treatment_volume_is_compensated_within_limits() {
     assert!(held < volume.len() / 10, "{held}");
 }
 
-/// A spec with errors beside its own: half a millimetre and a milliradian here and there.
+/// Returns a shipped spec with additional errors of half a millimetre and a milliradian.
 fn with_errors(shipped: &str) -> Spec {
     let shipped = SHIPPED.iter().find(|s| s.name == shipped).unwrap();
     let nominal = Spec::parse("nominal", shipped.spec).unwrap();
@@ -100,7 +101,7 @@ fn with_errors(shipped: &str) -> Spec {
     Spec::parse("with errors", &text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)))
 }
 
-/// Joint samples, those next to limits aside: half the range about its middle.
+/// Returns joint samples away from limits: half the range about its center.
 fn samples(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     let description = robot.description();
     let all: Vec<usize> = (0..description.variables.len()).collect();
@@ -112,7 +113,7 @@ fn samples(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(sample).map(inner).collect()
 }
 
-/// The least singular value of the nominal `J_q`, in metres and rad.
+/// Returns the smallest singular value of the nominal `J_q`, in metres and rad.
 fn least_singular_value(robot: &dyn Manipulator, q: &[f64], s: &[f64]) -> f64 {
     let description = robot.description();
     let metre = 1.0 / description.length.in_metres();
@@ -121,7 +122,7 @@ fn least_singular_value(robot: &dyn Manipulator, q: &[f64], s: &[f64]) -> f64 {
             VariableKind::Revolute => 1.0,
             VariableKind::Prismatic => metre,
         };
-        // Central differences: rotation vectors, whatever the rows of its Jacobians are.
+        // Central differences: rotation vectors, regardless of the rows of its Jacobians.
         let h = 1e-6 * unit;
         let pose = |step: f64| {
             let mut q = q.to_vec();
@@ -138,7 +139,8 @@ fn least_singular_value(robot: &dyn Manipulator, q: &[f64], s: &[f64]) -> f64 {
     jacobian.rows(0, rows).singular_values().iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// What is left where the arm is far from singular, as the module documentation has it; nothing becomes worse anywhere.
+/// Checks the documented residuals far from singularities, and that compensation never increases
+/// the error.
 fn compensates(name: &str, whole: bool, regular_above: f64) {
     let spec = with_errors(name);
     let robot = Interpreter::new(spec.clone());
@@ -171,14 +173,15 @@ fn six_and_seven_joints_bring_the_tool_there() {
     }
 }
 
-/// Three and four joints: the tool point is right, turns stay.
+/// Checks three and four joints: the tool point is on target, its orientation remains.
 #[test]
 fn fewer_joints_bring_the_tool_point_there() {
     compensates("machine3", false, 0.1);
     compensates("scara", false, 0.03);
 }
 
-/// Seven joints: no other commands that do the same are closer, to first order: `d` has no part in the null space of `J`.
+/// Checks seven joints: no equivalent commands are closer, to first order, since `d` has no
+/// component in the null space of `J`.
 #[test]
 fn a_redundant_arm_stays_near_the_nominal() {
     let (s, u) = (iiwa::Parameters::NOMINAL, iiwa::Inputs::NOMINAL);
@@ -201,7 +204,7 @@ fn a_redundant_arm_stays_near_the_nominal() {
     assert!(judged > 10);
 }
 
-/// What the limits do not allow is said; the tool point comes first.
+/// Checks that targets beyond limits are reported, and that the tool point has priority.
 #[test]
 fn limits_hold() {
     let (s, u) = (pps::Parameters::NOMINAL, pps::Inputs::NOMINAL);
@@ -216,7 +219,7 @@ fn limits_hold() {
         }
     }
     assert!(held > 0, "a spin at its limit cannot be turned further");
-    // Commanded beyond a limit: it is brought back, and what that leaves is said.
+    // Commands beyond a limit are clamped, and the remaining error is reported.
     let command = pps::compensated(&[-5.0, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u).unwrap();
     assert!(command.q[0] == 0.0 && norms(&command.after).1 > 1e-3);
 }
@@ -232,7 +235,7 @@ fn bad_input_is_an_error() {
     assert_eq!(far.err(), Some(Error::NotFinite { quantity: Quantity::Pose, index: 0 }));
 }
 
-/// A spec of a chain and its errors.
+/// Returns the interpreter of a chain with errors.
 fn small_arm(frames: &str, errors: &str) -> Interpreter {
     let text = format!(
         "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n{frames}\n[[source]]\nname = \"e\"\nclass = \"repeatable\"\n{errors}"
@@ -242,7 +245,8 @@ fn small_arm(frames: &str, errors: &str) -> Interpreter {
     )
 }
 
-/// Stretched out, too short, and nothing moves it further; a limit is named only if it is in the way.
+/// Checks the obstacles: a stretched arm that is too short and cannot move further; a limit is
+/// named only if it is the obstacle.
 #[test]
 fn obstacles_are_the_true_ones() {
     let revolute = |name: &str, rest: &str| {
@@ -260,7 +264,7 @@ fn obstacles_are_the_true_ones() {
     assert!(matches!(stretched.missing, Missing::Point(left) if (left - 0.5).abs() < 1e-3), "{stretched:?}");
     let along = stretched.axis[0] * 0.3_f64.cos() + stretched.axis[1] * 0.3_f64.sin();
     assert!(stretched.immobile && stretched.limits.is_empty() && (along.abs() - 1.0).abs() < 1e-3);
-    // Behind the upper arm, where the elbow could make up for it.
+    // Behind the upper arm, where the elbow could compensate.
     let turned = small_arm(&planar, "frame = \"q1\"\ne_r = \"-2 mrad\"\n");
     let held = at(&turned, &[0.5, 1.0]).unwrap();
     assert_eq!((held.limits, held.immobile), (vec![1], false));
@@ -268,7 +272,7 @@ fn obstacles_are_the_true_ones() {
     assert_eq!(mobility(&turned, &[]).unwrap(), 2, "in the plane, the turn being that of the point");
 }
 
-/// Six variables that move the tool in five ways only.
+/// Checks six variables that move the tool in five ways only.
 #[test]
 fn a_five_axis_machine_is_not_singular() {
     let slide = |name: &str, axis: &str| {
@@ -293,13 +297,14 @@ fn a_five_axis_machine_is_not_singular() {
     assert!(obstacle.immobile && matches!(obstacle.missing, Missing::Turn(_)), "{obstacle:?}");
 }
 
-/// What the compensator of fixed cost says of itself.
+/// Checks the convergence flag of the compensator of fixed cost.
 #[test]
 fn whether_six_steps_were_enough_is_said() {
     let (s, u) = (pps::Parameters::NOMINAL, pps::Inputs::NOMINAL);
     let command = pps::compensated(&[1128.0, 280.0, 300.0, 0.3, 0.0, 0.0], &s, &u).unwrap();
     assert!(command.converged && norms(&command.after).0 < 1e-6);
-    // More than it needs change nothing, less than that is said: near singular poses some rows need more.
+    // More steps than necessary change nothing; fewer are reported: near singular poses some rows
+    // need more.
     let robot = Interpreter::new(with_errors("puma560"));
     let s = sampling::nominal_parameters(robot.description());
     let mut more = 0;
@@ -312,7 +317,7 @@ fn whether_six_steps_were_enough_is_said() {
     assert!(more > 0);
 }
 
-/// The steps of the generated compensator.
+/// Runs the steps of the generated compensator.
 fn fixed_cost(robot: &Interpreter, q: &[f64], s: &[f64]) -> abbe::compensator::Compensated<Vec<f64>> {
     let magnitudes = repeatable_magnitudes(robot.description());
     let target = robot.pose(q, s).unwrap();

@@ -1,4 +1,4 @@
-//! Rows of a robot that were written wrongly, and the reading that undoes it.
+//! Rows of a robot with mistakes, and the interpretation that corrects them.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -32,13 +32,13 @@ impl Random {
         lower + (upper - lower) * (self.draw() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// By Box and Muller.
+    /// Returns a normal number by the Box–Muller method.
     fn normal(&mut self) -> f64 {
         (-2.0 * self.between(1e-300, 1.0).ln()).sqrt() * (2.0 * PI * self.between(0.0, 1.0)).cos()
     }
 }
 
-/// A shipped robot on a foot of its own, with a tool.
+/// Returns the spec of a shipped robot on a pedestal, with a tool.
 pub(crate) fn text(name: &str) -> String {
     let text = Machine::find(name).unwrap().text().unwrap();
     let at = text.find("[[frame]]").unwrap();
@@ -55,7 +55,7 @@ pub(crate) fn text(name: &str) -> String {
     }
 }
 
-/// What can be wrong with rows, or with a spec.
+/// Mistakes in rows, or in a spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mistake {
     Degrees,
@@ -74,7 +74,7 @@ pub(crate) enum Mistake {
     Pose,
     Difference,
     RotationVector,
-    /// None at all: the positions alone.
+    /// No orientation: positions only.
     Position,
 }
 
@@ -99,7 +99,7 @@ pub(crate) const ALL: [Mistake; 16] = [
     RotationVector,
 ];
 
-/// Whether it is about how poses are written: one at a time is enough.
+/// Returns whether a mistake is about the notation of poses, which excludes others.
 pub(crate) fn is_layout(mistake: Mistake) -> bool {
     matches!(mistake, Quaternion | Matrix | Euler | Difference | RotationVector)
 }
@@ -110,7 +110,7 @@ pub(crate) struct Case {
     pub(crate) right: Interpretation,
 }
 
-/// Rows of a robot, with mistakes. The right reading undoes them.
+/// Returns rows of a robot with mistakes, and the interpretation that corrects them.
 pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Case {
     let mut text = text(robot);
     let spec = Spec::parse("robot.toml", &text).unwrap();
@@ -193,7 +193,7 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
     ];
     changes.extend(ends.into_iter().filter(|(mistake, _)| has(*mistake)).map(|(_, change)| change));
 
-    // By themselves, rows are in the units of the spec.
+    // Without declared units, rows are in the units of the spec.
     let degrees = has(Degrees);
     let lengths = if has(Lengths) { if unit == "mm" { "m" } else { "mm" } } else { unit };
     let per_length = if lengths == unit {
@@ -243,7 +243,7 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
         if has(Pose) {
             pose = pose.inverse();
         }
-        // 0.1 mm, and a tenth of a milliradian.
+        // Noise of 0.1 mm and 0.1 mrad.
         let mut noise = |size: f64| Vector3::from_fn(|_, _| size * random.normal());
         pose.translation.vector += noise(0.1 / in_mm);
         pose.rotation = UnitQuaternion::from_scaled_axis(noise(1e-4)) * pose.rotation;
@@ -306,7 +306,8 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
     Case { spec: text, data, right }
 }
 
-/// Angles by Newton's method on the product of three turns: not by formulas of any order.
+/// Returns Euler angles by Newton's method on the product of three rotations, independently of
+/// formulas for each order.
 fn euler(r: &Matrix3<f64>, axes: [usize; 3], fixed: bool) -> [f64; 3] {
     let axis = |i: usize| [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][i];
     let product = |angles: &Vector3<f64>| {
@@ -318,7 +319,7 @@ fn euler(r: &Matrix3<f64>, axes: [usize; 3], fixed: bool) -> [f64; 3] {
     for _ in 0..200 {
         let mut angles = Vector3::from_fn(|_, _| random.between(-PI, PI));
         for _ in 0..60 {
-            // Half the skew part: the small turn that is left.
+            // Half the skew part: the small remaining rotation.
             let left = |angles: &Vector3<f64>| r * product(angles).transpose();
             let off = |angles: &Vector3<f64>| {
                 let m = left(angles);

@@ -1,6 +1,7 @@
-//! The doctor is given rows that were read wrongly in one way or in two, with noise, and must name how.
+//! The doctor gets rows with one or two mistakes, and noise, and must name them.
 //!
-//! Cases are seeded. `ABBE_DOCTOR_CASES` is how many of each kind are tried for each robot; the full proof has 100.
+//! Cases are seeded. `ABBE_DOCTOR_CASES` sets their number per kind and robot; the full proof has
+//! 100.
 
 mod case;
 
@@ -27,8 +28,9 @@ fn run(spec: &str, data: &str, folder: &Path) -> Report {
         .unwrap()
 }
 
-/// The map of a reading, with the corrected spec where the reading is about the spec, leaves as little of these rows as was said, give
-/// or take that a fitted base counts differently. Says whether the spec was corrected.
+/// Checks that the written map, with the corrected spec if necessary, leaves the reported residual
+/// of these rows, up to the different treatment of a fitted base. Returns whether the spec was
+/// corrected.
 fn map_holds(report: &Report, folder: &Path) -> bool {
     let file = folder.join("robot.toml");
     let machine = Machine::find(&file).unwrap();
@@ -39,7 +41,7 @@ fn map_holds(report: &Report, folder: &Path) -> bool {
     let rest = report.found.first().is_some_and(|found| found.interpretation.changes.iter().any(of_rows));
     let differs = report.of_spec.iter().any(|line| line.starts_with("differences"));
     let held = report.of_spec.is_empty() || (is_corrected && !rest && !differs);
-    // Whatever is about a spec of these robots can be said in its text.
+    // All corrections of these specs can be written as text.
     assert!(
         held || rest || differs || report.found.is_empty(),
         "{}: {:?}",
@@ -61,7 +63,7 @@ fn map_holds(report: &Report, folder: &Path) -> bool {
     is_corrected
 }
 
-/// Whether two readings say the same, zeros to 0.02 rad, or 2 mm.
+/// Returns whether two interpretations are equal, with zeros to 0.02 rad or 2 mm.
 fn is_same(a: &Interpretation, b: &Interpretation, in_mm: f64) -> bool {
     let near = |change: &Change| {
         b.changes.iter().any(|other| match (change, other) {
@@ -82,11 +84,11 @@ fn is_same(a: &Interpretation, b: &Interpretation, in_mm: f64) -> bool {
 #[derive(Debug, Default)]
 struct Score {
     cases: usize,
-    /// The right reading is the first.
+    /// Cases with the correct interpretation first.
     first: usize,
-    /// It is among those that cannot be told apart.
+    /// Cases with the correct interpretation among the indistinguishable ones.
     among: usize,
-    /// How many these are, summed.
+    /// Total number of indistinguishable interpretations.
     found: usize,
 }
 
@@ -110,7 +112,7 @@ fn cases() -> usize {
 }
 
 fn suits(robot: &str, mistake: Mistake) -> bool {
-    // The others have no Denavit-Hartenberg numbers.
+    // The others have no DH parameters.
     mistake != Convention || !["iiwa", "puma560"].contains(&robot)
 }
 
@@ -145,7 +147,7 @@ fn pairs_of_mistakes_are_named() {
                 let pair = [ALL[random.below(ALL.len())], ALL[random.below(ALL.len())]];
                 let [a, b] = pair;
                 let alike = a == b || (is_layout(a) && is_layout(b));
-                // A position alone is not seen from the tool.
+                // Positions alone cannot be inverted to the tool's frame.
                 let blind = pair.contains(&Difference) && pair.contains(&Pose);
                 if !alike && !blind && suits(robot, a) && suits(robot, b) {
                     break pair;
@@ -161,7 +163,8 @@ fn pairs_of_mistakes_are_named() {
     assert!(score.among * 100 >= score.cases * 95, "{score:?}");
 }
 
-/// What is about a spec is written into it, and nothing else: the map and it together read the rows.
+/// Checks that corrections of a spec are written into it and change nothing else: spec and map
+/// together predict the rows.
 #[test]
 fn the_spec_is_corrected() {
     let folder = tempfile::tempdir().unwrap();
@@ -184,7 +187,7 @@ fn the_spec_is_corrected() {
         }
     }
     assert!(corrected >= 22, "{corrected}");
-    // Line by line the spec is as it was, but for what is changed and for the words above it.
+    // The lines of the spec are unchanged, except for corrections and the comments above them.
     let case = case("ur5", &[Tool], &mut Random(1));
     let report = run(&case.spec, &case.data, folder.path());
     let spec = Spec::parse("robot.toml", &case.spec).unwrap();
@@ -192,14 +195,15 @@ fn the_spec_is_corrected() {
     let changed: Vec<&str> = new.lines().filter(|line| !case.spec.lines().any(|old| old == *line)).collect();
     let expected = [
         "# The spec as `abbe doctor` reads it:",
-        "# - the tool is the other way round",
+        "# - the tool transform is inverted",
         "transform = \"Ry(-0.4) Tz(-(110 mm)) Ty(-(20 mm)) Tx(-(30 mm))\"",
     ];
     assert_eq!(changed, expected);
     assert_eq!(new.lines().count(), case.spec.lines().count() + 2);
 }
 
-/// An end effector that the spec does not know, in poses and in positions: the map says where it is.
+/// Checks an end effector that the spec lacks, with poses and with positions: the map contains its
+/// position.
 #[test]
 fn another_tool_stands_in_the_map() {
     let folder = tempfile::tempdir().unwrap();
@@ -214,7 +218,8 @@ fn another_tool_stands_in_the_map() {
     }
 }
 
-/// A machine with a zero that is off by little: that is found, and whoever says that errors may be as large gets the spec.
+/// Checks a machine with a small zero error: it is found, and the spec is offered if errors of this
+/// size are accepted.
 #[test]
 fn what_less_changed_leaves_is_said_and_can_be_accepted() {
     let folder = tempfile::tempdir().unwrap();
@@ -243,7 +248,8 @@ fn what_less_changed_leaves_is_said_and_can_be_accepted() {
     }
 }
 
-/// Nothing is invented of few rows, of a robot with a slide either.
+/// Checks that few rows consistent with the spec yield no corrections, also for a robot with a
+/// prismatic joint.
 #[test]
 fn few_rows_of_what_is_as_in_the_spec_are_as_in_the_spec() {
     let folder = tempfile::tempdir().unwrap();
@@ -264,7 +270,7 @@ fn few_rows_of_what_is_as_in_the_spec_are_as_in_the_spec() {
     }
 }
 
-/// A slip in a cell costs its row, not its column.
+/// Checks that a malformed cell removes its row, not its column.
 #[test]
 fn a_row_that_is_not_whole_is_left_out() {
     let folder = tempfile::tempdir().unwrap();
@@ -279,7 +285,7 @@ fn a_row_that_is_not_whole_is_left_out() {
     }
 }
 
-/// Ten visits of one configuration tell nothing.
+/// Checks that ten visits of one configuration are rejected.
 #[test]
 fn equal_rows_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -307,7 +313,7 @@ fn another_robot_is_said_to_be_another() {
         ("wam", "panda"),
         ("ur5", "general6r"),
     ];
-    // Without optimization all of it takes minutes.
+    // Without optimization the full set takes minutes.
     let (pairs, layouts) = if cases() == 1 {
         (&pairs[..2], &[Quaternion][..])
     } else {

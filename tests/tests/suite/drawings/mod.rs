@@ -1,4 +1,5 @@
-//! The drawings of `docs/reference/conventions.md`, from the same frames that generated code has: `UPDATE_EXPECT=1` writes them.
+//! The drawings of `docs/reference/conventions.md`, from the frames of generated code.
+//! `UPDATE_EXPECT=1` writes them.
 
 mod sheet;
 
@@ -15,7 +16,7 @@ fn compare(name: &str, sheet: Sheet) {
     expect_file![path].assert_eq(&sheet.finish());
 }
 
-/// An arm of two joints, its upper arm by Denavit-Hartenberg numbers: F_2 stands at its far end.
+/// Arm of two joints whose upper arm has DH parameters: F_2 is at its far end.
 const ARM: &str = r#"
 [manipulator]
 name = "arm"
@@ -39,7 +40,7 @@ transform = "Tz(110) Rz(q3)"
 transform = "Tx(450)"
 "#;
 
-/// `F_0 … F_n` at q, and the tool point.
+/// Returns `F_0 … F_n` at q, and the tool point.
 fn frames(q: &[f64]) -> (Vec<Frame>, Point) {
     let spec = Spec::parse("arm.toml", ARM).unwrap();
     let frame = |count: usize, tool: bool| {
@@ -60,7 +61,7 @@ fn frames(q: &[f64]) -> (Vec<Frame>, Point) {
     (all, frame(spec.frames.len(), true).origin)
 }
 
-/// The middle of two points.
+/// Returns the midpoint of two points.
 fn middle(a: Point, b: Point) -> Point {
     std::array::from_fn(|i| (a[i] + b[i]) / 2.0)
 }
@@ -107,7 +108,8 @@ fn six_errors_of_a_frame() {
     compare("six-errors.svg", sheet);
 }
 
-/// What an encoder turns about is the axis of its joint, and `e_r` of the frame behind a DH length is not that.
+/// Checks that an encoder error rotates about the axis of its joint, unlike `e_r` of the frame
+/// after a DH length.
 #[test]
 fn axis_of_an_encoder() {
     let q = [0.0, 0.0];

@@ -1,4 +1,4 @@
-//! A sheet on which things in space are drawn, seen from a direction: SVG text.
+//! A sheet with a parallel projection of space: SVG text.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ pub(crate) const INK: &str = "#1f2733";
 pub(crate) const GREY: &str = "#6b7480";
 pub(crate) const LINK: &str = "#c3c9d2";
 pub(crate) const RED: &str = "#c22f2f";
-/// Of the axes x, y and z.
+/// Colors of the axes x, y and z.
 pub(crate) const XYZ: [&str; 3] = ["#b3402a", "#2e7d46", "#2758a8"];
 
 pub(crate) struct Sheet {
@@ -17,13 +17,13 @@ pub(crate) struct Sheet {
     right: Point,
     up: Point,
     scale: f64,
-    /// Where the origin of space is on the sheet.
+    /// Position of the origin of space on the sheet.
     origin: [f64; 2],
     body: String,
 }
 
 impl Sheet {
-    /// Seen from that azimuth and elevation, degrees; z is up.
+    /// Creates a sheet viewed from this azimuth and elevation, in degrees; z is up.
     pub(crate) fn new(title: &'static str, size: [f64; 2], [azimuth, elevation]: [f64; 2]) -> Self {
         let (sa, ca) = azimuth.to_radians().sin_cos();
         let (se, ce) = elevation.to_radians().sin_cos();
@@ -32,7 +32,7 @@ impl Sheet {
         Self { size, title, right, up, scale: 1.0, origin: [0.0; 2], body: String::new() }
     }
 
-    /// So many pixels to a unit of length, and where the origin is.
+    /// Sets the pixels per unit of length, and the position of the origin.
     pub(crate) fn placed(mut self, scale: f64, origin: [f64; 2]) -> Self {
         (self.scale, self.origin) = (scale, origin);
         self
@@ -59,7 +59,7 @@ impl Sheet {
         .unwrap();
     }
 
-    /// A line through points that ends in a tip.
+    /// Draws a line through points with an arrowhead at its end.
     pub(crate) fn arrow(&mut self, points: &[Point], colour: &str, width: f64) {
         let mut points: Vec<[f64; 2]> = points.iter().map(|point| self.at(*point)).collect();
         let [.., before, tip] = points[..] else { return };
@@ -87,13 +87,13 @@ impl Sheet {
             .unwrap();
     }
 
-    /// Text that begins so many pixels from a point.
+    /// Writes text at an offset in pixels from a point.
     pub(crate) fn label(&mut self, point: Point, [dx, dy]: [f64; 2], text: &str, colour: &str) {
         let [x, y] = self.at(point);
         self.text([x + dx, y + dy], text, colour, 14.0);
     }
 
-    /// Text at a place of the sheet, with a white edge so that lines behind it do not hurt.
+    /// Writes text at a position of the sheet, with a white outline for legibility.
     pub(crate) fn text(&mut self, [x, y]: [f64; 2], text: &str, colour: &str, size: f64) {
         writeln!(
             self.body,
@@ -102,7 +102,7 @@ impl Sheet {
         .unwrap();
     }
 
-    /// The axes x, y, z of a frame, with their names.
+    /// Draws the axes x, y, z of a frame, with their names.
     pub(crate) fn axes(&mut self, frame: &Frame, length: f64, named: bool) {
         for (axis, colour) in XYZ.into_iter().enumerate() {
             let tip = frame.point(axis, length);
@@ -126,25 +126,26 @@ impl Sheet {
     }
 }
 
-/// A frame in space: its axes are columns.
+/// Frame in space; its axes are columns.
 pub(crate) struct Frame {
     pub(crate) origin: Point,
     pub(crate) axes: [Point; 3],
 }
 
 impl Frame {
-    /// So far along one of its axes.
+    /// Returns the point at a distance along one of its axes.
     pub(crate) fn point(&self, axis: usize, length: f64) -> Point {
         self.place(std::array::from_fn(|i| if i == axis { length } else { 0.0 }))
     }
 
-    /// A point given in the frame.
+    /// Converts a point given in the frame.
     pub(crate) fn place(&self, point: Point) -> Point {
         std::array::from_fn(|i| self.origin[i] + (0..3).map(|k| self.axes[k][i] * point[k]).sum::<f64>())
     }
 }
 
-/// Points on a circle about the z axis of a frame: radius, height, from one angle to another, degrees.
+/// Returns points on a circle about an axis of a frame: radius, height, and range of angles in
+/// degrees.
 pub(crate) fn arc(
     frame: &Frame,
     axis: usize,

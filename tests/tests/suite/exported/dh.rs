@@ -1,4 +1,4 @@
-//! Tables of Denavit-Hartenberg numbers.
+//! Export of DH tables.
 
 use abbe::Manipulator;
 use abbe_interpreter::Interpreter;
@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Matrix4, Vector3};
 use super::urdf::imported;
 use super::{about, difference, exported, machine, matrix};
 
-/// The tool by a table of numbers, multiplied by hand.
+/// Returns the tool pose of a DH table, multiplied in the test.
 fn by_table(text: &str, q: &[f64], is_standard: bool) -> Matrix4<f64> {
     let mut q = q.iter();
     let mut pose = Isometry3::identity();
@@ -30,7 +30,7 @@ fn by_table(text: &str, q: &[f64], is_standard: bool) -> Matrix4<f64> {
     pose.to_homogeneous()
 }
 
-/// Errors of the numbers themselves: all of them are in the table.
+/// Checks errors of DH parameters: the table contains all of them.
 #[test]
 fn numbers_that_are_off_are_in_the_table() {
     let standard = machine(
@@ -51,14 +51,14 @@ fn numbers_that_are_off_are_in_the_table() {
             report.remains.position.largest * unit < 1e-9 && report.remains.angle.largest < 1e-9,
             "{report:?}"
         );
-        // The tool behind the flange comes beside the table.
+        // The tool after the flange is listed beside the table.
         let tool = if is_standard { 0.0 } else { 0.107 };
         let tool = Matrix4::new_translation(&Vector3::new(0.0, 0.0, tool));
         let [shift, turn] = difference(&machine, |q| by_table(&report.files[0].text, q, is_standard) * tool);
         assert!(shift * unit < 1e-9 && turn < 1e-9, "{shift:e} {turn:e}");
         assert!(report.left_out.iter().all(|line| !line.contains("held at its mean")));
 
-        // By `abbe import`, as any other table.
+        // Read by `abbe import`, as any other table.
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("arm.csv");
         std::fs::write(&file, &report.files[0].text).unwrap();
@@ -74,7 +74,8 @@ fn numbers_that_are_off_are_in_the_table() {
     }
 }
 
-/// The PUMA is written in matrices, the Stanford arm slides: both have a table. A milling machine has none, and is told so.
+/// Checks that a chain of matrices (PUMA) and one with a prismatic joint (Stanford arm) have
+/// tables, and that the export of a milling machine is refused.
 #[test]
 fn chains_of_any_form_have_a_table_if_they_are_of_one_convention() {
     for (name, word) in
@@ -91,7 +92,8 @@ fn chains_of_any_form_have_a_table_if_they_are_of_one_convention() {
     );
 }
 
-/// A tilt between parallel axes, about the normal that alpha does not turn about, is not in the table, and no number runs away.
+/// Checks that a tilt between parallel axes, about the normal that alpha does not turn about,
+/// remains, and that no parameter diverges.
 #[test]
 fn a_tilt_that_a_table_cannot_hold_remains() {
     let tilt =
@@ -102,7 +104,7 @@ fn a_tilt_that_a_table_cannot_hold_remains() {
     assert!(
         report.remains.position.largest > 0.01 && report.remains.position.rms < report.before.position.rms
     );
-    // Other configurations of the same robot: the same size.
+    // Other configurations of the same robot: residuals of the same size.
     assert!((shift / report.remains.position.largest - 1.0).abs() < 0.3, "{shift} {:?}", report.remains);
     for line in report.files[0].text.lines().skip(2) {
         let numbers: Vec<f64> = line.split(',').skip(3).map(|cell| cell.parse().unwrap()).collect();
@@ -111,7 +113,8 @@ fn a_tilt_that_a_table_cannot_hold_remains() {
     assert!(report.left_out.iter().any(|line| line.contains("q2 and q3")), "{:?}", report.left_out);
 }
 
-/// What changes with the configuration is named, and only that; an input that is set stays.
+/// Checks that sources that vary with the configuration are named, and only these, and that an
+/// input that is set stays.
 #[test]
 fn what_changes_is_held_at_its_mean() {
     let machine = machine(

@@ -1,7 +1,7 @@
-//! What was found of a machine in other formats: each read back by other means, and held against the machine.
+//! Exports of an identified machine: each is read back independently and compared with the machine.
 //!
-//! `dh` is tables of Denavit-Hartenberg numbers, `urdf` descriptions and calibrations of robots, `slides` tables of machines whose axes
-//! slide, `trunnion` those of a machine with axes that turn the workpiece.
+//! `dh` covers DH tables, `urdf` robot descriptions and calibrations, `slides` tables of machines
+//! with linear axes, `trunnion` those of a machine with rotary axes that carry the workpiece.
 
 mod dh;
 mod slides;
@@ -17,7 +17,7 @@ use abbe_study::Machine;
 use abbe_study::export::{Export, Format, Report, SAMPLES};
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 
-/// A shipped spec with sources of its own.
+/// Returns a shipped spec with additional sources.
 pub(crate) fn machine(name: &str, sources: &str) -> Machine {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap();
     let text = format!("{}\n{sources}", shipped.spec);
@@ -28,7 +28,8 @@ pub(crate) fn exported(machine: &Machine, format: Format) -> Report {
     Export { machine: machine.clone(), format, samples: SAMPLES, seed: 0 }.run(&mut ()).unwrap()
 }
 
-/// The largest distance and turn between a model and the real tool, at other configurations than those of the report.
+/// Returns the largest position and rotation difference between a model and the real tool, at other
+/// configurations than those of the report.
 pub(crate) fn difference(machine: &Machine, model: impl Fn(&[f64]) -> Matrix4<f64>) -> [f64; 2] {
     let arm = Interpreter::new(machine.spec.clone());
     let description = arm.description();

@@ -1,4 +1,4 @@
-//! Tables of machines whose axes slide, and tables of corrections.
+//! Compensation tables of machines with linear axes, and tables of corrections.
 
 use abbe::analysis::{Workspace, random_joint_samples, sampling};
 use abbe::{Manipulator, drawn_pose, repeatable_magnitudes};
@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use super::{exported, machine};
 
-/// The milling machine at 20 degrees Celsius.
+/// Returns the milling machine at 20 degrees Celsius.
 pub(crate) fn mill() -> Machine {
     let mut machine = machine("machine3", "");
     let set = ["temperature_rise=0K".to_owned()];
@@ -17,7 +17,7 @@ pub(crate) fn mill() -> Machine {
     machine
 }
 
-/// The largest distance of the real tool from the ideal one, with commands as they are corrected.
+/// Returns the largest distance of the real tool from the ideal one, with corrected commands.
 fn commanded(machine: &Machine, corrected: impl Fn(&[f64]) -> Vec<f64>) -> f64 {
     let arm = Interpreter::new(machine.spec.clone());
     let magnitudes = repeatable_magnitudes(arm.description());
@@ -34,7 +34,7 @@ fn commanded(machine: &Machine, corrected: impl Fn(&[f64]) -> Vec<f64>) -> f64 {
     left.fold(0.0, f64::max)
 }
 
-/// Straight between the rows of a table, whose first column rises.
+/// Interpolates linearly between the rows of a table, sorted by its first column.
 fn between(rows: &[Vec<f64>], x: f64) -> Vec<f64> {
     let i = rows.partition_point(|row| row[0] <= x).clamp(1, rows.len() - 1);
     let share = (x - rows[i - 1][0]) / (rows[i][0] - rows[i - 1][0]);
@@ -45,7 +45,9 @@ pub(crate) fn rows(lines: &str) -> Vec<Vec<f64>> {
     lines.lines().map(|line| line.split(' ').map(|cell| cell.parse().unwrap()).collect()).collect()
 }
 
-/// To first order `ΔP = Σ t_i + θ_i × (what lies between carriage i and the tool)`; the control subtracts it. The other sign doubles.
+/// Checks the volumetric tables: to first order
+/// `ΔP = Σ t_i + θ_i × (vector from carriage i to the tool)`, which the control subtracts. The
+/// opposite sign doubles the error.
 #[test]
 fn volumetric_tables_hold_errors_that_the_control_subtracts() {
     let machine = mill();
@@ -62,7 +64,8 @@ fn volumetric_tables_hold_errors_that_the_control_subtracts() {
             rows(lines)
         })
         .collect();
-    // A number of the spec: EYX = 4 um in the middle of X, and the turn about X there is 12 urad.
+    // A value of the spec: EYX = 4 um in the middle of X, and the rotation about X there is 12
+    // urad.
     let middle = between(&axes[0], 300.0);
     assert!((middle[2] - 0.004).abs() < 1e-9 && (middle[4] - 12e-6).abs() < 1e-9, "{middle:?}");
     let corrected = |q: &[f64], sign: f64| {
@@ -84,7 +87,8 @@ fn volumetric_tables_hold_errors_that_the_control_subtracts() {
     assert!(!report.left_out[0].contains("depends on more"), "{:?}", report.left_out);
 }
 
-/// Coarse tables leave what the screws do between their nodes; an input that is not set remains, and is named.
+/// Checks that coarse tables leave the errors of the screws between their nodes, and that the
+/// effect of an input that is not set remains and is named.
 #[test]
 fn what_tables_leave_is_said() {
     let coarse = exported(&mill(), Format::IsgCsv { nodes: 9 });
@@ -101,7 +105,8 @@ fn what_tables_leave_is_said() {
     assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("256"));
 }
 
-/// LinuxCNC adds `nominal − forward` to the command: along each axis, with the others at home, nothing is left.
+/// Checks that LinuxCNC, which adds `nominal − forward` to the command, leaves no error along each
+/// axis with the others at home.
 #[test]
 fn files_of_linuxcnc_hold_where_the_axis_is() {
     let machine = mill();
@@ -134,7 +139,8 @@ fn files_of_linuxcnc_hold_where_the_axis_is() {
     assert!(report.remains.position.rms < report.before.position.rms);
 }
 
-/// At a node the corrected tool is where it should be; between nodes it is as the report says, and closer with more of them.
+/// Checks a table of corrections: no error at a node, the reported error between nodes, and a
+/// smaller one with more nodes.
 #[test]
 fn a_table_of_corrections_is_added_to_commands() {
     let machine = mill();
@@ -161,7 +167,7 @@ fn a_table_of_corrections_is_added_to_commands() {
     assert!(report.at_nodes.unwrap().position.rms < report.remains.position.rms);
 }
 
-/// Three nodes over two turns of each joint: whoever loads that is warned.
+/// Checks that three nodes over two turns of each joint produce a warning.
 #[test]
 fn a_table_that_makes_it_worse_is_said_to() {
     #[derive(Default)]

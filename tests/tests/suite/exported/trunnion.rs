@@ -1,4 +1,4 @@
-//! Tables of a machine with axes that turn the workpiece.
+//! Compensation tables of a machine with rotary axes that carry the workpiece.
 
 use abbe::{Manipulator, drawn_pose, repeatable_magnitudes};
 use abbe_interpreter::Interpreter;
@@ -10,7 +10,8 @@ use nalgebra::Vector3;
 use super::slides::mill;
 use super::{exported, matrix};
 
-/// A trunnion: the table turns about Z in what tilts about X, 50 mm below; slides along X, Y and Z carry the tool.
+/// Trunnion: the table rotates about Z on a cradle that tilts about X, 50 mm below; slides along X,
+/// Y and Z carry the tool.
 const TRUNNION: &str = r#"
 [manipulator]
 name = "trunnion"
@@ -42,7 +43,7 @@ transform = "Tz(z)"
 transform = "Tz(-120)"
 "#;
 
-/// Where its axes really stand.
+/// Errors of the locations of its rotary axes.
 const ELSEWHERE: &str = r#"
 [[source]]
 name = "where C is"
@@ -67,7 +68,7 @@ e_z = "9 um"
 e_r = "-20e-6"
 "#;
 
-/// Of the slides.
+/// Errors of the slides.
 const SLIDES: &str = r#"
 [[source]]
 name = "slides"
@@ -90,15 +91,18 @@ fn trunnion(sources: &str) -> Machine {
     Machine::of_spec(Spec::parse("trunnion.toml", &(TRUNNION.to_owned() + sources)).unwrap(), "trunnion")
 }
 
-/// Seen from the bed, a point of the table runs round the axis of the table: the mean of three places a third of a turn apart is on it. At two
-/// heights they give the axis, and the same for the trunnion, whose axis is that of the points of what tilts.
+/// Checks the reported locations of the rotary axes. Relative to the bed, a point of the table
+/// moves on a circle about the axis of the table: the mean of three positions a third of a turn
+/// apart is on the axis. Two heights determine the axis. The axis of the trunnion follows in the
+/// same way from points of the cradle.
 #[test]
 fn axes_that_turn_stand_where_the_report_says() {
     let machine = trunnion(ELSEWHERE);
     let report = exported(&machine, Format::IsgCsv { nodes: 5 });
     let arm = Interpreter::new(machine.spec.clone());
     let (s, magnitudes) = (vec![], repeatable_magnitudes(arm.description()));
-    // The slides are right: where they all are at 0, the bed is the tool but for a constant.
+    // The slides are error-free: with all of them at 0, the tool differs from the bed by a
+    // constant.
     let third = 2.0 * std::f64::consts::PI / 3.0;
     let on_table = |c: f64, a: f64, point: Vector3<f64>, is_real: bool| {
         let q = [c, a, 0.0, 0.0, 0.0];
@@ -112,7 +116,8 @@ fn axes_that_turn_stand_where_the_report_says() {
     let moved = |at: &dyn Fn(bool) -> Vector3<f64>| at(true) - at(false);
     let [c, a] = &report.turned[..] else { panic!("{:?}", report.turned) };
     assert_eq!([c.variable.as_str(), a.variable.as_str()], ["c", "a"]);
-    // The table's axis in the trunnion, at the table and 100 mm above; the trunnion's own place is in what follows.
+    // Axis of the table on the trunnion, at the table and 100 mm above; the location of the
+    // trunnion itself is checked below.
     let centre = |height: f64| {
         moved(&|is_real| {
             let places =
@@ -120,7 +125,8 @@ fn axes_that_turn_stand_where_the_report_says() {
             (places[0] + places[1] + places[2]) / 3.0
         })
     };
-    // The trunnion's axis in the bed: points of it that do not move when it tilts, 100 mm to either side of the table's middle.
+    // Axis of the trunnion on the bed: points that do not move when it tilts, 100 mm to either side
+    // of the center of the table.
     let tilt = |x: f64| {
         moved(&|is_real| {
             let places =
@@ -131,26 +137,27 @@ fn axes_that_turn_stand_where_the_report_says() {
     let (left, right) = (tilt(-100.0), tilt(100.0));
     let across = (right - left) / 200.0;
     let middle = (left + right) / 2.0;
-    // A turn (A, B, C) takes X to (1, C, -B).
+    // A rotation (A, B, C) takes X to (1, C, -B).
     let close = |a: f64, b: f64| (a - b).abs() < 1e-6;
     assert!(close(a.position[1], middle.y) && close(a.position[2], middle.z), "{a:?} {middle}");
     assert!((a.angles[2] - across.y).abs() < 1e-8 && (a.angles[1] + across.z).abs() < 1e-8, "{a:?} {across}");
-    // 15 um of its own, and 5 um by the turn of what is behind it, 250 mm away.
+    // Its own 15 um, and 5 um by the rotation of the following part, 250 mm away.
     assert!((a.position[1] + 0.010).abs() < 1e-4 && (a.angles[1] + 35e-6).abs() < 1e-8, "{a:?}");
-    // Of C, less what the trunnion does to it at the table's height, 50 mm above its axis.
+    // Error of C without that of the trunnion at the height of the table, 50 mm above its axis.
     let (low, high) = (centre(0.0), centre(100.0));
     let upright = (high - low) / 100.0;
     let turn = Vector3::from(a.angles);
     let carried = Vector3::from(a.position) + turn.cross(&Vector3::new(0.0, 0.0, 50.0));
     let own = low - carried;
     assert!(close(c.position[0], own.x) && close(c.position[1], own.y), "{c:?} {own}");
-    // A turn takes Z to (B, -A, 1).
+    // A rotation takes Z to (B, -A, 1).
     let own = upright - turn.cross(&Vector3::z());
     assert!((c.angles[1] - own.x).abs() < 1e-8 && (c.angles[0] + own.y).abs() < 1e-8, "{c:?} {own}");
     assert!((c.position[0] + 0.012).abs() < 1e-6 && (c.angles[0] + 40e-6).abs() < 1e-8, "{c:?}");
 }
 
-/// With the axes placed, tables hold the rest of a machine whose axes turn true; without, they do not.
+/// Checks that the tables hold the remaining errors of a machine with error-free rotary motion if
+/// the axes are located, and not otherwise.
 #[test]
 fn tables_and_placed_axes_hold_a_machine_whose_axes_turn_true() {
     for format in [Format::IsgCsv { nodes: 11 }, Format::LinuxCnc { nodes: 11 }] {
@@ -162,14 +169,14 @@ fn tables_and_placed_axes_hold_a_machine_whose_axes_turn_true() {
     let report = exported(&trunnion(&[ELSEWHERE, SLIDES].concat()), Format::IsgCsv { nodes: 101 });
     let placed = report.placed.unwrap();
     assert!(report.remains.position.rms > 0.01 && placed.position.largest < 2e-5, "{placed:?}");
-    // Orientations stay as they are, to what 0.1 mm of slides changes.
+    // Orientations are unchanged, up to the effect of 0.1 mm of the slides.
     assert!((placed.angle.rms / report.before.angle.rms - 1.0).abs() < 1e-3, "{placed:?}");
-    // Where nothing turns the workpiece there is nothing to place.
+    // Without rotary axes of the workpiece there is nothing to locate.
     let mill = exported(&mill(), Format::IsgCsv { nodes: 11 });
     assert!(mill.placed.is_none() && mill.turned.is_empty());
 }
 
-/// A head behind the slides has a lever that its angles change.
+/// Checks that a swivel head after the slides is refused: its angles change the lever arm.
 #[test]
 fn a_head_is_refused() {
     let head = TRUNNION.replace("[tool]", "[[frame]]\nname = \"B\"\nvariable = { name = \"b\", kind = \"revolute\", limits = [-1, 1] }\ntransform = \"Ry(b)\"\n[tool]");

@@ -1,4 +1,4 @@
-//! Descriptions of robots in URDF, and calibrations of arms of Universal Robots.
+//! URDF descriptions of robots, and calibrations of Universal Robots arms.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{about, difference, exported, machine, matrix};
 
-/// A lift, an arm with a joint that follows another, a screwed mount in the middle, and a camera beside the chain; written in every
-/// way that URDF has.
+/// Robot with a lift, an arm with a mimic joint, a fixed mount in the middle, and a camera beside
+/// the chain, in every notation of URDF.
 const ROBOT: &str = "<?xml version=\"1.0\"?>\r
 <!-- The arm of the east cell. -->\r
 <robot name=\"arm\">
@@ -41,7 +41,7 @@ const ROBOT: &str = "<?xml version=\"1.0\"?>\r
 </robot>
 ";
 
-/// Six constant errors of every frame, of both signs.
+/// Returns six constant errors of every frame, of both signs.
 fn all_errors(spec: &Spec) -> String {
     let mut text = String::new();
     for (i, frame) in spec.frames.iter().enumerate() {
@@ -56,7 +56,7 @@ fn all_errors(spec: &Spec) -> String {
     text
 }
 
-/// The spec of a file, by `abbe import`.
+/// Returns the spec of a file, imported by `abbe import`.
 pub(crate) fn imported(file: &Path, format: import::Format) -> String {
     import::Import { file: file.to_owned(), format, round_angles: false }.run(&mut ()).unwrap().spec
 }
@@ -65,7 +65,7 @@ fn urdf(file: &Path, fold: bool) -> String {
     imported(file, import::Format::Urdf { base: None, tip: Some("tool".to_owned()), fold })
 }
 
-/// What stands in a text without what may change: the numbers of origins.
+/// Returns a text without the parts that may change: the numbers of origins.
 fn without_origins(text: &str) -> String {
     let mut kept = String::new();
     let mut rest = text;
@@ -98,7 +98,7 @@ fn a_urdf_keeps_every_byte_but_its_origins_and_has_the_tool_where_it_is() {
         );
 
         let written = &report.files[0].text;
-        // The joint without an origin has one now, on a line of its own.
+        // The joint without an origin has got one, on a line of its own.
         let added =
             if written.matches("<origin").count() > ROBOT.matches("<origin").count() { "    \n" } else { "" };
         let expected = without_origins(ROBOT)
@@ -106,20 +106,20 @@ fn a_urdf_keeps_every_byte_but_its_origins_and_has_the_tool_where_it_is() {
         assert_eq!(without_origins(written), expected);
         assert!(written.contains("<joint name=\"eye\" type=\"fixed\"><parent link=\"fore\"/><child link=\"camera\"/><origin xyz=\"0 0 0.1\"/></joint>"));
 
-        // By `abbe import`, as any other file.
+        // Read by `abbe import`, as any other file.
         std::fs::write(&file, written).unwrap();
         let read = Interpreter::new(Spec::parse("read.toml", &urdf(&file, false)).unwrap());
         let [shift, turn] = difference(&machine, |q| matrix(&read.pose(q, &[]).unwrap()));
         assert!(shift < 1e-9 && turn < 1e-9, "{shift:e} {turn:e}");
 
-        // Nothing is left to be changed in the file of the real robot, if the spec is that of it.
+        // A second export changes nothing if the spec is that of the real robot.
         let real = Machine::of_spec(Spec::parse("real.toml", &urdf(&file, fold)).unwrap(), "real.toml");
         let again = exported(&real, format);
         assert_eq!((&again.files[0].text, again.changes.len()), (written, 0));
     }
 }
 
-/// Numbers of a catalogue, and the file of another robot.
+/// Checks that catalog values, and the file of another robot, are refused.
 #[test]
 fn the_file_of_another_robot_is_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -139,13 +139,13 @@ fn the_file_of_another_robot_is_refused() {
     }
 }
 
-/// The six joints of a UR5 by hand, and what is wrong before the last of them.
+/// Checks the six joints of a UR5 by independent formulas, with an error before the last of them.
 #[test]
 fn a_calibration_has_the_joints_where_they_are() {
     let nominal = machine("ur5", "");
     let report = exported(&nominal, Format::UrCalibration);
     assert!(report.remains.position.largest < 1e-9);
-    // The numbers of the description itself, but for those by which this arm differs.
+    // The numbers of the description itself, except for the differences of this arm.
     let lines = |text: &str| -> Vec<f64> {
         let lines = text.lines().filter(|line| line.starts_with("    "));
         lines.map(|line| line.trim().split_once(": ").unwrap().1.parse().unwrap()).collect()
@@ -169,7 +169,7 @@ fn a_calibration_has_the_joints_where_they_are() {
     let report = exported(&real, Format::UrCalibration);
     assert!(report.before.position.largest > 1.0, "{:?}", report.before);
     let numbers = lines(&report.files[0].text);
-    // From the last joint to the tool nothing is wrong here, and nothing lies between: d6 is within the joint.
+    // From the last joint to the tool there is no error and no length: d6 belongs to the joint.
     let [shift, turn] = difference(&real, |q| {
         let mut pose = Isometry3::identity();
         for (origin, q) in numbers.chunks_exact(6).zip(q) {

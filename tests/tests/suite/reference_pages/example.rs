@@ -1,21 +1,21 @@
-//! The keys that an example file uses, and the same file without one of them.
+//! Keys used by an example file, and the file without one of them.
 
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-/// A key where it stands in an example.
+/// Occurrence of a key in an example.
 pub(crate) struct Use {
-    /// The tables that it is in, from the file inwards; lists are left out.
+    /// Tables that contain it, from the file inwards, without array indices.
     pub(crate) tables: Vec<String>,
     pub(crate) key: String,
-    /// The value as it is written.
+    /// Value as written.
     pub(crate) value: String,
-    /// Where `key = value` stands, if it is written so.
+    /// Position of `key = value`, if it has this form.
     place: Option<Range<usize>>,
 }
 
-/// Every key of a file.
+/// Returns every key of a file.
 pub(crate) fn uses(text: &str) -> Vec<Use> {
     let mut found = Vec::new();
     let tables = DeTable::parse(text).unwrap_or_else(|error| panic!("{error}"));
@@ -50,7 +50,8 @@ fn walk(table: &DeTable<'_>, tables: &[String], text: &str, found: &mut Vec<Use>
 }
 
 impl Use {
-    /// Whether it is in that table: `NAME` is any name, and what a table stands in need not be said.
+    /// Returns whether the key is in that table. `NAME` matches any name, and outer tables may be
+    /// omitted.
     pub(crate) fn is_in(&self, table: &str) -> bool {
         if table == "the file" {
             return self.tables.is_empty();
@@ -58,17 +59,18 @@ impl Use {
         let names: Vec<&str> = table.trim_matches(['[', ']']).split('.').collect();
         let Some(before) = self.tables.len().checked_sub(names.len()) else { return false };
         self.tables[before..].iter().zip(&names).all(|(own, name)| own == name || *name == "NAME")
-            // `[source.beam]` is not the `beam` of `[[source.effect]]`, but `[workspace]` that of a figure too.
+            // `[source.beam]` is not the `beam` of `[[source.effect]]`, but `[workspace]` is also
+            // that of a figure.
             && (before == 0 || names[0] == "workspace")
     }
 
-    /// The file with another value, if that can be written.
+    /// Returns the file with another value, if the key can be replaced.
     pub(crate) fn replaced(&self, text: &str, value: &str) -> Option<String> {
         let Range { start, end } = self.place.clone()?;
         Some(format!("{}{} = {value}{}", &text[..start], self.key, &text[end..]))
     }
 
-    /// The file without it, if that can be written.
+    /// Returns the file without the key, if it can be removed.
     pub(crate) fn removed(&self, text: &str) -> Option<String> {
         let Range { start, end } = self.place.clone()?;
         let (before, after) = (&text[..start], &text[end..]);

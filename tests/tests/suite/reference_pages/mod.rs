@@ -1,8 +1,9 @@
-//! `docs/reference` says of every key what the readers do with it, neither less nor more.
+//! `docs/reference` describes every key as the readers implement it, no less and no more.
 //!
-//! The readers' keys are the `TABLES` of their `keys.rs`. Every key has a row; every key stands in an example of its page; its
-//! example value stands there, too; a key is `required` if the example without it is told that it is missing; and what is
-//! said of a mistake is what `bad-specs` and its like say: `UPDATE_EXPECT=1` writes it.
+//! The readers' keys are the `TABLES` of their `keys.rs`. Every key has a row and occurs in an
+//! example of its page, with its example value. A key is `required` if the example without it is
+//! rejected as incomplete. The message of a mistake is that of `bad-specs` and similar folders;
+//! `UPDATE_EXPECT=1` writes it.
 
 mod example;
 mod page;
@@ -10,6 +11,7 @@ mod page;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use abbe::identify::INSTRUMENTS;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::{FUNCTION_NAMES, UNIT_NAMES};
@@ -25,10 +27,13 @@ use example::{Use, uses};
 use page::Page;
 use tempfile::TempDir;
 
-/// What reads a file of that name and text.
+/// Keys of an instrument that can be left out.
+const OPTIONAL: [&str; 4] = ["target", "zero", "nominal_radius", "range"];
+
+/// Reader of a file, given its name and text.
 type Reader = fn(&Path, &str) -> Result<(), Diagnostics>;
 
-/// Every page, its keys, and the reader of its examples.
+/// Returns every page, its keys, and the reader of its examples.
 fn pages() -> Vec<(Page, Vec<&'static Keys>, Reader)> {
     vec![
         (Page::read("spec.md"), all(&[TABLES]), |path, text| {
@@ -55,14 +60,14 @@ fn all(tables: &[&'static [Keys]]) -> Vec<&'static Keys> {
     tables.iter().copied().flatten().collect()
 }
 
-/// The manipulator of `spec.md`, which all other pages are about.
+/// Returns the manipulator of `spec.md`, on which all other pages are based.
 fn cell() -> Spec {
     let page = Page::read("spec.md");
     let (name, text) = page.files()[0];
     Spec::parse(name, text).unwrap()
 }
 
-/// The files of a page in a folder, where they find each other.
+/// Writes the files of a page to a folder, so that they can refer to each other.
 fn written(page: &Page) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in page.files() {
@@ -123,7 +128,7 @@ fn every_key_stands_in_an_example_as_its_row_says() {
                 problems.push(format!("{name} stands in no example of the page: add it to one."));
                 continue;
             }
-            // Tables that are written with a heading cannot be taken out.
+            // Tables with a heading cannot be removed.
             let without = here.iter().filter_map(|(file, text, key)| Some((file, key.removed(text)?)));
             let told = without.map(|(file, text)| match read(&folder.path().join(file), &text) {
                 Ok(()) => false,
@@ -143,7 +148,7 @@ fn every_key_stands_in_an_example_as_its_row_says() {
     nothing(&problems);
 }
 
-/// Another word in the place of a choice is answered with all words that may stand there.
+/// Checks that another word in place of a choice produces a list of all valid words.
 #[test]
 fn every_choice_is_that_of_the_reader() {
     let mut problems = Vec::new();
@@ -204,6 +209,28 @@ fn every_key_says_what_is_said_of_a_mistake() {
                 )),
             }
         }
+    }
+    nothing(&problems);
+}
+
+/// Compares the rows of the table of instruments with the descriptions in their files.
+#[test]
+fn every_instrument_has_its_row() {
+    let page = std::fs::read_to_string("../docs/reference/map.md").unwrap();
+    let mut problems = Vec::new();
+    for kind in INSTRUMENTS {
+        let keys = kind.keys.iter().filter(|key| !OPTIONAL.contains(key));
+        let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
+        let row = format!("| `\"{}\"` | {} | {} |", kind.name, kind.reads, keys.join(", "));
+        if !page.lines().any(|line| line == row) {
+            problems.push(format!("docs/reference/map.md has no row\n{row}"));
+        }
+        let known = data::TABLES.iter().filter(|table| table.tables == ["[[instrument]]"]);
+        let known: Vec<&str> = known.flat_map(|table| table.keys).copied().collect();
+        let unknown = kind.keys.iter().filter(|key| !known.contains(key));
+        problems.extend(
+            unknown.map(|key| format!("study/src/data/keys.rs has no key `{key}` of `{}`", kind.name)),
+        );
     }
     nothing(&problems);
 }

@@ -1,28 +1,28 @@
-//! A page of `docs/reference`: its tables of keys, and the files that it shows.
+//! A page of `docs/reference`: its tables of keys, and its example files.
 
 use std::fs;
 use std::path::PathBuf;
 
 use super::example::Use;
 
-/// A page, line by line.
+/// Page of the reference.
 pub(crate) struct Page {
     pub(crate) name: &'static str,
     path: PathBuf,
     text: String,
 }
 
-/// One key of a table.
+/// Row of a table: one key.
 pub(crate) struct Row {
-    /// The tables that the heading names, as `[tool]` and `[[frame]]`, or `the file`.
+    /// Tables that the heading names, as `[tool]` and `[[frame]]`, or `the file`.
     pub(crate) tables: Vec<String>,
     pub(crate) key: String,
-    /// The words that the value may be, if it is one of a few.
+    /// Valid words, if the value is one of a few.
     pub(crate) choices: Vec<String>,
     pub(crate) default: String,
-    /// A value between backticks, or words that say where one stands.
+    /// Value between backticks, or a reference to one.
     pub(crate) example: String,
-    /// What is said of a mistake, and the file that it is said of.
+    /// Message of a mistake, and its file.
     pub(crate) mistake: String,
     pub(crate) golden: String,
     line: usize,
@@ -35,7 +35,7 @@ impl Page {
         Self { name, path, text }
     }
 
-    /// Every row of a table that begins with `key`.
+    /// Returns every row of a table that begins with `key`.
     pub(crate) fn rows(&self) -> Vec<Row> {
         let (mut rows, mut tables, mut in_table) = (Vec::new(), Vec::new(), false);
         for (line, text) in self.text.lines().enumerate() {
@@ -68,21 +68,21 @@ impl Page {
         rows
     }
 
-    /// The names that the first cells below a heading list.
+    /// Returns the names in the first cells below a heading.
     pub(crate) fn names(&self, heading: &str) -> Vec<String> {
         let below = self.text.lines().skip_while(|line| *line != heading).skip(1);
         let rows = below.take_while(|line| !line.starts_with('#')).filter(|line| line.starts_with("| `"));
         rows.flat_map(|row| spans(row.split(" | ").next().unwrap_or_default())).collect()
     }
 
-    /// The files that the page shows: those blocks that say their name in the first line.
+    /// Returns the example files of the page: the blocks with a file name in the first line.
     pub(crate) fn files(&self) -> Vec<(&str, &str)> {
         let blocks = self.text.split("```").skip(1).step_by(2);
         let blocks = blocks.filter_map(|block| block.split_once('\n')).map(|(_, block)| block);
         blocks.filter_map(|block| Some((block.lines().next()?.strip_prefix("# ")?, block))).collect()
     }
 
-    /// Writes what is said of mistakes beside their keys.
+    /// Writes the messages of mistakes beside their keys.
     pub(crate) fn write_mistakes(&self) {
         let mut lines: Vec<String> = self.text.lines().map(str::to_owned).collect();
         for row in self.rows() {
@@ -95,12 +95,12 @@ impl Page {
 }
 
 impl Row {
-    /// Whether the row is about that key.
+    /// Returns whether the row describes that key.
     pub(crate) fn describes(&self, key: &Use) -> bool {
         key.key == self.key && self.tables.iter().any(|table| key.is_in(table))
     }
 
-    /// What is said of the mistake that the row points at: the message that has the key in it, or else the first.
+    /// Returns the message of the row's mistake: the one that contains the key, or else the first.
     pub(crate) fn said(&self) -> Option<String> {
         let golden = folder().join(&self.golden);
         let text = fs::read_to_string(&golden).ok()?;
@@ -114,7 +114,7 @@ fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/reference")
 }
 
-/// What stands between backticks.
+/// Returns the texts between backticks.
 fn spans(text: &str) -> Vec<String> {
     text.split('`').skip(1).step_by(2).map(str::to_owned).collect()
 }

@@ -1,0 +1,251 @@
+//! Accumulation of the figures of one measurand: position, or orientation.
+
+use core::ops::Range;
+
+use super::aligned_sums::AlignedSums;
+use super::combined::{self, PartialCombined};
+use super::gains::{self, Gains};
+use super::least_likely::{self, LeastLikely};
+use super::outline::{self, Outline, View};
+use super::source_errors::{self, PartialSourceErrors};
+use super::sums::Sums;
+use super::{Combined, Ellipsoid, SourceErrors, covariance};
+use crate::{Measurand, Row};
+use abbe_core::lanes::{Lanes, Register};
+use abbe_core::{Class, Scalar, Source};
+
+/// Figures of a sample of configurations, before the sweep over all of them.
+pub(super) struct SampleErrors {
+    measurand: Measurand,
+    points: Vec<[f64; 3]>,
+    alone: Vec<Vec<[f64; 3]>>,
+    ellipsoid: Ellipsoid,
+}
+
+impl SampleErrors {
+    pub(super) fn new(measurand: Measurand, sources: &[Source]) -> Self {
+        let alone = vec![Vec::new(); sources.len()];
+        Self { measurand, points: Vec::new(), alone, ellipsoid: Ellipsoid::default() }
+    }
+
+    /// Adds a configuration.
+    pub(super) fn add(&mut self, sources: &[Source], row: &Row) {
+        self.points.push(self.measurand.rows(&row.repeatable));
+        for (points, error) in self.alone.iter_mut().zip(row.sources) {
+            points.push(self.measurand.rows(error));
+        }
+        let other = Ellipsoid::new(covariance(sources, row.sources, self.measurand), row.index);
+        if other.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
+            self.ellipsoid = other;
+        }
+    }
+
+    /// Returns the initial values of every chunk.
+    pub(super) fn finish(
+        self,
+        classes: &[Class],
+        home: &[[f64; 6]],
+        tolerance: Option<f64>,
+    ) -> InitialErrors {
+        let Self { measurand, points, alone, ellipsoid } = self;
+        // Slightly smaller, so that the sweep finds its configuration.
+        let mut ellipsoid = Ellipsoid { principal: ellipsoid.principal, ..Ellipsoid::default() };
+        ellipsoid.principal.deviations = ellipsoid.principal.deviations.map(|axis| axis * (1.0 - 1e-6));
+        InitialErrors {
+            measurand,
+            tolerance,
+            classes: classes.to_vec(),
+            home: home.iter().map(|error| measurand.rows(error)).collect(),
+            ellipsoid,
+            view: View::around(&points),
+            views: alone.iter().map(|points| View::around(points)).collect(),
+            points,
+            alone,
+        }
+    }
+}
+
+/// Initial values of every chunk.
+pub(super) struct InitialErrors {
+    measurand: Measurand,
+    tolerance: Option<f64>,
+    classes: Vec<Class>,
+    home: Vec<[f64; 3]>,
+    ellipsoid: Ellipsoid,
+    /// Errors of the sample, of all sources together and of each alone, with the views of their
+    /// outlines.
+    points: Vec<[f64; 3]>,
+    alone: Vec<Vec<[f64; 3]>>,
+    view: View,
+    views: Vec<View>,
+}
+
+/// Partial result over some configurations.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct PartialErrors {
+    tallies: Vec<PartialSourceErrors>,
+    outlines: Vec<Outline>,
+    combined: PartialCombined,
+    /// Squares of the norm of each source, followed by those of the three combined norms.
+    squares: AlignedSums,
+    gains: Gains,
+    least_likely: LeastLikely,
+}
+
+impl PartialErrors {
+    /// Creates the result of no configurations.
+    pub(super) fn new(sources: usize) -> Self {
+        Self {
+            tallies: vec![PartialSourceErrors::new(); sources],
+            outlines: vec![Outline::default(); sources],
+            combined: PartialCombined::new(Ellipsoid::default()),
+            squares: AlignedSums::default(),
+            gains: Gains::new(sources),
+            least_likely: LeastLikely::default(),
+        }
+    }
+
+    /// Appends the result of the following configurations.
+    pub(super) fn append(&mut self, other: Self) {
+        for (errors, other) in self.tallies.iter_mut().zip(&other.tallies) {
+            errors.merge(other);
+        }
+        for (outline, other) in self.outlines.iter_mut().zip(&other.outlines) {
+            outline.merge(other);
+        }
+        self.combined.merge(&other.combined);
+        self.squares.append(other.squares);
+        self.gains.merge(&other.gains);
+        self.least_likely.merge(&other.least_likely);
+    }
+
+    /// Returns the figures of `count` configurations: of each source, of all together, the gains,
+    /// and the configurations least likely to meet a tolerance.
+    pub(super) fn finish(
+        self,
+        initial: &InitialErrors,
+        count: usize,
+    ) -> (Vec<SourceErrors>, Combined, Vec<f64>, Vec<usize>) {
+        let mut squares = self.squares.total();
+        squares.resize(initial.classes.len() + 3, 0.0);
+        let (alone, together) = squares.split_at(initial.classes.len());
+        let sources = self.tallies.into_iter().zip(self.outlines).enumerate();
+        let sources = sources.map(|(i, (errors, outline))| {
+            let (class, home) = (initial.classes[i], initial.home[i]);
+            let sphere = outline.sphere(&initial.views[i], &initial.alone[i]);
+            errors.finish(i, class, home, sphere, alone[i] / count.max(1) as f64)
+        });
+        let sources = sources.collect();
+        let together = core::array::from_fn(|i| together[i]);
+        let combined = self.combined.finish(count, together, &initial.view, &initial.points);
+        let gains = self.gains.gains(combined.radius.value);
+        (sources, combined, gains, self.least_likely.finish())
+    }
+
+    /// Returns whether the result is valid for this number of sources and these chunks. It may come
+    /// from a file.
+    pub(super) fn is_valid_for(&self, sources: usize, chunks: Range<usize>) -> bool {
+        let sound = self.outlines.iter().chain([self.combined.outline()]).all(Outline::is_sound);
+        sound
+            && self.tallies.len() == sources
+            && self.outlines.len() == sources
+            && self.gains.len() == sources
+            && self.squares.is_valid_for(chunks, sources + 3)
+    }
+
+    /// Returns the indices of the configurations in the result.
+    pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
+        let worst = self.tallies.iter().filter_map(PartialSourceErrors::worst);
+        worst.chain(self.combined.indices()).chain(self.least_likely.indices())
+    }
+}
+
+/// Accumulates a [`PartialErrors`] in lanes.
+pub(super) struct ErrorsAccumulator<R: Register> {
+    measurand: Measurand,
+    singles: Vec<source_errors::SourceErrorsAccumulator<R>>,
+    outlines: Vec<Option<outline::OutlineAccumulator<R>>>,
+    all: combined::CombinedAccumulator<R>,
+    shrunk: gains::GainsAccumulator<R>,
+    least_likely: Option<least_likely::LeastLikelyAccumulator>,
+    /// Norm of each source in the tile added last.
+    pub(super) norm_of: Vec<Lanes<R>>,
+}
+
+impl<R: Register> ErrorsAccumulator<R> {
+    pub(super) fn new(initial: &InitialErrors) -> Self {
+        let InitialErrors { measurand, tolerance, classes, home, ellipsoid, view, views, .. } = initial;
+        let singles = classes
+            .iter()
+            .zip(home)
+            .map(|(class, home)| source_errors::SourceErrorsAccumulator::new(*class, *home));
+        let repeatable = |class: &Class| *class == Class::Repeatable;
+        let outlines = classes.iter().zip(views);
+        Self {
+            measurand: *measurand,
+            singles: singles.collect(),
+            outlines: outlines
+                .map(|(class, view)| repeatable(class).then(|| outline::OutlineAccumulator::new(*view)))
+                .collect(),
+            all: combined::CombinedAccumulator::new(*ellipsoid, *view),
+            shrunk: gains::GainsAccumulator::new(classes.len()),
+            least_likely: tolerance.map(least_likely::LeastLikelyAccumulator::new),
+            norm_of: vec![Lanes::constant(0.0); classes.len()],
+        }
+    }
+
+    /// Adds the rows of source k in a tile, with the places and the weights of its configurations.
+    #[inline(always)]
+    pub(super) fn add_source(&mut self, k: usize, rows: &[Lanes<R>], place: Lanes<R>, weight: Lanes<R>) {
+        let first = 6 * k + self.measurand.first();
+        let here = [rows[first], rows[first + 1], rows[first + 2]];
+        self.singles[k].add(here, place, weight);
+        if let Some(outline) = &mut self.outlines[k] {
+            outline.add(here, weight);
+        }
+    }
+
+    /// Adds the combined errors of a tile. `index` maps places to indices of configurations.
+    #[inline(always)]
+    pub(super) fn add_sums(
+        &mut self,
+        classes: &[Class],
+        rows: &[Lanes<R>],
+        place: Lanes<R>,
+        weight: Lanes<R>,
+        index: impl Fn(usize) -> usize,
+    ) -> Sums<R> {
+        // Without sources there are no rows.
+        let rows = rows.get(self.measurand.first()..).unwrap_or_default();
+        let sums = Sums::new(classes, rows, &mut self.norm_of, place, weight);
+        self.all.add(&sums, &index);
+        if let Some(least_likely) = &mut self.least_likely {
+            least_likely.add(&sums, index);
+        }
+        self.shrunk.add(classes, rows, &self.norm_of, &sums);
+        sums
+    }
+
+    /// Returns the partial result of chunk number `chunk`.
+    pub(super) fn finish(self, chunk: usize, index: impl Fn(usize) -> usize + Copy) -> PartialErrors {
+        let outlines = self.outlines.into_iter();
+        let outlines =
+            outlines.map(|outline| outline.map(outline::OutlineAccumulator::finish).unwrap_or_default());
+        let singles = self.singles.into_iter().map(|single| single.finish(index));
+        let (tallies, mut squares): (Vec<_>, Vec<_>) = singles.unzip();
+        let (combined, together) = self.all.finish(index);
+        squares.extend(together);
+        PartialErrors {
+            tallies,
+            outlines: outlines.collect(),
+            combined,
+            squares: AlignedSums::from_chunk(chunk, squares),
+            gains: self.shrunk.finish(),
+            least_likely: self
+                .least_likely
+                .map(least_likely::LeastLikelyAccumulator::finish)
+                .unwrap_or_default(),
+        }
+    }
+}

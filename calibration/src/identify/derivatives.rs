@@ -1,0 +1,144 @@
+//! Derivatives of points, rotations and observables with respect to the unknowns.
+//!
+//! An unknown of the chain moves a target by `dp` and rotates the tool by `dω`, in the axes of the
+//! instrument, so an observable changes by `∇g · dp`, or by `∇g · dω` for an angle. An error of the
+//! base moves fixtures and targets alike and changes only observables that [see the
+//! base](super::InstrumentKind::sees_base).
+
+use super::columns::Frame;
+use super::instrument::{Evaluation, Geometry};
+use super::scratch::Scratch;
+use super::vectors::dot;
+use super::{FixtureGeometry, Model, Reference, Unknown, tangents};
+use abbe_core::Component;
+
+impl Model<'_> {
+    /// Returns the positions and orientations that observables depend on, after
+    /// [`chain`](Self::chain).
+    pub(super) fn geometry<'a>(&'a self, scratch: &'a Scratch) -> Geometry<'a> {
+        let in_f0 = |scratch: &Scratch| scratch.base().inverse().then(&scratch.tool());
+        Geometry {
+            base: scratch.base(),
+            tool: scratch.tool(),
+            tool_in_f0: in_f0(scratch),
+            targets: &scratch.targets,
+            fixtures: &self.fixtures,
+            displacements: &scratch.fixtures,
+            previous: scratch.previous.as_ref().map(|previous| (in_f0(previous), &previous.targets[..])),
+        }
+    }
+
+    /// Evaluates observable `i`; the value includes the zero.
+    pub(super) fn evaluate(&self, scratch: &Scratch, geometry: &Geometry, i: usize) -> Evaluation {
+        let observable = &self.observables[i];
+        let evaluation = (observable.kind.evaluate)(observable, geometry);
+        Evaluation { value: evaluation.value + scratch.zeros[i], ..evaluation }
+    }
+
+    /// Returns the derivative of observable `i` with respect to unknown `k`.
+    ///
+    /// `along` is the gradient of its evaluation in the axes of the instrument.
+    pub(super) fn observable_derivative(
+        &self,
+        scratch: &Scratch,
+        i: usize,
+        evaluation: &Evaluation,
+        along: [f64; 3],
+        k: usize,
+    ) -> f64 {
+        let observable = &self.observables[i];
+        match self.unknowns[k] {
+            Unknown::Zero(zero) => f64::from(u8::from(zero == i)),
+            Unknown::Fixture(f, coordinate) if observable.fixture == Some(f) => {
+                match self.fixtures[f].geometry {
+                    FixtureGeometry::Point(_) => evaluation.by_fixture[coordinate],
+                    FixtureGeometry::Direction(n) => {
+                        dot(evaluation.by_fixture, tilt_derivative(n, &scratch.fixtures[f], coordinate))
+                    }
+                }
+            }
+            Unknown::Fixture(..) => 0.0,
+            Unknown::Base(..) if !observable.kind.sees_base => 0.0,
+            _ => {
+                let [first, second] = observable.targets;
+                let change = |scratch: &Scratch, target: usize| match observable.kind.is_angle {
+                    true => dot(along, self.turn(scratch, k)),
+                    false => {
+                        let position = scratch.tool().apply(scratch.targets[target]);
+                        dot(along, self.point(scratch, k, target, position))
+                    }
+                };
+                change(scratch, first)
+                    - match observable.kind.reference {
+                        Reference::None => 0.0,
+                        Reference::Target => change(scratch, second),
+                        Reference::PreviousRow => {
+                            scratch.previous.as_ref().map_or(0.0, |previous| change(previous, first))
+                        }
+                    }
+            }
+        }
+    }
+
+    /// Returns the derivative of a point of target `j` with respect to unknown `k`, in the axes of
+    /// the instrument.
+    pub(super) fn point(&self, scratch: &Scratch, k: usize, j: usize, point: [f64; 3]) -> [f64; 3] {
+        let last = scratch.errors.len() + 1;
+        match self.unknowns[k] {
+            Unknown::Base(station, component) if station == scratch.station => {
+                scratch.frames[0].point(component, point)
+            }
+            Unknown::Error(frame, component) => scratch.frames[frame + 1].point(component, point),
+            Unknown::Tool(component) => scratch.frames[last].point(component, point),
+            Unknown::Target(target, axis) if target == j => scratch.frames[last].after.0[axis],
+            Unknown::Base(..) | Unknown::Target(..) | Unknown::Fixture(..) | Unknown::Zero(_) => [0.0; 3],
+            Unknown::Magnitude(source) => {
+                self.by_magnitude(scratch, source, |frame, c| frame.point(c, point))
+            }
+        }
+    }
+
+    /// Returns the rotation vector of the tool per unit of unknown `k`, in the axes of the
+    /// instrument.
+    pub(super) fn turn(&self, scratch: &Scratch, k: usize) -> [f64; 3] {
+        match self.unknowns[k] {
+            Unknown::Base(station, component) if station == scratch.station => {
+                scratch.frames[0].turn(component)
+            }
+            Unknown::Error(frame, component) => scratch.frames[frame + 1].turn(component),
+            Unknown::Tool(component) => scratch.frames[scratch.errors.len() + 1].turn(component),
+            Unknown::Base(..) | Unknown::Target(..) | Unknown::Fixture(..) | Unknown::Zero(_) => [0.0; 3],
+            Unknown::Magnitude(source) => self.by_magnitude(scratch, source, Frame::turn),
+        }
+    }
+
+    /// Adds the derivatives of all effects of a source.
+    fn by_magnitude(
+        &self,
+        scratch: &Scratch,
+        source: usize,
+        derivative: impl Fn(&Frame, Component) -> [f64; 3],
+    ) -> [f64; 3] {
+        let description = self.manipulator.description();
+        let mut sum = [0.0; 3];
+        for (effect, size) in description.effects.iter().zip(&scratch.effects) {
+            if effect.source == source {
+                let moved = derivative(&scratch.frames[effect.frame + 1], effect.component);
+                sum = core::array::from_fn(|i| sum[i] + size * moved[i]);
+            }
+        }
+        sum
+    }
+}
+
+/// Returns the derivative of the direction `n = (n_0 + a t_1 + b t_2) / |…|` with respect to tilt
+/// `coordinate`.
+///
+/// `(t − n (n · t)) / √(1 + a² + b²)`, with `[a, b]` the tilts.
+fn tilt_derivative(nominal: [f64; 3], tilts: &[f64; 3], coordinate: usize) -> [f64; 3] {
+    let t = tangents(nominal)[coordinate];
+    let [a, b, _] = *tilts;
+    let n = FixtureGeometry::Direction(nominal).displaced(tilts).vector();
+    let along = dot(n, t);
+    core::array::from_fn(|i| (t[i] - n[i] * along) / (1.0 + a * a + b * b).sqrt())
+}

@@ -1,0 +1,118 @@
+//! Position errors of observations, and their figures.
+
+use core::borrow::Borrow;
+
+use super::blocks::by_blocks;
+use super::scratch::Scratch;
+use super::vectors::difference;
+use super::{Distances, Failure, Figures, Measurement, Model, Observation};
+use abbe_analysis::sampling;
+
+impl Model<'_> {
+    /// Returns position errors, model minus measurement: one vector for each measured point, in the
+    /// axes of the instrument and the length unit.
+    ///
+    /// A reading of a length has an error along its gradient; angles have none.
+    pub fn deviations(
+        &self,
+        scratch: &mut Scratch,
+        observation: &Observation,
+        x: &[f64],
+    ) -> Result<Vec<[f64; 3]>, Failure> {
+        let mut values = Vec::new();
+        self.each_deviation(scratch, observation, x, |deviation| values.push(deviation))?;
+        Ok(values)
+    }
+
+    /// Passes each of the [deviations](Self::deviations) to `take`.
+    pub(super) fn each_deviation(
+        &self,
+        scratch: &mut Scratch,
+        observation: &Observation,
+        x: &[f64],
+        mut take: impl FnMut([f64; 3]),
+    ) -> Result<(), Failure> {
+        self.chain(scratch, observation, x)?;
+        let last = scratch.tool();
+        match &observation.measured {
+            Measurement::Points(points) => {
+                for (j, measured) in points.iter().enumerate() {
+                    let Some(measured) = measured else { continue };
+                    take(difference(last.apply(self.target(scratch, observation, j)?), *measured));
+                }
+            }
+            Measurement::Pose(measured) => take(difference(last.position(), measured.position())),
+            Measurement::Readings(readings) => {
+                let geometry = self.geometry(scratch);
+                for (i, measured) in readings.iter().enumerate().take(self.observables.len()) {
+                    let Some(measured) = measured.filter(|_| !self.observables[i].kind.is_angle) else {
+                        continue;
+                    };
+                    let evaluation = self.evaluate(scratch, &geometry, i);
+                    let along = geometry.base.turn(evaluation.along);
+                    take(along.map(|axis| (evaluation.value - measured) * axis));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns whether a row has any [deviations](Self::deviations).
+    pub(super) fn has_deviations(&self, observation: &Observation) -> bool {
+        match &observation.measured {
+            Measurement::Points(points) => points.iter().any(Option::is_some),
+            Measurement::Pose(_) => true,
+            Measurement::Readings(values) => {
+                let mut values = values.iter().zip(&self.observables);
+                values.any(|(value, reading)| value.is_some() && !reading.kind.is_angle)
+            }
+        }
+    }
+
+    /// Returns the norms of the [deviations](Self::deviations).
+    pub fn distances(
+        &self,
+        scratch: &mut Scratch,
+        observation: &Observation,
+        x: &[f64],
+    ) -> Result<Vec<f64>, Failure> {
+        Ok(self.deviations(scratch, observation, x)?.into_iter().map(sampling::norm).collect())
+    }
+
+    /// Computes the figures of the position errors of all observations at `x`; the length unit.
+    pub fn figures<R: Borrow<Observation> + Sync>(&self, rows: &[R], x: &[f64]) -> Result<Figures, Failure> {
+        Ok(self.all_distances(rows, x)?.into_figures())
+    }
+
+    /// Returns the norms of the position errors of all observations at `x`; the length unit.
+    pub fn all_distances<R: Borrow<Observation> + Sync>(
+        &self,
+        rows: &[R],
+        x: &[f64],
+    ) -> Result<Distances, Failure> {
+        self.distances_where(rows, |_| Some(x))
+    }
+
+    /// Returns the norms of the position errors of rows; `x` returns the unknowns of a row by its
+    /// index, or none to skip it.
+    pub fn distances_where<'x, R: Borrow<Observation> + Sync>(
+        &self,
+        rows: &[R],
+        x: impl Fn(usize) -> Option<&'x [f64]> + Sync,
+    ) -> Result<Distances, Failure> {
+        let block = |first: usize, rows: &[R]| {
+            let mut scratch = self.scratch();
+            let mut norms = Vec::with_capacity(rows.len());
+            for (i, row) in rows.iter().enumerate() {
+                let Some(x) = x(first + i) else { continue };
+                let row = row.borrow();
+                let norm = |deviation| norms.push((row.configuration, sampling::norm(deviation)));
+                self.each_deviation(&mut scratch, row, x, norm)?;
+            }
+            Ok(norms)
+        };
+        let mut distances = Distances::default();
+        by_blocks(rows, block, |part| distances.extend(part))?;
+        Ok(distances)
+    }
+}

@@ -1,0 +1,26 @@
+//! Centre point, nest: a target is held at a fixed point.
+
+use super::super::vectors::unit_axis;
+use super::geometry::Geometry;
+use super::kind::{Evaluation, InstrumentKind, Observable, SizeInformation};
+
+/// `p − c = 0`.
+pub static CONTACT: InstrumentKind = InstrumentKind {
+    name: "contact",
+    reads: "nothing: the target is held at a point, and the joints are recorded",
+    keys: &["target", "at"],
+    numbers: 3,
+    size: SizeInformation::None,
+    evaluate,
+    ..InstrumentKind::LENGTH
+};
+
+/// Evaluates `(p − c)_k` in the axes of `F_0`; its gradients are `±e_k`.
+pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluation {
+    let (k, along) = (observable.axis, unit_axis(observable.axis));
+    Evaluation {
+        value: geometry.target(observable.targets[0])[k] - geometry.fixture(observable.fixture)[k],
+        along,
+        by_fixture: along.map(|v| -v),
+    }
+}

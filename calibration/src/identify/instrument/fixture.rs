@@ -1,0 +1,61 @@
+//! Fixtures: points and directions that stand still in `F_0`.
+
+use super::super::vectors::{cross, unit, unit_axis};
+
+/// An object that stands still in `F_0`, at an approximately known position or direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fixture {
+    /// Prefix of the names of its unknowns: `bar_x`.
+    pub name: String,
+    /// Nominal position or direction.
+    pub geometry: FixtureGeometry,
+}
+
+/// Position or direction of a fixture, in the axes of `F_0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FixtureGeometry {
+    /// A point `c`, in the length unit. Its unknowns are translations along x, y and z.
+    Point([f64; 3]),
+    /// A direction `n`, not zero. Its unknowns are tilts towards [`tangents`], in rad.
+    Direction([f64; 3]),
+}
+
+impl FixtureGeometry {
+    /// Returns the number of unknowns: 3 for a point, 2 for a direction.
+    pub fn unknowns(&self) -> usize {
+        match self {
+            Self::Point(_) => 3,
+            Self::Direction(_) => 2,
+        }
+    }
+
+    /// Returns the geometry displaced by the values of its unknowns.
+    pub fn displaced(&self, by: &[f64; 3]) -> Self {
+        match self {
+            Self::Point(c) => Self::Point(core::array::from_fn(|i| c[i] + by[i])),
+            Self::Direction(n) => {
+                let ([a, b], n) = (tangents(*n), unit(*n));
+                Self::Direction(core::array::from_fn(|i| n[i] + by[0] * a[i] + by[1] * b[i]))
+            }
+        }
+    }
+
+    /// Returns the point, or the unit direction.
+    pub(in super::super) fn vector(&self) -> [f64; 3] {
+        match self {
+            Self::Point(c) => *c,
+            Self::Direction(n) => unit(*n),
+        }
+    }
+}
+
+/// Returns two unit vectors perpendicular to `n` and to each other.
+///
+/// The first leans towards the coordinate axis with the smallest component of `n`.
+pub fn tangents(n: [f64; 3]) -> [[f64; 3]; 2] {
+    let n = unit(n);
+    let least = (0..3).min_by(|i, j| n[*i].abs().total_cmp(&n[*j].abs())).unwrap_or(0);
+    let axis = unit_axis(least);
+    let first = unit(core::array::from_fn(|i| axis[i] - n[least] * n[i]));
+    [first, cross(n, first)]
+}

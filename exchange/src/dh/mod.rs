@@ -1,0 +1,14 @@
+//! Tables of Denavit-Hartenberg numbers, CSV.
+//!
+//! `read` takes a table, also as the Robotics Toolbox prints it, as a chain. `table` holds the
+//! nominal numbers of a spec, and `write` those that fit the real machine best.
+
+mod read;
+mod table;
+mod units;
+mod write;
+
+pub use self::read::read;
+pub(crate) use self::table::DhTable;
+pub use self::units::Units;
+pub use self::write::write;

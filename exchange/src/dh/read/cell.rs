@@ -1,0 +1,198 @@
+//! Cell of a table: a number with a unit, or the variable of a joint with a constant.
+
+use abbe::LengthUnit;
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
+use abbe_spec::expr::{Dimension, LARGEST, UNIT_NAMES};
+use abbe_spec::value::parse_value;
+
+use super::columns::{Column, Columns};
+use super::heading::{Quantity, Unit};
+use crate::dh::units::Units;
+
+/// Reads cells.
+pub(super) struct Cells<'c> {
+    pub(super) columns: &'c Columns,
+    pub(super) units: Units,
+    /// Unit of every length that is returned.
+    pub(super) length: LengthUnit,
+    /// A comma in a number is a decimal point.
+    pub(super) decimal_comma: bool,
+}
+
+/// Sum of a constant and a variable, which counts with the sign −1 if `reversed`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Amount {
+    /// Name and span of the variable.
+    pub(super) variable: Option<(String, Span)>,
+    pub(super) reversed: bool,
+    pub(super) constant: f64,
+}
+
+impl Cells<'_> {
+    /// Returns whether angles are in degrees, by the heading or else by the caller.
+    pub(super) fn degrees(&self) -> bool {
+        let heading = [Quantity::Alpha, Quantity::Theta]
+            .into_iter()
+            .find_map(|quantity| self.columns.get(quantity)?.unit);
+        match heading {
+            Some(unit) => unit == Unit::Degree,
+            None => self.units.degrees.unwrap_or(false),
+        }
+    }
+
+    /// Returns the cell of a quantity in a row; `None` without such a column, and for an empty
+    /// cell.
+    pub(super) fn cell(&self, row: &[Span], quantity: Quantity) -> Option<(Column, Span)> {
+        let column = self.columns.get(quantity)?;
+        row.get(column.index).filter(|cell| !cell.is_empty()).map(|cell| (column.clone(), cell.clone()))
+    }
+
+    /// Reads a number in a cell, a length or an angle, in the units of the chain.
+    pub(super) fn number(
+        &self,
+        column: &Column,
+        cell: Span,
+        is_length: bool,
+        document: &mut Document,
+    ) -> Option<f64> {
+        let whole = document.text.clone();
+        let text = &whole[cell.clone()];
+        // Numbers may have the sign of degrees, and the minus sign of typesetters.
+        let (text, in_degrees) = match text.strip_suffix('°') {
+            Some(text) => (text.trim_end(), true),
+            None => (text, false),
+        };
+        let plain = text.replace('−', "-").replace(' ', "");
+        let plain =
+            if self.decimal_comma && !plain.contains('.') { plain.replacen(',', ".", 1) } else { plain };
+        if in_degrees && is_length {
+            let mistake = Diagnostic::new(cell, "an angle stands where a length is due");
+            document.mistake(mistake.help("write lengths in mm or m"));
+            return None;
+        }
+        let Ok(number) = plain.parse::<f64>() else {
+            let dimension = if is_length { Dimension::LENGTH } else { Dimension::NONE };
+            return parse_value(document, cell, self.length, dimension, "this cell");
+        };
+        if number.is_nan() || number.abs() >= LARGEST {
+            let mistake = Diagnostic::new(cell, "this is no finite number");
+            document.mistake(mistake.help("write a decimal number: `0.5`"));
+            return None;
+        }
+        let unit = if in_degrees { Some(Unit::Degree) } else { self.unit(column, is_length) };
+        match unit {
+            _ if number == 0.0 => Some(0.0),
+            Some(Unit::Degree) => Some(number.to_radians()),
+            Some(Unit::Radian) => Some(number),
+            Some(Unit::Length(unit)) if unit == self.length => Some(number),
+            Some(Unit::Length(LengthUnit::Metre)) => Some(number * 1e3),
+            Some(Unit::Length(LengthUnit::Millimetre)) => Some(number / 1e3),
+            None => {
+                let (what, option) = if is_length { ("length", "mm") } else { ("angle", "deg") };
+                // Reported once, not for every cell.
+                let message = format!("the unit of this {what} is not said");
+                if document.found.iter().all(|mistake| mistake.message != message) {
+                    let help = format!(
+                        "say it: `--units {option}`, or both as in `--units mm,deg`; or in the heading, `{} ({option})`",
+                        &whole[column.span.clone()]
+                    );
+                    document.mistake(Diagnostic::new(cell, message).help(help));
+                }
+                None
+            }
+        }
+    }
+
+    /// Returns the unit of the numbers of a column, by the heading or else by the caller.
+    fn unit(&self, column: &Column, is_length: bool) -> Option<Unit> {
+        let fits = |unit: &Unit| matches!(unit, Unit::Length(_)) == is_length;
+        let general = match is_length {
+            true => self.units.length.map(Unit::Length),
+            false => self.units.degrees.map(|degrees| if degrees { Unit::Degree } else { Unit::Radian }),
+        };
+        column.unit.filter(fits).or(general)
+    }
+
+    /// Reads a cell of theta or d.
+    pub(super) fn amount(&self, row: &[Span], quantity: Quantity, document: &mut Document) -> Option<Amount> {
+        let Some((column, cell)) = self.cell(row, quantity) else { return Some(Amount::default()) };
+        let is_length = quantity == Quantity::D;
+        let whole = document.text.clone();
+        let Some(name) = variable(&whole, cell.clone()) else {
+            let constant = self.number(&column, cell, is_length, document)?;
+            return Some(Amount { constant, ..Amount::default() });
+        };
+        let part = |span: Span| {
+            let text = &whole[span.clone()];
+            let inner = text.trim().trim_end_matches('*').trim();
+            let start = span.start + text.find(inner).unwrap_or_default();
+            start..start + inner.len()
+        };
+        // `[constant ±] name [± constant]`
+        let (before, after) = (part(cell.start..name.start), part(name.end..cell.end));
+        let sign_ends = whole[before.clone()].ends_with(['+', '-', '−']);
+        let reversed = whole[before.clone()].ends_with(['-', '−']);
+        let constant_before = match (before.is_empty(), sign_ends) {
+            (true, _) => 0..0,
+            (false, true) => {
+                let sign = whole[before.clone()].chars().next_back().map_or(0, char::len_utf8);
+                part(before.start..before.end - sign)
+            }
+            (false, false) => {
+                document.mistake(not_understood(cell));
+                return None;
+            }
+        };
+        if !(after.is_empty() || whole[after.clone()].starts_with(['+', '-', '−'])) {
+            document.mistake(not_understood(cell));
+            return None;
+        }
+        let mut constant = 0.0;
+        for span in [constant_before, after] {
+            if !span.is_empty() {
+                let plus = whole[span.clone()].starts_with('+');
+                let span = if plus { part(span.start + 1..span.end) } else { span };
+                constant += self.number(&column, span, is_length, document)?;
+            }
+        }
+        Some(Amount { variable: Some((identifier(&whole[name.clone()]), name)), reversed, constant })
+    }
+}
+
+/// Returns the first word of a cell that is neither a unit nor a constant.
+fn variable(text: &str, cell: Span) -> Option<Span> {
+    let cell_text = &text[cell.clone()];
+    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+    let mut at = 0;
+    while let Some(begin) = cell_text[at..].find(is_letter).map(|found| at + found) {
+        let end = cell_text[begin..].find(|c| !is_letter(c)).map_or(cell_text.len(), |end| begin + end);
+        let word = &cell_text[begin..end];
+        let first = cell_text[begin..].chars().next();
+        let is_number = first.is_some_and(|c| c.is_ascii_digit());
+        let is_reserved = UNIT_NAMES.contains(&word)
+            || matches!(word, "pi" | "sqrt" | "nan" | "NaN" | "inf" | "Inf" | "infinity");
+        if !is_number && !is_reserved {
+            return Some(cell.start + begin..cell.start + begin + word.len());
+        }
+        at = end;
+    }
+    None
+}
+
+/// Spells out θ and subscripts, and returns an identifier of a spec.
+fn identifier(name: &str) -> String {
+    let plain = |c: char| match c {
+        'θ' | 'Θ' => "theta".to_owned(),
+        '₀'..='₉' => {
+            char::from_digit(u32::from(c) - u32::from('₀'), 10).map(String::from).unwrap_or_default()
+        }
+        c => c.to_string(),
+    };
+    abbe_spec::as_identifier(&name.chars().map(plain).collect::<String>())
+}
+
+fn not_understood(cell: Span) -> Diagnostic {
+    Diagnostic::new(cell, "this is no number and no variable with one added")
+        .help("write `q1`, `-q1` or `q1 + 90`; a number alone is a constant")
+}

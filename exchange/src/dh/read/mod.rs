@@ -1,0 +1,98 @@
+//! Reads a table of Denavit-Hartenberg numbers: CSV, or the output of the Robotics Toolbox.
+//!
+//! `text` finds the table in the file. `heading` interprets the name of a column, `columns` the
+//! heading line, `cell` a cell. `rows` turns rows into joints, and `ends` reads the rows of base
+//! and tool.
+
+mod cell;
+mod columns;
+mod ends;
+mod heading;
+mod rows;
+mod text;
+
+use abbe::LengthUnit;
+use abbe_spec::DhConvention;
+use abbe_spec::diagnostic::{Diagnostic, listed};
+use abbe_spec::document::Document;
+use abbe_spec::notes::Notes;
+
+use self::cell::Cells;
+use self::columns::Columns;
+use self::text::Text;
+use super::units::Units;
+use crate::import::AngleRounding;
+use crate::import::chain::{Chain, Frame};
+use crate::import::geometry::Geometry;
+
+/// Reads a table as a chain.
+///
+/// Returns `None` if the table is wrong: the mistakes are then in the document. Notes say which
+/// columns are left out.
+pub fn read(
+    document: &mut Document,
+    convention: DhConvention,
+    units: Units,
+    angles: &mut AngleRounding,
+    notes: &mut dyn Notes,
+) -> Option<Chain> {
+    let mut text = Text::find(document)?;
+    check_convention(&text, convention, document)?;
+    let columns = Columns::read(&text, convention, document)?;
+    let length = units.length.or_else(|| columns.length()).unwrap_or(LengthUnit::Metre);
+    let (mistakes, whole) = (document.found.len(), document.text.clone());
+    let cells = Cells { columns: &columns, units, length, decimal_comma: text.decimal_comma };
+    let [base, tool] = ends::read(&mut text, &cells, convention, angles, document)?;
+    let joints = rows::read(&text, &cells, document, notes);
+    if document.found.len() > mistakes {
+        return None;
+    }
+    let mut ignored = columns.ignored();
+    if base.is_none() && tool.is_none() {
+        ignored.extend(columns.placement_names(&whole));
+    }
+    if !ignored.is_empty() {
+        notes.note(&format!("columns that are not read: {}", listed(&ignored)));
+    }
+    if text.has_ends && base.is_none() && tool.is_none() {
+        notes.warn(
+            "what stands beside the table about base and tool is rounded, and not read: add rows of the kind base and tool, with columns x, y, z, roll, \
+             pitch and yaw, or a first [[frame]] and [tool] to the spec",
+        );
+    }
+    let word = match convention {
+        DhConvention::Standard => "Standard",
+        DhConvention::Modified => "Modified",
+    };
+    let (variables, mut frames) = rows::frames(joints, convention, angles);
+    if let Some(base) = base {
+        let geometry = Geometry::Origin(base);
+        let is_taken = frames.iter().any(|frame| frame.joint == "base");
+        let name = if is_taken { "before base" } else { "base" };
+        frames.insert(0, Frame { joint: name.to_owned(), link: None, geometry, motion: None });
+    }
+    Some(Chain {
+        robot: text.name.clone(),
+        description: format!("{word} Denavit-Hartenberg numbers"),
+        length,
+        degrees: cells.degrees(),
+        base: "F_0".to_owned(),
+        tip: if tool.is_some() { "tool".to_owned() } else { format!("F_{}", frames.len()) },
+        variables,
+        frames,
+        tool: tool.unwrap_or_default(),
+        masses: Vec::new(),
+    })
+}
+
+/// Reports a text that names the other convention.
+fn check_convention(text: &Text, convention: DhConvention, document: &mut Document) -> Option<()> {
+    let Some((span, stated)) = &text.convention else { return Some(()) };
+    if *stated == convention {
+        return Some(());
+    }
+    let other = stated.name();
+    let mistake = Diagnostic::new(span.clone(), format!("this table is declared as {other}"));
+    document.mistake(mistake.help(format!("read it so: `--dh {other}`")));
+    None
+}

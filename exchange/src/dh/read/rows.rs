@@ -1,0 +1,245 @@
+//! Rows of a table as joints.
+
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
+use abbe_spec::notes::Notes;
+use abbe_spec::{DhConvention, as_identifier};
+
+use super::cell::{Amount, Cells};
+use super::heading::Quantity;
+use super::text::Text;
+use crate::import::AngleRounding;
+use crate::import::chain::{Frame, Motion, Variable};
+use crate::import::geometry::{DhRow, Geometry};
+
+/// Joint of a row.
+pub(super) struct Joint {
+    name: String,
+    /// Motion; `None` for a fixed joint.
+    motion: Option<JointMotion>,
+    /// theta, d, a and alpha without the variable.
+    numbers: [f64; 4],
+}
+
+/// Motion of a joint by its own variable.
+struct JointMotion {
+    prismatic: bool,
+    variable: String,
+    span: Span,
+    reversed: bool,
+    offset: f64,
+    limits: Option<[f64; 2]>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Fixed,
+    Revolute,
+    Prismatic,
+}
+
+/// Words of the column `kind`; the Robotics Toolbox writes 0 and 1.
+const KINDS: [(&str, Kind); 10] = [
+    ("revolute", Kind::Revolute),
+    ("rotational", Kind::Revolute),
+    ("r", Kind::Revolute),
+    ("0", Kind::Revolute),
+    ("prismatic", Kind::Prismatic),
+    ("linear", Kind::Prismatic),
+    ("p", Kind::Prismatic),
+    ("1", Kind::Prismatic),
+    ("fixed", Kind::Fixed),
+    ("f", Kind::Fixed),
+];
+
+/// Reads the joints of all rows; mistakes go to the document.
+pub(super) fn read(
+    text: &Text,
+    cells: &Cells<'_>,
+    document: &mut Document,
+    notes: &mut dyn Notes,
+) -> Vec<Joint> {
+    let mut joints: Vec<Joint> = Vec::new();
+    for (i, row) in text.rows.iter().enumerate() {
+        let Some(joint) = joint(i, row, cells, document) else { continue };
+        let same = |other: &&Joint| match (&other.motion, &joint.motion) {
+            (Some(other), Some(this)) => other.variable == this.variable,
+            _ => false,
+        };
+        if let (Some(Joint { motion: Some(first), .. }), Some(this)) =
+            (joints.iter().find(same), &joint.motion)
+        {
+            let message = format!("`{}` moves two rows", this.variable);
+            let help = "give each row a variable of its own; where one joint moves two axes, write that into the spec: \
+                        `theta = \"q3 + q2\"`";
+            let mistake =
+                Diagnostic::new(this.span.clone(), message).context(first.span.clone(), "the first");
+            document.mistake(mistake.label("again").help(help));
+        }
+        if joints.iter().any(|other| other.name == joint.name) {
+            let span = cells.cell(row, Quantity::Name).map_or(0..0, |(_, cell)| cell);
+            let mistake = Diagnostic::new(span, format!("two rows are called `{}`", joint.name));
+            document.mistake(mistake.label("again").help("give each row a name of its own"));
+        }
+        joints.push(joint);
+    }
+    if document.found.is_empty() && joints.iter().all(|joint| joint.motion.is_none()) {
+        let mistake = Diagnostic::new(cells.columns.span.clone(), "nothing moves in this table");
+        document.mistake(mistake.help("`kind` says `revolute` or `prismatic` where a joint is"));
+    }
+    let slides = joints.iter().flat_map(|joint| &joint.motion).any(|motion| motion.prismatic);
+    // After a mistake only mistakes are reported.
+    if document.found.is_empty() && cells.columns.get(Quantity::Kind).is_none() && !slides {
+        notes.note("no column says which joints slide, and no `d` has a variable: all rows were read as joints that turn");
+    }
+    joints
+}
+
+/// Reads row `i`, counted from 0.
+fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> Option<Joint> {
+    let whole = document.text.clone();
+    let theta = cells.amount(row, Quantity::Theta, document);
+    let d = cells.amount(row, Quantity::D, document);
+    let mut plain = |quantity| match cells.cell(row, quantity) {
+        Some((column, cell)) => cells.number(&column, cell, quantity == Quantity::A, document),
+        None => Some(0.0),
+    };
+    let (a, alpha) = (plain(Quantity::A), plain(Quantity::Alpha));
+    let stated = match cells.cell(row, Quantity::Kind) {
+        None => None,
+        Some((_, cell)) => Some(kind(&whole, cell, document)?),
+    };
+    let (theta, d, a, alpha) = (theta?, d?, a?, alpha?);
+    let whole_row = row.first()?.start..row.last()?.end;
+    let kind = match (stated, &theta.variable, &d.variable) {
+        (_, Some((_, first)), Some((_, second))) => {
+            let mistake = Diagnostic::new(second.clone(), "this row has two variables");
+            let help = "a row moves in one way: write a joint that turns and slides as two rows";
+            document.mistake(mistake.context(first.clone(), "the first").label("the second").help(help));
+            return None;
+        }
+        (Some(Kind::Revolute | Kind::Fixed), None, Some((name, span)))
+        | (Some(Kind::Prismatic | Kind::Fixed), Some((name, span)), None) => {
+            let message = format!("`{name}` moves what `kind` says does not move so");
+            let help =
+                "a prismatic joint has its variable in `d`, a revolute one in `theta`, a fixed one none";
+            document.mistake(Diagnostic::new(span.clone(), message).help(help));
+            return None;
+        }
+        (None, None, Some(_)) => Kind::Prismatic,
+        (None, ..) => Kind::Revolute,
+        (Some(kind), ..) => kind,
+    };
+    let stated_name = cells.cell(row, Quantity::Name).map(|(_, cell)| (whole[cell.clone()].to_owned(), cell));
+    let name = match &stated_name {
+        Some((name, _)) if !name.chars().all(|c| c.is_ascii_digit()) => name.clone(),
+        _ => format!("joint {}", i + 1),
+    };
+    if kind == Kind::Fixed {
+        return Some(Joint { name, motion: None, numbers: [theta.constant, d.constant, a, alpha] });
+    }
+    let prismatic = kind == Kind::Prismatic;
+    let Amount { variable, reversed, constant } = if prismatic { d.clone() } else { theta.clone() };
+    let mut number = |quantity| match cells.cell(row, quantity) {
+        Some((column, cell)) => cells.number(&column, cell, prismatic, document).map(Some),
+        None => Some(None),
+    };
+    let (offset, lower, upper) =
+        (number(Quantity::Offset)?, number(Quantity::Lower)?, number(Quantity::Upper)?);
+    if let (Some(offset), Some((_, cell))) = (offset, cells.cell(row, Quantity::Offset))
+        && offset != 0.0
+        && constant != 0.0
+    {
+        let message = "this row says twice what is added to its variable";
+        let help = "leave it in one of the two: in the cell of the variable, or in `offset`";
+        document.mistake(Diagnostic::new(cell, message).label("and in `theta` or `d`").help(help));
+        return None;
+    }
+    let limits = match (lower, upper) {
+        (Some(lower), Some(upper)) if lower < upper => Some([lower, upper]),
+        (None, None) => None,
+        _ => {
+            let upper = cells.cell(row, Quantity::Upper).or_else(|| cells.cell(row, Quantity::Lower));
+            let span = upper.map_or(whole_row, |(_, cell)| cell);
+            let mistake = Diagnostic::new(span, format!("the limits of `{name}` are no range"));
+            document.mistake(
+                mistake.help("`lower` is the smaller one; leave both cells empty if there are none"),
+            );
+            return None;
+        }
+    };
+    let flipped = match cells.cell(row, Quantity::Sign) {
+        None => false,
+        Some((_, cell)) => match whole[cell.clone()].replace('−', "-").parse::<f64>() {
+            Ok(1.0) => false,
+            Ok(-1.0) => true,
+            _ => {
+                document.mistake(
+                    Diagnostic::new(cell, "a sign is 1 or -1").help("1 counts about z, -1 against it"),
+                );
+                return None;
+            }
+        },
+    };
+    let own = || match (&stated_name, prismatic) {
+        (Some((name, _)), _) if !name.chars().all(|c| c.is_ascii_digit()) => as_identifier(name),
+        (_, true) => format!("d{}", i + 1),
+        (_, false) => format!("q{}", i + 1),
+    };
+    let span = stated_name.as_ref().map_or(whole_row, |(_, cell)| cell.clone());
+    let (variable, span) = variable.unwrap_or_else(|| (own(), span));
+    let (theta, d) = if prismatic { (theta.constant, 0.0) } else { (0.0, d.constant) };
+    let motion = JointMotion {
+        prismatic,
+        variable,
+        span,
+        reversed: reversed != flipped,
+        offset: constant + offset.unwrap_or_default(),
+        limits,
+    };
+    Some(Joint { name, motion: Some(motion), numbers: [theta, d, a, alpha] })
+}
+
+/// Reads a word of the column `kind`.
+fn kind(whole: &str, cell: Span, document: &mut Document) -> Option<Kind> {
+    let word = whole[cell.clone()].to_lowercase();
+    let found = KINDS.iter().find(|(name, _)| *name == word).map(|(_, kind)| *kind);
+    if found.is_none() {
+        let message = format!("there is no joint of the kind `{}`", whole[cell.clone()].escape_debug());
+        document.mistake(Diagnostic::new(cell, message).help(
+            "the kinds are revolute, prismatic and fixed, and base and tool of the first row and the last",
+        ));
+    }
+    found
+}
+
+/// Converts joints to the variables and frames of a chain.
+pub(super) fn frames(
+    joints: Vec<Joint>,
+    convention: DhConvention,
+    angles: &mut AngleRounding,
+) -> (Vec<Variable>, Vec<Frame>) {
+    let (mut variables, mut frames) = (Vec::new(), Vec::new());
+    for Joint { name, motion, numbers: [theta, d, a, alpha] } in joints {
+        let [theta, alpha] = [theta, alpha].map(|angle| angles.angle(angle));
+        let motion = motion.map(|JointMotion { prismatic, variable, reversed, offset, limits, .. }| {
+            variables.push(Variable {
+                joint: name.clone(),
+                name: variable,
+                prismatic,
+                limits,
+                continuous: false,
+            });
+            Motion {
+                prismatic,
+                axis: [0.0, 0.0, 1.0],
+                variable: variables.len() - 1,
+                multiplier: if reversed { -1.0 } else { 1.0 },
+                offset: if prismatic { offset } else { angles.angle(offset) },
+            }
+        });
+        let geometry = Geometry::DenavitHartenberg(DhRow { convention, theta, d, a, alpha });
+        frames.push(Frame { joint: name, link: None, geometry, motion });
+    }
+    (variables, frames)
+}

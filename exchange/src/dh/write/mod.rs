@@ -1,0 +1,109 @@
+//! Writes the Denavit-Hartenberg numbers of the real machine.
+//!
+//! `fit` finds the numbers, `text` writes and reads them. Four numbers per joint cannot hold all
+//! errors: between nominally parallel axes, the tilt that `alpha` does not describe would take a
+//! `d` of the size of the arm divided by the tilt. The fit leaves it out.
+
+mod fit;
+mod text;
+
+use abbe::Pose;
+use abbe_spec::diagnostic::{Diagnostics, listed};
+use abbe_spec::number::{digits, short};
+use abbe_spec::{DhConvention, DhNumber};
+
+use super::table::DhTable;
+use crate::export::report::{UNCHANGED, nominal_sign, unreadable};
+use crate::export::{ExportReport, ExportedFile, RealMachine};
+
+/// Writes the table whose tool is closest to the real one over the workspace.
+///
+/// # Errors
+///
+/// A frame of the spec has no Denavit-Hartenberg numbers.
+pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
+    let nominal = DhTable::nominal(machine)?;
+    let mut table = nominal.clone();
+    fit::fit(&mut table, machine);
+    let text = text::write(&table, machine);
+    let rows = text::read(&text).map_err(unreadable)?;
+    let read = DhTable { rows, ..table.clone() };
+    let word = table.convention.name();
+    let mut left_out: Vec<String> = machine.held_at_mean().into_iter().collect();
+    let ends = [("base", nominal.base), ("tool", nominal.tool)];
+    let ends: Vec<&str> =
+        ends.iter().filter(|(_, pose)| *pose != Pose::IDENTITY).map(|(name, _)| *name).collect();
+    if !ends.is_empty() {
+        left_out.push(format!(
+            "The table goes from the first joint to the last: the {} of the spec comes beside it, as it is.",
+            listed(&ends)
+        ));
+    }
+    left_out.extend(parallel_axes(&nominal, machine));
+    left_out.push(
+        "Of the six errors of the last frame a table holds what its own four numbers can do; the rest belongs to the tool."
+            .to_owned(),
+    );
+    let format = format!("Denavit-Hartenberg numbers, {word}");
+    let files = vec![ExportedFile { name: format!("{}.dh.csv", machine.spec.name), text }];
+    let sign = sign(&nominal, &table, machine);
+    Ok(ExportReport { left_out, ..ExportReport::for_model(machine, format, files, |q| read.pose(q), sign) })
+}
+
+/// Returns a sentence about neighbouring parallel axes, if there are any.
+fn parallel_axes(table: &DhTable, machine: &RealMachine) -> Option<String> {
+    let moving: Vec<usize> =
+        (0..table.rows.len()).filter(|row| table.rows[*row].variable.is_some()).collect();
+    let pairs = moving.windows(2).filter_map(|pair| {
+        let [one, next] = *pair else { return None };
+        // The angle between the axes is the sum of the alpha of all rows from one to the next.
+        let between = match table.convention {
+            DhConvention::Standard => one..next,
+            DhConvention::Modified => one + 1..next + 1,
+        };
+        let alpha: f64 = between.map(|row| table.rows[row].numbers[DhNumber::Alpha as usize]).sum();
+        let name =
+            |row: usize| table.rows[row].variable.map(|variable| &*machine.spec.variables[variable].name);
+        let turns = [one, next].iter().all(|row| !table.rows[*row].prismatic);
+        (alpha.sin().abs() < 1e-3 && turns).then_some(format!("{} and {}", name(one)?, name(next)?))
+    });
+    let pairs: Vec<String> = pairs.collect();
+    (!pairs.is_empty()).then(|| {
+        format!(
+            "Where axes are parallel ({}) a table holds one of the two tilts between them, that by alpha.",
+            pairs.join(", ")
+        )
+    })
+}
+
+/// Returns the sentence about the sign: that of the number whose change moves the tool most.
+fn sign(nominal: &DhTable, table: &DhTable, machine: &RealMachine) -> String {
+    let reach = table.reach();
+    let mut most: Option<(f64, usize, DhNumber, f64, f64)> = None;
+    for (row, (old, new)) in nominal.rows.iter().zip(&table.rows).enumerate() {
+        for number in DhNumber::ALL {
+            let (old, new) = (old.numbers[number as usize], new.numbers[number as usize]);
+            let weight = if matches!(number, DhNumber::Theta | DhNumber::Alpha) { reach } else { 1.0 };
+            let size = (new - old).abs() * weight;
+            if most.as_ref().is_none_or(|(most, ..)| size > *most) {
+                most = Some((size, row, number, old, new));
+            }
+        }
+    }
+    let most = most.filter(|(size, ..)| *size > UNCHANGED);
+    let Some((_, row, number, old, new)) = most else { return nominal_sign() };
+    let unit = match number {
+        DhNumber::Theta | DhNumber::Alpha => "rad",
+        DhNumber::A | DhNumber::D => machine.spec.length.symbol(),
+    };
+    format!(
+        "These are the numbers of the real arm, to be used in place of the nominal ones: {} of {} is {} {unit} where the spec has \
+         {} {unit}. The real one is {} by {} {unit}, and nothing is to be subtracted from it.",
+        number.name(),
+        table.rows[row].name,
+        digits(new, 8),
+        short(old),
+        if new >= old { "larger" } else { "smaller" },
+        digits((new - old).abs(), 4),
+    )
+}

@@ -1,0 +1,108 @@
+//! Repeatable errors of a machine as functions of the configuration.
+
+use abbe::{Error, Manipulator, repeatable_magnitudes};
+use abbe_codegen::graph::{Graph, Node};
+use abbe_interpreter::Interpreter;
+use abbe_spec::expr::Symbol;
+use abbe_spec::{ChainNumber, Spec};
+
+use super::chain_errors::ChainErrors;
+
+/// Part of the chain that an error changes.
+#[derive(Clone, Copy, Debug)]
+enum ErrorSite {
+    /// One of the six errors of a frame: indices of frame and component.
+    Frame(usize, usize),
+    /// A joint variable, parameter or Denavit-Hartenberg number.
+    Number(ChainNumber),
+}
+
+/// Error of one site by one source.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cause {
+    /// Index among the enabled sources.
+    pub(super) source: usize,
+    site: ErrorSite,
+}
+
+/// Errors of all enabled sources.
+pub(super) struct ErrorModel {
+    /// Machine without errors of numbers of the chain: its effects are those of frames.
+    frame_effects: Interpreter,
+    graph: Graph,
+    /// Causes of the effects of frames, then of the deviations.
+    pub(super) causes: Vec<Cause>,
+    /// Errors of numbers of the chain, nodes of `graph`.
+    deviations: Vec<Node>,
+    /// Factor of each source: its magnitude if it is repeatable, else 0.
+    pub(super) magnitudes: Vec<f64>,
+}
+
+impl ErrorModel {
+    /// Collects the errors of a spec, whose functions are those of `manipulator`.
+    pub(super) fn new(spec: &Spec, manipulator: &Interpreter) -> Self {
+        let mut without_deviations = spec.clone();
+        without_deviations.sources.iter_mut().for_each(|source| source.deviations.clear());
+        let frame_effects = Interpreter::new(without_deviations);
+        let mut graph = Graph::with_tables(&spec.tables);
+        let (mut causes, mut deviations) = (Vec::new(), Vec::new());
+        for effect in frame_effects.description().effects.iter() {
+            let site = ErrorSite::Frame(effect.frame, effect.component.index());
+            causes.push(Cause { source: effect.source, site });
+        }
+        for (source, declared) in spec.enabled_sources().enumerate() {
+            let times = graph.constant(declared.magnitude.map_or(1.0, |magnitude| magnitude.value));
+            for deviation in &declared.deviations {
+                let error = graph.lower(&deviation.error);
+                deviations.push(graph.mul(times, error));
+                causes.push(Cause { source, site: ErrorSite::Number(deviation.number) });
+            }
+        }
+        let magnitudes = repeatable_magnitudes(manipulator.description());
+        Self { frame_effects, graph, causes, deviations, magnitudes }
+    }
+
+    /// Returns the value of every cause at a configuration, without the factors of the sources.
+    pub(super) fn values(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut values = vec![0.0; self.causes.len() - self.deviations.len()];
+        self.frame_effects.effects(q, s, u, &mut values)?;
+        let symbol = |symbol| match symbol {
+            Symbol::Variable(i) => q[i],
+            Symbol::Parameter(i) => s[i],
+            Symbol::Input(i) => u[i],
+            _ => 0.0,
+        };
+        values.extend(self.graph.evaluate(&self.deviations, symbol));
+        Ok(values)
+    }
+
+    /// Returns the errors for one value per cause.
+    pub(super) fn errors(&self, spec: &Spec, values: impl Iterator<Item = f64>) -> ChainErrors {
+        let mut errors = ChainErrors::none(spec);
+        for (cause, value) in self.causes.iter().zip(values) {
+            let value = value * self.magnitudes[cause.source];
+            *match cause.site {
+                ErrorSite::Frame(frame, component) => &mut errors.frames[frame][component],
+                ErrorSite::Number(ChainNumber::Joint(i)) => &mut errors.joints[i],
+                ErrorSite::Number(ChainNumber::Parameter(i)) => &mut errors.parameters[i],
+                ErrorSite::Number(ChainNumber::DenavitHartenberg { frame, number }) => {
+                    &mut errors.dh_numbers[frame][number as usize]
+                }
+            } += value;
+        }
+        errors
+    }
+}
+
+impl Cause {
+    /// Returns the variable of the frame or joint that the error belongs to.
+    pub(super) fn variable(&self, spec: &Spec) -> Option<usize> {
+        match self.site {
+            ErrorSite::Frame(frame, _) | ErrorSite::Number(ChainNumber::DenavitHartenberg { frame, .. }) => {
+                spec.frames[frame].variable
+            }
+            ErrorSite::Number(ChainNumber::Joint(variable)) => Some(variable),
+            ErrorSite::Number(ChainNumber::Parameter(_)) => None,
+        }
+    }
+}

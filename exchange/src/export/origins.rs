@@ -1,0 +1,130 @@
+//! Origins of the joints of the real machine, for formats that place each joint and let it turn
+//! about, or slide along, an axis of its own frame.
+//!
+//! With all variables 0, let `U_k` be the frame of joint k of the format in `F_0`, and `N_i`, `R_i`
+//! the nominal and the real chain up to the motion of the frame i that is this joint. The errors
+//! before the joint displace it by `D_i = R_i N_i⁻¹`:
+//!
+//! ```text
+//! U_k' = D_i U_k         the errors E_i after the joint displace the next joint, and the last ones the tool
+//! ```
+//!
+//! By the product of exponentials `A_T(q) = exp(S_1 q_1) … exp(S_n q_n) A_T(0)` the tool is right
+//! everywhere if every axis is, and if the tool is with all variables 0. Where spec and format
+//! place an axis differently (rounded angles, catalogue numbers), the smallest motion brings `U_k'`
+//! to the axis of the spec.
+
+use abbe::{Error, Manipulator, Pose};
+
+use super::chain_errors::{ChainErrors, Link, product};
+use super::real_machine::RealMachine;
+use crate::vector::{add, cross, dot, norm, scale, subtract};
+
+/// Joint of the format.
+#[derive(Clone, Debug)]
+pub(crate) struct Joint {
+    /// Pose of the joint in the previous link, in the unit of length of the spec.
+    pub(crate) origin: Pose,
+    /// Unit vector of the axis in the frame of the joint; `None` for a fixed joint.
+    pub(crate) axis: Option<[f64; 3]>,
+    /// Motion where all variables are 0.
+    pub(crate) at_zero: Pose,
+    /// Index of the frame of the spec that the joint corresponds to; every moving joint has one.
+    pub(crate) frame: Option<usize>,
+}
+
+/// Axis of a joint of the spec.
+struct Axis {
+    direction: [f64; 3],
+    /// Point on the axis of a revolute joint; `None` for a prismatic one.
+    point: Option<[f64; 3]>,
+}
+
+/// Returns the origins of the joints of the real machine; `tool` is the pose of the nominal tool in
+/// the last link of the format.
+///
+/// `joints` are in the order from base to tip.
+pub(crate) fn origins(machine: &RealMachine, joints: &[Joint], tool: &Pose) -> Result<Vec<Pose>, Error> {
+    let zero = vec![0.0; machine.spec.variables.len()];
+    let (nominal, _) = machine.links(&zero, &ChainErrors::none(&machine.spec))?;
+    let (real, real_tool) = machine.links(&zero, &machine.mean)?;
+    // Required pose of the last link.
+    let tip = product(&real).then(&real_tool).then(&tool.inverse());
+    let (mut old, mut new) = (Pose::IDENTITY, Pose::IDENTITY);
+    let mut origins = Vec::with_capacity(joints.len());
+    for (k, joint) in joints.iter().enumerate() {
+        let frame = old.then(&joint.origin);
+        let is_last = k + 1 == joints.len();
+        let displaced = joint.frame.map(|i| {
+            let up_to = |links: &[Link]| product(&links[..i]).then(&links[i].transform);
+            let reached = up_to(&real);
+            let reached = if joint.axis.is_none() { reached.then(&real[i].error) } else { reached };
+            (reached.then(&up_to(&nominal).inverse()).then(&frame), up_to(&real))
+        });
+        let placed = match (joint.axis, displaced, joint.frame) {
+            (Some(axis), Some((displaced, reached)), Some(i)) => {
+                let wanted = if is_last { tip.then(&joint.at_zero.inverse()) } else { displaced };
+                let own = axis_of_frame(machine, i)?;
+                aligned(&wanted, axis, &own.in_outer_frame(&reached))
+            }
+            _ if is_last => tip,
+            (None, Some((displaced, _)), _) => displaced,
+            _ => new.then(&joint.origin),
+        };
+        origins.push(new.inverse().then(&placed));
+        old = frame.then(&joint.at_zero);
+        new = placed.then(&joint.at_zero);
+    }
+    Ok(origins)
+}
+
+/// Returns the axis of the joint of a frame, in the frame after the motion: the axis of `A_i(0)⁻¹
+/// A_i(q)`.
+fn axis_of_frame(machine: &RealMachine, frame: usize) -> Result<Axis, Error> {
+    const SOME: f64 = 0.5;
+    let variable = machine.spec.variables_of_transforms()[frame].first().copied().unwrap_or_default();
+    let mut q = vec![0.0; machine.spec.variables.len()];
+    let mut at = |value: f64| {
+        let mut transforms = vec![Pose::IDENTITY; machine.spec.frames.len() + 1];
+        q[variable] = value;
+        machine.manipulator.transforms(&q, &machine.s, &mut transforms).map(|()| transforms[frame])
+    };
+    let motion = at(0.0)?.inverse().then(&at(SOME)?);
+    let Pose([x, y, z, t]) = motion;
+    let v = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
+    let twice_sine = norm(v);
+    if twice_sine < 1e-12 {
+        return Ok(Axis { direction: scale(t, 1.0 / norm(t)), point: None });
+    }
+    // t = (1 − R) c has the solution c = (t + cot(φ/2) a × t) / 2 in the plane across the axis.
+    let angle = twice_sine.atan2(x[0] + y[1] + z[2] - 1.0);
+    let direction = scale(v, 1.0 / twice_sine);
+    let swing = scale(cross(direction, t), 1.0 / (0.5 * angle).tan());
+    Ok(Axis { direction, point: Some(scale(add(t, swing), 0.5)) })
+}
+
+impl Axis {
+    /// Takes an axis from a frame to the frame in which its pose is given.
+    fn in_outer_frame(&self, frame: &Pose) -> Self {
+        Self { direction: frame.turn(self.direction), point: self.point.map(|point| frame.apply(point)) }
+    }
+}
+
+/// Moves a frame by the smallest motion that puts its axis onto another.
+fn aligned(frame: &Pose, axis: [f64; 3], wanted: &Axis) -> Pose {
+    let from = frame.turn(axis);
+    let sign = if dot(from, wanted.direction) < 0.0 { -1.0 } else { 1.0 };
+    let to = scale(wanted.direction, sign);
+    // R = 1 + [v]× + [v]×² / (1 + cos): the rotation from one direction to the other.
+    let (v, c) = (cross(from, to), dot(from, to));
+    let turned = |w: [f64; 3]| {
+        let first = cross(v, w);
+        add(add(w, first), scale(cross(v, first), 1.0 / (1.0 + c)))
+    };
+    let [x, y, z, p] = frame.0;
+    let origin = match wanted.point {
+        Some(point) => add(point, scale(to, dot(to, subtract(p, point)))),
+        None => p,
+    };
+    Pose([turned(x), turned(y), turned(z), origin])
+}

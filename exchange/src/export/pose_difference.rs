@@ -1,0 +1,60 @@
+//! Differences between poses of the tool.
+
+use abbe::{Orientation, Pose, deviation};
+use serde::Serialize;
+
+/// Size of the differences of many pairs of poses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PoseDifference {
+    /// Distance of the tool points, in the unit of length.
+    pub position: Figure,
+    /// Angle between the orientations, in rad.
+    pub angle: Figure,
+}
+
+/// Statistics of a difference.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Figure {
+    /// Largest value.
+    pub largest: f64,
+    /// Root mean square.
+    pub rms: f64,
+}
+
+impl PoseDifference {
+    /// Compares the poses of each pair.
+    pub(crate) fn new(pairs: impl IntoIterator<Item = [Pose; 2]>) -> Self {
+        let (mut largest, mut squares, mut count) = ([0.0_f64; 2], [0.0; 2], 0_u32);
+        for [from, to] in pairs {
+            let [x, y, z, a, b, c] = deviation(Orientation::RotationVector, &from, &to);
+            for (i, v) in [[x, y, z], [a, b, c]].into_iter().enumerate() {
+                let square = v.iter().map(|v| v * v).sum::<f64>();
+                // `max` would hide a NaN.
+                largest[i] = if square.sqrt() <= largest[i] { largest[i] } else { square.sqrt() };
+                squares[i] += square;
+            }
+            count += 1;
+        }
+        let figure =
+            |i: usize| Figure { largest: largest[i], rms: (squares[i] / f64::from(count.max(1))).sqrt() };
+        Self { position: figure(0), angle: figure(1) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_those_of_two_shifts_and_a_turn() {
+        let shifted = |x| Pose([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [x, 0.0, 0.0]]);
+        let (s, c) = 0.02_f64.sin_cos();
+        let turned = Pose([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0], [0.0, 4.0, 0.0]]);
+        let difference = PoseDifference::new([[shifted(1.0), shifted(-2.0)], [shifted(0.0), turned]]);
+        assert_eq!(difference.position, Figure { largest: 4.0, rms: 12.5_f64.sqrt() });
+        assert!(
+            (difference.angle.largest - 0.02).abs() < 1e-15
+                && (difference.angle.rms - 2e-4_f64.sqrt()).abs() < 1e-15
+        );
+    }
+}

@@ -1,0 +1,129 @@
+//! Report of an export: the files, and how good they are.
+
+use std::fmt::Display;
+
+use abbe::{Error, Pose};
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::mistake;
+use serde::Serialize;
+
+use super::pose_difference::PoseDifference;
+use super::real_machine::RealMachine;
+use super::rotary_axes::RotaryAxis;
+
+/// Change of a number, in any unit, below which it is rounding.
+pub(crate) const UNCHANGED: f64 = 1e-12;
+
+/// Text of one file.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExportedFile {
+    /// File name without a folder.
+    pub name: String,
+    /// Complete text.
+    pub text: String,
+}
+
+/// Files in another format, and the differences between poses with and without them.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExportReport {
+    /// Name of the machine.
+    pub name: String,
+    /// Name of the format and its variant.
+    pub format: String,
+    /// Unit of length of the differences.
+    pub length: &'static str,
+    /// The file, or several files that belong together.
+    pub files: Vec<ExportedFile>,
+    /// Changes in a file that was given, as hunks of a diff.
+    pub changes: Vec<String>,
+    /// Sentences about the errors that the format cannot hold.
+    pub left_out: Vec<String>,
+    /// Names of the differences `before` and `remains`.
+    pub compared: [&'static str; 2],
+    /// Difference without the files.
+    pub before: PoseDifference,
+    /// Difference with the files at the nodes of a table; `remains` is between the nodes.
+    pub at_nodes: Option<PoseDifference>,
+    /// Difference with the files.
+    pub remains: PoseDifference,
+    /// Difference with the files and with rotary axes of the workpiece placed in the control;
+    /// `None` without such axes.
+    pub placed: Option<PoseDifference>,
+    /// Rotary axes of the workpiece.
+    pub turned: Vec<RotaryAxis>,
+    /// Number of random configurations of the differences.
+    pub configurations: usize,
+    /// Seed of the configurations.
+    pub seed: u64,
+    /// Sentence that explains the sign by a number of this machine.
+    pub sign: String,
+}
+
+impl ExportReport {
+    /// Reports a format that holds a model: compares the pose of the tool by `model` with the real
+    /// one.
+    pub(crate) fn for_model(
+        machine: &RealMachine,
+        format: String,
+        files: Vec<ExportedFile>,
+        model: impl Fn(&[f64]) -> Pose,
+        sign: String,
+    ) -> Self {
+        Self::new(machine, format, files, ["nominal", "exported"], machine.model_difference(model), sign)
+    }
+
+    /// Reports a format that corrects commands: compares the real pose of the tool at corrected
+    /// commands with the nominal one.
+    pub(crate) fn for_commands(
+        machine: &RealMachine,
+        format: String,
+        files: Vec<ExportedFile>,
+        corrected: impl Fn(&[f64]) -> Vec<f64>,
+        sign: String,
+    ) -> Result<Self, Error> {
+        let remains = machine.command_difference(|q| Ok(corrected(q)))?;
+        Ok(Self::new(machine, format, files, ["as commanded", "corrected"], remains, sign))
+    }
+
+    fn new(
+        machine: &RealMachine,
+        format: String,
+        files: Vec<ExportedFile>,
+        compared: [&'static str; 2],
+        remains: PoseDifference,
+        sign: String,
+    ) -> Self {
+        Self {
+            name: machine.spec.name.clone(),
+            format,
+            length: machine.spec.length.symbol(),
+            files,
+            changes: Vec::new(),
+            left_out: Vec::new(),
+            compared,
+            before: machine.nominal_difference(),
+            at_nodes: None,
+            remains,
+            placed: None,
+            turned: Vec::new(),
+            configurations: machine.samples,
+            seed: machine.seed,
+            sign,
+        }
+    }
+}
+
+/// Returns the diagnostics of a text that cannot be read back.
+pub(crate) fn unreadable(message: impl Display) -> Diagnostics {
+    mistake::with_help("abbe export", message, "this is a mistake of abbe: please report the spec")
+}
+
+/// Returns the sentence about the sign where no number changes.
+pub(crate) fn nominal_sign() -> String {
+    "Nothing is wrong with this machine: the numbers are the nominal ones.".to_owned()
+}
+
+/// Rounds a length or an angle to the 15 decimals that files have.
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.15}").parse::<f64>().unwrap_or(value) + 0.0
+}

@@ -1,0 +1,272 @@
+//! Chain between two links of a robot.
+
+use abbe::LengthUnit;
+use abbe_spec::as_identifier;
+use abbe_spec::diagnostic::{Diagnostic, listed};
+use abbe_spec::document::Document;
+use abbe_spec::notes::Notes;
+use abbe_spec::value::find_name;
+
+use super::robot::{Joint, JointKind, Link, Robot};
+use super::tree::Tree;
+use crate::import::AngleRounding;
+use crate::import::chain::{Chain, Frame, Mass, Motion, Variable};
+use crate::import::geometry::Geometry;
+use crate::placement::Placement;
+
+/// Names of the links at the ends of a chain.
+#[derive(Clone, Debug, Default)]
+pub struct Ends {
+    /// Link that is `F_0`; the root if not given.
+    pub base: Option<String>,
+    /// Link whose frame is the tool point; the only link without a child if not given.
+    pub tip: Option<String>,
+}
+
+/// Returns the chain from base to tip; see [`read`](super::read).
+pub(super) fn chain(
+    robot: &Robot,
+    tree: &Tree<'_>,
+    ends: &Ends,
+    fold: bool,
+    angles: &mut AngleRounding,
+    document: &mut Document,
+    notes: &mut dyn Notes,
+) -> Option<Chain> {
+    let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
+    let base = match &ends.base {
+        Some(name) => find_link("--base", name, &names, document)?,
+        None => tree.root(),
+    };
+    let tip = match &ends.tip {
+        Some(name) => find_link("--tip", name, &names, document)?,
+        None => only_tip(tree, &names, document)?,
+    };
+    let Some(path) = tree.path(base, tip) else {
+        let message = format!("`{}` does not hang on `{}`", names[tip], names[base]);
+        let mut above = tip;
+        while let Some((_, parent)) = tree.above(above) {
+            above = parent;
+        }
+        let help = format!(
+            "the chain begins at a link that carries the tip: `--base {}`, or one between",
+            names[above]
+        );
+        let mistake = Diagnostic::new(tree.link(tip).span.clone(), message)
+            .context(tree.link(base).span.clone(), "the base")
+            .label("the tip");
+        document.mistake(mistake.help(help));
+        return None;
+    };
+    let mut builder = Builder::new(robot, tree, fold, angles);
+    builder.variables(&path, document)?;
+    for (i, (joint, link)) in path.iter().enumerate() {
+        builder.add(joint, *link, path.get(i + 1).map(|(_, next)| *next));
+    }
+    let Builder { variables, frames, masses, pending, branches, .. } = builder;
+    if frames.is_empty() {
+        let message = format!("nothing moves between `{}` and `{}`", names[base], names[tip]);
+        let help = match path.is_empty() {
+            true => "name a tip behind a joint that moves",
+            false => "name a tip behind a joint that moves, or leave out `--fold`",
+        };
+        document.mistake(Diagnostic::new(tree.link(tip).span.clone(), message).help(help));
+        return None;
+    }
+    if robot.meshes > 0 {
+        notes.note(&format!("the files of {} shapes are not read: a spec has no shapes", robot.meshes));
+    }
+    if !branches.is_empty() {
+        notes.note(&format!(
+            "what moves beside the chain is left out, with its masses: the joints {}",
+            listed(&branches)
+        ));
+    }
+    let [base, tip] = [base, tip].map(|link| names[link].to_owned());
+    Some(Chain {
+        robot: robot.name.clone(),
+        description: format!("From {base} to {tip}"),
+        length: LengthUnit::Metre,
+        degrees: false,
+        base,
+        tip,
+        variables,
+        frames,
+        tool: pending,
+        masses,
+    })
+}
+
+/// Returns the index of the link that an option names; another name is a mistake.
+fn find_link(option: &str, name: &str, names: &[&str], document: &mut Document) -> Option<usize> {
+    let found = names.iter().position(|link| *link == name);
+    if found.is_none() {
+        // The mistake is in the option, and has no span in the file.
+        let mut argument = Document::new(option, name);
+        find_name(&mut argument, 0..name.len(), name, names, "link");
+        let help = argument.found.into_iter().find_map(|mistake| mistake.help).unwrap_or_default();
+        let message = format!("`{option}`: there is no link `{}`", name.escape_debug());
+        document.mistake(Diagnostic::whole_file(message).help(help));
+    }
+    found
+}
+
+/// Returns the only link without a child; several are a mistake.
+fn only_tip(tree: &Tree<'_>, names: &[&str], document: &mut Document) -> Option<usize> {
+    match tree.tips()[..] {
+        [tip] => Some(tip),
+        ref several => {
+            let several: Vec<&str> = several.iter().map(|&tip| names[tip]).collect();
+            document.mistake(
+                Diagnostic::whole_file("this robot has more than one last link")
+                    .help(format!("say where the tool point is: `--tip LINK`, one of {}", listed(&several))),
+            );
+            None
+        }
+    }
+}
+
+/// Builds a chain, joint by joint.
+struct Builder<'r> {
+    robot: &'r Robot,
+    tree: &'r Tree<'r>,
+    fold: bool,
+    angles: &'r mut AngleRounding,
+    variables: Vec<Variable>,
+    /// Name of each joint that moves, its multiplier and offset, and the index of its variable.
+    driven: Vec<(&'r str, [f64; 2], usize)>,
+    frames: Vec<Frame>,
+    masses: Vec<Mass>,
+    /// Product of the fixed joints since the last frame.
+    pending: Placement,
+    /// Names of the joints that move branches beside the chain.
+    branches: Vec<&'r str>,
+}
+
+impl<'r> Builder<'r> {
+    fn new(robot: &'r Robot, tree: &'r Tree<'r>, fold: bool, angles: &'r mut AngleRounding) -> Self {
+        let (variables, driven, frames, masses, branches) = Default::default();
+        let pending = Placement::default();
+        Self { robot, tree, fold, angles, variables, driven, frames, masses, pending, branches }
+    }
+
+    /// Collects the variables of the joints on the path: their own, or that of the joint that they
+    /// follow.
+    fn variables(&mut self, path: &[(&'r Joint, usize)], document: &mut Document) -> Option<()> {
+        for (joint, _) in path {
+            match joint.kind {
+                JointKind::Fixed => continue,
+                JointKind::Planar | JointKind::Floating => {
+                    let message = format!("the joint `{}` moves in several directions at once", joint.name);
+                    document.mistake(
+                        Diagnostic::new(joint.span.clone(), message)
+                            .help("write it as several joints, or begin the chain behind it: `--base LINK`"),
+                    );
+                    return None;
+                }
+                JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {}
+            }
+            let (leader, [multiplier, offset]) = self.leader(joint, document)?;
+            let existing = self.variables.iter().position(|variable| variable.joint == leader.name);
+            let variable = existing.unwrap_or_else(|| {
+                self.variables.push(Variable {
+                    name: self.free_name(&leader.name),
+                    joint: leader.name.clone(),
+                    prismatic: leader.kind == JointKind::Prismatic,
+                    limits: leader.limits,
+                    continuous: leader.kind == JointKind::Continuous,
+                });
+                self.variables.len() - 1
+            });
+            self.driven.push((&joint.name, [multiplier, offset], variable));
+        }
+        Some(())
+    }
+
+    /// Returns the joint whose variable moves a joint, itself if it follows none, with multiplier
+    /// and offset.
+    fn leader(&self, joint: &'r Joint, document: &mut Document) -> Option<(&'r Joint, [f64; 2])> {
+        let (mut leader, [mut multiplier, mut offset]) = (joint, [1.0, 0.0]);
+        for _ in 0..=self.robot.joints.len() {
+            let Some(mimic) = &leader.mimic else {
+                let moves =
+                    !matches!(leader.kind, JointKind::Fixed | JointKind::Planar | JointKind::Floating);
+                if !moves {
+                    let message =
+                        format!("`{}` follows `{}`, which has no value of its own", joint.name, leader.name);
+                    document.mistake(
+                        Diagnostic::new(joint.span.clone(), message)
+                            .help("a joint follows one that turns or slides: `<mimic joint=\"…\"/>`"),
+                    );
+                }
+                return moves.then_some((leader, [multiplier, offset]));
+            };
+            let names: Vec<&str> = self.robot.joints.iter().map(|joint| joint.name.as_str()).collect();
+            let followed = &mimic.joint;
+            let next = find_name(document, followed.span.clone(), &followed.name, &names, "joint")?;
+            offset += multiplier * mimic.offset;
+            multiplier *= mimic.multiplier;
+            leader = &self.robot.joints[next];
+        }
+        let message = format!("`{}` mimics itself through other joints", joint.name);
+        document.mistake(
+            Diagnostic::new(joint.span.clone(), message)
+                .help("one of the joints must move by itself: leave its <mimic> out"),
+        );
+        None
+    }
+
+    /// Returns an identifier that no other variable has.
+    fn free_name(&self, joint: &str) -> String {
+        let name = as_identifier(joint);
+        let taken = |name: &str| self.variables.iter().any(|variable| variable.name == name);
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        let mut names = std::iter::once(name.clone()).chain(numbered);
+        names.find(|name| !taken(name)).unwrap_or(name)
+    }
+
+    /// Adds a joint and the link that it carries; `next` is the link after it on the path.
+    fn add(&mut self, joint: &'r Joint, link: usize, next: Option<usize>) {
+        let rpy = joint.placement.rpy.map(|angle| self.angles.angle(angle));
+        let placement = Placement { rpy, ..joint.placement };
+        let placement = self.pending.then(&placement);
+        let motion = self.driven.iter().find(|(name, ..)| *name == joint.name).map(
+            |&(_, [multiplier, offset], variable)| Motion {
+                prismatic: joint.kind == JointKind::Prismatic,
+                axis: joint.axis,
+                variable,
+                multiplier,
+                offset,
+            },
+        );
+        if motion.is_none() && self.fold {
+            self.pending = placement;
+        } else {
+            self.pending = Placement::default();
+            let (joint, link) = (joint.name.clone(), self.tree.link(link).name.clone());
+            let geometry = Geometry::Origin(placement);
+            self.frames.push(Frame { joint, link: Some(link), geometry, motion });
+        }
+        if let Some(frame) = self.frames.len().checked_sub(1) {
+            self.add_masses(link, next, frame);
+        }
+    }
+
+    /// Adds the masses of a link on the path, and of the links that are fixed to it beside the
+    /// path.
+    fn add_masses(&mut self, link: usize, next: Option<usize>, frame: usize) {
+        let mut rigid = vec![(link, self.pending)];
+        while let Some((link, at)) = rigid.pop() {
+            let Link { name, mass, .. } = self.tree.link(link);
+            if let Some((kilograms, centre)) = *mass {
+                self.masses.push(Mass { link: name.clone(), kilograms, frame, centre: at.point(centre) });
+            }
+            for (joint, child) in self.tree.carried(link).filter(|(_, child)| Some(*child) != next) {
+                match joint.kind {
+                    JointKind::Fixed => rigid.push((child, at.then(&joint.placement))),
+                    _ => self.branches.push(&joint.name),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Links and joints as a tree, and the path from one link to another.
+
+use std::collections::HashMap;
+
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
+use abbe_spec::value::find_name;
+
+use super::robot::{Joint, Link, Named, Robot};
+
+/// Robot with the connections of its links and joints, by index.
+pub(super) struct Tree<'r> {
+    robot: &'r Robot,
+    /// Joint that carries each link, and its parent link.
+    carrier: Vec<Option<(usize, usize)>>,
+    /// Joints on each link, and their child links.
+    carried: Vec<Vec<(usize, usize)>>,
+}
+
+impl<'r> Tree<'r> {
+    /// Checks that the robot is one tree; mistakes go to the document.
+    pub(super) fn new(robot: &'r Robot, document: &mut Document) -> Option<Self> {
+        let Robot { links, joints, .. } = robot;
+        let before = document.found.len();
+        let indices = unique_indices(links.iter().map(|link| (&link.name, &link.span)), "links", document);
+        unique_indices(joints.iter().map(|joint| (&joint.name, &joint.span)), "joints", document);
+        let names: Vec<&str> = links.iter().map(|link| link.name.as_str()).collect();
+        let mut link = |Named { name, span }: &Named| match indices.get(name.as_str()) {
+            Some(&index) => Some(index),
+            None => {
+                find_name(document, span.clone(), name, &names, "link");
+                None
+            }
+        };
+        let ends: Vec<_> = joints.iter().map(|joint| (link(&joint.parent), link(&joint.child))).collect();
+        let mut carrier: Vec<Option<(usize, usize)>> = vec![None; links.len()];
+        let mut carried = vec![Vec::new(); links.len()];
+        for (j, ends) in ends.into_iter().enumerate() {
+            let (Some(parent), Some(child)) = ends else { continue };
+            carried[parent].push((j, child));
+            match carrier[child] {
+                None => carrier[child] = Some((j, parent)),
+                Some((first, _)) => document.mistake(
+                    Diagnostic::new(
+                        joints[j].child.span.clone(),
+                        format!("`{}` is the child of two joints", links[child].name),
+                    )
+                    .context(joints[first].child.span.clone(), "here it is a child already")
+                    .help("a robot of URDF is a tree: closed chains cannot be described"),
+                ),
+            }
+        }
+        if joints.is_empty() {
+            document.mistake(
+                Diagnostic::whole_file("this robot has no joints")
+                    .help("a chain is made of joints: is this the file of the whole robot?"),
+            );
+        }
+        if document.found.len() > before {
+            return None;
+        }
+        let tree = Self { robot, carrier, carried };
+        tree.check_roots(document)?;
+        Some(tree)
+    }
+
+    /// Iterates over the links without a parent.
+    fn roots(&self) -> impl Iterator<Item = usize> {
+        (0..self.carrier.len()).filter(|&link| self.carrier[link].is_none())
+    }
+
+    /// Checks that there is one root, and that it carries every link.
+    fn check_roots(&self, document: &mut Document) -> Option<()> {
+        let Robot { links, joints, .. } = self.robot;
+        let mut roots = self.roots();
+        if let (Some(first), Some(second)) = (roots.next(), roots.next()) {
+            let message = format!(
+                "`{}` hangs on no joint, and neither does `{}`",
+                links[second].name, links[first].name
+            );
+            document.mistake(
+                Diagnostic::new(links[second].span.clone(), message)
+                    .context(links[first].span.clone(), "one root")
+                    .label("another root")
+                    .help(
+                        "a robot of URDF has one root link: join the two by a fixed joint, or leave one out",
+                    ),
+            );
+            return None;
+        }
+        // With at most one root, a link that the root does not carry is part of a cycle.
+        let mut above = vec![false; links.len()];
+        let mut waiting: Vec<usize> = self.roots().collect();
+        while let Some(link) = waiting.pop() {
+            above[link] = true;
+            waiting.extend(self.carried[link].iter().map(|(_, child)| child));
+        }
+        let lost = (0..links.len()).find(|&link| !above[link]);
+        if let Some((j, _)) = lost.and_then(|link| self.carrier[link]) {
+            let message = format!("the joint `{}` is part of a circle of joints", joints[j].name);
+            document.mistake(
+                Diagnostic::new(joints[j].span.clone(), message)
+                    .help("a robot of URDF is a tree: every link hangs, over others, on one root"),
+            );
+            return None;
+        }
+        Some(())
+    }
+
+    /// Returns the root: the only link without a parent.
+    pub(super) fn root(&self) -> usize {
+        self.roots().next().unwrap_or(0)
+    }
+
+    /// Returns the links without a child.
+    pub(super) fn tips(&self) -> Vec<usize> {
+        (0..self.carried.len()).filter(|&link| self.carried[link].is_empty()).collect()
+    }
+
+    /// Returns a link by its index.
+    pub(super) fn link(&self, number: usize) -> &'r Link {
+        &self.robot.links[number]
+    }
+
+    /// Returns the joint that carries a link, and the parent link.
+    pub(super) fn above(&self, link: usize) -> Option<(&'r Joint, usize)> {
+        let (joint, parent) = self.carrier[link]?;
+        Some((&self.robot.joints[joint], parent))
+    }
+
+    /// Iterates over the joints on a link and their child links.
+    pub(super) fn carried(&self, link: usize) -> impl Iterator<Item = (&'r Joint, usize)> {
+        self.carried[link].iter().map(|&(joint, child)| (&self.robot.joints[joint], child))
+    }
+
+    /// Returns the joints from `base` to `tip` with their child links; `None` if `base` does not
+    /// carry `tip`.
+    pub(super) fn path(&self, base: usize, tip: usize) -> Option<Vec<(&'r Joint, usize)>> {
+        let mut path = Vec::new();
+        let mut link = tip;
+        while link != base {
+            let (joint, parent) = self.above(link)?;
+            path.push((joint, link));
+            link = parent;
+        }
+        path.reverse();
+        Some(path)
+    }
+}
+
+/// Returns indices by name; a repeated name is a mistake.
+fn unique_indices<'a>(
+    named: impl Iterator<Item = (&'a String, &'a Span)>,
+    what: &str,
+    document: &mut Document,
+) -> HashMap<&'a str, usize> {
+    let mut first: HashMap<&str, (usize, &Span)> = HashMap::new();
+    for (number, (name, span)) in named.enumerate() {
+        if let Some((_, other)) = first.get(name.as_str()) {
+            document.mistake(
+                Diagnostic::new(span.clone(), format!("two {what} are called `{}`", name.escape_debug()))
+                    .context((*other).clone(), "the first of them")
+                    .help("give each a name of its own"),
+            );
+        } else {
+            first.insert(name, (number, span));
+        }
+    }
+    first.into_iter().map(|(name, (number, _))| (name, number)).collect()
+}

@@ -1,0 +1,279 @@
+//! Parses the XML of a URDF file into links and joints.
+
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
+use roxmltree::{Attribute, Node};
+
+use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};
+use crate::placement::Placement;
+
+/// Parses a robot; mistakes go to the document.
+pub(super) fn robot(document: &mut Document) -> Option<Robot> {
+    let text = document.text.clone();
+    let xml = match roxmltree::Document::parse(&text) {
+        Ok(xml) => xml,
+        Err(error) => {
+            document.mistake(not_xml(&text, &error));
+            return None;
+        }
+    };
+    let root = xml.root_element();
+    if let Some(mistake) = not_urdf(root) {
+        document.mistake(mistake);
+        return None;
+    }
+    let mut reader = Reader { document };
+    let children = |tag| root.children().filter(move |node| node.has_tag_name(tag));
+    let links = children("link").filter_map(|node| reader.link(node)).collect();
+    let joints = children("joint").filter_map(|node| reader.joint(node)).collect();
+    let meshes = root.descendants().filter(|node| node.has_tag_name("mesh")).count();
+    let name = root.attribute("name").filter(|name| !name.trim().is_empty()).unwrap_or("robot").to_owned();
+    Some(Robot { name, links, joints, meshes })
+}
+
+/// Returns the mistake in a file that is not XML.
+fn not_xml(text: &str, error: &roxmltree::Error) -> Diagnostic {
+    if text.trim().is_empty() {
+        return Diagnostic::whole_file("this file is empty").help("give the path of a URDF file");
+    }
+    let at = error.pos();
+    let line = text.split_inclusive('\n').take(at.row.saturating_sub(1) as usize).map(str::len).sum();
+    let column = |rest: &str| rest.chars().take(at.col.saturating_sub(1) as usize).map(char::len_utf8).sum();
+    let place: usize = line + text.get(line..).map_or(0, column);
+    let message = error.to_string();
+    let (message, help) = if matches!(error, roxmltree::Error::DtdDetected) {
+        (
+            "this file declares entities".to_owned(),
+            "a URDF needs no <!DOCTYPE …>: write out what it stands for",
+        )
+    } else if !text.trim_start().starts_with('<') {
+        ("this file is not XML".to_owned(), "give the path of a URDF file: it begins with <robot name=\"…\">")
+    } else {
+        (format!("this is not XML: {message}"), "repair the file; `xmllint FILE` says more")
+    };
+    let start = if matches!(error, roxmltree::Error::DtdDetected) { text.find("<!DOCTYPE") } else { None };
+    let start = start.unwrap_or(place);
+    Diagnostic::new(start..start + 1, message).label("here").help(help)
+}
+
+/// Returns the mistake if the root is not that of a URDF file.
+fn not_urdf(root: Node<'_, '_>) -> Option<Diagnostic> {
+    let span = start_of(root);
+    let xacro = |node: &Node<'_, '_>| {
+        node.tag_name().namespace().is_some_and(|namespace| namespace.contains("xacro"))
+            || node.attributes().any(|attribute| attribute.value().contains("${"))
+    };
+    let name = root.tag_name().name();
+    if let Some(node) = root.descendants().find(xacro) {
+        return Some(
+            Diagnostic::new(start_of(node), "this is xacro, not yet URDF")
+                .label("a macro, or what one puts in")
+                .help("expand it first: `xacro FILE.xacro > robot.urdf`"),
+        );
+    }
+    let help = match name {
+        "robot" => return None,
+        "sdf" => "this is SDF: convert it to URDF first (`gz sdf`, `sdformat_urdf`)",
+        "mujoco" => "this is MJCF, the format of MuJoCo: convert it to URDF first",
+        "COLLADA" => "this is a mesh, not a robot: give the URDF file that refers to it",
+        _ => "a URDF file begins with <robot name=\"…\">",
+    };
+    let message = format!("`<{name}>` is no robot");
+    Some(Diagnostic::new(span, message).label("expected `<robot>`").help(help))
+}
+
+/// Returns the span of the start tag of an element.
+fn start_of(node: Node<'_, '_>) -> Span {
+    let Span { start, end } = node.range();
+    let text = node.document().input_text();
+    let tag = text.get(start..end).and_then(|tag| tag.find('>')).map_or(end, |last| start + last + 1);
+    start..tag
+}
+
+/// Reads elements; mistakes go to the document.
+struct Reader<'d> {
+    document: &'d mut Document,
+}
+
+impl Reader<'_> {
+    fn link(&mut self, node: Node<'_, '_>) -> Option<Link> {
+        let name = self.name(node)?;
+        let mass = child(node, "inertial").and_then(|inertial| {
+            let mass = child(inertial, "mass").and_then(|mass| self.number(mass, "value"))?;
+            let centre = self.placement(child(inertial, "origin"))?;
+            (mass != 0.0).then_some((mass, centre.xyz))
+        });
+        if let Some((mass, _)) = mass
+            && mass < 0.0
+        {
+            let message = format!("the mass of `{name}` is negative");
+            self.fault(start_of(node), message, "a mass is 0 or more");
+        }
+        Some(Link { name, span: start_of(node), mass })
+    }
+
+    fn joint(&mut self, node: Node<'_, '_>) -> Option<Joint> {
+        let name = self.name(node);
+        let kind = self.kind(node);
+        let parent = self.end(node, "parent");
+        let child_link = self.end(node, "child");
+        let placement = self.placement(child(node, "origin"));
+        let (name, kind) = (name?, kind?);
+        let axis = self.axis(node, &name, kind);
+        let limits = self.limits(node, &name, kind);
+        let mimic = child(node, "mimic").map(|mimic| self.mimic(mimic));
+        let mimic = match mimic {
+            Some(mimic) => Some(mimic?),
+            None => None,
+        };
+        Some(Joint {
+            span: start_of(node),
+            kind,
+            parent: parent?,
+            child: child_link?,
+            placement: placement?,
+            axis: axis?,
+            limits: limits?,
+            mimic,
+            name,
+        })
+    }
+
+    fn kind(&mut self, node: Node<'_, '_>) -> Option<JointKind> {
+        let attribute = self.attribute(node, "type")?;
+        let found = JointKind::ALL.iter().find(|(name, _)| *name == attribute.value().trim());
+        if found.is_none() {
+            let names = JointKind::ALL.map(|(name, _)| name).join(", ");
+            let message = format!("there is no joint of the type `{}`", attribute.value().escape_debug());
+            self.fault(attribute.range_value(), message, &format!("the types are {names}"));
+        }
+        found.map(|(_, kind)| *kind)
+    }
+
+    /// Reads the link at one end of a joint: `parent` or `child`.
+    fn end(&mut self, node: Node<'_, '_>, tag: &str) -> Option<Named> {
+        let Some(end) = child(node, tag) else {
+            let message = format!("this joint has no <{tag}>");
+            self.fault(start_of(node), message, &format!("say which link it is: <{tag} link=\"…\"/>"));
+            return None;
+        };
+        let link = self.attribute(end, "link")?;
+        Some(Named { name: link.value().to_owned(), span: link.range_value() })
+    }
+
+    /// Reads the axis of a joint as a unit vector; x without an `<axis>`, by the definition of
+    /// URDF.
+    fn axis(&mut self, node: Node<'_, '_>, name: &str, kind: JointKind) -> Option<[f64; 3]> {
+        let Some(axis) = child(node, "axis") else { return Some([1.0, 0.0, 0.0]) };
+        let xyz = self.three(axis, "xyz", [1.0, 0.0, 0.0])?;
+        let largest = xyz.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let length = xyz.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt() * largest;
+        if length > 0.0 {
+            // A unit vector but for rounding stays as it is in the file.
+            return Some(if (length - 1.0).abs() < 1e-15 { xyz } else { xyz.map(|x| x / length) });
+        }
+        if matches!(kind, JointKind::Fixed | JointKind::Floating) {
+            return Some([1.0, 0.0, 0.0]);
+        }
+        let message = format!("the axis of `{name}` is zero");
+        self.fault(start_of(axis), message, "give its direction: <axis xyz=\"0 0 1\"/>");
+        None
+    }
+
+    /// Reads the limits of a joint; `Some(None)` for a kind or a joint without limits.
+    fn limits(&mut self, node: Node<'_, '_>, name: &str, kind: JointKind) -> Option<Option<[f64; 2]>> {
+        let Some(limit) = child(node, "limit") else { return Some(None) };
+        if !matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
+            return Some(None);
+        }
+        // The defaults of URDF.
+        let [lower, upper] = ["lower", "upper"].map(|key| match limit.attribute(key) {
+            Some(_) => self.number(limit, key),
+            None => Some(0.0),
+        });
+        let (lower, upper) = (lower?, upper?);
+        if lower > upper {
+            let message = format!("the limits of `{name}` are the wrong way round");
+            self.fault(start_of(limit), message, "`lower` is the smaller one");
+            return None;
+        }
+        Some((lower < upper).then_some([lower, upper]))
+    }
+
+    fn mimic(&mut self, node: Node<'_, '_>) -> Option<Mimic> {
+        let joint = self.attribute(node, "joint")?;
+        let mut number = |key, default| match node.attribute(key) {
+            Some(_) => self.number(node, key),
+            None => Some(default),
+        };
+        let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));
+        let joint = Named { name: joint.value().to_owned(), span: joint.range_value() };
+        Some(Mimic { joint, multiplier: multiplier?, offset: offset? })
+    }
+
+    fn placement(&mut self, node: Option<Node<'_, '_>>) -> Option<Placement> {
+        let Some(node) = node else { return Some(Placement::default()) };
+        let xyz = self.three(node, "xyz", [0.0; 3]);
+        let rpy = self.three(node, "rpy", [0.0; 3]);
+        Some(Placement { xyz: xyz?, rpy: rpy? })
+    }
+
+    fn three(&mut self, node: Node<'_, '_>, key: &str, default: [f64; 3]) -> Option<[f64; 3]> {
+        let Some(attribute) = node.attribute_node(key) else { return Some(default) };
+        let numbers: Option<Vec<f64>> = attribute.value().split_whitespace().map(finite).collect();
+        match numbers.as_deref() {
+            Some(&[x, y, z]) => Some([x, y, z]),
+            _ => {
+                let message = format!("`{key}` must be three finite numbers");
+                self.fault(attribute.range_value(), message, "separate them by blanks: `0 0 0.5`");
+                None
+            }
+        }
+    }
+
+    fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
+        let attribute = self.attribute(node, key)?;
+        let number = finite(attribute.value().trim());
+        if number.is_none() {
+            let help = "write it with a decimal point: `0.5`";
+            self.fault(attribute.range_value(), format!("`{key}` must be a finite number"), help);
+        }
+        number
+    }
+
+    fn name(&mut self, node: Node<'_, '_>) -> Option<String> {
+        let attribute = self.attribute(node, "name")?;
+        let name = attribute.value();
+        if name.trim().is_empty() || name.chars().any(char::is_control) || name.len() > LONGEST {
+            let help = format!("a name is a text of at most {LONGEST} bytes in one line");
+            self.fault(attribute.range_value(), "this cannot be a name".to_owned(), &help);
+            return None;
+        }
+        Some(name.to_owned())
+    }
+
+    fn attribute<'a, 'i>(&mut self, node: Node<'a, 'i>, key: &str) -> Option<Attribute<'a, 'i>> {
+        let found = node.attribute_node(key);
+        if found.is_none() {
+            let message = format!("this <{}> has no `{key}`", node.tag_name().name());
+            self.fault(start_of(node), message, &format!("add {key}=\"…\""));
+        }
+        found
+    }
+
+    fn fault(&mut self, span: Span, message: String, help: &str) {
+        self.document.mistake(Diagnostic::new(span, message).help(help));
+    }
+}
+
+/// Longest name in bytes: that of a frame in a spec.
+const LONGEST: usize = 200;
+
+fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|child| child.has_tag_name(tag))
+}
+
+/// Parses a number that a spec can hold.
+fn finite(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| number.abs() < 1e150)
+}

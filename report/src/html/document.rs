@@ -1,0 +1,66 @@
+//! Parts of every page.
+
+use super::escaped;
+
+const STYLE: &str = include_str!("style.css");
+
+/// Formats an HTML document with its style sheet.
+pub(super) fn document(title: &str, body: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n\
+         </head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
+        escaped(title),
+    )
+}
+
+/// Formats the heading: the kind of report, the machine, and the study or the map.
+pub(super) fn heading(kind: &str, title: &str, study: &str) -> String {
+    format!(
+        "<header>\n<p class=\"kind\">{kind}</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n</header>\n",
+        escaped(title),
+        escaped(study)
+    )
+}
+
+/// Formats a verdict and the sentences about it.
+pub(super) fn verdict(is_met: bool, line: &str, sentences: &[String]) -> String {
+    let class = if is_met { "met" } else { "missed" };
+    format!(
+        "<section class=\"verdict\">\n<h2 class=\"{class}\">{}</h2>\n{}</section>\n",
+        escaped(line),
+        paragraphs(sentences)
+    )
+}
+
+/// Important number: its name, the number with its unit, and a note.
+pub(super) struct Card {
+    pub(super) name: &'static str,
+    pub(super) value: String,
+    pub(super) note: String,
+}
+
+/// Formats important numbers.
+pub(super) fn cards(cards: impl IntoIterator<Item = Card>) -> String {
+    let cards = cards.into_iter().map(|Card { name, value, note }| {
+        let note = escaped(&note);
+        format!("<div class=\"card\"><span>{name}</span><b>{value}</b><small>{note}</small></div>\n")
+    });
+    format!("<div class=\"cards\">\n{}</div>\n", cards.collect::<String>())
+}
+
+/// Formats sentences, each as a paragraph.
+pub(super) fn paragraphs(sentences: &[String]) -> String {
+    sentences.iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect()
+}
+
+/// Formats a section.
+pub(super) fn section(title: &str, body: &str) -> String {
+    format!("<section>\n<h2>{title}</h2>\n{body}</section>\n")
+}
+
+/// Formats a section that is closed on a screen, and open on paper.
+pub(super) fn folded(title: &str, body: &str) -> String {
+    format!("<section>\n<details>\n<summary><h2>{title}</h2></summary>\n{body}</details>\n</section>\n")
+}

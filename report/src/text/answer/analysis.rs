@@ -1,0 +1,158 @@
+//! The answer of an error budget: verdict, figures, largest sources and worst configuration.
+
+use abbe::analysis::Measurand;
+use abbe_study::analyze::{Agreement, Report, Verdict, unit, unreachable_summary};
+use abbe_study::number::{self, fixed, percent};
+
+use super::{Answer, aligned, error_unit};
+
+/// Number of sources shown one by one.
+const SHOWN: usize = 5;
+
+pub(in crate::text) fn analysis(report: &Report) -> String {
+    let mut answer = Answer::new(&headline(report));
+    if report.sources.is_empty() {
+        answer.block("No error source is enabled: there is no error to predict.");
+        return answer.0;
+    }
+    answer.block(&figures(report));
+    answer.block(&sources(report));
+    answer.facts(facts(report));
+    answer.0
+}
+
+fn headline(report: &Report) -> String {
+    let title = &report.spec.title;
+    let at = match report.configurations {
+        1 => "1 configuration".to_owned(),
+        count => format!("{count} configurations"),
+    };
+    let Some(verdict) = report.verdict() else {
+        return format!("{title}: no tolerance stated; {at}");
+    };
+    let verdict = match verdict {
+        Verdict::Met => "MET",
+        Verdict::MetWithProbability => "MET with the required probability",
+        Verdict::NotMet => "NOT MET",
+    };
+    let tolerances = [Measurand::Position, Measurand::Orientation]
+        .into_iter()
+        .filter_map(|measurand| Some(unit::with_symbol(report, measurand, report.tolerance(measurand)?)));
+    let tolerances = tolerances.collect::<Vec<_>>().join(" and ");
+    format!("{title}: {verdict}, tolerance {tolerances} at {at}")
+}
+
+/// Decimals that show the largest error to four digits.
+fn decimals(report: &Report) -> usize {
+    number::decimals(error_unit(report.length).0 * report.combined.radii.radius, 4)
+}
+
+/// The error as built, after compensation, and of the random sources alone.
+fn figures(report: &Report) -> String {
+    let (factor, unit) = error_unit(report.length);
+    let decimals = decimals(report);
+    let certified = |largest: Option<f64>| {
+        largest.map_or(String::new(), |most| {
+            format!("certified at most {}", number::rounded_up(factor * most, decimals))
+        })
+    };
+    let norms = report.certified.as_ref();
+    let position = |name: &str, value: f64, probability: String, note: String| {
+        let share = report.position_tolerance.map(|tolerance| percent(value, tolerance));
+        let value = format!("{} {unit}", fixed(factor * value, decimals));
+        [name.to_owned(), value, share.unwrap_or_default(), probability, note]
+    };
+    let probability = |measurand: Measurand| {
+        let verdict = report.verdicts.iter().flat_map(|all| all.all()).find(|one| one.measurand == measurand);
+        verdict.map_or(String::new(), |verdict| format!("P(within) {}", verdict.probability()))
+    };
+    let radii = &report.combined.radii;
+    let most = norms.and_then(|norms| norms.radius.as_ref()).and_then(|largest| largest.certified);
+    let mut rows =
+        vec![position("as built", radii.radius, probability(Measurand::Position), certified(most))];
+    if let Some(left) = &report.compensation {
+        rows.push(position("compensated", left.total.value, String::new(), String::new()));
+    } else if let Some(left) = &report.after_compensation {
+        let note = format!("residual {} of {}", number::short(factor * left.residual), report.publisher());
+        rows.push(position("compensated", left.total, String::new(), note));
+    }
+    let is_mixed = radii.random_radius > 0.0 && radii.repeatable_radius > 0.0;
+    if is_mixed {
+        let most = norms.and_then(|norms| norms.random.as_ref()).and_then(|largest| largest.certified);
+        rows.push(position("random only", radii.random_radius, String::new(), certified(most)));
+    }
+    if report.orientation.radii.radius > 0.0 {
+        let value = report.orientation.radii.radius;
+        let share = report.orientation.tolerance.map(|tolerance| percent(value, tolerance));
+        let value = format!("{} mrad", number::digits(1e3 * value, 4));
+        let probability = probability(Measurand::Orientation);
+        rows.push(["orientation".to_owned(), value, share.unwrap_or_default(), probability, String::new()]);
+    }
+    aligned(&rows, [false, true, true, false, false])
+}
+
+/// Lists the largest sources with their shares of the sum of all norms, and the factor at which
+/// each alone would use up the tolerance.
+fn sources(report: &Report) -> String {
+    let decimals = decimals(report);
+    let all = &report.ledger.sources;
+    let (scale, unit) = error_unit(report.length);
+    let sum: f64 = all.iter().map(|entry| entry.max).sum();
+    let factor = |name: &str| {
+        let sources = &report.allowance.as_ref()?.sources;
+        let alone = sources.iter().find(|source| source.name == name)?.alone?;
+        Some(format!("× {}", number::digits(alone, 2)))
+    };
+    let row = |name: String, max: f64, factor: Option<String>| {
+        [name, fixed(scale * max, decimals), percent(max, sum), factor.unwrap_or_default()]
+    };
+    let shown = if all.len() <= SHOWN + 1 { all.len() } else { SHOWN };
+    let tighten = if report.allowance.is_some() { "tighten to" } else { "" };
+    let head = ["source", &format!("max {unit}"), "share", tighten].map(str::to_owned);
+    let mut rows = vec![head];
+    rows.extend(all[..shown].iter().map(|entry| row(entry.name.clone(), entry.max, factor(&entry.name))));
+    if shown < all.len() {
+        let rest = all[shown..].iter().map(|entry| entry.max).sum();
+        rows.push(row(format!("{} others, added", all.len() - shown), rest, None));
+    }
+    aligned(&rows, [false, true, true, true])
+}
+
+fn facts(report: &Report) -> Vec<(&'static str, String)> {
+    let mut facts = vec![("Study", report.title.clone())];
+    if let Some(worst) = report.configuration(report.budget.combined.radius.configuration) {
+        facts.push(("Worst", super::place(&report.label(worst))));
+    }
+    let published = &report.comparisons;
+    let missed: Vec<String> = published
+        .iter()
+        .filter(|one| one.agreement != Agreement::Met)
+        .map(|one| format!("{} ({}) {}", one.figure, one.metric, one.agreement.text(report)))
+        .collect();
+    if !published.is_empty() {
+        let met = published.len() - missed.len();
+        let missed =
+            if missed.is_empty() { String::new() } else { format!("; {}", super::first(&missed, 2)) };
+        let publisher = report.publisher();
+        facts.push((
+            "Published",
+            format!("{met} of {} figures of {publisher} reproduced{missed}", published.len()),
+        ));
+    }
+    let unreachable = &report.budget.unreachable;
+    if unreachable.count > 0 {
+        let reasons = unreachable_summary(unreachable, &report.spec);
+        facts.push(("Reach", format!("{} configurations not reached: {reasons}", unreachable.count)));
+    }
+    let (factor, unit) = error_unit(report.length);
+    let largest = factor * report.first_order.largest;
+    facts.push((
+        "Exact",
+        format!(
+            "figures to first order; the exact chain differs by up to {} {unit} at {} configurations",
+            number::rounded_up(largest, number::decimals(largest, 2)),
+            report.first_order.checked
+        ),
+    ));
+    facts
+}

@@ -1,0 +1,146 @@
+//! Full text of a check.
+
+mod chain;
+
+use std::f64::consts::PI;
+
+use abbe::{LengthUnit, VariableKind};
+use abbe_spec::{Spec, Variable};
+use abbe_study::check::{Identifiable, Law, Report};
+use abbe_study::number::{quantity, short};
+
+use super::{table, wrapped};
+
+/// Returns what `abbe check` prints.
+pub(in crate::text) fn check(report: &Report) -> String {
+    let spec = &report.spec;
+    let length = spec.length.symbol();
+    let mut parts = vec![format!("{} ({})\n", spec.title, report.facts.spec)];
+    if !spec.description.is_empty() {
+        parts[0] += &format!("{}\n", wrapped(&spec.description, 0));
+    }
+    parts[0] += &format!("{}\n", verdict(report));
+    parts[0] += &format!("\nLengths in {length}, orientation {}\n", report.facts.orientation);
+    parts.push(format!("Frames\n{}", frames(spec)));
+    if let Some(home) = &report.home {
+        parts.push(chain::text(home, length));
+    }
+    if !spec.parameters.is_empty() {
+        let rows = spec
+            .parameters
+            .iter()
+            .map(|p| [p.name.clone(), quantity(p.value, &p.unit), p.description.clone()]);
+        parts.push(format!("Parameters\n{}", table(&["name", "nominal", "what"], rows)));
+    }
+    if !spec.inputs.is_empty() {
+        let rows = spec.inputs.iter().map(|u| {
+            let [lower, upper] = u.range.map(short);
+            let range = format!("{lower} … {upper} {}", u.unit);
+            [u.name.clone(), quantity(u.value, &u.unit), range, u.description.clone()]
+        });
+        parts.push(format!("Inputs\n{}", table(&["name", "nominal", "range", "what"], rows)));
+    }
+    if !report.facts.sources.is_empty() {
+        let rows = report.facts.sources.iter().map(|source| {
+            let state = if source.enabled { "on" } else { "off" };
+            [source.name.clone(), source.class.to_owned(), source.at.clone(), state.to_owned()]
+        });
+        parts.push(format!("Sources\n{}", table(&["name", "class", "at", ""], rows)));
+    }
+    if !report.notes.is_empty() {
+        let notes: String = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect();
+        parts.push(format!("Notes\n{notes}"));
+    }
+    parts.push(format!(
+        "What measurements can tell\n{}",
+        identifiable(&report.identifiable, report.identifiability_configurations)
+    ));
+    parts.push(format!("Laws, at {} configurations\n{}", report.configurations, laws(&report.laws)));
+    let rows = report.facts.operations.iter().map(|f| [f.function.to_owned(), f.operations.to_string()]);
+    parts.push(format!("Operations of the generated code\n{}", table(&["function", "operations"], rows)));
+    parts.join("\n")
+}
+
+/// Summarizes the check in one line.
+fn verdict(report: &Report) -> String {
+    let failed: Vec<&str> = report.laws.iter().filter(|law| !law.holds).map(|law| law.law).collect();
+    let warnings = match report.warnings.len() + report.notes.len() {
+        0 => String::new(),
+        1 => ", with one remark".to_owned(),
+        some => format!(", with {some} remarks"),
+    };
+    match failed.as_slice() {
+        [] => format!("OK: spec valid, {} self-checks passed{warnings}", report.laws.len()),
+        failed => format!("FAILED: {} of {} self-checks{warnings}", failed.len(), report.laws.len()),
+    }
+}
+
+fn frames(spec: &Spec) -> String {
+    let rows = spec.frames.iter().enumerate().map(|(i, frame)| {
+        let number = (i + 1).to_string();
+        let Some(variable) = frame.variable.map(|variable| &spec.variables[variable]) else {
+            return [number, frame.name.clone(), String::new(), "fixed".into(), String::new(), String::new()];
+        };
+        let [kind, limits, home] = joint(variable, spec.length);
+        [number, frame.name.clone(), variable.name.clone(), kind, limits, home]
+    });
+    table(&["", "frame", "variable", "kind", "limits", "home"], rows)
+}
+
+/// Returns the kind, the limits and the home of a joint, in deg or in the length unit.
+pub(in crate::text) fn joint(variable: &Variable, length: LengthUnit) -> [String; 3] {
+    let (kind, scale, unit) = match variable.kind {
+        VariableKind::Revolute => ("revolute", 180.0 / PI, "deg"),
+        VariableKind::Prismatic => ("prismatic", 1.0, length.symbol()),
+    };
+    let [lower, upper] = variable.limits.map(|limit| short(limit * scale));
+    let limits = match variable.limits.map(f64::is_finite) {
+        [false, false] => "no limits".to_owned(),
+        _ => format!("{lower} … {upper} {unit}"),
+    };
+    [kind.to_owned(), limits, quantity(variable.home * scale, unit)]
+}
+
+fn identifiable(counted: &[Identifiable], configurations: usize) -> String {
+    let find = |measurement: &str, base: bool| {
+        let counted = counted.iter().find(|way| way.measurement == measurement && way.base == base);
+        match counted.map(|way| (way.rank, way.unknowns, &way.reason)) {
+            Some((Some(rank), unknowns, _)) => format!("{rank} of {unknowns}"),
+            Some((None, unknowns, reason)) => format!("an unknown number ({reason}) of {unknowns}"),
+            None => String::new(),
+        }
+    };
+    let (pose, pose_base) = (find("pose", false), find("pose", true));
+    let (point, point_base) = (find("point", false), find("point", true));
+    let text = format!(
+        "Identifiable generalized errors of the frames: {pose} from poses (or three targets), \
+         {point} from tool points alone; with an unknown base frame {pose_base} and {point_base}. \
+         The others are linear combinations of these. Rank of the identification Jacobian over \
+         {configurations} configurations with all joints moved.",
+    );
+    wrapped(&text, 0) + "\n"
+}
+
+fn laws(laws: &[Law]) -> String {
+    let rows = laws.iter().map(|law| {
+        let slope = law.expected != 0.0;
+        let value = match law.value {
+            Some(0.0) => "0".to_owned(),
+            Some(value) if slope => format!("{value:.4}"),
+            Some(value) => format!("{value:.1e}"),
+            None => String::new(),
+        };
+        let bound = if slope {
+            format!("{} ± {}", law.expected, law.tolerance)
+        } else {
+            format!("at most {:.0e}", law.tolerance)
+        };
+        let verdict = if law.holds { "holds" } else { "FAILS" };
+        [law.law.to_owned(), value, bound, verdict.to_owned()]
+    });
+    let mut text = table(&["law", "found", "expected", ""], rows);
+    for failure in laws.iter().filter_map(|law| law.failure.as_ref()) {
+        text += &format!("{}\n", wrapped(failure, 0));
+    }
+    text
+}

@@ -1,0 +1,33 @@
+//! Reports in full: every table and every sentence.
+
+mod alike;
+mod analysis;
+pub(super) mod bound;
+pub(super) mod check;
+mod compensation;
+mod doctor;
+mod exported;
+pub(super) mod identification;
+pub(super) mod measurement;
+pub(super) mod monitoring;
+mod plan;
+
+use super::{Table, listed, wrapped};
+
+pub(super) use analysis::analysis;
+pub(super) use bound::bound;
+pub(super) use check::check;
+pub(super) use compensation::compensation;
+pub(super) use doctor::doctor;
+pub(super) use exported::exported;
+pub(super) use identification::identification;
+pub(super) use measurement::measurement;
+pub(super) use monitoring::monitoring;
+pub(super) use plan::plan;
+
+/// Sets rows below a header.
+fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+    let mut table = Table::new(header);
+    rows.for_each(|row| table.row(row));
+    table.to_string()
+}

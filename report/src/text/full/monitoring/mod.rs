@@ -1,0 +1,68 @@
+//! Full text of a monitor.
+
+mod sentences;
+
+use abbe_spec::Spec;
+use abbe_study::monitor::{Chart, Report};
+use abbe_study::number::{fixed, percent};
+
+use super::{Table, wrapped};
+pub(crate) use sentences::{findings, watched};
+
+/// Number of charts shown.
+const SHOWN: usize = 12;
+/// Number of indistinguishable errors named.
+const ALIKE: usize = 4;
+
+/// Returns what `abbe monitor` prints.
+pub(in crate::text) fn monitoring(spec: &Spec, report: &Report) -> String {
+    let mut parts = vec![format!("{}: watched\n\n", spec.title)];
+    for file in report.files.iter().filter(|file| !file.unusable.is_empty()) {
+        for line in file.lines() {
+            parts[0] += &format!("{}\n", wrapped(&line, 2));
+        }
+    }
+    let paragraphs =
+        |sentences: &[String]| sentences.iter().map(|said| wrapped(said, 0) + "\n").collect::<String>();
+    parts[0] += &paragraphs(&findings(report));
+    parts.push(paragraphs(&watched(report)));
+    parts.push(charts(report));
+    parts.join("\n")
+}
+
+fn charts(report: &Report) -> String {
+    let all = report.nearest_first();
+    let now = |chart: &Chart| chart.average.last().copied().unwrap_or_default();
+    let mut table =
+        Table::new(&["error", "acts alike", "last value", "", "average, share of the limit", "alarm"]);
+    let hidden = all.len().saturating_sub(SHOWN);
+    for chart in all.into_iter().take(SHOWN).chain([&report.left]) {
+        let (factor, unit) = if chart.unit == "rad" { (1e3, "mrad") } else { (1.0, chart.unit) };
+        let more = chart.alike.len().saturating_sub(ALIKE);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let alike = chart.alike.iter().take(ALIKE).map(String::as_str).collect::<Vec<_>>().join(", ");
+        table.row(vec![
+            chart.name.clone(),
+            alike + &more,
+            fixed(chart.values.last().copied().unwrap_or_default() * factor, 4),
+            unit.to_owned(),
+            percent(now(chart), 1.0),
+            chart.alarm.map_or(String::new(), |check| report.dates[check].clone()),
+        ]);
+    }
+    let mut text = table.right(&[2, 4]).to_string();
+    if hidden > 0 {
+        text += &format!("{hidden} more charts never exceeded their limits and are nearer to zero.\n");
+    }
+    if !report.unseen.is_empty() {
+        let count = report.unseen.len();
+        let names = report.unseen.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+        let more = if count > SHOWN { format!(" and {} more", count - SHOWN) } else { String::new() };
+        let line = format!(
+            "Not observable, because indistinguishable from the station or without effect on the \
+             measurements: {names}{more}."
+        );
+        text += &(wrapped(&line, 0) + "\n");
+    }
+    text
+}

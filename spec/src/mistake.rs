@@ -1,0 +1,63 @@
+//! Diagnostics of a file, spec or option as a whole, without a span.
+
+use std::fmt::Display;
+use std::sync::Arc;
+
+use abbe_core::{Class, Description, Effect, Error, Quantity, Remedy};
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+
+/// Returns the diagnostics of an error that concerns `subject` (a file, spec or option) as a whole.
+pub fn whole(subject: impl Display, reason: &impl Remedy) -> Diagnostics {
+    with_help(subject, reason, reason.remedy())
+}
+
+/// Returns one diagnostic about `subject` as a whole, with its help line.
+pub fn with_help(subject: impl Display, message: impl Display, help: impl Display) -> Diagnostics {
+    let list = vec![Diagnostic::whole_file(message.to_string()).help(help.to_string())];
+    Diagnostics { path: subject.to_string(), text: Arc::from(""), list }
+}
+
+/// Returns the diagnostics of a configuration, described by `at`, that could not be evaluated.
+///
+/// The message names the sources that can have caused the error.
+pub fn not_evaluated(
+    subject: impl Display,
+    at: &str,
+    error: &Error,
+    description: &Description,
+) -> Diagnostics {
+    let blamed = blamed(error, description);
+    let help = match blamed.is_empty() {
+        true => error.remedy(),
+        false => {
+            "check its expression and the values set; or disable it: `--disable NAME`, `enabled = \
+             false`"
+        }
+    };
+    let message = match blamed.as_slice() {
+        [] => format!("at {at}: {error}"),
+        [source] => format!("at {at}: the source \"{source}\" has no finite value"),
+        several => {
+            let names = several.iter().map(|source| format!("\"{source}\"")).collect::<Vec<_>>();
+            format!("at {at}: one of the sources {} has no finite value", names.join(", "))
+        }
+    };
+    with_help(subject, message, help)
+}
+
+/// Returns the names of the sources that can have caused a non-finite effect or generalized error.
+fn blamed<'a>(error: &Error, description: &'a Description) -> Vec<&'a str> {
+    let causes = |effect: &Effect| match *error {
+        Error::NotFinite { quantity: Quantity::Effects, index } => description.effects[index] == *effect,
+        Error::NotFinite { quantity: Quantity::Errors, index } => {
+            let repeatable = description.sources[effect.source].class == Class::Repeatable;
+            repeatable && 6 * effect.frame + effect.component.index() == index
+        }
+        _ => false,
+    };
+    let causing = description.effects.iter().filter(|effect| causes(effect));
+    let mut blamed = causing.map(|effect| effect.source).collect::<Vec<_>>();
+    blamed.dedup();
+    blamed.into_iter().map(|source| &*description.sources[source].name).collect()
+}

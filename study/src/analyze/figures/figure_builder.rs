@@ -1,0 +1,137 @@
+//! Data of one figure while it is gathered.
+
+use abbe::analysis::{Configuration, Row};
+use abbe::{Class, Description, Source};
+use serde::{Deserialize, Serialize};
+
+use super::bins::Bins;
+use super::errors::Errors;
+use super::extremes::{Envelope, Extremes, Grid};
+use super::figure::FigureData;
+use super::histogram::{Count, Histogram};
+use super::points::Points;
+use crate::study_file::{Content, Figure, Over};
+
+/// Data gathered so far for a figure.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(in crate::analyze) enum PartialFigure {
+    Travel(Bins<Extremes>),
+    Surface(Grid),
+    Cloud(Points),
+    Histogram([Bins<Count>; 4]),
+    /// No data per configuration.
+    Whole,
+}
+
+impl PartialFigure {
+    /// Appends the data of the configurations that follow, possibly from a file. Returns false if
+    /// they do not fit.
+    fn append(&mut self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Travel(here), Self::Travel(other)) if here.accepts(&other) => here.merge(other),
+            (Self::Surface(here), Self::Surface(other)) if here.accepts(&other) => here.merge(other),
+            (Self::Cloud(here), Self::Cloud(other)) if here.accepts(&other) => here.append(other),
+            (Self::Histogram(here), Self::Histogram(other))
+                if here.iter().zip(&other).all(|(here, other)| here.accepts(other)) =>
+            {
+                here.iter_mut().zip(other).for_each(|(here, other)| here.merge(other));
+            }
+            (Self::Whole, Self::Whole) => {}
+            _ => return false,
+        }
+        true
+    }
+}
+
+/// A figure while its data are gathered.
+#[derive(Clone, Debug)]
+pub(super) struct FigureBuilder<'a> {
+    pub(super) figure: &'a Figure,
+    /// Index of its source; `None` combines all sources.
+    pub(super) source: Option<usize>,
+    /// Shows error bounds instead of signed errors: every source that contributes is random.
+    pub(super) bounds: bool,
+    /// The figure shows a single random source.
+    random: bool,
+    data: PartialFigure,
+}
+
+impl<'a> FigureBuilder<'a> {
+    /// Creates the figure; returns `None` if its source is switched off.
+    pub(super) fn new(figure: &'a Figure, description: &Description) -> Option<Self> {
+        let source = match &figure.source {
+            Some(name) => Some(description.sources.iter().position(|source| source.name == name)?),
+            None => None,
+        };
+        let data = match figure.content {
+            Content::Travel(_) => PartialFigure::Travel(Envelope::bins()),
+            Content::Surface(_) => PartialFigure::Surface(Grid::default()),
+            Content::Cloud => PartialFigure::Cloud(Points::default()),
+            Content::Histogram => PartialFigure::Histogram(Histogram::bins()),
+            Content::Pareto | Content::Manipulator(_) => PartialFigure::Whole,
+        };
+        let is_random = |source: &Source| source.class != Class::Repeatable;
+        let random = source.is_some_and(|source| is_random(&description.sources[source]));
+        let bounds = random || source.is_none() && description.sources.iter().all(is_random);
+        Some(Self { figure, source, bounds, random, data })
+    }
+
+    /// Adds a configuration.
+    pub(super) fn add(&mut self, row: &Row) {
+        let errors = self.errors(row);
+        let configuration = row.configuration;
+        match (&mut self.data, self.figure.content) {
+            (PartialFigure::Travel(bins), Content::Travel(over)) => {
+                let travel = value(over, configuration);
+                bins.bin_mut(travel).add(travel, &errors, configuration);
+            }
+            (PartialFigure::Surface(grid), Content::Surface([first, second])) => {
+                let second = value(second, configuration);
+                grid.bin_mut(value(first, configuration), second).add(second, &errors, configuration);
+            }
+            (PartialFigure::Cloud(points), _) => points.add(row.index, &errors, self.bounds, configuration),
+            (PartialFigure::Histogram(all), _) => {
+                Histogram::add(all, if self.bounds { errors.random } else { errors.repeatable });
+            }
+            _ => {}
+        }
+    }
+
+    /// Returns the data gathered so far.
+    pub(super) fn data(self) -> PartialFigure {
+        self.data
+    }
+
+    /// Appends the data that follow. Returns false if they belong to another kind of figure.
+    pub(super) fn append(&mut self, other: PartialFigure) -> bool {
+        self.data.append(other)
+    }
+
+    fn errors(&self, row: &Row) -> Errors {
+        let rows = |deviation: &[f64; 6]| self.figure.measurand.rows(deviation);
+        match self.source.map(|source| rows(&row.sources[source])) {
+            None => Errors { repeatable: rows(&row.repeatable), random: rows(&row.random) },
+            Some(random) if self.random => Errors { repeatable: [0.0; 3], random },
+            Some(repeatable) => Errors { repeatable, random: [0.0; 3] },
+        }
+    }
+
+    /// Returns the data to draw.
+    pub(super) fn finish(self) -> FigureData {
+        match self.data {
+            PartialFigure::Travel(bins) => FigureData::Travel(Envelope::new(bins)),
+            PartialFigure::Surface(grid) => FigureData::Surface(grid.mesh()),
+            PartialFigure::Cloud(points) => FigureData::Cloud(points),
+            PartialFigure::Histogram(all) => FigureData::Histogram(Histogram::new(all)),
+            PartialFigure::Whole => FigureData::Pareto,
+        }
+    }
+}
+
+fn value(over: Over, configuration: &Configuration) -> f64 {
+    match over {
+        Over::Variable(variable) => configuration.q[variable],
+        Over::Parameter(parameter) => configuration.s[parameter],
+        Over::Input(input) => configuration.u[input],
+    }
+}

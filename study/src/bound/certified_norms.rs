@@ -1,0 +1,74 @@
+//! Certified norms of the position errors, shown beside the sampled ones of an analysis.
+
+use abbe::Class;
+use abbe_bound::{Effort, Progress};
+use abbe_codegen::chain::Magnitudes;
+use serde::Serialize;
+
+use crate::machine::Machine;
+use crate::notes::Notes;
+use crate::study_file::Study;
+
+use super::domain::Domain;
+use super::report::{Classes, ErrorBound};
+
+/// Limit on the work of an analysis for certified norms, in approximate operations. One box takes
+/// about (nodes of the graph) × (moving names)².
+const WORK: usize = 400_000_000;
+/// Limit on (random sources) × (frames), above which the expressions grow too large.
+const MOST_RANDOM: usize = 2_000;
+
+/// Largest norms ‖ΔX‖ of the position errors over the enclosing box of a workspace, in the length
+/// unit. The true maximum lies between `found` and `certified`.
+#[derive(Clone, Debug, Serialize)]
+pub struct CertifiedNorms {
+    /// Norm of the sum of the repeatable sources, with signs; `None` if there are none.
+    pub repeatable: Option<ErrorBound>,
+    /// Norm of the root sum of squares of the random sources at their bounds; `None` if there are
+    /// none.
+    pub random: Option<ErrorBound>,
+    /// Sum of both norms; `None` unless there are sources of both classes.
+    pub radius: Option<ErrorBound>,
+    /// Indicates that the enclosing box is larger than the workspace.
+    pub contains_more: bool,
+}
+
+impl CertifiedNorms {
+    /// Bounds the norms for a machine and a study; changes are already applied. Returns `None` if
+    /// the workspace has no enclosing box, there is no source, or the work would exceed the limits.
+    pub(crate) fn certify(machine: &Machine, study: &Study, notes: &dyn Notes) -> Option<Self> {
+        let domain = Domain::new(machine, study).ok()?;
+        let Classes { repeatable, random } = Classes::enabled(&domain.spec);
+        let sources =
+            domain.spec.enabled_sources().filter(|source| source.class != Class::Repeatable).count();
+        if !repeatable && !random || sources * domain.spec.frames.len() > MOST_RANDOM {
+            return None;
+        }
+        let mut magnitudes = Magnitudes::new(&domain.spec);
+        let norms =
+            [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(|five| five[0].clone());
+        let moving = domain.moving_count();
+        let boxes = WORK / (magnitudes.graph.len() * moving * moving).max(1);
+        let effort = Effort { boxes: boxes.min(20_000), ..Effort::default() };
+        let limits = domain.limits(&mut magnitudes.graph, &magnitudes.apart).position;
+        let mut largest = |i: usize, any: bool| {
+            let effort = Effort { at_most: limits[i], ..effort };
+            any.then(|| {
+                let mut go_on = |_: &Progress| !notes.stop();
+                let bound = domain.largest(&mut magnitudes.graph, &norms[i], None, &effort, &mut go_on);
+                ErrorBound::new(&bound, &domain)
+            })
+        };
+        Some(Self {
+            repeatable: largest(0, repeatable),
+            random: largest(1, random),
+            radius: largest(2, repeatable && random),
+            contains_more: !study.region.is_box(),
+        })
+    }
+
+    /// Returns the bound for all sources together.
+    pub fn all_sources(&self) -> Option<&ErrorBound> {
+        self.radius.as_ref().or(self.repeatable.as_ref()).or(self.random.as_ref())
+    }
+}

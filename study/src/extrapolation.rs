@@ -1,0 +1,170 @@
+//! Configurations outside the fitted ranges of an identified machine, and the uncertainty there.
+
+use abbe::Manipulator;
+use abbe::analysis::sampling;
+use abbe::identify::{Failure, Measurement, Model, Observation, Role, Scratch, Uncertainty, Unknown};
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Identified, Spec};
+use serde::Serialize;
+
+use crate::{Notes, number};
+
+/// Largest number of configurations at which uncertainties are evaluated, inside and outside the
+/// ranges.
+const SAMPLES: usize = 500;
+
+/// Configurations outside the ranges on which the errors of a spec were fitted.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Extrapolation {
+    /// Number of configurations outside the ranges.
+    pub outside: usize,
+    /// Number of all configurations.
+    pub all: usize,
+    /// Standard deviation of the tool point; `None` if the spec states no covariance.
+    pub known: Option<ToolPointDeviation>,
+}
+
+/// Standard deviation of the tool point (√trace of its covariance) caused by the covariance of the
+/// identified errors, in the length unit.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ToolPointDeviation {
+    /// Root mean square over configurations within the ranges.
+    pub within: f64,
+    /// Root mean square over the configurations outside the ranges.
+    pub outside: f64,
+    /// Largest value outside the ranges.
+    pub outside_max: f64,
+}
+
+/// Counts the configurations outside the ranges on which the errors of a spec were fitted, and
+/// warns of them with their uncertainty. `what` names the configurations, in the plural: `rows`.
+/// Returns `None` if there are none.
+pub(crate) fn warn_of_extrapolation<'r>(
+    spec: &Spec,
+    manipulator: &dyn Manipulator,
+    what: &str,
+    configurations: impl Iterator<Item = (&'r [f64], &'r [f64])>,
+    notes: &mut dyn Notes,
+) -> Option<Extrapolation> {
+    if spec.fitted.is_empty() {
+        return None;
+    }
+    let (mut all, mut outside, mut counts) = (0, Vec::new(), vec![0; spec.fitted.len()]);
+    for (q, u) in configurations {
+        let mut any = false;
+        for (fitted, count) in spec.fitted.iter().zip(&mut counts) {
+            let here = fitted.is_outside(q, u);
+            *count += usize::from(here);
+            any |= here;
+        }
+        all += 1;
+        if any {
+            outside.push((q, u));
+        }
+    }
+    if outside.is_empty() {
+        return None;
+    }
+    let known = Prediction::new(spec, manipulator).and_then(|mut prediction| {
+        let step = outside.len().div_ceil(SAMPLES);
+        let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
+        let beyond = prediction.deviations(beyond);
+        let within = prediction.deviations(within(spec));
+        let outside_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
+        Some(ToolPointDeviation { within: rms(&within)?, outside: rms(&beyond)?, outside_max })
+    });
+    let named = spec.fitted.iter().zip(&counts).filter(|(_, count)| **count > 0);
+    let named = named.map(|(fitted, count)| {
+        let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
+        format!("{} beyond {lower} … {upper} in {count}", spec.name_of(fitted.symbol))
+    });
+    let named = named.collect::<Vec<_>>().join(", ");
+    let deviation_there = known.map_or(String::new(), |known| known.sentence(spec));
+    let count = outside.len();
+    notes.warn(&format!(
+        "{count} of {all} {what} are outside the ranges on which the errors of this spec were fitted ({named}): what is said of \
+         them is extrapolated{deviation_there}"
+    ));
+    Some(Extrapolation { outside: count, all, known })
+}
+
+impl ToolPointDeviation {
+    fn sentence(&self, spec: &Spec) -> String {
+        let [within, outside, most] =
+            [self.within, self.outside, self.outside_max].map(|value| number::length(value, spec.length));
+        let times = number::digits(self.outside / self.within, 2);
+        format!(
+            ". By what is not known of these errors the tool point has a standard deviation of {outside} there, {most} at most: \
+             {times} times the {within} that it has within the ranges. Another shape of the errors there is not in these figures"
+        )
+    }
+}
+
+/// Predicts the standard deviation of the tool point from the covariance of the identified errors.
+struct Prediction<'a> {
+    model: Model<'a>,
+    scratch: Scratch,
+    covariance: &'a [Vec<f64>],
+}
+
+impl<'a> Prediction<'a> {
+    /// Creates the prediction; returns `None` if the spec states no covariance.
+    fn new(spec: &'a Spec, manipulator: &'a dyn Manipulator) -> Option<Self> {
+        let unknown = |identified: &Identified| match identified {
+            Identified::Error(frame, component) => Some(Unknown::Error(*frame, *component)),
+            Identified::Magnitude(source) => spec.enabled_index(*source).map(Unknown::Magnitude),
+        };
+        let unknowns: Vec<Unknown> = spec.covariance.of.iter().map(unknown).collect::<Option<_>>()?;
+        if unknowns.is_empty() {
+            return None;
+        }
+        let model = Model::ideal(manipulator, vec![[0.0; 3]], Uncertainty { length: 1.0, angle: 1.0 });
+        let model = model.with(unknowns);
+        debug_assert!(model.roles.iter().all(|role| *role != Role::Known), "nothing but what is unknown");
+        Some(Self { scratch: model.scratch(), model, covariance: &spec.covariance.rows })
+    }
+
+    /// Returns `√(tr M C Mᵀ)` of each configuration that can be evaluated. M is the Jacobian of the
+    /// tool point with respect to the identified errors, C their covariance.
+    fn deviations(&mut self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
+        let known = |(q, u): (Vec<f64>, Vec<f64>)| self.deviation(q, u).ok();
+        configurations.filter_map(known).collect()
+    }
+
+    fn deviation(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<f64, Failure> {
+        let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
+        let zero = vec![0.0; self.covariance.len()];
+        let (_, moves) = self.model.tool(&mut self.scratch, &row, &zero)?;
+        let mut variance = 0.0;
+        for (one, row) in moves.iter().zip(self.covariance) {
+            for (other, covariance) in moves.iter().zip(row) {
+                variance += covariance * (0..3).map(|axis| one[axis] * other[axis]).sum::<f64>();
+            }
+        }
+        Ok(variance.max(0.0).sqrt())
+    }
+}
+
+/// Returns a Halton sequence of configurations within the ranges. Names without a range stay
+/// nominal.
+fn within(spec: &Spec) -> impl Iterator<Item = (Vec<f64>, Vec<f64>)> {
+    (1..=SAMPLES).map(|n| {
+        let mut q: Vec<f64> = spec.variables.iter().map(|variable| variable.home).collect();
+        let mut u: Vec<f64> = spec.inputs.iter().map(|input| input.value).collect();
+        for (dimension, fitted) in spec.fitted.iter().enumerate() {
+            let [lower, upper] = fitted.range;
+            let value = lower + (upper - lower) * sampling::halton(n, dimension);
+            match fitted.symbol {
+                Symbol::Variable(i) => q[i] = value,
+                Symbol::Input(i) => u[i] = value,
+                _ => {}
+            }
+        }
+        (q, u)
+    })
+}
+
+fn rms(values: &[f64]) -> Option<f64> {
+    let squares: f64 = values.iter().map(|value| value * value).sum();
+    (!values.is_empty()).then(|| (squares / values.len() as f64).sqrt())
+}

@@ -1,0 +1,137 @@
+//! Identified placement of the machine and of what is mounted on its tool.
+
+use abbe::identify::{Fit, FixtureGeometry, Model, Unknown};
+use abbe::{Component, Pose};
+use serde::Serialize;
+
+use super::setup::{error_pose, fitted_fixture, fitted_stations, fitted_zero};
+
+/// Identified placement of stations, tool and instruments.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct FoundPlacement {
+    /// Poses of the machine, one per station.
+    pub stations: Vec<FoundStation>,
+    /// Positions of the targets in the tool frame, in the length unit; empty if whole poses were
+    /// measured.
+    pub targets: Vec<[f64; 3]>,
+    /// Pose of the measured frame in the tool frame, as rows of a homogeneous matrix; none if
+    /// points were measured.
+    pub mounting: Option<[[f64; 4]; 4]>,
+    /// Fixtures and zeros of the instruments.
+    pub instruments: Vec<FoundInstrument>,
+    /// Covariance of all coordinates of the targets, target by target, or of the six errors of the
+    /// mounting.
+    pub covariance: Vec<Vec<f64>>,
+    /// Is true if the map states the placement on the tool exactly.
+    #[serde(skip)]
+    pub(super) exact: bool,
+}
+
+/// Identified fixture and zero of an instrument.
+#[derive(Clone, Debug, Serialize)]
+pub struct FoundInstrument {
+    /// Name of the instrument.
+    pub name: String,
+    /// Position of its fixture in `F_0`, in the length unit; none if the fixture is a direction, or
+    /// if there is none.
+    pub position: Option<[f64; 3]>,
+    /// Unit vector of its direction in `F_0`; none if the fixture is a point, or if there is none.
+    pub direction: Option<[f64; 3]>,
+    /// Offset of its readings, in the length unit or rad; for a sphere, minus its radius. None if
+    /// it was known.
+    pub zero: Option<f64>,
+    /// Is true if the readings are angles.
+    pub is_angle: bool,
+    /// Covariance of x, y, z of the position or of the two tilts of the direction, followed by the
+    /// zero.
+    pub covariance: Vec<Vec<f64>>,
+}
+
+/// Identified station.
+#[derive(Clone, Debug, Serialize)]
+pub struct FoundStation {
+    /// Name; empty for the only station.
+    pub name: String,
+    /// Pose of `F_0` in the frame of the instrument, as rows of a homogeneous matrix.
+    pub pose: [[f64; 4]; 4],
+    /// Covariance of its six errors `e_x e_y e_z e_s e_r e_p` in the axes of `F_0`, in the length
+    /// unit and rad.
+    pub covariance: [[f64; 6]; 6],
+}
+
+impl FoundPlacement {
+    /// Collects the placement from a fit. `pose` is true if whole poses were measured.
+    pub(super) fn new(model: &Model, fit: &Fit, pose: bool) -> Self {
+        let among = |unknown: Unknown| {
+            let k = model.unknowns.iter().position(|u| *u == unknown)?;
+            fit.identifiable.kept.iter().position(|kept| *kept == k)
+        };
+        let covariance = |a: Unknown, b: Unknown| match (among(a), among(b)) {
+            (Some(a), Some(b)) => fit.covariance[(a, b)],
+            _ => 0.0,
+        };
+        let rows = |pose: Pose| pose.rows().map(|row| row.map(|entry| entry + 0.0));
+        let stations = fitted_stations(model, &fit.x).into_iter().enumerate().map(|(i, station)| {
+            let base = |component| Unknown::Base(i, component);
+            let of = |a| Component::ALL.map(|b| covariance(base(a), base(b)));
+            FoundStation { name: station.name, pose: rows(station.pose), covariance: Component::ALL.map(of) }
+        });
+        let value =
+            |unknown: Unknown| model.unknowns.iter().position(|u| *u == unknown).map_or(0.0, |k| fit.x[k]);
+        let targets = model.targets.iter().enumerate();
+        let targets: Vec<[f64; 3]> = targets
+            .map(|(j, target)| std::array::from_fn(|axis| target[axis] + value(Unknown::Target(j, axis))))
+            .collect();
+        let unknowns: Vec<Unknown> = match pose {
+            true => Component::ALL.map(Unknown::Tool).to_vec(),
+            false => {
+                (0..targets.len()).flat_map(|j| [0, 1, 2].map(|axis| Unknown::Target(j, axis))).collect()
+            }
+        };
+        let matrix = |unknowns: &[Unknown]| -> Vec<Vec<f64>> {
+            let of = |a: &Unknown| unknowns.iter().map(|b| covariance(*a, *b)).collect();
+            unknowns.iter().map(of).collect()
+        };
+        let instrument = |i: usize| {
+            let reading = &model.observables[i];
+            let place = reading.fixture.map(|fixture| (fixture, fitted_fixture(model, &fit.x, fixture)));
+            let zero = (!reading.zero_known).then(|| fitted_zero(model, &fit.x, i));
+            let of_place = place.iter().flat_map(|(fixture, place)| {
+                (0..place.unknowns()).map(|coordinate| Unknown::Fixture(*fixture, coordinate))
+            });
+            let unknowns: Vec<Unknown> = of_place.chain(zero.map(|_| Unknown::Zero(i))).collect();
+            let (position, direction) = match place {
+                Some((_, FixtureGeometry::Point(point))) => (Some(point), None),
+                Some((_, FixtureGeometry::Direction(direction))) => (None, Some(unit(direction))),
+                None => (None, None),
+            };
+            FoundInstrument {
+                name: reading.name.clone(),
+                position,
+                direction,
+                zero,
+                is_angle: reading.kind.is_angle,
+                covariance: matrix(&unknowns),
+            }
+        };
+        // First reading of every instrument with a fixture or with an unknown zero.
+        let first = |i: &usize| {
+            let reading = &model.observables[*i];
+            let is_first = *i == 0 || model.observables[i - 1].instrument != reading.instrument;
+            is_first && (reading.fixture.is_some() || !reading.zero_known)
+        };
+        Self {
+            stations: stations.collect(),
+            covariance: matrix(&unknowns),
+            instruments: (0..model.observables.len()).filter(first).map(instrument).collect(),
+            exact: !model.unknowns.iter().any(|unknown| unknown.is_tool()),
+            mounting: pose.then(|| rows(model.mounting.then(&error_pose(model, &fit.x, Unknown::Tool)))),
+            targets: if pose { Vec::new() } else { targets },
+        }
+    }
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
+}

@@ -1,0 +1,55 @@
+//! Job of `abbe import`.
+
+use std::path::PathBuf;
+
+use abbe_exchange::import::AngleRounding;
+use abbe_exchange::{dh, urdf};
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
+
+use super::Report;
+use super::options::Format;
+use crate::mistake;
+use crate::notes::Notes;
+
+/// Job that writes the spec of a robot in another format.
+#[derive(Clone, Debug)]
+pub struct Import {
+    /// File of the robot.
+    pub file: PathBuf,
+    /// Format of the file.
+    pub format: Format,
+    /// Rounds angles within 1e-5 rad of a multiple of 45° to that multiple.
+    pub round_angles: bool,
+}
+
+impl Import {
+    /// Reads the file and writes the spec.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let is_table = self.file.extension().is_some_and(|ending| ending == "csv" || ending == "tsv");
+        if is_table && matches!(self.format, Format::Urdf { .. }) {
+            let message = "this is a table, and Denavit-Hartenberg numbers are written in two ways";
+            let help = "say which: `--dh standard`, Rz(theta) Tz(d) Tx(a) Rx(alpha), or `--dh modified`, \
+                        Rx(alpha) Tx(a) Rz(theta) Tz(d)";
+            return Err(mistake::with_help(self.file.display(), message, help));
+        }
+        self.read(Document::read(&self.file)?, notes)
+    }
+
+    /// Writes the spec of a text; the spec names [`file`](Self::file) as its origin.
+    pub fn read(&self, mut document: Document, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let mut angles = AngleRounding::new(self.round_angles);
+        let chain = match &self.format {
+            Format::Urdf { base, tip, fold } => {
+                let ends = urdf::Ends { base: base.clone(), tip: tip.clone() };
+                urdf::read(&mut document, &ends, *fold, &mut angles, notes)
+            }
+            Format::Table { convention, units } => {
+                dh::read(&mut document, *convention, *units, &mut angles, notes)
+            }
+        };
+        let chain = document.finish(chain)?;
+        angles.note(notes);
+        Report::new(&chain, &self.file.file_name().unwrap_or_default().to_string_lossy(), notes)
+    }
+}
