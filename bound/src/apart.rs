@@ -10,7 +10,7 @@ use crate::largest::largest;
 use crate::moving::Moving;
 
 /// Effort for one part. Parts depend on few names and converge fast.
-const EFFORT: Effort = Effort { gap: 1e-3, boxes: 2000, at_most: f64::INFINITY };
+const EFFORT: Effort = Effort { gap: 1e-3, boxes: 2000, ..Effort::DEFAULT };
 
 /// Upper bounds of the norm of the position error and of the rotation error.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,11 @@
-//! Norms that are convex in the sine and cosine of each angle and in each linear name.
+//! Norms whose parts are polynomials of low degree in the sine and cosine of each angle and in each
+//! linear name.
 //!
 //! Suppose no product contains more than one factor that depends on the sine or cosine of the same
 //! name. Each part of the norm is then affine in the pair (cos q, sin q), and the norm is convex in
-//! it. The sine and cosine of a sum of angles are affine in the pair of each angle:
+//! it. With two such factors a part is quadratic in the pair: so is the deflection of an elastic
+//! joint, a product of its moment and its lever arm. The sine and cosine of a sum of angles are
+//! affine in the pair of each angle:
 //!
 //! ```text
 //! sin(a + b) = sin a cos b + cos a sin b        cos(a + b) = cos a cos b − sin a sin b
@@ -44,18 +47,31 @@ impl Operation {
     }
 }
 
-/// A norm of numbers that are affine in each name.
+/// A norm of numbers that are affine or quadratic in each name.
 #[derive(Clone, Debug)]
 pub(crate) struct Convex {
     /// Operations; the last one computes the norm.
     pub(crate) operations: Vec<Operation>,
     /// `true` for a name that is an angle, `false` for a linear name.
     pub(crate) angles: Vec<bool>,
+    /// Operations that compute the parts of the norm.
+    pub(crate) parts: Vec<At>,
+    /// Operations that compute the norm from its parts, the last one included.
+    pub(crate) outer: Vec<At>,
+    /// Names in which a part is quadratic.
+    pub(crate) quadratic: Names,
+}
+
+/// Names that a number depends on, and those of them in which it is quadratic.
+#[derive(Clone, Copy, Default)]
+struct Degrees {
+    names: Names,
+    quadratic: Names,
 }
 
 impl Convex {
     /// Converts a tape whose first output is a norm of the other outputs. Returns `None` if one of
-    /// these is not affine.
+    /// these has a higher degree than two.
     pub(crate) fn new(tape: &Tape, names: usize) -> Option<Self> {
         let mut draft = Draft::new(names);
         for step in &tape.steps {
@@ -63,15 +79,24 @@ impl Convex {
         }
         let mut numbers = tape.outputs.iter().map(|register| draft.number(*register));
         let norm = numbers.next()??;
-        let parts = numbers.collect::<Option<Vec<At>>>()?;
-        let is_affine = draft.affine();
-        let is_convex = !parts.is_empty() && parts.iter().all(|part| is_affine[*part]);
+        let mut parts = numbers.collect::<Option<Vec<At>>>()?;
+        // A norm may use a part or its negative: take the one that the other is computed from.
+        for part in &mut parts {
+            if let Operation::Neg(a) = draft.operations[*part] {
+                *part = a;
+            }
+        }
+        parts.retain(|part| *part <= norm);
+        let degrees = draft.degrees();
+        let degrees = parts.iter().map(|part| degrees[*part]).collect::<Option<Vec<Degrees>>>()?;
+        let quadratic = degrees.iter().fold(0, |names, own| names | own.quadratic);
         let is_clear = draft.turned.iter().zip(&draft.alone).all(|(turned, alone)| !(*turned && *alone));
-        if !is_convex || !is_clear || !draft.is_of(norm, &parts) {
+        if parts.is_empty() || !is_clear {
             return None;
         }
+        let outer = draft.outer(norm, &parts)?;
         draft.operations.truncate(norm + 1);
-        Some(Self { operations: draft.operations, angles: draft.turned })
+        Some(Self { operations: draft.operations, angles: draft.turned, parts, outer, quadratic })
     }
 }
 
@@ -224,45 +249,54 @@ impl Draft {
         Some(self.push(operation))
     }
 
-    /// Returns whether each operation is affine in each name, or in its sine and cosine.
-    fn affine(&self) -> Vec<bool> {
-        let mut names: Vec<Option<Names>> = Vec::with_capacity(self.operations.len());
+    /// Returns the degrees of each operation; `None` above two, or if it is no polynomial.
+    fn degrees(&self) -> Vec<Option<Degrees>> {
+        let mut degrees: Vec<Option<Degrees>> = Vec::with_capacity(self.operations.len());
         for operation in &self.operations {
+            let pair = |a: At, b: At| degrees[a].zip(degrees[b]);
             let own = match *operation {
-                Operation::Name(name, _) => Some(1 << name),
-                Operation::Known(_) => Some(0),
-                Operation::Neg(a) => names[a],
-                Operation::Add(a, b) => names[a].zip(names[b]).map(|(a, b)| a | b),
-                Operation::Mul(a, b) => {
-                    names[a].zip(names[b]).filter(|(a, b)| a & b == 0).map(|(a, b)| a | b)
-                }
+                Operation::Name(name, _) => Some(Degrees { names: 1 << name, quadratic: 0 }),
+                Operation::Known(_) => Some(Degrees::default()),
+                Operation::Neg(a) => degrees[a],
+                Operation::Add(a, b) => pair(a, b).map(|(a, b)| a.joined(b)),
+                Operation::Mul(a, b) => pair(a, b).and_then(|(a, b)| a.times(b)),
                 Operation::Sqrt(_) | Operation::Abs(_) | Operation::Larger(..) => None,
             };
-            names.push(own);
+            degrees.push(own);
         }
-        names.iter().map(Option::is_some).collect()
+        degrees
     }
 
-    /// Returns `true` if the norm depends on names only through its parts or their negatives.
-    fn is_of(&self, norm: At, parts: &[At]) -> bool {
-        let mut is_part = vec![false; self.operations.len()];
-        for part in parts {
-            is_part[*part] = true;
-            if let Operation::Neg(a) = self.operations[*part] {
-                is_part[a] = true;
-            }
-        }
+    /// Returns the operations that compute the norm from its parts; `None` if it depends on names in
+    /// another way.
+    fn outer(&self, norm: At, parts: &[At]) -> Option<Vec<At>> {
         let mut is_needed = vec![false; self.operations.len()];
         is_needed[norm] = true;
+        let mut outer = Vec::new();
         for (at, operation) in self.operations.iter().enumerate().rev() {
-            if !is_needed[at] || is_part[at] {
+            if !is_needed[at] || parts.contains(&at) {
                 continue;
             }
             if matches!(operation, Operation::Name(..)) {
-                return false;
+                return None;
             }
+            outer.push(at);
             operation.operands().for_each(|operand| is_needed[operand] = true);
         }
-        true
+        outer.reverse();
+        Some(outer)
+    }
+}
+
+impl Degrees {
+    fn joined(self, other: Self) -> Self {
+        Self { names: self.names | other.names, quadratic: self.quadratic | other.quadratic }
+    }
+
+    /// Returns the degrees of a product; `None` above two.
+    fn times(self, other: Self) -> Option<Self> {
+        let both = self.names & other.names;
+        let sum = self.joined(other);
+        (both & sum.quadratic == 0).then_some(Self { quadratic: sum.quadratic | both, ..sum })
     }
 }

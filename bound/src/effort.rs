@@ -7,13 +7,16 @@ pub struct Effort {
     pub gap: f64,
     /// Number of boxes after which the search ends.
     pub boxes: usize,
+    /// Number of evaluations of quadratic parts after which the search ends; a box takes up to six
+    /// for each combination of its angles.
+    pub samples: usize,
     /// Known upper bound of the largest value; infinite if there is none.
     pub at_most: f64,
 }
 
 impl Effort {
     /// A gap of 1 %, and 300,000 boxes.
-    pub const DEFAULT: Self = Self { gap: 0.01, boxes: 300_000, at_most: f64::INFINITY };
+    pub const DEFAULT: Self = Self { gap: 0.01, boxes: 300_000, samples: usize::MAX, at_most: f64::INFINITY };
 }
 
 impl Default for Effort {

@@ -5,8 +5,9 @@
 //! nodes. `tape` holds the operations of a graph in order. Two methods bound the value within one
 //! box (`search_box`):
 //!
-//! - A norm that is `convex` in the sine and cosine of each angle has its maximum at `corners`,
-//!   evaluated by the numbers of `vertex`.
+//! - A norm whose parts are affine or quadratic in the sine and cosine of each angle (`convex`) is
+//!   largest at one of the control points (`controls`, `corners`), evaluated by the numbers of
+//!   `vertex`.
 //! - Any other node, and any node close to a maximum, is enclosed by `affine` forms, and `slopes`
 //!   bound how far the value can exceed that at the centre of the box.
 //!
@@ -35,6 +36,7 @@
 
 mod affine;
 mod apart;
+mod controls;
 mod convex;
 mod corners;
 mod effort;

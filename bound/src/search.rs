@@ -6,6 +6,7 @@ use std::collections::BinaryHeap;
 use rayon::prelude::*;
 
 use crate::affine::Affine;
+use crate::corners::Corners;
 use crate::effort::{Effort, Progress};
 use crate::local_search::{ascend, highest};
 use crate::problem::{Point, Problem};
@@ -81,6 +82,8 @@ impl Search {
         let nothing = if allowed.is_finite() { (NOTHING[0] * allowed).max(NOTHING[1]) } else { NOTHING[1] };
         let (mut waiting, mut boxes, mut left) = (BinaryHeap::new(), 0, f64::NEG_INFINITY);
         let mut open = vec![whole];
+        let samples = self.problem.corners.as_ref().map_or(1, Corners::samples);
+        let most_boxes = self.effort.boxes.min(self.effort.samples / samples);
         let complete = loop {
             let looked: Vec<(Option<SearchBox>, Point)> = open
                 .into_par_iter()
@@ -103,7 +106,7 @@ impl Search {
             if certified <= found + (self.effort.gap * found).max(nothing) {
                 break true;
             }
-            if boxes >= self.effort.boxes || !watch(&Progress { found, certified, boxes }) {
+            if boxes >= most_boxes || !watch(&Progress { found, certified, boxes }) {
                 break false;
             }
             open = Vec::with_capacity(2 * ROUND);

@@ -4,9 +4,6 @@
 use crate::affine::{Affine, UNIT, above};
 use crate::convex::Operation;
 
-/// Number of corners in lanes: the combinations of the vertices of two names.
-pub(crate) const LANES: usize = 16;
-
 /// Arithmetic of the operations.
 pub(crate) trait Number: Copy {
     fn known(number: &Affine<0>) -> Self;
@@ -34,13 +31,51 @@ pub(crate) fn result<T: Number>(operation: &Operation, before: &[T], names: &[[T
     }
 }
 
-/// Rounded numbers at several corners.
-pub(crate) type Lanes = [f64; LANES];
-
-impl Number for Lanes {
+/// A rounded number.
+impl Number for f64 {
     #[inline(always)]
     fn known(number: &Affine<0>) -> Self {
-        [number.centre; LANES]
+        number.centre
+    }
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        -self
+    }
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self + other
+    }
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self * other
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.max(0.0).sqrt()
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        self.max(other)
+    }
+}
+
+/// Rounded numbers at several points.
+pub(crate) type Lanes<const N: usize> = [f64; N];
+
+impl<const N: usize> Number for Lanes<N> {
+    #[inline(always)]
+    fn known(number: &Affine<0>) -> Self {
+        [number.centre; N]
     }
 
     #[inline(always)]
@@ -83,6 +118,8 @@ pub(crate) struct Size {
 }
 
 impl Size {
+    pub(crate) const NOTHING: Self = Self { most: 0.0, off: 0.0 };
+
     /// Returns bounds that hold for both.
     pub(crate) fn hull(self, other: Self) -> Self {
         Self { most: self.most.max(other.most), off: self.off.max(other.off) }

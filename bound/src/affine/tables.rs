@@ -8,9 +8,14 @@ use super::form::{Affine, UNIT, above};
 impl<const N: usize> Affine<N> {
     /// Returns a derivative of a table; order 0 is the table itself.
     pub(crate) fn look_up(&self, table: &Table, order: u32) -> Self {
-        let range = self.range();
         let [first, last] = table.ends();
-        let is_inside = range[0] >= first && range[1] <= last;
+        // A table often ends where a joint ends: only the rounding of the enclosure, by
+        // `above` and the halves of boxes, is beyond it.
+        let margin = 256.0 * UNIT * (self.centre.abs() + self.radius());
+        let range = self.range();
+        let is_inside = range[0] >= first - margin && range[1] <= last + margin;
+        let range = if is_inside { range.map(|end| end.clamp(first, last)) } else { range };
+        let centre = if is_inside { self.centre.clamp(first, last) } else { self.centre };
         let is_known = table.outside == Outside::Hold || is_inside;
         if !(range[0].is_finite() && range[1].is_finite() && is_known) {
             return Self::anything();
@@ -22,7 +27,7 @@ impl<const N: usize> Affine<N> {
             let [low, high] = extent(table, order, range);
             return Self::between(low, high);
         }
-        let at = extent(table, order, [self.centre; 2]);
+        let at = extent(table, order, [centre; 2]);
         let slopes = extent(table, order + 1, range);
         let value = 0.5 * at[0] + 0.5 * at[1];
         let form = self.by_slopes(value, slopes);

@@ -22,9 +22,10 @@ pub(super) struct Element<'a> {
     pub(super) place: &'a Frame,
 }
 
-/// Loads on the structure.
+/// Loads on the structure, in the axes of one frame B: `F_0`, or that of an element, where each
+/// angle occurs in a wrench only once.
 pub(super) struct Loads<'a> {
-    /// Poses of all frames in `F_0`.
+    /// Poses of all frames relative to B; of those before an element, any.
     frames: &'a [Frame],
     acting: Vec<Acting>,
     weights: Vec<Weight<'a>>,
@@ -37,9 +38,9 @@ struct Acting {
     frame: usize,
     /// The point relative to that frame.
     point: Vector,
-    /// Force in the axes of `F_0`.
+    /// Force in the axes of B.
     force: Vector,
-    /// Moment in the axes of `F_0`.
+    /// Moment in the axes of B.
     moment: Vector,
 }
 
@@ -50,16 +51,19 @@ struct Weight<'a> {
     end: Frame,
     axis: usize,
     length: Node,
-    /// Force per unit of length, in the axes of `F_0`.
+    /// Force per unit of length, in the axes of B.
     force: Vector,
 }
 
 impl<'a> Loads<'a> {
-    pub(super) fn new(graph: &mut Graph, spec: &'a Spec, frames: &'a [Frame]) -> Self {
+    /// Collects the loads of a spec; `axes` are those of B in `F_0`.
+    pub(super) fn new(graph: &mut Graph, spec: &'a Spec, frames: &'a [Frame], axes: &'a [Vector; 3]) -> Self {
         let zero = [graph.zero(); 3];
         let gravity = spec.gravity.as_ref();
         let gravity = gravity.map_or(zero, |gravity| gravity.each_ref().map(|entry| graph.lower(entry)));
-        let acting = spec.loads.iter().map(|load| acting(graph, spec, load, frames, gravity)).collect();
+        let gravity = local(graph, axes, gravity);
+        let view = View { frames, axes };
+        let acting = spec.loads.iter().map(|load| acting(graph, spec, load, &view, gravity)).collect();
         let mut weights = Vec::new();
         for effect in spec.enabled_sources().flat_map(|source| &source.effects) {
             let Cause::Beam(beam) = &effect.cause else { continue };
@@ -180,20 +184,26 @@ impl<'a> Loads<'a> {
     }
 }
 
-fn acting(graph: &mut Graph, spec: &Spec, load: &Load, frames: &[Frame], gravity: Vector) -> Acting {
+/// Poses relative to B, and the axes of B in `F_0`.
+struct View<'a> {
+    frames: &'a [Frame],
+    axes: &'a [Vector; 3],
+}
+
+fn acting(graph: &mut Graph, spec: &Spec, load: &Load, view: &View<'_>, gravity: Vector) -> Acting {
     let zero = [graph.zero(); 3];
     let point = match &load.point {
         Point::Here(point) => point.each_ref().map(|coordinate| graph.lower(coordinate)),
         Point::Tool => transform(graph, &spec.tool).position,
     };
-    let mut in_base = |vector: &Option<[_; 3]>| {
+    let mut in_view = |vector: &Option<[_; 3]>| {
         let vector = vector.as_ref().map_or(zero, |vector| vector.each_ref().map(|entry| graph.lower(entry)));
         match load.axes {
-            Axes::Frame => graph.turn(&frames[load.frame].axes, vector),
-            Axes::Base => vector,
+            Axes::Frame => graph.turn(&view.frames[load.frame].axes, vector),
+            Axes::Base => local(graph, view.axes, vector),
         }
     };
-    let (force, moment) = (in_base(&load.force), in_base(&load.moment));
+    let (force, moment) = (in_view(&load.force), in_view(&load.moment));
     let weight = match &load.mass {
         Some(mass) => {
             let mass = graph.lower(mass);

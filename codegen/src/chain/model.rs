@@ -9,6 +9,7 @@ use super::accumulate::Links;
 use super::by_source;
 use super::covariance::Covariance;
 use super::displacement::Displacement;
+use super::elastic::Loads;
 use super::equivalent_forms::EquivalentForms;
 use super::error_jacobian;
 use super::local_twist::{LocalTwist, local_twists};
@@ -132,7 +133,9 @@ impl Model {
 
         let factors = spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]);
         let transforms = factors.map(|factors| transform(g, factors)).collect();
-        let (effects, causes) = sources::effects_in(g, spec, &frames);
+        let axes = g.identity().axes;
+        let loads = Loads::new(g, spec, &frames, &axes);
+        let (effects, causes) = sources::effects_in(g, spec, |_| &loads);
         let generalized_errors = sources::generalized_errors(g, spec, &effects);
 
         let zero = g.zero();

@@ -1,6 +1,8 @@
 //! ε of the sources: given errors, located errors converted to their frame, and deflections under
 //! loads.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use abbe_core::{Class, Component};
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Cause, ChainNumber, Effect, Source, Spec};
@@ -78,29 +80,51 @@ pub fn effects(spec: &Spec) -> (Graph, Vec<EffectNode>) {
     (graph, effects)
 }
 
-/// Returns the effects and their causes, with a graph of their own.
+/// Returns the effects and their causes, with a graph of their own. Deflections are computed in the
+/// axes of their frame, so that they are affine in the sine and cosine of each angle.
 pub(super) fn effects_and_causes(spec: &Spec) -> (Graph, Vec<EffectNode>, Causes) {
     let mut graph = Graph::with_tables(&spec.tables);
-    let mut at = graph.identity();
-    let mut frames = Vec::new();
-    for frame in &spec.frames {
-        at = walk(&mut graph, at, &frame.factors, &mut Vec::new());
-        frames.push(at);
-    }
-    let (effects, causes) = effects_in(&mut graph, spec, &frames);
+    let g = &mut graph;
+    let identity = g.identity();
+    let frames = poses(g, spec, 0);
+    let effects = spec.enabled_sources().flat_map(|source| &source.effects);
+    let elastic: BTreeSet<usize> =
+        effects.filter(|effect| effect.cause.is_elastic()).map(|effect| effect.frame).collect();
+    // From each frame with an elastic element, the poses of the frames behind it.
+    let seen: BTreeMap<usize, Vec<Frame>> = elastic
+        .into_iter()
+        .map(|frame| (frame, [vec![identity; frame + 1], poses(g, spec, frame + 1)].concat()))
+        .collect();
+    let loads: BTreeMap<usize, Loads<'_>> =
+        seen.iter().map(|(frame, seen)| (*frame, Loads::new(g, spec, seen, &frames[*frame].axes))).collect();
+    let (effects, causes) = effects_in(g, spec, |frame| &loads[&frame]);
     (graph, effects, causes)
 }
 
+/// Returns the poses of a frame (from 0) and those behind it, relative to the frame before it.
+fn poses(graph: &mut Graph, spec: &Spec, first: usize) -> Vec<Frame> {
+    let mut at = graph.identity();
+    let frames = spec.frames.iter().skip(first);
+    let poses = frames.map(|frame| {
+        at = walk(graph, at, &frame.factors, &mut Vec::new());
+        at
+    });
+    poses.collect()
+}
+
 /// Returns the effects of every enabled source, source by source, without those that are always
-/// zero, and their causes.
-pub(super) fn effects_in(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (Vec<EffectNode>, Causes) {
-    let loads = Loads::new(graph, spec, frames);
+/// zero, and their causes; `loads` gives those in the axes chosen for the elements of a frame.
+pub(super) fn effects_in<'a>(
+    graph: &mut Graph,
+    spec: &Spec,
+    loads: impl Fn(usize) -> &'a Loads<'a>,
+) -> (Vec<EffectNode>, Causes) {
     let zero = graph.zero();
     let mut nodes = Vec::new();
     let mut causes = Causes::default();
     for (source, declared) in spec.enabled_sources().enumerate() {
         // Several effects of one source on one error of one frame are added to one effect.
-        let mut sums = vec![[zero; 6]; frames.len()];
+        let mut sums = vec![[zero; 6]; spec.frames.len()];
         let times = times(graph, declared);
         for effect in &declared.effects {
             let place = transform(graph, &effect.at);
@@ -147,7 +171,7 @@ pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads) -> V
         let times = times(graph, source);
         for effect in source.effects.iter().filter(|effect| effect.cause.is_elastic()) {
             let place = transform(graph, &effect.at);
-            let there = at_place(graph, effect, &place, loads).map(|error| graph.mul(times, error));
+            let there = at_place(graph, effect, &place, |_| loads).map(|error| graph.mul(times, error));
             let errors = at_frame(graph, &place, there);
             add(graph, &mut sums[effect.frame], errors);
         }
@@ -186,7 +210,12 @@ fn at_frame(graph: &mut Graph, place: &Frame, there: [Node; 6]) -> [Node; 6] {
 }
 
 /// Returns the six errors of an effect at its place M, in the axes of M.
-fn at_place(graph: &mut Graph, effect: &Effect, place: &Frame, loads: &Loads) -> [Node; 6] {
+fn at_place<'a>(
+    graph: &mut Graph,
+    effect: &Effect,
+    place: &Frame,
+    loads: impl Fn(usize) -> &'a Loads<'a>,
+) -> [Node; 6] {
     match &effect.cause {
         Cause::Errors(errors) => {
             let mut six = [graph.zero(); 6];
@@ -195,12 +224,12 @@ fn at_place(graph: &mut Graph, effect: &Effect, place: &Frame, loads: &Loads) ->
             }
             six
         }
-        Cause::Beam(beam) => loads.bend(graph, &Element { effect, place }, beam),
+        Cause::Beam(beam) => loads(effect.frame).bend(graph, &Element { effect, place }, beam),
         Cause::Compliance(entries) => {
             let zero = graph.zero();
             let mut lower = |entry: &Option<_>| entry.as_ref().map_or(zero, |entry| graph.lower(entry));
             let compliance = entries.each_ref().map(|row| row.each_ref().map(&mut lower));
-            loads.give_way(graph, &Element { effect, place }, &compliance)
+            loads(effect.frame).give_way(graph, &Element { effect, place }, &compliance)
         }
     }
 }

@@ -15,6 +15,8 @@ use super::report::{Classes, ErrorBound};
 /// Limit on the work of an analysis for certified norms, in approximate operations. One box takes
 /// about (nodes of the graph) × (moving names)².
 const WORK: usize = 400_000_000;
+/// Limit on the evaluations of elastic deflections: about a second.
+const SAMPLES: usize = 20_000_000;
 /// Limit on (random sources) × (frames), above which the expressions grow too large.
 const MOST_RANDOM: usize = 2_000;
 
@@ -49,7 +51,7 @@ impl CertifiedNorms {
             [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(|five| five[0].clone());
         let moving = domain.moving_count();
         let boxes = WORK / (magnitudes.graph.len() * moving * moving).max(1);
-        let effort = Effort { boxes: boxes.min(20_000), ..Effort::default() };
+        let effort = Effort { boxes: boxes.min(20_000), samples: SAMPLES, ..Effort::default() };
         let limits = domain.limits(&mut magnitudes.graph, &magnitudes.apart).position;
         let mut largest = |i: usize, any: bool| {
             let effort = Effort { at_most: limits[i], ..effort };

@@ -84,13 +84,15 @@ impl Bound {
         let repeatable = searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), notes)?;
         let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), notes)?;
         // With sources of one class only, the combined error is that of the class.
-        let radius = match Classes::enabled(&domain.spec) {
+        let [repeatable, random, radius] = match Classes::enabled(&domain.spec) {
             Classes { repeatable: true, random: true } => {
                 let both = searches.error_bounds(&mut graph, &radius, &across_z[2], at_most(2), notes)?;
-                both.tighten_by_sum(&repeatable, &random)
+                let both = both.tighten_by_sum(&repeatable, &random);
+                // No part is larger than the sum.
+                [repeatable.tighten(&both), random.tighten(&both), both]
             }
-            Classes { random: true, .. } => random.clone(),
-            _ => repeatable.clone(),
+            Classes { random: true, .. } => [repeatable, random.clone(), random],
+            _ => [repeatable.clone(), random, repeatable],
         };
         let remainder = searches.run(notes, |_, watch| domain.remainder(&self.effort, watch))?;
         let before = [&repeatable.norm, &repeatable.orientation];

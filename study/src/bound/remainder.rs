@@ -9,7 +9,7 @@ use super::domain::{Domain, home};
 use super::report::{Classes, Remainder, StepResidual};
 
 /// Effort for these small errors: a gap of one half is enough.
-const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, at_most: f64::INFINITY };
+const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, ..Effort::DEFAULT };
 /// Number of boxes after which an infinite bound is given up.
 const GIVE_UP_BOXES: usize = 3_000;
 

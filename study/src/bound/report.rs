@@ -347,18 +347,29 @@ impl Report {
 impl ErrorBounds {
     /// Tightens each bound by the sum of the bounds on two parts.
     pub(super) fn tighten_by_sum(self, first: &Self, second: &Self) -> Self {
-        let sum = |own: ErrorBound, first: &ErrorBound, second: &ErrorBound| {
-            let sum = first.certified.zip(second.certified).map(|(first, second)| (first + second).next_up());
-            let certified = [own.certified, sum].into_iter().flatten().reduce(f64::min);
-            ErrorBound { certified, ..own }
+        let sum = |first: &ErrorBound, second: &ErrorBound| {
+            first.certified.zip(second.certified).map(|(first, second)| (first + second).next_up())
         };
-        Self {
-            norm: sum(self.norm, &first.norm, &second.norm),
-            x: sum(self.x, &first.x, &second.x),
-            y: sum(self.y, &first.y, &second.y),
-            z: sum(self.z, &first.z, &second.z),
-            orientation: sum(self.orientation, &first.orientation, &second.orientation),
+        let sums = first.all().into_iter().zip(second.all()).map(|(first, second)| sum(first, second));
+        self.at_most(sums)
+    }
+
+    /// Tightens each bound by that on a sum of which this is a part.
+    pub(super) fn tighten(self, sum: &Self) -> Self {
+        self.at_most(sum.all().into_iter().map(|sum| sum.certified))
+    }
+
+    /// Tightens each bound, in report order.
+    fn at_most(self, limits: impl Iterator<Item = Option<f64>>) -> Self {
+        let mut bounds = self;
+        for (own, limit) in bounds.all_mut().into_iter().zip(limits) {
+            own.certified = [own.certified, limit].into_iter().flatten().reduce(f64::min);
         }
+        bounds
+    }
+
+    fn all_mut(&mut self) -> [&mut ErrorBound; 5] {
+        [&mut self.norm, &mut self.x, &mut self.y, &mut self.z, &mut self.orientation]
     }
 
     /// Returns the five bounds in report order.
@@ -368,6 +379,15 @@ impl ErrorBounds {
 }
 
 impl ErrorBound {
+    /// Largest ratio of the certified to the found value at which the bound says how large the
+    /// error is.
+    const CLOSE: f64 = 3.0;
+
+    /// Returns `true` if the certified value is at most three times the found one.
+    pub fn is_close(&self) -> bool {
+        self.certified.is_some_and(|certified| certified <= Self::CLOSE * self.found)
+    }
+
     pub(super) fn new(bound: &abbe_bound::Bound, domain: &Domain) -> Self {
         let (at, label) = domain.describe(&bound.at);
         Self {

@@ -2,6 +2,7 @@
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{Agreement, Report, Verdict, unit, unreachable_summary};
+use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self, fixed, percent};
 
 use super::{Answer, aligned, error_unit};
@@ -51,10 +52,12 @@ fn decimals(report: &Report) -> usize {
 fn figures(report: &Report) -> String {
     let (factor, unit) = error_unit(report.length);
     let decimals = decimals(report);
-    let certified = |largest: Option<f64>| {
-        largest.map_or(String::new(), |most| {
+    let certified = |largest: Option<&ErrorBound>| match largest.map(|largest| (largest.certified, largest)) {
+        None | Some((None, _)) => String::new(),
+        Some((Some(most), largest)) if largest.is_close() => {
             format!("certified at most {}", number::rounded_up(factor * most, decimals))
-        })
+        }
+        Some(_) => "not bounded closely".to_owned(),
     };
     let norms = report.certified.as_ref();
     let position = |name: &str, value: f64, probability: String, note: String| {
@@ -67,7 +70,7 @@ fn figures(report: &Report) -> String {
         verdict.map_or(String::new(), |verdict| format!("P(within) {}", verdict.probability()))
     };
     let radii = &report.combined.radii;
-    let most = norms.and_then(|norms| norms.radius.as_ref()).and_then(|largest| largest.certified);
+    let most = norms.and_then(|norms| norms.all_sources());
     let mut rows =
         vec![position("as built", radii.radius, probability(Measurand::Position), certified(most))];
     if let Some(left) = &report.compensation {
@@ -78,7 +81,7 @@ fn figures(report: &Report) -> String {
     }
     let is_mixed = radii.random_radius > 0.0 && radii.repeatable_radius > 0.0;
     if is_mixed {
-        let most = norms.and_then(|norms| norms.random.as_ref()).and_then(|largest| largest.certified);
+        let most = norms.and_then(|norms| norms.random.as_ref());
         rows.push(position("random only", radii.random_radius, String::new(), certified(most)));
     }
     if report.orientation.radii.radius > 0.0 {

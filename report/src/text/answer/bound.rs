@@ -85,7 +85,8 @@ fn rows(report: &Report, name: &str, errors: &ErrorBounds) -> Vec<[String; 4]> {
         let decimals = number::decimals(factor * largest.found, 4);
         let certified = largest.certified.map(|most| number::rounded_up(factor * most, decimals));
         let found = number::rounded_down(factor * largest.found, decimals);
-        let certified = certified.unwrap_or_else(|| "unknown".to_owned());
+        let certified = certified.filter(|_| largest.is_close());
+        let certified = certified.unwrap_or_else(|| "not bounded closely".to_owned());
         [format!("{name}{what}"), found, certified, unit.to_owned()]
     };
     let (factor, unit) = error_unit(report.length);

@@ -284,6 +284,36 @@ fn maxima_that_are_known_exactly_are_enclosed() {
     }
 }
 
+/// Checks tables that end where the joint ends: at a whole number of mm, and at one that is rounded
+/// in degrees.
+#[test]
+fn tables_that_end_at_the_limits_are_bounded() {
+    for (kind, limits, unit) in
+        [("prismatic", ["0 mm", "800 mm"], "mm"), ("revolute", ["-167.3 deg", "167.3 deg"], "deg")]
+    {
+        for interpolation in ["linear", "cubic"] {
+            let [low, high] = limits.map(|limit| limit.split(' ').next().unwrap());
+            let transform = if kind == "revolute" { "Rz(q)" } else { "Tx(q)" };
+            let spec = format!(
+                "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n\
+                 [tables.profile]\nx = {{ values = [{low}, 100, 150, {high}], unit = \"{unit}\" }}\n\
+                 y = {{ values = [1, 3, -7, 2], unit = \"um\" }}\ninterpolation = \"{interpolation}\"\n\
+                 [[frame]]\nname = \"slide\"\ntransform = \"{transform}\"\n\
+                 variable = {{ name = \"q\", kind = \"{kind}\", limits = {limits:?} }}\n\
+                 [[source]]\nname = \"profile\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_z = \"profile(q)\"\n"
+            );
+            let spec = Spec::parse("slide.toml", &spec).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            let all = moving(&spec);
+            let mut magnitudes = Magnitudes::new(&spec);
+            let norm = magnitudes.repeatable[0].clone();
+            let bound = bounded(&spec, &mut magnitudes, &norm, &all, &Effort::default());
+            assert!(bound.complete && bound.certified < 0.0085, "{kind} {interpolation}: {bound:?}");
+            assert!(bound.certified >= 0.007, "{kind} {interpolation}: {bound:?}");
+            assert!(bound.found >= 0.007 * 0.99, "{kind} {interpolation}: {bound:?}");
+        }
+    }
+}
+
 /// Checks nine joints, which are too many for boxes: the bound comes from the parts, and is less
 /// than two and a half times the largest error found.
 #[test]
