@@ -27,8 +27,8 @@ pub struct Jacobian {
     pub q: Option<Vec<f64>>,
 }
 
-/// Pose, error Jacobian and generalized errors at one configuration. Lengths are in the spec's unit,
-/// angles in rad, vectors in `F_0`.
+/// Pose, error Jacobian and generalized errors at one configuration. Lengths are in the spec's
+/// unit, angles in rad, vectors in `F_0`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the manipulator.

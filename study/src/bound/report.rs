@@ -15,9 +15,9 @@ use crate::workspace::Span;
 
 use super::domain::Domain;
 
-/// Bounds on the errors over a box of configurations. Lengths are in the spec's unit, angles in rad.
-/// To first order in the errors of the sources, the true maximum of each error lies between `found`
-/// and `certified`.
+/// Bounds on the errors over a box of configurations. Lengths are in the spec's unit, angles in
+/// rad. To first order in the errors of the sources, the true maximum of each error lies between
+/// `found` and `certified`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the manipulator.

@@ -99,8 +99,8 @@ pub struct Report {
     #[serde(rename = "budget", skip_serializing_if = "Option::is_none")]
     pub allowance: Option<ErrorAllowance>,
     /// Errors that remain after compensation, largest over the workspace, in the length unit:
-    /// `residual`, `residual_sum`, and `total` with the random sources. `None` if the study does not
-    /// request it.
+    /// `residual`, `residual_sum`, and `total` with the random sources. `None` if the study does
+    /// not request it.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_values")]
     pub compensation: Option<RemainingErrors>,
     /// Monte Carlo draws; `None` if they were not requested.

@@ -2,8 +2,8 @@
 //! report. Both are generated from the types of the reports and their comments, and the reports of
 //! real jobs must have these fields.
 //!
-//! `source` reads the types, `shape` says what serde makes of them, `unit` finds their units, `page`
-//! and `python` format them, and `jobs` runs every command.
+//! `source` reads the types, `shape` says what serde makes of them, `unit` finds their units,
+//! `page` and `python` format them, and `jobs` runs every command.
 
 mod crates;
 mod jobs;

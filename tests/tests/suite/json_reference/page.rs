@@ -48,7 +48,7 @@ fn section(text: &mut String, name: &str, group: &Group) {
     let documentation = json_words(&group.documentation).replace('\n', "\n\n");
     let _ = write!(text, "\n### {name}\n\n");
     documentation.lines().for_each(|line| wrap(text, line));
-    *text += "\n| Key | Type | Unit | |\n|---|---|---|---|\n";
+    *text += "\n| Key | Type | Unit | Meaning |\n|---|---|---|---|\n";
     for field in &group.fields {
         let optional = if field.may_be_absent { ", optional" } else { "" };
         let (kind, unit) = (kind(&field.shape, 1), group.unit(field).unwrap_or_default());

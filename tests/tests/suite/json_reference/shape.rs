@@ -178,7 +178,7 @@ impl<'s> Shapes<'s> {
                         .collect(),
                     _ => Vec::new(),
                 };
-                let mut inner = |shapes: &mut Self, i: usize| Box::new(shapes.shape(of[i], within));
+                let inner = |shapes: &mut Self, i: usize| Box::new(shapes.shape(of[i], within));
                 match last.ident.to_string().as_str() {
                     "f32" | "f64" => Shape::Number,
                     "bool" => Shape::Boolean,

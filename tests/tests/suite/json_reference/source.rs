@@ -22,7 +22,7 @@ pub(super) struct Definition {
 pub(super) enum Kind {
     Struct(Vec<FieldSource>),
     /// Tuple struct with one field, or an alias.
-    Transparent(Type),
+    Transparent(Box<Type>),
     Enum(Vec<Variant>),
     Other,
 }
@@ -218,7 +218,7 @@ fn definition(item: Item, module: &[String], imports: &[(String, Vec<String>)]) 
         Item::Struct(item) => {
             let kind = match data(item.fields) {
                 Data::Fields(fields) => Kind::Struct(fields),
-                Data::Tuple(mut types) if types.len() == 1 => Kind::Transparent(types.remove(0)),
+                Data::Tuple(mut types) if types.len() == 1 => Kind::Transparent(Box::new(types.remove(0))),
                 _ => Kind::Other,
             };
             (item.ident, item.attrs, kind)
@@ -231,7 +231,7 @@ fn definition(item: Item, module: &[String], imports: &[(String, Vec<String>)]) 
             });
             (item.ident, item.attrs, Kind::Enum(variants.collect()))
         }
-        Item::Type(item) => (item.ident, item.attrs, Kind::Transparent(*item.ty)),
+        Item::Type(item) => (item.ident, item.attrs, Kind::Transparent(item.ty)),
         _ => return None,
     };
     let attributes = Attributes::read(&attributes);
