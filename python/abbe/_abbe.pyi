@@ -107,8 +107,8 @@ class Machine:
         """Nominal inputs by name, in coherent units (`units`)."""
     @property
     def units(self) -> dict[str, str]:
-        """Units of `parameters` and `inputs` by name: "mm", "kg", "kg·mm/s²" …; "" for pure numbers and
-        for angles, which are in rad.
+        """Units of `parameters` and `inputs` by name: "mm", "kg", "kg·mm/s²" …; "" for pure numbers
+        and for angles, which are in rad.
 
         >>> import abbe
         >>> abbe.load("pps").units["x"]
@@ -173,23 +173,24 @@ class Machine:
     def displacement(self, q: _Joints, errors: ArrayLike, *, out: _Array | None = None) -> _Array:
         """(…, 6): displacement ΔX = J_e ε in F_0 for given errors ε, real minus ideal.
 
-        `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`, or (…, n, 6)
-        as `generalized_errors` returns them. Rows as for `error_jacobian`, in the length unit and
-        rad.
+        `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`, or (…, n,
+        6) as `generalized_errors` returns them. Rows as for `error_jacobian`, in the
+        length unit and rad.
         """
     def covariance(self, q: _Joints, sigma: ArrayLike, *, out: _Array | None = None) -> _Array:
         """(…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.
 
         `sigma`: standard deviation of every error, (6n,) or (…, 6n), in the order and units of
-        `columns`, not negative. Rows and columns as the rows of `error_jacobian`, in products of their units.
+        `columns`, not negative. Rows and columns as the rows of `error_jacobian`, in products
+        of their units.
         """
     def generalized_errors(self, q: _Joints, *, out: _Array | None = None, **inputs: _Input) -> _Array:
         """(…, n, 6): errors ε of the repeatable sources of the spec: for each frame F_i, in its
         axes, e_x e_y e_z (length unit) e_s e_r e_p (rad).
 
         `inputs`: inputs of the spec by name, each a number in coherent units, text with a unit,
-        or an array with one value per configuration; by default the column of that name if `q` is
-        a table, or else nominal. The same holds for all functions with inputs.
+        or an array with one value per configuration; by default the column of that name if `q`
+        is a table, or else nominal. The same holds for all functions with inputs.
         """
     def predict(self, q: _Joints, *, out: _Array | None = None, **inputs: _Input) -> _Array:
         """(…, 6): displacement ΔX in F_0 by the repeatable sources of the spec, to first order,
@@ -349,9 +350,9 @@ class Machine:
 
         `data`: a CSV file, or a table with the columns of the map: a dict of arrays, a pandas or
         polars frame, a pyarrow table; its rows count from 0. Rows that cannot be used are listed in
-        `.messages`. `map`: path of the map of the columns, or a shipped name. `new_station`: estimate
-        the station of the instrument from the data instead of taking it from the map. `accept`:
-        limits such as "mean 0.15 mm, max 0.3 mm".
+        `.messages`. `map`: path of the map of the columns, or a shipped name. `new_station`:
+        estimate the station of the instrument from the data instead of taking it from the map.
+        `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
 
         `.report(folder)` writes report.html and errors.csv. Fields: `abbe.reports.MeasureReport`.
         """
@@ -542,8 +543,9 @@ class Commands:
     def __reduce__(self) -> tuple[Any, list[Any]]: ...
 
 class Report:
-    """Result of a job. Its fields, also nested ones, have the names of the JSON report and are described
-    by its class in `abbe.reports`; `print` shows the answer on one screen, `full()` every table.
+    """Result of a job. Its fields, also nested ones, have the names of the JSON report and are
+    described by its class in `abbe.reports`; `print` shows the answer on one screen, `full()` every
+    table.
     """
     @property
     def messages(self) -> list[str]:
@@ -597,8 +599,8 @@ class Part:
     def load(file: _Path) -> Part:
         """Reads a part file, written by `save` or by `abbe analyze --shard`."""
     def save(self, file: _Path, *, overwrite: bool = False) -> None:
-        """Writes the part to a file for `Part.load` or `abbe merge`. Raises FileExistsError if the file
-        exists, unless `overwrite` is true.
+        """Writes the part to a file for `Part.load` or `abbe merge`. Raises FileExistsError if the
+        file exists, unless `overwrite` is true.
         """
     @property
     def shard(self) -> tuple[int, int]:

@@ -1554,20 +1554,18 @@ class LongestEllipsoid(Fields):
 
 
 class LowerBound(Fields):
-    """Bounds on a smallest value over the box: a stiffness in N/m, or a motion of the tool per unit of joint motion,
-    in products of the units of tool and joints.
-    """
+    """Bounds on a smallest value over the box, in N/m for a stiffness, in metres and radians for a dexterity."""
 
     certified: float
     """Certified lower bound.
 
-    Unit: products of the units.
+    Unit: N/m, or m and rad.
     """
 
     found: float | None
     """Upper bound: the value at the configuration `at`; None if no evaluated value was finite.
 
-    Unit: products of the units.
+    Unit: N/m, or m and rad.
     """
 
     at: Named[float]
@@ -2208,31 +2206,31 @@ class Quantile(Fields):
 
 class ReadingErrors(Fields):
     """Figures of reading minus prediction; of the norm where an instrument reads three coordinates. They are in the
-    unit of the report's instrument.
+    `unit` of the instrument.
     """
 
     mean: float
     """The mean.
 
-    Unit: unit of the report.
+    Unit: `unit` of the instrument.
     """
 
     standard_error: float | None
     """Cluster-robust standard error of the mean; none for a single configuration.
 
-    Unit: unit of the report.
+    Unit: `unit` of the instrument.
     """
 
     rms: float
     """The root mean square.
 
-    Unit: unit of the report.
+    Unit: `unit` of the instrument.
     """
 
     max: float
     """The largest absolute value.
 
-    Unit: unit of the report.
+    Unit: `unit` of the instrument.
     """
 
 

@@ -107,8 +107,8 @@ methods! {
         /// (…, 6): displacement ΔX = J_e ε in F_0 for given errors ε, real minus ideal.
         ///
         /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`, or (…, n,
-        /// 6) as `generalized_errors` returns them. Rows as for `error_jacobian`, in the length
-        /// unit and rad.
+        /// 6) as `generalized_errors` returns them. Rows as for `error_jacobian`, in the
+        /// length unit and rad.
         displacement(errors: Numbers) = Displacement;
 
         /// (…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.

@@ -26,7 +26,9 @@ pub(crate) fn spec_error(py: Python<'_>, diagnostics: &Diagnostics) -> PyErr {
     let first = diagnostics.list.first();
     let is_missing = first.is_some_and(|first| first.message.starts_with("cannot read this file"))
         && !Path::new(&diagnostics.path).exists();
-    let missing = || PyResult::Ok(py.import("abbe._errors")?.getattr("MissingFileError")?.call1((&*text,))?);
+    let missing = || -> PyResult<Bound<'_, PyAny>> {
+        py.import("abbe._errors")?.getattr("MissingFileError")?.call1((&*text,))
+    };
     let error = match is_missing {
         true => missing().map_or_else(|error| error, PyErr::from_value),
         false => SpecError::new_err(text.into_owned()),

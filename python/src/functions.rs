@@ -18,6 +18,9 @@ use crate::machine::Machine;
 /// Number of configurations from which other Python threads may run during an evaluation.
 const MANY: usize = 32;
 
+/// Number of configurations after which signals are checked, so that Ctrl-C ends an evaluation.
+const BLOCK: usize = 1 << 17;
+
 /// ThirdArgument argument of a function, after the joints and the parameters.
 pub(crate) enum ThirdArgument<'a, 'py> {
     /// No third argument.
@@ -105,8 +108,19 @@ impl Machine {
         let done = guarded(|| {
             Ok(match lead.is_empty() {
                 true => batch.one(written),
-                false if count < MANY => batch.many(count, written),
-                false => py.detach(|| batch.many(count, written)),
+                false if count < MANY => batch.many(0..count, written),
+                false => {
+                    let length = written.len() / count;
+                    for first in (0..count).step_by(BLOCK) {
+                        let range = first..count.min(first + BLOCK);
+                        let block = &mut written[length * first..length * range.end];
+                        if let Err(rejected) = py.detach(|| batch.many(range, block)) {
+                            return Ok(Err(rejected));
+                        }
+                        py.check_signals()?;
+                    }
+                    Ok(())
+                }
             })
         })?;
         done.map_err(|RejectedConfiguration { index, error }| {

@@ -59,8 +59,8 @@ pub(crate) fn in_python(text: &str) -> Cow<'_, str> {
         let known = OPTIONS.iter().find(|(option, _)| *option == name);
         words += &known.map_or_else(|| name.replace('-', "_"), |(_, python)| (*python).to_owned());
         // Its value, as far as the code that it is in.
-        let code = before.rsplit('\n').next().is_some_and(|line| line.matches('`').count() % 2 == 1)
-            || (before.is_empty() && words.matches('`').count() % 2 == 1);
+        let line = words.rsplit('\n').next().unwrap_or_default();
+        let code = line.matches('`').count() % 2 == 1;
         if let Some(value) = after.strip_prefix(' ').filter(|_| code) {
             let length = value.find(['`', ' ']).unwrap_or(value.len());
             let (value, after) = value.split_at(length);
@@ -76,10 +76,11 @@ pub(crate) fn in_python(text: &str) -> Cow<'_, str> {
     Cow::Owned(words + rest)
 }
 
-/// Replaces the options in every text of a report.
+/// Replaces the options in every text of a report. Texts of several lines are those of files, and
+/// stay as they are.
 pub(crate) fn in_texts(value: &mut Value) {
     match value {
-        Value::String(text) => {
+        Value::String(text) if !text.contains('\n') => {
             if let Cow::Owned(words) = in_python(text) {
                 *text = words;
             }

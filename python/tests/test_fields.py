@@ -4,6 +4,8 @@ import copy
 import json
 import pickle
 import re
+import signal
+import time
 import typing
 from collections.abc import Mapping
 
@@ -94,6 +96,12 @@ def test_fields_that_do_not_apply_are_none():
     assert report.ledger.sums[0].share_of_tolerance is None
     with pytest.raises(AttributeError, match="no field `nothing`"):
         report.nothing
+
+
+def test_files_are_not_changed():
+    text = ROBOT.replace("<robot", "<!--dh--><robot").replace('name="Elbow"', 'name="elbow --tip"')
+    report = abbe.import_urdf(text=text)
+    assert report.spec == report.to_dict()["spec"] and "elbow --tip" in report.spec
 
 
 def test_messages_do_not_hide_the_notes_of_a_report():
@@ -277,6 +285,28 @@ def test_missing_files_are_file_not_found(tmp_path):
     part.save(tmp_path / "1.part", overwrite=True)
     with pytest.raises(ValueError):
         abbe.load(text="nothing")
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="this platform has no timer signals")
+def test_signals_end_an_evaluation():
+    q = np.tile(ur5.home, (1_500_000, 1))
+    out = np.empty((len(q), 6, 6))
+    begin = time.perf_counter()
+    ur5.joint_jacobian(q, out=out)
+    whole = time.perf_counter() - begin
+
+    def stop(*_):
+        raise InterruptedError("stopped")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    try:
+        begin = time.perf_counter()
+        signal.setitimer(signal.ITIMER_REAL, whole / 10)
+        with pytest.raises(InterruptedError):
+            ur5.joint_jacobian(q, out=out)
+        assert time.perf_counter() - begin < 0.7 * whole
+    finally:
+        signal.signal(signal.SIGALRM, before)
 
 
 def test_errors_name_values():

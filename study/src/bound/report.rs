@@ -160,8 +160,8 @@ pub struct Dexterity {
     pub pose: Option<LowerBound>,
 }
 
-/// Bounds on a smallest value over the box: a stiffness in N/m, or a motion of the tool per unit of
-/// joint motion, in products of the units of tool and joints.
+/// Bounds on a smallest value over the box, in N/m for a stiffness, in metres and radians for a
+/// dexterity.
 #[derive(Clone, Debug, Serialize)]
 pub struct LowerBound {
     /// Certified lower bound.

@@ -30,7 +30,7 @@ pub struct InstrumentErrors {
 }
 
 /// Figures of reading minus prediction; of the norm where an instrument reads three coordinates.
-/// They are in the unit of the report's instrument.
+/// They are in the `unit` of the instrument.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ReadingErrors {
     /// The mean.

@@ -2,7 +2,7 @@
 
 /// Phrases of sentences, and the unit that they say; `1` for numbers without one. The first that
 /// occurs decides.
-const PHRASES: [(&str, &str); 43] = [
+const PHRASES: [(&str, &str); 44] = [
     ("in the squared length unit", "length unit²"),
     ("in products of these units", "products of the units"),
     ("in products of the units", "products of the units"),
@@ -18,7 +18,8 @@ const PHRASES: [(&str, &str); 43] = [
     ("in the unit of `value`", "unit of `value`"),
     ("in coherent units", "coherent"),
     ("as counted by the calendar", "`calendar`"),
-    ("in the unit of the report", "unit of the report"),
+    ("in the `unit` of the instrument", "`unit` of the instrument"),
+    ("in N/m for a stiffness", "N/m, or m and rad"),
     ("in units of the uncertainty", "1"),
     ("in N/m", "N/m"),
     ("in the length unit", "length unit"),
@@ -55,14 +56,15 @@ pub(super) fn said(sentence: &str) -> Option<&'static str> {
 
 /// Returns the unit that the sentences of a group say of all its numbers.
 pub(super) fn common(sentences: &str) -> Option<&'static str> {
+    let mut particular = PHRASES.iter().filter(|(phrase, unit)| {
+        phrase.starts_with("in ") && !["length unit", "rad"].contains(unit) && sentences.contains(phrase)
+    });
     let length = ["length unit", "spec's unit"].iter().any(|phrase| sentences.contains(phrase));
-    match (length, sentences.contains(" rad")) {
+    let angle = sentences.split(|letter: char| !letter.is_alphanumeric()).any(|word| word == "rad");
+    match (length, angle) {
         (true, true) => Some("length unit or rad"),
         (true, false) => Some("length unit"),
         (false, true) => Some("rad"),
-        (false, false) => PHRASES
-            .iter()
-            .find(|(phrase, _)| phrase.starts_with("in ") && sentences.contains(phrase))
-            .map(|(_, unit)| *unit),
+        (false, false) => particular.next().map(|(_, unit)| *unit),
     }
 }
