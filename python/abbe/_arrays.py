@@ -1,9 +1,10 @@
 """Conversion of arguments to float64 arrays. Imported on first use, because importing NumPy is slow."""
 
 import io
-from collections.abc import Mapping
+import json
+from collections.abc import Iterable, Mapping
 from csv import writer
-from numbers import Real
+from numbers import Integral, Real
 
 import numpy as np
 
@@ -17,6 +18,34 @@ def numbers(value, what, names):
         columns = [_real(value[name], name) for name in names]
         value = np.stack(np.broadcast_arrays(*columns), axis=-1) if columns else np.empty(0)
     return np.require(_real(value, what), np.float64, ["C", "A"])
+
+
+def among(value, names):
+    """Return the columns of a table that are among `names`, as a dict; an empty one of anything else than a table."""
+    return {name: _real(value[name], name) for name in _columns(value) or () if name in names}
+
+
+def toml(value):
+    """Format a dict as TOML, one line per key, with tables inline."""
+    return "".join(f"{_key(name)} = {_inline(each)}\n" for name, each in value.items())
+
+
+def _inline(value):
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_key(name)} = {_inline(each)}" for name, each in value.items()) + " }"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, Real):
+        return repr(int(value) if isinstance(value, Integral) else float(value))
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(map(_inline, value)) + "]"
+    raise TypeError(f"a map has texts, numbers, lists and dicts, not {type(value).__name__}")
+
+
+def _key(name):
+    return name if name.isidentifier() and name.isascii() else json.dumps(name, ensure_ascii=False)
 
 
 def columns(value, what, wanted):

@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from ._abbe import Machine, Report
+from ._abbe import Machine
+from .reports import IdentifyReport
 
 __all__ = ["bootstrap", "identify", "row", "table"]
 
 
-def row(name: str, report: Report) -> dict[str, Any]:
+def row(name: str, report: IdentifyReport) -> dict[str, Any]:
     """Return the identified errors of one machine: its name as `machine`, each parameter, such as `e_x1`, and its standard deviation, `e_x1 sd`.
 
     Only parameters of the machine itself are included, not those of station and targets. The parameters that represent the identifiable

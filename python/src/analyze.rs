@@ -51,7 +51,7 @@ impl Machine {
     /// draws at the worst configuration and at home. `seed`: of the draws and of the study's random
     /// samples. `figures`: collect data for `.report(folder)` and `.figure(name)`.
     ///
-    /// Lengths are in the unit of the spec. Fields as in `abbe analyze --json`.
+    /// Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
     ///
     /// >>> import abbe
     /// >>> report = abbe.load("pps").analyze()
@@ -94,6 +94,6 @@ impl Machine {
             job.figures = figures;
             job.run(notes)
         })?;
-        Ok(Bound::new(py, analysis(report, notes)?)?.into_any())
+        Ok(analysis(py, report, notes)?.into_bound(py).into_any())
     }
 }

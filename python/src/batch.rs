@@ -1,5 +1,7 @@
 //! Evaluation of one function of a manipulator at one or many configurations.
 
+use std::ops::Range;
+
 use abbe::lanes::{Batches, InstructionSet, Tiles};
 use abbe::{Error, Function, Manipulator, Quantity, checks};
 use abbe_interpreter::Interpreter;
@@ -52,11 +54,11 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// Evaluates `count` configurations in lanes.
-    pub(crate) fn many(&self, count: usize, array: &mut [f64]) -> Result<(), RejectedConfiguration> {
+    /// Evaluates a range of the configurations in lanes; `array` is for that range.
+    pub(crate) fn many(&self, range: Range<usize>, array: &mut [f64]) -> Result<(), RejectedConfiguration> {
         let description = self.interpreter.description();
         let (set, signature) = (InstructionSet::best(), self.function.signature());
-        let size = CHUNK.min(count);
+        let size = CHUNK.min(range.len());
         let mut given = Tiles::new(set, signature.arguments_len(description), size);
         let mut found = Tiles::new(set, signature.results_len(description), size);
         let rows = self.rows();
@@ -67,11 +69,11 @@ impl Batch<'_> {
         }
         let margin = signature.has_margin(description.orientation).then(|| found.rows() - 1);
         let (length, mut staged) = (self.layout.len(), Vec::new());
-        for first in (0..count).step_by(CHUNK) {
-            let size = CHUNK.min(count - first);
+        for first in range.clone().step_by(CHUNK) {
+            let size = CHUNK.min(range.end - first);
             given.resize(size);
             found.resize(size);
-            let array = &mut array[length * first..][..length * size];
+            let array = &mut array[length * (first - range.start)..][..length * size];
             self.put(&rows, first, &mut given);
             let done = self.interpreter.batch(self.function, &given, &mut found);
             done.map_err(|error| RejectedConfiguration { index: Some(first), error })?;

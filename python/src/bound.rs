@@ -35,8 +35,8 @@ impl Machine {
     /// rad). `.stiffness` bounds the ratio of a force at the tool point to its deflection, in N/m;
     /// None for a rigid machine.
     ///
-    /// Lengths are in the unit of the spec, angles in rad, in F_0. Fields as in `abbe bound
-    /// --json`.
+    /// Lengths are in the unit of the spec, angles in rad, in F_0. Fields:
+    /// `abbe.reports.BoundReport`.
     ///
     /// >>> import abbe
     /// >>> norm = abbe.load("machine3").bound().repeatable.norm
@@ -55,7 +55,7 @@ impl Machine {
         time: Option<f64>,
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Report> {
+    ) -> PyResult<Py<Report>> {
         let gap =
             Gap::new(gap).map_err(|message| PyValueError::new_err(format!("`gap`: {message}")))?.share();
         let boxes = within("boxes", boxes, BOXES.range)?;
@@ -69,6 +69,6 @@ impl Machine {
             job.time = time;
             job.run(notes)
         })?;
-        Report::new("bound", &Arc::new(report), notes, text::bound)
+        Report::new("bound", &Arc::new(report), notes, text::bound)?.create(py)
     }
 }

@@ -15,14 +15,14 @@ impl Machine {
     /// Checks the spec, and compares J_e with the exact chain. The report has the model, its chain
     /// at home and the identifiable errors.
     ///
-    /// Fields as in `abbe check --json`.
+    /// Fields: `abbe.reports.CheckReport`.
     ///
     /// >>> import abbe
     /// >>> all(law.holds for law in abbe.load("scara").check().laws)
     /// True
-    fn check(&self, py: Python<'_>) -> PyResult<Report> {
+    fn check(&self, py: Python<'_>) -> PyResult<Py<Report>> {
         let job = Check { machine: self.machine.clone() };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
-        Report::new("check", &Arc::new(report), notes, text::check)
+        Report::new("check", &Arc::new(report), notes, text::check)?.create(py)
     }
 }

@@ -6,7 +6,7 @@ use abbe_study::{compensate, mistake};
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::failure::guarded;
@@ -25,6 +25,21 @@ pub(crate) struct Commands {
     /// Reason as text, or None if the configuration is compensated to the tolerance; a
     /// list for many configurations.
     reason: Py<PyAny>,
+}
+
+#[pymethods]
+impl Commands {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let parts = PyTuple::new(py, [&self.q, &self.left, &self.reason])?;
+        Ok((py.import("abbe._abbe")?.getattr("_commands")?, parts))
+    }
+}
+
+/// Recreates pickled commands.
+#[pyfunction]
+#[pyo3(name = "_commands")]
+pub(crate) fn restore(q: Py<PyAny>, left: Py<PyAny>, reason: Py<PyAny>) -> Commands {
+    Commands { q, left, reason }
 }
 
 #[pymethods]
@@ -52,7 +67,7 @@ impl Machine {
             return Err(PyValueError::new_err("`target` has a number that is not finite"));
         }
         let target = match *array.shape() {
-            [4, 4] => Target::Pose(Pose(std::array::from_fn(|j| std::array::from_fn(|i| values[4 * i + j])))),
+            [4, 4] => Target::Pose(pose(values)?),
             [3] => Target::Point([values[0], values[1], values[2]]),
             ref shape => {
                 let message =
@@ -98,7 +113,7 @@ impl Machine {
         let names = self.variable_names.bind(py);
         let signature = Function::RealPose.signature();
         let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
-        let inputs = self.given_inputs(inputs, &given.lead)?;
+        let inputs = self.given_inputs(q, inputs, &given.lead)?;
         let (lead, nq) = (given.lead.clone(), description.variables.len());
         let (given, inputs) = (given.argument()?, inputs.argument()?);
         let (q, nu) = (given.values, description.inputs.len());
@@ -133,6 +148,29 @@ impl Machine {
             reason,
         })
     }
+}
+
+/// Largest difference of a rotation matrix from an orthogonal one.
+const ORTHOGONAL: f64 = 1e-6;
+
+/// Converts a homogeneous matrix, row by row.
+fn pose(values: &[f64]) -> PyResult<Pose> {
+    let pose = Pose(std::array::from_fn(|j| std::array::from_fn(|i| values[4 * i + j])));
+    let [x, y, z, _] = pose.0;
+    let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let products = [dot(x, x) - 1.0, dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)];
+    let cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+    if values[12..] != [0.0, 0.0, 0.0, 1.0] {
+        return Err(PyValueError::new_err(
+            "the last row of `target` is not 0 0 0 1: a pose has the tool point in its last column; is it transposed?",
+        ));
+    }
+    if products.iter().any(|product| product.abs() > ORTHOGONAL) || dot(cross, z) < 0.0 {
+        return Err(PyValueError::new_err(
+            "`target` has no rotation matrix: its first three columns must be perpendicular unit vectors, right-handed",
+        ));
+    }
+    Ok(pose)
 }
 
 fn filled<'py>(py: Python<'py>, shape: &[usize], values: &[f64]) -> PyResult<Bound<'py, PyAny>> {

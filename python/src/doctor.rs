@@ -33,7 +33,7 @@ impl Machine {
     /// If the interpretation changes the spec, `.load()` returns the corrected machine, and
     /// doctor.spec.toml is its spec.
     ///
-    /// Residuals are in the length unit and rad. Fields as in `abbe doctor --json`.
+    /// Residuals are in the length unit and rad. Fields: `abbe.reports.DoctorReport`.
     ///
     /// >>> import abbe, numpy as np
     /// >>> ur5 = abbe.load("ur5")
@@ -48,7 +48,7 @@ impl Machine {
         data: &Bound<'_, PyAny>,
         seen: Option<&Bound<'_, PyAny>>,
         within: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Report> {
+    ) -> PyResult<Py<Report>> {
         let within = within.map(|value| length("within", value, &self.machine.spec)).transpose()?;
         let rows = match seen {
             None => Measured::all("data", data)?,
@@ -66,6 +66,6 @@ impl Machine {
         let corrected = guarded(|| corrected().map_err(|mistakes| spec_error(py, &mistakes)))?;
         pages.extend(corrected.map(|spec| (CORRECTED.to_owned(), spec)));
         let found = Report::new("doctor", &Arc::new(report), notes, text::doctor)?;
-        Ok(found.with_spec(CORRECTED).with_pages(move || Ok(pages.clone())))
+        found.with_spec(CORRECTED).with_pages(move || Ok(pages.clone())).create(py)
     }
 }

@@ -106,14 +106,16 @@ methods! {
     errors {
         /// (…, 6): displacement ΔX = J_e ε in F_0 for given errors ε, real minus ideal.
         ///
-        /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`. Rows as
-        /// for `error_jacobian`, in the length unit and rad.
+        /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`, or (…, n,
+        /// 6) as `generalized_errors` returns them. Rows as for `error_jacobian`, in the
+        /// length unit and rad.
         displacement(errors: Numbers) = Displacement;
 
         /// (…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.
         ///
         /// `sigma`: standard deviation of every error, (6n,) or (…, 6n), in the order and units of
-        /// `columns`. Rows and columns as the rows of `error_jacobian`, in products of their units.
+        /// `columns`, not negative. Rows and columns as the rows of `error_jacobian`, in products
+        /// of their units.
         covariance(sigma: Squares) = Covariance;
     }
     inputs {
@@ -121,8 +123,8 @@ methods! {
         /// axes, e_x e_y e_z (length unit) e_s e_r e_p (rad).
         ///
         /// `inputs`: inputs of the spec by name, each a number in coherent units, text with a unit,
-        /// or an array with one value per configuration; nominal by default. The same holds for all
-        /// functions with inputs.
+        /// or an array with one value per configuration; by default the column of that name if `q`
+        /// is a table, or else nominal. The same holds for all functions with inputs.
         generalized_errors = GeneralizedErrors;
 
         /// (…, 6): displacement ΔX in F_0 by the repeatable sources of the spec, to first order,

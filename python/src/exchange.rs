@@ -23,9 +23,9 @@ use crate::report::Report;
 /// default each is a frame with errors of its own. `round_angles`: round angles within 1e-5 rad of
 /// a multiple of 45° to that multiple. Lengths of the spec are in m.
 ///
-/// `.load()` of the report returns the machine, `.spec` is the text of its spec, `.notes` lists
+/// `.load()` of the report returns the machine, `.spec` is the text of its spec, `.messages` lists
 /// what was left out, and `.report(folder)` writes the spec. Raises SpecError, with a place, if the
-/// file is wrong. Fields as in `abbe import --json`.
+/// file is wrong. Fields: `abbe.reports.ImportReport`.
 ///
 /// >>> import abbe
 /// >>> urdf = '''<robot name="arm"> <link name="base"/> <link name="hand"/>
@@ -44,7 +44,7 @@ pub(crate) fn import_urdf(
     tip: Option<String>,
     fold: bool,
     round_angles: bool,
-) -> PyResult<Report> {
+) -> PyResult<Py<Report>> {
     if file.is_some() == text.is_some() {
         return Err(PyTypeError::new_err("give the path of a URDF file, or else text=…"));
     }
@@ -75,7 +75,7 @@ pub(crate) fn import_dh(
     text: Option<String>,
     units: Option<&str>,
     round_angles: bool,
-) -> PyResult<Report> {
+) -> PyResult<Py<Report>> {
     let convention = named("convention", convention, CONVENTIONS)?;
     let units: Units = units
         .map_or(Ok(Units::default()), str::parse)
@@ -94,14 +94,14 @@ pub(crate) fn import_dh(
     imported(py, Import { file, format: Format::Table { convention, units }, round_angles }, text)
 }
 
-fn imported(py: Python<'_>, job: Import, text: Option<String>) -> PyResult<Report> {
+fn imported(py: Python<'_>, job: Import, text: Option<String>) -> PyResult<Py<Report>> {
     let (report, notes) = run(py, None, None, |notes| match text {
         None => job.run(notes),
         Some(text) => job.read(Document::new(job.file.display().to_string(), text), notes),
     })?;
     let (name, spec) = (format!("{}.toml", report.manipulator), report.spec.clone());
     let found = Report::new("import", &Arc::new(report), notes, |report, _| text::imported(report))?;
-    Ok(found.with_spec(&name).with_pages(move || Ok(vec![(name.clone(), spec.clone())])))
+    found.with_spec(&name).with_pages(move || Ok(vec![(name.clone(), spec.clone())])).create(py)
 }
 
 #[pymethods]
@@ -116,7 +116,7 @@ impl Machine {
     ///
     /// `.files` have `.name` and `.text`; `.report(folder)` writes them. `.left_out` lists what
     /// the format cannot hold. Raises SpecError if the machine cannot be written in the format.
-    /// Fields as in `abbe export --json`.
+    /// Fields: `abbe.reports.ExportReport`.
     ///
     /// >>> import abbe
     /// >>> machine = abbe.load("machine3").with_parameters(temperature_rise="3 K")
@@ -135,7 +135,7 @@ impl Machine {
         nodes: Option<usize>,
         samples: usize,
         seed: u64,
-    ) -> PyResult<Report> {
+    ) -> PyResult<Py<Report>> {
         let samples = within("samples", samples, SAMPLES_RANGE)?;
         let nodes = nodes.map(|nodes| within("nodes", nodes, Exported::NODES_RANGE)).transpose()?;
         let needless = |given: bool, name: &str| match given {
@@ -167,6 +167,6 @@ impl Machine {
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
         let files: Vec<_> = report.files.iter().map(|file| (file.name.clone(), file.text.clone())).collect();
         let found = Report::new("export", &Arc::new(report), notes, text::exported)?;
-        Ok(found.with_pages(move || Ok(files.clone())))
+        found.with_pages(move || Ok(files.clone())).create(py)
     }
 }

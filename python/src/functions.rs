@@ -5,10 +5,10 @@ use abbe::{Description, Function, Manipulator, Quantity};
 use abbe_spec::document::Document;
 use abbe_spec::value::parse_value;
 use abbe_study::mistake;
-use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyString};
 
 use crate::arrays::{empty, numbers, output_array, tuple};
 use crate::batch::{Argument, Batch, RejectedConfiguration};
@@ -17,6 +17,9 @@ use crate::machine::Machine;
 
 /// Number of configurations from which other Python threads may run during an evaluation.
 const MANY: usize = 32;
+
+/// Number of configurations after which signals are checked, so that Ctrl-C ends an evaluation.
+const BLOCK: usize = 1 << 17;
 
 /// ThirdArgument argument of a function, after the joints and the parameters.
 pub(crate) enum ThirdArgument<'a, 'py> {
@@ -64,12 +67,14 @@ impl Machine {
                 Some(vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?)
             }
             ThirdArgument::Squares(name, value) => {
-                let mut given =
-                    vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?;
+                let array = numbers(value, name, None)?;
+                let given = standard_deviations(&array, name, signature.arguments[2].len(description));
+                given?;
+                let mut given = vec_of(array, name, &signature.arguments[2], description)?;
                 given.values = Values::Own(given.values.slice()?.iter().map(|value| value * value).collect());
                 Some(given)
             }
-            ThirdArgument::Inputs(inputs) => Some(self.given_inputs(inputs, &lead)?),
+            ThirdArgument::Inputs(inputs) => Some(self.given_inputs(q, inputs, &lead)?),
         };
         if let Some(third) = &third
             && third.lead != lead
@@ -103,8 +108,19 @@ impl Machine {
         let done = guarded(|| {
             Ok(match lead.is_empty() {
                 true => batch.one(written),
-                false if count < MANY => batch.many(count, written),
-                false => py.detach(|| batch.many(count, written)),
+                false if count < MANY => batch.many(0..count, written),
+                false => {
+                    let length = written.len() / count;
+                    for first in (0..count).step_by(BLOCK) {
+                        let range = first..count.min(first + BLOCK);
+                        let block = &mut written[length * first..length * range.end];
+                        if let Err(rejected) = py.detach(|| batch.many(range, block)) {
+                            return Ok(Err(rejected));
+                        }
+                        py.check_signals()?;
+                    }
+                    Ok(())
+                }
             })
         })?;
         done.map_err(|RejectedConfiguration { index, error }| {
@@ -115,17 +131,19 @@ impl Machine {
         Ok(array)
     }
 
-    /// Returns the inputs: the nominal values, replaced by those given by name. If any is an array,
-    /// every configuration gets its own set.
+    /// Returns the inputs: the nominal values, replaced by columns of the table `q` and by those
+    /// given by name. If any is an array, every configuration gets its own set.
     pub(crate) fn given_inputs<'py>(
         &self,
+        q: &Bound<'py, PyAny>,
         inputs: Option<&Bound<'py, PyDict>>,
         lead: &[usize],
     ) -> PyResult<ArgumentValues<'py>> {
         let description = self.interpreter.description();
         let mut nominal: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
         let mut columns = Vec::new();
-        for (name, value) in inputs.into_iter().flatten() {
+        let inputs = self.with_columns(q, inputs)?;
+        for (name, value) in inputs.iter().flatten() {
             let name: String = name.extract()?;
             let input = self.input(&name)?;
             if value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
@@ -159,6 +177,23 @@ impl Machine {
         Ok(ArgumentValues { values: Values::Own(values), lead: lead.to_vec() })
     }
 
+    /// Adds the columns of the table `q` that are named as inputs.
+    fn with_columns<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        inputs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let known = &self.interpreter.description().inputs;
+        if known.is_empty() || q.is_exact_instance_of::<PyArrayDyn<f64>>() || q.is_instance_of::<PyList>() {
+            return Ok(inputs.cloned());
+        }
+        let (py, names) = (q.py(), known.iter().map(|input| &*input.name).collect::<Vec<_>>());
+        let columns = py.import("abbe._arrays")?.getattr("among")?.call1((q, names))?;
+        let all = columns.cast_into::<PyDict>().map_err(PyErr::from)?;
+        inputs.map_or(Ok(()), |inputs| all.update(inputs.as_mapping()))?;
+        Ok(Some(all))
+    }
+
     fn input(&self, name: &str) -> PyResult<usize> {
         let inputs = &self.interpreter.description().inputs;
         inputs.iter().position(|input| *input.name == *name).ok_or_else(|| {
@@ -183,7 +218,27 @@ impl Machine {
     }
 }
 
-/// Checks that the last dimension of an array is the length of the argument.
+/// Checks that an array has standard deviations, not a covariance.
+fn standard_deviations(array: &PyReadonlyArrayDyn<'_, f64>, name: &str, count: usize) -> PyResult<()> {
+    let is_square = matches!(*array.shape(), [rows, columns] if rows == count && columns == count);
+    if is_square {
+        let values = array.as_slice()?;
+        let is_diagonal = (0..count).all(|i| (0..i).all(|j| values[count * i + j] == values[count * j + i]));
+        if is_diagonal {
+            return Err(PyValueError::new_err(format!(
+                "`{name}` is a symmetric matrix: give standard deviations, shape (…, {count}), of independent errors; for a full \
+                 covariance Σ compute J Σ Jᵀ with J = error_jacobian(q)"
+            )));
+        }
+    }
+    if array.as_slice()?.iter().any(|value| *value < 0.0) {
+        return Err(PyValueError::new_err(format!("`{name}` has a negative standard deviation")));
+    }
+    Ok(())
+}
+
+/// Checks that the last dimension of an array is the length of the argument, or that the last two
+/// are frames and their six errors.
 pub(crate) fn vec_of<'py>(
     array: PyReadonlyArrayDyn<'py, f64>,
     name: &str,
@@ -193,6 +248,10 @@ pub(crate) fn vec_of<'py>(
     let needed = argument.len(description);
     match array.shape() {
         [lead @ .., last] if *last == needed => {
+            Ok(ArgumentValues { lead: lead.to_vec(), values: Values::Array(array) })
+        }
+        // As `generalized_errors` returns them.
+        [lead @ .., frames, 6] if argument.quantity == Quantity::Errors && 6 * frames == needed => {
             Ok(ArgumentValues { lead: lead.to_vec(), values: Values::Array(array) })
         }
         shape => {

@@ -1,8 +1,9 @@
 //! Generated source code.
 
-use abbe_study::generate::{Generate, Language};
+use abbe_study::generate::{Generate, Language, SourceFile};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::job::run;
 use crate::machine::Machine;
@@ -10,13 +11,39 @@ use crate::options::named;
 
 #[pymethods]
 impl Machine {
-    /// Returns the closed form as source code.
+    /// Returns the closed form as source code in one text.
     ///
     /// `language`: "rust", "c", "js", "python" or "matlab". `real`: floating-point type of C,
-    /// "double" (default) or "float". The text of C is the header followed by the source. The same
-    /// spec always gives the same text.
+    /// "double" (default) or "float". The text of C is the header followed by the source;
+    /// `generate_files` returns them one by one. The same spec always gives the same text.
     #[pyo3(signature = (language="rust", *, real=None))]
     fn generate(&self, py: Python<'_>, language: &str, real: Option<&str>) -> PyResult<String> {
+        Ok(self.generated(py, language, real)?.into_iter().map(|file| file.text).collect())
+    }
+
+    /// Returns the closed form as source files: their names and texts, to be written to one folder.
+    ///
+    /// Options as for `generate`.
+    ///
+    /// >>> import abbe
+    /// >>> list(abbe.load("scara").generate_files("c"))
+    /// ['scara.h', 'scara.c']
+    #[pyo3(signature = (language="rust", *, real=None))]
+    fn generate_files<'py>(
+        &self,
+        py: Python<'py>,
+        language: &str,
+        real: Option<&str>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let files = PyDict::new(py);
+        let generated = self.generated(py, language, real)?;
+        generated.into_iter().try_for_each(|file| files.set_item(file.name, file.text))?;
+        Ok(files)
+    }
+}
+
+impl Machine {
+    fn generated(&self, py: Python<'_>, language: &str, real: Option<&str>) -> PyResult<Vec<SourceFile>> {
         let language = match named("language", language, Generate::LANGUAGES)? {
             Language::Fmu(_) => {
                 return Err(PyValueError::new_err(
@@ -32,7 +59,6 @@ impl Machine {
             (_, Some(_)) => return Err(PyValueError::new_err("`real` is for language=\"c\": leave it out")),
         };
         let job = Generate { machine: self.machine.clone(), language };
-        let files = run(py, None, None, |notes| job.run(notes))?.0;
-        Ok(files.into_iter().map(|file| file.text).collect())
+        Ok(run(py, None, None, |notes| job.run(notes))?.0)
     }
 }

@@ -1,7 +1,6 @@
 //! Identification of the errors of a machine from measurements.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_report::{Provenance, text};
@@ -34,13 +33,13 @@ impl Machine {
     /// (`abbe.fleet.bootstrap` runs many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
     ///
     /// `.report(folder)` writes report.html, found.toml and found.map.toml; `.load()` returns the
-    /// identified machine. Fields as in `abbe identify --json`.
+    /// identified machine. Fields: `abbe.reports.IdentifyReport`.
     #[pyo3(signature = (data, map, *, test=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
     fn identify(
         &self,
         py: Python<'_>,
         data: &Bound<'_, PyAny>,
-        map: PathBuf,
+        map: &Bound<'_, PyAny>,
         test: Option<&Bound<'_, PyAny>>,
         terms: Option<&Bound<'_, PyAny>>,
         robust: Option<&str>,
@@ -51,7 +50,7 @@ impl Machine {
         accept: Option<&str>,
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Report> {
+    ) -> PyResult<Py<Report>> {
         let terms = families(terms)?;
         let settings = Settings {
             loss: robust.map(|name| named("robust", name, LOSSES)).transpose()?.unwrap_or_default(),
@@ -60,7 +59,7 @@ impl Machine {
             time: seconds("time", time)?,
             points: true,
         };
-        let map = self.map(py, &map)?;
+        let map = self.map(map)?;
         let measured = Measured::new("data", data, &map)?;
         let unseen = test.map(|test| Measured::new("test", test, &map)).transpose()?;
         let ((job, report), notes) = run(py, threads, progress, |notes| {
@@ -81,7 +80,7 @@ impl Machine {
         let (report, spec) = (Arc::new(report), job.machine.spec.clone());
         let text = move |report: &_, detail| text::identification(&spec, report, detail);
         let found = Report::new("identify", &report, notes, text)?.with_spec("found.toml");
-        Ok(found.with_pages(move || {
+        let found = found.with_pages(move || {
             let Identify { machine, map, .. } = &job;
             let test = unseen.iter().map(|test| ("test", test.source()));
             let files = [("measurements", measured.source())].into_iter().chain(test);
@@ -94,7 +93,8 @@ impl Machine {
                 pages.extend([("found.toml".into(), spec.text), ("found.map.toml".into(), map)]);
             }
             Ok(pages)
-        }))
+        });
+        found.create(py)
     }
 }
 

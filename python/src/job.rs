@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 
 use crate::failure::{panicked, spec_error};
 use crate::options::within;
+use crate::words::in_python;
 
 /// Interval at which signals are checked and progress is reported.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
@@ -90,10 +91,11 @@ pub(crate) fn run<R: Send>(
                 Err(RecvTimeoutError::Disconnected) => break,
                 Err(RecvTimeoutError::Timeout) => py.check_signals(),
                 Ok(Message::Note(note)) => {
-                    notes.push(note);
+                    notes.push(in_python(&note).into_owned());
                     Ok(())
                 }
                 Ok(Message::Warning(warning)) => {
+                    let warning = in_python(&warning).into_owned();
                     let warned = warn(py, &warning);
                     notes.push(warning);
                     warned
@@ -121,5 +123,5 @@ pub(crate) fn run<R: Send>(
 }
 
 fn warn(py: Python<'_>, warning: &str) -> PyResult<()> {
-    py.import("warnings")?.call_method1("warn", (warning, py.get_type::<PyUserWarning>(), 2)).map(drop)
+    py.import("warnings")?.call_method1("warn", (warning, py.get_type::<PyUserWarning>(), 1)).map(drop)
 }

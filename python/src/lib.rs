@@ -6,7 +6,8 @@
 //! imports and exports. `options` checks the arguments of jobs. `functions` evaluates functions:
 //! `layout` maps results to arrays, `arrays` converts arguments, `measured` reads measurements,
 //! `batch` loops over configurations. `job` runs a job, `report` is its result, `table` exports
-//! tables to Arrow, `part` is a part of an analysis, and `failure` converts errors to exceptions.
+//! tables to Arrow, `part` is a part of an analysis, `failure` converts errors to exceptions, and
+//! `words` says what the command calls options in terms of Python.
 
 mod analysis_report;
 mod analyze;
@@ -34,6 +35,7 @@ mod plan;
 mod report;
 mod simulate;
 mod table;
+mod words;
 
 /// Compiled part of the package `abbe`.
 #[pyo3::pymodule(gil_used = false)]
@@ -41,7 +43,7 @@ mod _abbe {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use super::commands::Commands;
+    use super::commands::{Commands, restore as restore_commands};
     #[pymodule_export]
     use super::exchange::{import_dh, import_urdf};
     #[pymodule_export]
@@ -51,9 +53,9 @@ mod _abbe {
     #[pymodule_export]
     use super::part::{Part, merge, restore as restore_part};
     #[pymodule_export]
-    use super::report::Report;
+    use super::report::{Report, restore as restore_report};
     #[pymodule_export]
-    use super::table::Table;
+    use super::table::{Table, restore as restore_table};
 
     #[pymodule_init]
     fn version(module: &Bound<'_, PyModule>) -> PyResult<()> {

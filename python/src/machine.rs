@@ -238,7 +238,7 @@ impl Machine {
         PyTuple::new(py, self.interpreter.description().frames.iter().map(|frame| &*frame.name))
     }
 
-    /// Structural parameters by name, in coherent units: the length unit, kg, s, rad, K.
+    /// Structural parameters by name, in coherent units (`units`): the length unit, kg, s, rad, K.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let values = PyDict::new(py);
@@ -247,7 +247,21 @@ impl Machine {
         Ok(values)
     }
 
-    /// Nominal inputs by name, in coherent units.
+    /// Units of `parameters` and `inputs` by name: "mm", "kg", "kg·mm/s²" …; "" for pure numbers
+    /// and for angles, which are in rad.
+    ///
+    /// >>> import abbe
+    /// >>> abbe.load("pps").units["x"]
+    /// 'mm'
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (units, spec) = (PyDict::new(py), &self.machine.spec);
+        spec.parameters.iter().try_for_each(|one| units.set_item(&one.name, &one.unit))?;
+        spec.inputs.iter().try_for_each(|one| units.set_item(&one.name, &one.unit))?;
+        Ok(units)
+    }
+
+    /// Nominal inputs by name, in coherent units (`units`).
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let values = PyDict::new(py);

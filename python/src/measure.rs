@@ -1,6 +1,5 @@
 //! Evaluation of measurements of a machine.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_report::{Provenance, text};
@@ -21,21 +20,21 @@ impl Machine {
     ///
     /// `data`: a CSV file, or a table with the columns of the map: a dict of arrays, a pandas or
     /// polars frame, a pyarrow table; its rows count from 0. Rows that cannot be used are listed in
-    /// `.notes`. `map`: path of the map of the columns, or a shipped name. `new_station`: estimate
-    /// the station of the instrument from the data instead of taking it from the map. `accept`:
-    /// limits such as "mean 0.15 mm, max 0.3 mm".
+    /// `.messages`. `map`: path of the map of the columns, or a shipped name. `new_station`:
+    /// estimate the station of the instrument from the data instead of taking it from the map.
+    /// `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
     ///
-    /// `.report(folder)` writes report.html and errors.csv. Fields as in `abbe measure --json`.
+    /// `.report(folder)` writes report.html and errors.csv. Fields: `abbe.reports.MeasureReport`.
     #[pyo3(signature = (data, map, *, new_station=false, accept=None))]
     fn measure(
         &self,
         py: Python<'_>,
         data: &Bound<'_, PyAny>,
-        map: PathBuf,
+        map: &Bound<'_, PyAny>,
         new_station: bool,
         accept: Option<&str>,
-    ) -> PyResult<Report> {
-        let map = self.map(py, &map)?;
+    ) -> PyResult<Py<Report>> {
+        let map = self.map(map)?;
         let measured = Measured::new("data", data, &map)?;
         let ((job, report), notes) = run(py, None, None, |notes| {
             let machine = self.machine.clone();
@@ -50,12 +49,13 @@ impl Machine {
         let (report, spec) = (Arc::new(report), job.machine.spec.clone());
         let text = move |report: &_, detail| text::measurement(&spec, report, detail);
         let found = Report::new("measure", &report, notes, text)?.with_rows(report.table());
-        Ok(found.with_pages(move || {
+        let found = found.with_pages(move || {
             let spec = &job.machine.spec;
             let provenance =
                 Provenance::new(spec, Some(&job.map), [("measurements", measured.source())], None)?;
             let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
             Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
-        }))
+        });
+        found.create(py)
     }
 }

@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::Notes;
 use abbe_study::data::{Cells, Columns, Data, Map, Source};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple};
+use pyo3::types::{PyDict, PyList, PyString, PyTuple};
 
 use crate::failure::{guarded, spec_error};
 use crate::machine::Machine;
@@ -61,10 +60,28 @@ impl Measured {
 }
 
 impl Machine {
-    /// Reads the map in a file, or the shipped map of that name.
-    pub(crate) fn map(&self, py: Python<'_>, map: &std::path::Path) -> PyResult<Map> {
-        let find = || -> Result<Map, Diagnostics> { Map::find(map, &self.machine.spec) };
-        guarded(|| py.detach(find).map_err(|mistakes| spec_error(py, &mistakes)))
+    /// Reads the map in a file, the shipped map of that name, or a map as a dict or text of several
+    /// lines.
+    pub(crate) fn map(&self, map: &Bound<'_, PyAny>) -> PyResult<Map> {
+        let (py, spec) = (map.py(), &self.machine.spec);
+        let text = match map.cast::<PyString>() {
+            Ok(text) => Some(text.to_str()?.to_owned()).filter(|text| text.contains('\n')),
+            Err(_) => None,
+        };
+        let text = match text {
+            None if map.is_instance_of::<PyDict>() => {
+                Some(py.import("abbe._arrays")?.getattr("toml")?.call1((map,))?.extract()?)
+            }
+            text => text,
+        };
+        let read = match text {
+            Some(text) => guarded(|| Ok(py.detach(|| Map::parse("map", &text, spec)))),
+            None => {
+                let file: PathBuf = map.extract()?;
+                guarded(|| Ok(py.detach(|| Map::find(&file, spec))))
+            }
+        };
+        read?.map_err(|mistakes| spec_error(py, &mistakes))
     }
 }
 

@@ -1,6 +1,5 @@
 //! Monitoring of a machine by repeated checks.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_report::{Provenance, text};
@@ -25,20 +24,20 @@ impl Machine {
     /// first check to use. `false_alarm`: average number of checks per false alarm, over all
     /// charts.
     ///
-    /// `.report(folder)` writes report.html. Fields as in `abbe monitor --json`.
+    /// `.report(folder)` writes report.html. Fields: `abbe.reports.MonitorReport`.
     #[pyo3(signature = (data, map, *, tolerance=None, since=None, false_alarm=365))]
     fn monitor(
         &self,
         py: Python<'_>,
         data: &Bound<'_, PyAny>,
-        map: PathBuf,
+        map: &Bound<'_, PyAny>,
         tolerance: Option<&Bound<'_, PyAny>>,
         since: Option<&str>,
         false_alarm: usize,
-    ) -> PyResult<Report> {
+    ) -> PyResult<Py<Report>> {
         let false_alarm = within("false_alarm", false_alarm, FALSE_ALARM.range)?;
         let tolerance = tolerance.map(|value| length("tolerance", value, &self.machine.spec)).transpose()?;
-        let map = self.map(py, &map)?;
+        let map = self.map(map)?;
         let measured = Measured::several("data", data, &map)?;
         let ((job, report), notes) = run(py, None, None, |notes| {
             let machine = self.machine.clone();
@@ -52,11 +51,12 @@ impl Machine {
         })?;
         let (report, spec) = (Arc::new(report), job.machine.spec.clone());
         let text = move |report: &_, detail| text::monitoring(&spec, report, detail);
-        Ok(Report::new("monitor", &report, notes, text)?.with_pages(move || {
+        let found = Report::new("monitor", &report, notes, text)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
             let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files, None)?;
             let page = abbe_report::monitoring(&job.machine.spec, &job.map, &report, &provenance);
             Ok(vec![("report.html".into(), page)])
-        }))
+        });
+        found.create(py)
     }
 }

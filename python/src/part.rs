@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use abbe_study::analyze::parts;
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyFileExistsError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -26,8 +26,13 @@ impl Part {
         Ok(Self(read.map_err(|mistakes| spec_error(py, &mistakes))?))
     }
 
-    /// Writes the part to a file for `Part.load` or `abbe merge`. Replaces an existing file.
-    fn save(&self, py: Python<'_>, file: PathBuf) -> PyResult<()> {
+    /// Writes the part to a file for `Part.load` or `abbe merge`. Raises FileExistsError if the
+    /// file exists, unless `overwrite` is true.
+    #[pyo3(signature = (file, *, overwrite=false))]
+    fn save(&self, py: Python<'_>, file: PathBuf, overwrite: bool) -> PyResult<()> {
+        if !overwrite && file.exists() {
+            return Err(PyFileExistsError::new_err(format!("{} is there already", file.display())));
+        }
         let bytes = guarded(|| Ok(py.detach(|| self.0.to_bytes())))?;
         // Written to a temporary file and renamed: a concurrent merge never reads a partial file.
         let mut name = file.file_name().unwrap_or_default().to_owned();
@@ -94,7 +99,7 @@ pub(crate) fn merge(
     parts: &Bound<'_, PyAny>,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Report> {
+) -> PyResult<Py<Report>> {
     let mut named = Vec::new();
     for (i, part) in parts.try_iter()?.enumerate() {
         let part = part?;
@@ -110,5 +115,5 @@ pub(crate) fn merge(
     }
     let ((_, report), notes) =
         run(py, threads, progress, |notes| abbe_study::analyze::parts::merge(named, notes))?;
-    analysis(report, notes)
+    analysis(py, report, notes)
 }

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use abbe_report::text;
 use abbe_study::Study;
-use abbe_study::data::Map;
 use abbe_study::plan::options::{CANDIDATES, COUNT, CRITERIA};
 use abbe_study::plan::{Choice, Plan, Sets};
 use pyo3::prelude::*;
@@ -28,12 +27,12 @@ impl Machine {
     /// the tool point in addition to the noise of the instrument, in the length unit or as text
     /// with a unit.
     ///
-    /// `.report(folder)` writes plan.csv. Fields as in `abbe plan --json`.
+    /// `.report(folder)` writes plan.csv. Fields: `abbe.reports.PlanReport`.
     #[pyo3(signature = (map, *, sets=None, count=50, criterion="v", candidates=500, model_error=None, study=None, seed=None, progress=None))]
     fn plan(
         &self,
         py: Python<'_>,
-        map: PathBuf,
+        map: &Bound<'_, PyAny>,
         sets: Option<PathBuf>,
         count: usize,
         criterion: &str,
@@ -42,15 +41,15 @@ impl Machine {
         study: Option<PathBuf>,
         seed: Option<u64>,
         progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Report> {
+    ) -> PyResult<Py<Report>> {
         let criterion = named("criterion", criterion, CRITERIA)?;
         let count = within("count", count, COUNT.range)?;
         let candidates = within("candidates", candidates, CANDIDATES.range)?;
         let model_error =
             model_error.map(|value| length("model_error", value, &self.machine.spec)).transpose()?;
+        let map = self.map(map)?;
         let ((job, report), notes) = run(py, None, progress, |notes| {
             let machine = self.machine.clone();
-            let map = Map::find(&map, &machine.spec)?;
             let choice = match &sets {
                 Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
                 None => Choice::Optimal { criterion, count, candidates },
@@ -63,6 +62,7 @@ impl Machine {
         let (report, spec, map) = (Arc::new(report), job.machine.spec, job.map.clone());
         let text = move |report: &_, detail| text::plan(&spec, &map, report, detail);
         let found = Report::new("plan", &report, notes, text)?.with_rows(report.table(&job.map));
-        Ok(found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())])))
+        let found = found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())]));
+        found.create(py)
     }
 }

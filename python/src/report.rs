@@ -1,5 +1,6 @@
 //! Report of a job as a Python object.
 
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,8 +18,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::failure::{guarded, spec_error};
-use crate::machine::{Machine, restore};
+use crate::machine::{Machine, restore as restore_machine};
 use crate::table::Table;
+use crate::words::{in_python, in_texts};
 
 /// Files of a report: names and texts.
 pub(crate) type Pages = Vec<(String, String)>;
@@ -26,17 +28,27 @@ pub(crate) type Pages = Vec<(String, String)>;
 /// Function that builds a part of the report on demand.
 type Make<T> = Box<dyn Fn() -> Result<T, Diagnostics> + Send + Sync>;
 
-/// Result of a job. Its fields, also nested ones, have the names of the JSON report; `print` shows
-/// the answer on one screen, `full()` every table.
-#[pyclass(frozen, module = "abbe")]
+/// Figure: name, title, picture, and content as JSON.
+type Figure = (String, String, String, String);
+
+/// Heading, rows and labels of a table.
+type Rows = (Vec<String>, Vec<Vec<Option<f64>>>, Vec<String>);
+
+/// Content of a pickled report.
+type Saved =
+    (String, String, [String; 2], Vec<String>, Option<Pages>, Option<String>, Vec<Figure>, Option<Rows>);
+
+/// Result of a job. Its fields, also nested ones, have the names of the JSON report and are
+/// described by its class in `abbe.reports`; `print` shows the answer on one screen, `full()` every
+/// table.
+#[pyclass(frozen, subclass, module = "abbe")]
 pub(crate) struct Report {
-    kind: &'static str,
+    kind: String,
     json: String,
     text: Box<dyn Fn(Detail) -> String + Send + Sync>,
-    html: Option<String>,
-    notes: Vec<String>,
+    messages: Vec<String>,
     pages: Option<Make<Pages>>,
-    figures: Option<Box<dyn Fn() -> Vec<Picture> + Send + Sync>>,
+    figures: Option<Box<dyn Fn() -> Vec<Figure> + Send + Sync>>,
     rows: Option<data::Table>,
     /// Name of the page that is a spec.
     spec: Option<String>,
@@ -46,22 +58,27 @@ pub(crate) struct Report {
 impl Report {
     /// Creates a report with its fields and its text.
     pub(crate) fn new<R: Serialize + Send + Sync + 'static>(
-        kind: &'static str,
+        kind: &str,
         report: &Arc<R>,
-        notes: Vec<String>,
+        messages: Vec<String>,
         text: impl Fn(&R, Detail) -> String + Send + Sync + 'static,
     ) -> PyResult<Self> {
         let json = serde_json::to_string(&**report);
-        let json = json.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let json = json.map_err(failed)?;
         let report = Arc::clone(report);
-        let (text, fields) = (Box::new(move |detail| text(&report, detail)), PyOnceLock::new());
-        let (html, pages, figures, rows, spec) = (None, None, None, None, None);
-        Ok(Self { kind, json, text, html, notes, pages, figures, rows, spec, fields })
+        let text = Box::new(move |detail| in_python(&text(&report, detail)).into_owned());
+        let fields = PyOnceLock::new();
+        let (pages, figures, rows, spec) = (None, None, None, None);
+        Ok(Self { kind: kind.to_owned(), json, text, messages, pages, figures, rows, spec, fields })
     }
 
-    /// Adds HTML tables for notebooks.
-    pub(crate) fn with_html(self, html: String) -> Self {
-        Self { html: Some(html), ..self }
+    /// Creates the Python object, of the class of `abbe.reports` that has the fields of its kind.
+    pub(crate) fn create(self, py: Python<'_>) -> PyResult<Py<Self>> {
+        let class = class(py, &self.kind)?;
+        let report = Bound::new(py, self)?;
+        // A subclass without slots, whose instances Rust cannot create.
+        report.setattr("__class__", class)?;
+        Ok(report.unbind())
     }
 
     /// Adds files.
@@ -79,7 +96,12 @@ impl Report {
 
     /// Adds figures.
     pub(crate) fn with_figures(self, figures: impl Fn() -> Vec<Picture> + Send + Sync + 'static) -> Self {
-        Self { figures: Some(Box::new(figures)), ..self }
+        let figure = |Picture { name, scene, svg }| {
+            // Scenes have names and numbers, which have a form in JSON.
+            let content = serde_json::to_string(&scene).unwrap_or_default();
+            (name, scene.title, svg, content)
+        };
+        Self { figures: Some(Box::new(move || figures().into_iter().map(figure).collect())), ..self }
     }
 
     /// Adds a table of rows, which are not among the fields.
@@ -91,15 +113,20 @@ impl Report {
     fn lists(&self) -> PyResult<Vec<(String, Vec<Value>)>> {
         let mut found = Vec::new();
         let fields = serde_json::from_str(&self.json);
-        gather("", fields.map_err(|error| PyRuntimeError::new_err(error.to_string()))?, &mut found);
+        gather("", fields.map_err(failed)?, &mut found);
         Ok(found)
     }
 
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyAny>> {
         let read = || {
-            let hook = PyDict::new(py);
-            hook.set_item("object_hook", py.import("abbe._fields")?.getattr("Fields")?)?;
-            PyResult::Ok(py.import("json")?.call_method("loads", (&self.json,), Some(&hook))?.unbind())
+            let read = py.import("abbe._fields")?.getattr("fields")?;
+            let mut json = Cow::Borrowed(&*self.json);
+            if json.contains("--") {
+                let mut fields: Value = serde_json::from_str(&json).map_err(failed)?;
+                in_texts(&mut fields);
+                json = Cow::Owned(fields.to_string());
+            }
+            PyResult::Ok(read.call1((&*json, class(py, &self.kind)?))?.unbind())
         };
         Ok(self.fields.get_or_try_init(py, read)?.bind(py))
     }
@@ -114,10 +141,10 @@ impl Report {
 
 #[pymethods]
 impl Report {
-    /// Notes and warnings of the job.
+    /// Notes and warnings of the job, in the order in which it gave them.
     #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+    fn messages(&self) -> Vec<String> {
+        self.messages.clone()
     }
 
     /// Returns all fields as plain dicts, lists, numbers and texts.
@@ -158,7 +185,7 @@ impl Report {
     fn load(&self, py: Python<'_>) -> PyResult<Machine> {
         let pages = self.pages(py)?;
         match pages.into_iter().find(|(name, _)| self.spec.as_ref() == Some(name)) {
-            Some((name, text)) => restore(py, &name, Some(text), Vec::new()),
+            Some((name, text)) => restore_machine(py, &name, Some(text), Vec::new()),
             None => Err(PyValueError::new_err(format!("a report of {} has no spec", self.kind))),
         }
     }
@@ -168,12 +195,9 @@ impl Report {
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
         let Some(make) = &self.figures else { return Ok(found) };
-        let pictures = guarded(|| Ok(py.detach(make)))?;
         let figure = py.import("abbe._fields")?.getattr("Figure")?;
-        for Picture { name, scene, svg } in pictures {
-            let data =
-                serde_json::to_string(&scene).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-            found.set_item(name, figure.call1((scene.title, svg, data))?)?;
+        for (name, title, svg, content) in guarded(|| Ok(py.detach(make)))? {
+            found.set_item(name, figure.call1((title, svg, content))?)?;
         }
         Ok(found)
     }
@@ -215,25 +239,59 @@ impl Report {
     }
 
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let missing =
-            || PyAttributeError::new_err(format!("a report of {} has no field `{name}`", self.kind));
-        if name.starts_with("_") {
-            Err(missing())
-        } else {
-            self.fields(py)?.getattr(name).map_err(|_| missing())
+        if !name.starts_with("_") {
+            if let Ok(field) = self.fields(py)?.getattr(name) {
+                return Ok(field);
+            }
+            // A field that does not apply to this report.
+            if class(py, &self.kind)?.getattr("__annotations__")?.contains(name)? {
+                return Ok(py.None().into_bound(py));
+            }
         }
+        Err(PyAttributeError::new_err(format!("a report of {} has no field `{name}`", self.kind)))
     }
 
     fn __dir__(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        let own =
-            ["figure", "figures", "full", "load", "notes", "report", "table", "tables", "to_dict", "to_json"]
-                .map(str::to_owned);
-        let fields: Vec<String> = self.fields(py)?.call_method0("__dir__")?.extract()?;
-        Ok(own.into_iter().chain(fields).collect())
+        let own = py.get_type::<Self>().getattr("__dict__")?.try_iter()?;
+        let own = own.map(|name| name?.extract::<String>()).collect::<PyResult<Vec<_>>>()?;
+        let fields: Vec<String> = self
+            .fields(py)?
+            .call_method0("keys")?
+            .try_iter()?
+            .map(|name| name?.extract())
+            .collect::<PyResult<_>>()?;
+        Ok(own.into_iter().filter(|name| !name.starts_with('_')).chain(fields).collect())
     }
 
-    fn _repr_html_(&self) -> Option<&str> {
-        self.html.as_deref()
+    /// Shows the first screen, and all tables below a heading that opens them.
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        if let (Some(rows), "simulate") = (&self.rows, &*self.kind) {
+            // Its text is a file.
+            let table = Table::new(rows)?.html(py)?;
+            return Ok(format!("<div><strong>{} simulated rows</strong>{table}</div>", rows.rows.len()));
+        }
+        guarded(|| {
+            Ok(py.detach(|| abbe_report::notebook(&(self.text)(Detail::Answer), &(self.text)(Detail::Full))))
+        })
+    }
+
+    /// Keeps the texts, pages and figures, which need the job, as they are now.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Saved,))> {
+        let text = |detail| guarded(|| Ok(py.detach(|| (self.text)(detail))));
+        let figures = self.figures.as_ref().map_or(Ok(Vec::new()), |make| guarded(|| Ok(py.detach(make))))?;
+        let rows = self.rows.as_ref();
+        let saved = (
+            self.kind.clone(),
+            self.json.clone(),
+            [text(Detail::Answer)?, text(Detail::Full)?],
+            self.messages.clone(),
+            // Pages that cannot be made are left out.
+            self.pages.as_ref().and_then(|_| self.pages(py).ok()),
+            self.spec.clone(),
+            figures,
+            rows.map(|rows| (rows.heading.clone(), rows.rows.clone(), rows.labels.clone())),
+        );
+        Ok((py.import("abbe._abbe")?.getattr("_report")?, (saved,)))
     }
 
     fn __str__(&self, py: Python<'_>) -> PyResult<String> {
@@ -243,6 +301,36 @@ impl Report {
     fn __repr__(&self) -> String {
         format!("<abbe report of {}>", self.kind)
     }
+}
+
+/// Recreates a pickled report.
+#[pyfunction]
+#[pyo3(name = "_report")]
+pub(crate) fn restore(py: Python<'_>, saved: Saved) -> PyResult<Py<Report>> {
+    let (kind, json, [answer, full], messages, pages, spec, figures, rows) = saved;
+    let text = move |detail| if detail == Detail::Full { full.clone() } else { answer.clone() };
+    let report = Report {
+        kind,
+        json,
+        text: Box::new(text),
+        messages,
+        pages: pages.map(|pages| Box::new(move || Ok(pages.clone())) as Make<Pages>),
+        figures: Some(Box::new(move || figures.clone())),
+        rows: rows.map(|(heading, rows, labels)| data::Table { heading, rows, labels }),
+        spec,
+        fields: PyOnceLock::new(),
+    };
+    report.create(py)
+}
+
+/// Returns the class of `abbe.reports` for a kind of report.
+fn class<'py>(py: Python<'py>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
+    let (first, rest) = kind.split_at(1);
+    py.import("abbe.reports")?.getattr(format!("{}{rest}Report", first.to_uppercase()))
+}
+
+fn failed(error: serde_json::Error) -> PyErr {
+    PyRuntimeError::new_err(error.to_string())
 }
 
 fn write(path: &Path, text: &str, overwrite: bool) -> std::io::Result<()> {

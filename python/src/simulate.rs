@@ -1,7 +1,6 @@
 //! Simulated measurements of a machine.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_study::data::Data;
@@ -26,23 +25,23 @@ impl Machine {
     /// draw the random sources, independently in every row. `seed`: of configurations, noise,
     /// outliers and random sources.
     ///
-    /// `.report(folder)` writes measurements.csv. Fields as in `abbe simulate --json`.
+    /// `.report(folder)` writes measurements.csv. Fields: `abbe.reports.SimulateReport`.
     #[pyo3(signature = (map, *, data=None, samples=100, noise=None, outliers=0.0, random=false, seed=0))]
     fn simulate(
         &self,
         py: Python<'_>,
-        map: PathBuf,
+        map: &Bound<'_, PyAny>,
         data: Option<&Bound<'_, PyAny>>,
         samples: usize,
         noise: Option<&Bound<'_, PyAny>>,
         outliers: f64,
         random: bool,
         seed: u64,
-    ) -> PyResult<Report> {
+    ) -> PyResult<Py<Report>> {
         let samples = within("samples", samples, SAMPLES.range)?;
         let outliers = within("outliers", outliers, OUTLIERS.range)?;
         let noise = noise.map(|value| length("noise", value, &self.machine.spec)).transpose()?;
-        let map = self.map(py, &map)?;
+        let map = self.map(map)?;
         let commands = data.map(|data| Measured::new("data", data, &map)).transpose()?;
         let (report, notes) = run(py, None, None, |notes| {
             let machine = self.machine.clone();
@@ -55,6 +54,7 @@ impl Machine {
         let report = Arc::new(report);
         let found = Report::new("simulate", &report, notes, |report, _| report.table.csv())?;
         let found = found.with_rows(report.table.clone());
-        Ok(found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())])))
+        let found = found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())]));
+        found.create(py)
     }
 }

@@ -1,6 +1,7 @@
 //! Tables of reports for readers of Arrow: pandas, polars, pyarrow, duckdb.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 use std::sync::Arc;
 
 use abbe_study::data;
@@ -11,7 +12,7 @@ use arrow_array::{
     RecordBatchOptions, StringArray,
 };
 use arrow_schema::ffi::FFI_ArrowSchema;
-use arrow_schema::{ArrowError, Field, Schema};
+use arrow_schema::{Field, Schema};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyTuple};
@@ -109,13 +110,38 @@ impl Table {
         PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(batches)), c"arrow_array_stream")
     }
 
-    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let restore = py.import("abbe._abbe")?.getattr("_table")?;
+        let columns = py.import("json")?.call_method1("dumps", (self.to_dict(py)?,))?;
+        Ok((restore, (columns.extract()?,)))
+    }
+
+    #[pyo3(name = "_repr_html_")]
+    pub(crate) fn html(&self, py: Python<'_>) -> PyResult<String> {
         py.import("abbe._fields")?.call_method1("html", (self.to_dict(py)?,))?.extract()
     }
 
     fn __repr__(&self) -> String {
         format!("<abbe table of {} rows, {} columns>", self.batch.num_rows(), self.batch.num_columns())
     }
+}
+
+/// Recreates a pickled table.
+#[pyfunction]
+#[pyo3(name = "_table")]
+pub(crate) fn restore(columns: &str) -> PyResult<Table> {
+    let columns: Map<String, Value> = serde_json::from_str(columns).map_err(|error| failed(&error))?;
+    let rows = columns.values().filter_map(Value::as_array).map(Vec::len).max().unwrap_or(0);
+    let columns = columns.into_iter().map(|(name, cells)| {
+        let cells: Vec<_> = cells
+            .as_array()
+            .into_iter()
+            .flatten()
+            .map(|cell| Some(cell).filter(|cell| !cell.is_null()))
+            .collect();
+        (name, column(&cells))
+    });
+    Table::from_columns(columns.collect(), rows)
 }
 
 /// Visits every field without nested fields, by its dotted path.
@@ -171,6 +197,6 @@ fn cells<'py>(py: Python<'py>, array: &ArrayRef) -> PyResult<Bound<'py, PyAny>> 
     }
 }
 
-fn failed(error: &ArrowError) -> PyErr {
+fn failed(error: &impl Display) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
 }

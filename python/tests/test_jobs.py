@@ -24,7 +24,8 @@ def test_analyze():
     first = max(report.sources, key=lambda source: source.plain_max.norm)
     assert first.name == "assembly" and report.configurations == 999
     assert report.to_dict()["combined"]["radius"] == report.combined.radius
-    assert "assembly" in report._repr_html_() and report._repr_html_().startswith("<table")
+    html = report._repr_html_()
+    assert "tolerance 0.5 mm" in html.split("<pre")[0] and "max mm" in html and "Each source alone (mm)" in html.split("<details>")[1]
     assert "Each source alone (mm)" in report.full() and "sources" in dir(report)
     assert len(report.figures()) > 0 and all(figure.svg.startswith("<svg") for figure in report.figures().values())
     assert report.figure(next(iter(report.figures()))).svg.startswith("<svg")

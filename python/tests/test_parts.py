@@ -39,7 +39,7 @@ def test_parts_travel(tmp_path):
     copy = pickle.loads(pickle.dumps(part))
     other = pps.analyze(shard=(2, 2))
     other.save(tmp_path / "2.part")
-    other.save(tmp_path / "2.part")
+    other.save(tmp_path / "2.part", overwrite=True)
     assert os.listdir(tmp_path) == ["2.part"]
     assert abbe.Part.load(tmp_path / "2.part").configurations == other.configurations
     assert abbe.merge([tmp_path / "2.part", copy]).to_json() == pps.analyze().to_json()

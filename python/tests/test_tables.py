@@ -140,7 +140,7 @@ def test_rows_that_cannot_be_used(tmp_path):
     assert of_file == said
     measured = ur5.measure(columns, "ur5")
     assert (measured.rows, measured.unusable) == (57, 3)
-    assert measured.notes[0] == "\n".join(["data: 57 rows, 3 more that cannot be used:", *(f"  row {row}: {why}" for row, why in said)])
+    assert measured.messages[0] == "\n".join(["data: 57 rows, 3 more that cannot be used:", *(f"  row {row}: {why}" for row, why in said)])
     columns["x_t"] = ["here"] * 60
     with pytest.raises(abbe.SpecError, match="no row in it that can be used: row 0: `x_t` is `here`, not a number") as caught:
         ur5.measure(columns, "ur5")

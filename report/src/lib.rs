@@ -4,8 +4,8 @@
 //! All functions return texts with their file names; nothing is written to disk. `figures` builds a
 //! [`scene::Scene`] for each figure of a report, `svg` renders it, and `html` builds the pages:
 //! [`analysis`], [`measurement()`], [`identification()`], [`compensation()`] and [`monitoring()`].
-//! [`figures()`] returns the figures of an analysis one by one. [`text`] has the texts for a
-//! terminal and for Python's `print`.
+//! [`notebook()`] shows a text in a notebook. [`figures()`] returns the figures of an analysis one
+//! by one. [`text`] has the texts for a terminal and for Python's `print`.
 
 mod figures;
 mod html;
@@ -15,5 +15,5 @@ pub mod scene;
 mod svg;
 pub mod text;
 
-pub use html::{Provenance, compensation, identification, listed, measurement, monitoring};
+pub use html::{Provenance, compensation, identification, measurement, monitoring, notebook};
 pub use pictures::{File, PAGE, Picture, analysis, figures};

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::sync::Arc;
 
-use abbe_core::{Class, Description, Effect, Error, Quantity, Remedy};
+use abbe_core::{Class, Component, Description, Effect, Error, Quantity, Remedy};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
@@ -36,7 +36,7 @@ pub fn not_evaluated(
         }
     };
     let message = match blamed.as_slice() {
-        [] => format!("at {at}: {error}"),
+        [] => format!("at {at}: {}", named(error, description)),
         [source] => format!("at {at}: the source \"{source}\" has no finite value"),
         several => {
             let names = several.iter().map(|source| format!("\"{source}\"")).collect::<Vec<_>>();
@@ -44,6 +44,30 @@ pub fn not_evaluated(
         }
     };
     with_help(subject, message, help)
+}
+
+/// Describes an error with the name of the value that it counts: "joint variable q4 is not a finite
+/// number".
+fn named(error: &Error, description: &Description) -> String {
+    let (quantity, index) = match *error {
+        Error::NotFinite { quantity, index } => (quantity, index),
+        Error::OutOfRange { input, .. } => (Quantity::Inputs, input),
+        _ => return error.to_string(),
+    };
+    let name = match quantity {
+        Quantity::Variables => description.variables.get(index).map(|one| one.name.to_string()),
+        Quantity::Parameters => description.parameters.get(index).map(|one| one.name.to_string()),
+        Quantity::Inputs => description.inputs.get(index).map(|one| one.name.to_string()),
+        Quantity::Errors => {
+            Component::ALL.get(index % 6).map(|one| format!("{}{}", one.name(), index / 6 + 1))
+        }
+        _ => None,
+    };
+    let counted = format!("{quantity} {index}");
+    match name {
+        Some(name) => error.to_string().replacen(&counted, &format!("{quantity} `{name}`"), 1),
+        None => error.to_string(),
+    }
 }
 
 /// Returns the names of the sources that can have caused a non-finite effect or generalized error.

@@ -27,7 +27,8 @@ pub struct Jacobian {
     pub q: Option<Vec<f64>>,
 }
 
-/// Result of [`Jacobian`]. Lengths are in the spec's unit, angles in rad, vectors in `F_0`.
+/// Pose, error Jacobian and generalized errors at one configuration. Lengths are in the spec's
+/// unit, angles in rad, vectors in `F_0`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the manipulator.
@@ -38,13 +39,13 @@ pub struct Report {
     pub orientation: &'static str,
     /// Joint variables of the configuration.
     pub q: Vec<f64>,
-    /// Nominal pose `A_T` of the tool, 4 × 4, row by row.
+    /// Nominal pose `A_T` of the tool, a homogeneous matrix, row by row.
     pub pose: [[f64; 4]; 4],
     /// Names of the rows of `J_e`.
     pub rows: [&'static str; 6],
     /// Names of the columns of `J_e`: `e_x1 … e_p1`, then those of frame 2, …
     pub columns: Vec<String>,
-    /// Error Jacobian `J_e`, 6 × 6n, row by row.
+    /// Error Jacobian `J_e`, 6 × 6n, row by row, in products of the units of rows and columns.
     pub error_jacobian: [Vec<f64>; 6],
     /// Generalized errors `ε`, the sum of the repeatable sources, in the order of the columns.
     pub generalized_errors: Vec<f64>,

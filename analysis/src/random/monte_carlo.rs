@@ -28,12 +28,13 @@ pub struct MonteCarlo {
     pub largest: f64,
     /// Mean error: the repeatable sources, and second-order effects of random rotations.
     pub mean: [f64; 3],
-    /// Covariance of the draws.
+    /// Covariance of the draws, in the squared length unit.
     pub covariance: [[f64; 3]; 3],
-    /// Standard error of each entry of the covariance, `√(Var(d_i d_j) / N)`.
+    /// Standard error of each entry of the covariance, `√(Var(d_i d_j) / N)`, in the
+    /// squared length unit.
     #[cfg_attr(feature = "serde", serde(rename = "covariance_standard_error"))]
     pub standard_error: [[f64; 3]; 3],
-    /// Covariance to first order, `J_e Σ J_eᵀ`.
+    /// Covariance to first order, `J_e Σ J_eᵀ`, in the squared length unit.
     #[cfg_attr(feature = "serde", serde(rename = "first_order_covariance"))]
     pub first_order: [[f64; 3]; 3],
     /// Share of the draws within the first-order 95 % ellipsoid about the error without random

@@ -8,7 +8,7 @@ pub struct Quantile {
     pub probability: f64,
     /// Value, in the length unit.
     pub value: f64,
-    /// Standard error of the value.
+    /// Standard error of the value, in the length unit.
     pub standard_error: f64,
 }
 

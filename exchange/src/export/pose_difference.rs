@@ -12,7 +12,7 @@ pub struct PoseDifference {
     pub angle: Figure,
 }
 
-/// Statistics of a difference.
+/// Statistics of a difference, in the length unit or rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Figure {
     /// Largest value.

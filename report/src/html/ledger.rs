@@ -115,7 +115,7 @@ pub(super) fn combined(report: &Report) -> String {
 }
 
 /// Formats a listing as an HTML table with a caption.
-pub fn listed(caption: &str, listing: &Listing) -> String {
+pub(super) fn listed(caption: &str, listing: &Listing) -> String {
     let words = (0..listing.header.len()).filter(|column| !listing.numbers.contains(column));
     let words = words.collect::<Vec<_>>();
     let cell = |(column, cell): (usize, &String)| match column {

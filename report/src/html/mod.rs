@@ -7,6 +7,7 @@
 //! the parts of every page, `findings` the sentences of the printed report, `figure` numbered
 //! figures, `table` tables, and `provenance` instrument, files and date. Of an analysis, `ledger`
 //! has the tables of errors, `covered` verdict and uncertainty, and `facts` conventions and values.
+//! `notebook` shows a text in a notebook.
 
 mod compensation;
 mod covered;
@@ -18,6 +19,7 @@ mod identification;
 mod ledger;
 mod measurement;
 mod monitoring;
+mod notebook;
 mod page;
 mod provenance;
 mod table;
@@ -26,9 +28,9 @@ pub use compensation::compensation;
 use document::{Card, cards, document, folded, heading, paragraphs, section, verdict};
 use findings::findings;
 pub use identification::identification;
-pub use ledger::listed;
 pub use measurement::measurement;
 pub use monitoring::monitoring;
+pub use notebook::notebook;
 pub(super) use page::page;
 pub use provenance::Provenance;
 

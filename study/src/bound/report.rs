@@ -15,9 +15,9 @@ use crate::workspace::Span;
 
 use super::domain::Domain;
 
-/// Result of [`Bound`](super::Bound). Lengths are in the spec's unit, angles in rad. To first order
-/// in the errors of the sources, the true maximum of each error lies between `found` and
-/// `certified`.
+/// Bounds on the errors over a box of configurations. Lengths are in the spec's unit, angles in
+/// rad. To first order in the errors of the sources, the true maximum of each error lies between
+/// `found` and `certified`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the manipulator.
@@ -48,7 +48,7 @@ pub struct Report {
     /// Smallest stiffness at the tool point in any direction, in N/m, from the enabled repeatable
     /// beams and compliances. `None` if not requested, or if nothing is compliant.
     pub stiffness: Option<LowerBound>,
-    /// Ranges of all moving variables, parameters and inputs.
+    /// Ranges of all moving joint variables, parameters and inputs.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
     /// Indicates that the enclosing box is larger than the workspace of the study.
@@ -99,15 +99,15 @@ pub struct ErrorBounds {
     pub orientation: ErrorBound,
 }
 
-/// Bounds on the largest magnitude of an error over the box.
+/// Bounds on the largest magnitude of an error over the box, in the length unit or rad.
 #[derive(Clone, Debug, Serialize)]
 pub struct ErrorBound {
     /// Lower bound: the value at the configuration `at`.
     pub found: f64,
     /// Certified upper bound; `None` if nothing could be proved.
     pub certified: Option<f64>,
-    /// Configuration of `found`: values of all variables, and of the parameters and inputs that
-    /// move.
+    /// Configuration of `found`: values of all joint variables, and of the parameters and inputs
+    /// that move.
     pub at: IndexMap<String, f64>,
     /// Number of evaluated boxes.
     pub boxes: usize,
@@ -160,15 +160,16 @@ pub struct Dexterity {
     pub pose: Option<LowerBound>,
 }
 
-/// Bounds on a smallest value over the box.
+/// Bounds on a smallest value over the box, in N/m for a stiffness, in metres and radians for a
+/// dexterity.
 #[derive(Clone, Debug, Serialize)]
 pub struct LowerBound {
     /// Certified lower bound.
     pub certified: f64,
     /// Upper bound: the value at the configuration `at`; `None` if no evaluated value was finite.
     pub found: Option<f64>,
-    /// Configuration of `found`: values of all variables, and of the parameters and inputs that
-    /// move.
+    /// Configuration of `found`: values of all joint variables, and of the parameters and inputs
+    /// that move.
     pub at: IndexMap<String, f64>,
     /// Number of evaluated boxes.
     pub boxes: usize,
@@ -179,8 +180,8 @@ pub struct LowerBound {
     pub label: String,
 }
 
-/// Margin between the largest error and a tolerance, to first order. The error is the sum of
-/// repeatable and random norms; a negative margin exceeds the tolerance.
+/// Margin between the largest error and a tolerance, to first order, in the length unit or rad. The
+/// error is the sum of repeatable and random norms; a negative margin exceeds the tolerance.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Margin {
     /// Tolerance: the length unit, or rad.

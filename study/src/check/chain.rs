@@ -12,9 +12,9 @@ use serde::Serialize;
 pub struct Chain {
     /// Frames, base to tip.
     pub frames: Vec<Link>,
-    /// Tool `T`, from `F_n` to the tool point, 4 × 4, row by row.
+    /// Tool `T`, from `F_n` to the tool point, a homogeneous matrix, row by row.
     pub tool: [[f64; 4]; 4],
-    /// Pose of the tool in `F_0`, 4 × 4, row by row.
+    /// Pose of the tool in `F_0`, a homogeneous matrix, row by row.
     pub pose: [[f64; 4]; 4],
 }
 
@@ -27,7 +27,7 @@ pub struct Link {
     /// order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dh: Option<Dh>,
-    /// Matrix from `F_i` coordinates to `F_{i-1}`, 4 × 4, row by row.
+    /// Matrix from `F_i` coordinates to `F_{i-1}`, a homogeneous matrix, row by row.
     pub matrix: [[f64; 4]; 4],
 }
 

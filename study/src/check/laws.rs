@@ -14,11 +14,11 @@ use crate::notes::Notes;
 pub struct Law {
     /// Statement of the law.
     pub law: &'static str,
-    /// Relative discrepancy, or slope; `None` if it is not finite.
+    /// Relative discrepancy, or slope, without a unit; `None` if it is not finite.
     pub value: Option<f64>,
-    /// Expected value.
+    /// Expected value, without a unit.
     pub expected: f64,
-    /// Permitted difference from the expected value.
+    /// Permitted difference from the expected value, without a unit.
     pub tolerance: f64,
     /// Indicates that the law holds within its tolerance.
     pub holds: bool,

@@ -35,7 +35,7 @@ pub struct Check {
     pub machine: Machine,
 }
 
-/// Result of [`Check`].
+/// Content of a spec, its chain at home, and the results of the self-checks.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Content of the spec.

@@ -34,7 +34,7 @@ pub struct Compensate {
     pub tolerance: f64,
 }
 
-/// Result of [`Compensate`].
+/// Corrected commands, and the errors of the machine before and after.
 #[derive(Debug, Serialize)]
 pub struct Report {
     /// Name of the machine.
@@ -54,7 +54,8 @@ pub struct Report {
     /// Rows outside the fitted ranges, with the uncertainty there; `None` if all rows are within
     /// them.
     pub extrapolated: Option<Extrapolation>,
-    /// Corrected rows, in file order; empty if [`Compensate::for_each_row`] passed them on.
+    /// Corrected rows, in file order.
+    // Empty if `for_each_row` passed them on.
     pub rows: Vec<Row>,
     /// Summary of all rows.
     #[serde(skip)]

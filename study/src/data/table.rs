@@ -10,7 +10,7 @@ use serde::Serialize;
 pub struct Table {
     /// Names of the columns.
     pub heading: Vec<String>,
-    /// Rows; a missing number is an empty cell.
+    /// Rows, in the units of the map; a missing number is an empty cell.
     pub rows: Vec<Vec<Option<f64>>>,
     /// Texts of a first column, such as the station of each row; empty if there is none.
     #[serde(skip_serializing_if = "Vec::is_empty")]

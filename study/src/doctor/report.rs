@@ -7,7 +7,7 @@ use crate::interpretations::Interpretation;
 /// An interpretation and its residual.
 #[derive(Clone, Debug, Serialize)]
 pub struct Finding {
-    /// The interpretation. Serialized as `reading`.
+    /// The interpretation.
     #[serde(rename = "reading")]
     pub interpretation: Interpretation,
     /// Description of the interpretation.
@@ -23,7 +23,7 @@ pub struct Finding {
     pub both: f64,
 }
 
-/// Result of [`Doctor`](super::Doctor).
+/// Units, order and format with which the numbers of a file agree with the spec.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the machine.

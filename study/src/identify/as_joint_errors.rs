@@ -51,7 +51,7 @@ pub struct JointError {
     pub number: String,
     /// Actual minus nominal value, in the length unit or rad.
     pub value: f64,
-    /// Standard deviation of the value, in the same unit.
+    /// Standard deviation of the value, in the length unit or rad.
     pub standard_deviation: f64,
     /// Statement of the result in one sentence.
     pub sentence: String,

@@ -20,7 +20,7 @@ pub struct FoundPlacement {
     /// Fixtures and zeros of the instruments.
     pub instruments: Vec<FoundInstrument>,
     /// Covariance of all coordinates of the targets, target by target, or of the six errors of the
-    /// mounting.
+    /// mounting, in products of the units.
     pub covariance: Vec<Vec<f64>>,
     /// Is true if the map states the placement on the tool exactly.
     #[serde(skip)]
@@ -43,7 +43,7 @@ pub struct FoundInstrument {
     /// Is true if the readings are angles.
     pub is_angle: bool,
     /// Covariance of x, y, z of the position or of the two tilts of the direction, followed by the
-    /// zero.
+    /// zero, in products of the units.
     pub covariance: Vec<Vec<f64>>,
 }
 

@@ -120,14 +120,19 @@ pub struct Certainty {
     pub p_of_factor: f64,
 }
 
-/// Observability indices; see [`abbe::identify::Observability`].
+/// Observability indices of the singular values `σ_1 ≥ … ≥ σ_r` of the design matrix with `m` rows
+/// and columns of unit length, without a unit; see [`abbe::identify::Observability`].
 #[derive(Clone, Copy, Debug, Serialize)]
-#[expect(missing_docs, reason = "their meaning is that of the literature")]
 pub struct Indices {
+    /// `O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`, without a unit.
     pub o1: f64,
+    /// `O2 = σ_r / σ_1`, without a unit.
     pub o2: f64,
+    /// `O3 = σ_r`, without a unit.
     pub o3: f64,
+    /// `O4 = σ_r² / σ_1`, without a unit.
     pub o4: f64,
+    /// `O5 = 1 / Σ 1/σ_i`, without a unit.
     pub o5: f64,
 }
 
@@ -154,9 +159,9 @@ pub struct Parameter {
     pub frame: Option<usize>,
     /// Name of that frame.
     pub frame_name: Option<String>,
-    /// Identified value.
+    /// Identified value, in `unit`.
     pub value: f64,
-    /// Standard deviation of the value.
+    /// Standard deviation of the value, in `unit`.
     pub standard_deviation: f64,
     /// Unit: the length unit, rad, or empty.
     pub unit: &'static str,
@@ -169,13 +174,14 @@ pub struct Parameter {
 pub struct Magnitude {
     /// Name of the source.
     pub source: String,
-    /// Magnitude declared in the spec.
+    /// Magnitude declared in the spec, in coherent units.
     pub declared: f64,
-    /// Standard deviation declared in the spec, if there is one.
+    /// Standard deviation declared in the spec, in coherent units; `None` if there is none.
     pub declared_deviation: Option<f64>,
-    /// Identified magnitude; the declared one if the data do not determine it.
+    /// Identified magnitude, in coherent units; the declared one if the data do not determine it.
     pub value: f64,
-    /// Standard deviation of the magnitude; none if the data do not determine it.
+    /// Standard deviation of the magnitude, in coherent units; `None` if the data do not determine
+    /// it.
     pub standard_deviation: Option<f64>,
     /// Statement of the result in one sentence.
     pub sentence: String,
@@ -222,8 +228,8 @@ pub struct Compared {
 pub struct Gain {
     /// Mean reduction of the error, in the length unit; negative if the second model is worse.
     pub mean: f64,
-    /// Standard error of the mean, with configurations as independent samples; none for a single
-    /// configuration.
+    /// Standard error of the mean, in the length unit, with configurations as independent samples;
+    /// none for a single configuration.
     pub standard_error: Option<f64>,
     /// Probability of a mean at least as far from 0 by chance if both models are equally good:
     /// paired t-test.

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::errors::{Errors, at_single_target, pose};
 use crate::identify::Setup;
 
-/// Agreement of measurement and prediction.
+/// Agreement of measurement and prediction. Lengths are in the length unit.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Explained {
     /// Mean norm of the errors minus the repeatable sources, over all measured points.
@@ -26,7 +26,7 @@ pub struct Explained {
     ///
     /// None for readings.
     pub inside: Option<f64>,
-    /// 99 % interval of that share for a machine as specified, with as many rows.
+    /// 99 % interval of that share of the points for a machine as specified, with as many rows.
     pub likely: Option<[f64; 2]>,
     /// Number of repeatable sources.
     pub repeatable: usize,

@@ -42,7 +42,7 @@ pub struct Measure {
     pub accept: Acceptance,
 }
 
-/// Result of `measure`.
+/// Errors of measured rows, before and after the predicted errors are subtracted.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the machine.
@@ -68,7 +68,8 @@ pub struct Report {
     pub extrapolated: Option<Extrapolation>,
     /// Number of independent configurations.
     pub configurations: usize,
-    /// Cluster-robust standard error of the mean norm of ΔX; none for a single configuration.
+    /// Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single
+    /// configuration.
     pub standard_error: Option<f64>,
     /// Drift test of the errors minus the repeatable sources; none for too few rows.
     #[serde(rename = "order")]
@@ -98,7 +99,7 @@ pub struct Report {
     pub about_barycentres: Vec<[f64; 3]>,
 }
 
-/// One component of ΔX over all rows.
+/// One component of ΔX over all rows. Values are in `unit`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Size {
     /// `x`, `norm`, `about x`.

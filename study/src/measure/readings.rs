@@ -21,7 +21,7 @@ pub struct InstrumentErrors {
     /// Readings are angles.
     #[serde(skip)]
     pub(super) angle: bool,
-    /// Stated standard deviation of a reading; none if it was estimated from the data.
+    /// Stated standard deviation of a reading, in `unit`; none if it was estimated from the data.
     pub uncertainty: Option<f64>,
     /// Reading minus the ideal machine.
     pub ideal: ReadingErrors,
@@ -30,6 +30,7 @@ pub struct InstrumentErrors {
 }
 
 /// Figures of reading minus prediction; of the norm where an instrument reads three coordinates.
+/// They are in the `unit` of the instrument.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ReadingErrors {
     /// The mean.

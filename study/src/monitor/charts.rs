@@ -33,9 +33,9 @@ pub struct Chart {
 pub struct Limit {
     /// Smallest mean number of checks between false alarms, over all charts together.
     pub checks_per_false_alarm: f64,
-    /// Weight of a new check in an average.
+    /// Weight of a new check in an average, a factor from 0 to 1.
     pub lambda: f64,
-    /// Limit in standard deviations of an average.
+    /// Limit as a factor of the standard deviation of an average.
     pub limit: f64,
 }
 

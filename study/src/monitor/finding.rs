@@ -24,18 +24,18 @@ pub struct Finding {
     pub may_be_outside: bool,
     /// Kind of change: `drift` or `jump`.
     pub kind: &'static str,
-    /// Time of the change, or of the beginning of the drift.
+    /// Time of the change, or of the beginning of the drift, as counted by the calendar.
     pub since: f64,
     /// Date of that time.
     pub since_date: String,
-    /// Interval of that time with 95 % probability; an end is none if it lies before the first
-    /// check.
+    /// Interval of that time with 95 % coverage, as counted by the calendar; an end is none if it
+    /// lies before the first check.
     pub between: [Option<f64>; 2],
     /// Dates of the interval.
     pub between_dates: [Option<String>; 2],
     /// Rate per day (or check) of a drift, or height of a jump, in `unit`.
     pub size: f64,
-    /// Standard deviation of the size.
+    /// Standard deviation of the size, in `unit`.
     pub standard_deviation: f64,
     /// Unit of the error: the length unit, or rad.
     pub unit: &'static str,
@@ -58,7 +58,7 @@ pub struct Exceedance {
     pub time: f64,
     /// Date of that time.
     pub date: String,
-    /// Standard deviation, in days (or checks).
+    /// Standard deviation, as counted by the calendar of the checks.
     pub standard_deviation: f64,
 }
 

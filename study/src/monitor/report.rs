@@ -17,7 +17,7 @@ pub struct Report {
     pub title: String,
     /// Calendar of the times.
     pub calendar: Calendar,
-    /// Time of every check.
+    /// Time of every check, as counted by the calendar.
     pub times: Vec<f64>,
     /// Dates of the checks.
     pub dates: Vec<String>,

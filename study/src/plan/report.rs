@@ -62,11 +62,11 @@ pub struct Input {
     pub name: String,
     /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,
-    /// Smallest and largest value; equal for a constant input.
+    /// Smallest and largest value, in `unit`; equal for a constant input.
     pub between: [f64; 2],
 }
 
-/// Statistics of a standard deviation over the configurations of use.
+/// Statistics of a standard deviation over the configurations of use, in the length unit.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Predicted {
     /// Mean.

@@ -26,6 +26,7 @@ mod identified;
 mod imported;
 mod imported_tables;
 mod interpreter;
+mod json_reference;
 mod laws;
 mod long_chains;
 mod machine_tool;

@@ -16,9 +16,10 @@ pub struct Comparison {
     /// Published values for x, y, z and norm, in the length unit; `None` where nothing is printed.
     #[serde(flatten, serialize_with = "by_axis")]
     pub figures: [Option<f64>; 4],
-    /// Largest difference that counts as agreement: half a unit of the last printed digit.
+    /// Largest difference that counts as agreement, in the length unit: half a unit of the last
+    /// printed digit.
     pub within: f64,
-    /// Agreement with the computed figure. Serialized as a Boolean.
+    /// True if the computed figure agrees.
     #[serde(rename = "met", serialize_with = "is_met")]
     pub agreement: Agreement,
     /// Table or page where it is printed.

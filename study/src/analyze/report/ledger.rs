@@ -15,7 +15,7 @@ pub struct Ledger {
     pub sums: [LedgerEntry; 4],
 }
 
-/// Row of the ledger: a source, or a sum over the sources.
+/// Row of the ledger: a source, or a sum over the sources. Norms are in the length unit.
 #[derive(Clone, Debug, Serialize)]
 pub struct LedgerEntry {
     /// Name of the source or sum.
@@ -25,7 +25,7 @@ pub struct LedgerEntry {
     /// Root mean square of the norm over the configurations; `None` for the worst case.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rms: Option<f64>,
-    /// Largest norm divided by the tolerance; `None` without a tolerance.
+    /// Largest norm as a share of the tolerance; `None` without a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share_of_tolerance: Option<f64>,
     /// Class of the source; `None` for sums.

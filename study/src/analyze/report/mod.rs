@@ -46,8 +46,6 @@ use crate::study_file::{CombinedFigure, PublishedResidual, Study, Subject};
 
 /// Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`;
 /// angles are in rad.
-///
-/// Serialized, this is the output of `abbe analyze --json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// Name of the manipulator.
@@ -67,7 +65,7 @@ pub struct Report {
     pub workspace: String,
     /// Symbol of the length unit.
     pub length: &'static str,
-    /// Tolerance of the position error, from the study.
+    /// Tolerance of the position error, from the study, in the length unit.
     #[serde(rename = "tolerance", skip_serializing_if = "Option::is_none")]
     pub position_tolerance: Option<f64>,
     /// Verdicts on the tolerances; `None` if the study has none.
@@ -100,7 +98,9 @@ pub struct Report {
     /// Errors that the position tolerance allows; `None` without one.
     #[serde(rename = "budget", skip_serializing_if = "Option::is_none")]
     pub allowance: Option<ErrorAllowance>,
-    /// Errors that remain after compensation; `None` if the study does not request it.
+    /// Errors that remain after compensation, largest over the workspace, in the length unit:
+    /// `residual`, `residual_sum`, and `total` with the random sources. `None` if the study does
+    /// not request it.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_values")]
     pub compensation: Option<RemainingErrors>,
     /// Monte Carlo draws; `None` if they were not requested.

@@ -62,8 +62,8 @@ const DRAWN: usize = 4;
 ///
 /// The probability is the smallest over the evaluated configurations: the one with the largest
 /// radius (norm of the repeatable errors + norm of the random bounds), and those that an
-/// approximation ranks least likely to meet the tolerance, [`Budget::least_likely`]. To first
-/// order; repeatable sources have their nominal values, random sources are distributed.
+/// approximation ranks least likely to meet the tolerance. To first order; repeatable sources have
+/// their nominal values, random sources are distributed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ToleranceVerdict {
     /// Position or orientation.

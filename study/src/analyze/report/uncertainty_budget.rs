@@ -42,7 +42,8 @@ pub struct UncertaintyBudget {
     pub coverage: Compliance,
 }
 
-/// Contribution of one random source. Arrays hold three rows and the norm.
+/// Contribution of one random source. Arrays hold three rows and the norm. Lengths are in the
+/// spec's unit, angles in rad.
 #[derive(Clone, Debug, Serialize)]
 pub struct SourceUncertainty {
     /// Name of the source.
@@ -50,7 +51,7 @@ pub struct SourceUncertainty {
     /// Distribution of its error.
     #[serde(serialize_with = "distribution")]
     pub distribution: Distribution,
-    /// Value of the source in the spec's unit; `None` if it causes several errors, whose common
+    /// Value of the source in coherent units; `None` if it causes several errors, whose common
     /// factor is 1.
     pub value: Option<f64>,
     /// Quantity of the value.
@@ -58,7 +59,7 @@ pub struct SourceUncertainty {
     pub quantity: Quantity,
     /// Divisor of the value: `u = value × sensitivity / divisor`.
     pub divisor: f64,
-    /// Sensitivity `|∂ΔX / ∂value|`.
+    /// Sensitivity `|∂ΔX / ∂value|`, in products of the units.
     pub sensitivity: [f64; 4],
     /// Standard uncertainties u.
     pub standard_uncertainty: [f64; 4],

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// Mean and maximum over all configurations.
+/// Mean and maximum over all configurations, in the length unit or rad.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MeanAndMax {
     /// The mean.

@@ -39,7 +39,7 @@ pub struct Repeated {
     pub rp: Option<MeanAndMax>,
     /// RP_a, RP_b, RP_c, 7.2.2, in rad.
     pub rp_turns: Option<[MeanAndMax; 3]>,
-    /// Three standard deviations about the barycentres, along x, y, z.
+    /// Three standard deviations about the barycentres, along x, y, z, in the length unit.
     pub three_sigma: Option<[f64; 3]>,
     /// Multi-directional pose accuracy variation, 7.2.3; none without several directions of
     /// approach.

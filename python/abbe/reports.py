@@ -1,0 +1,2820 @@
+"""Reports and their groups of fields, for editors and type checkers.
+
+Units are those of docs/reference/json.md: `length unit` is that of the spec, `coherent` the length unit for lengths, rad for
+angles and the unit of the spec for parameters and inputs, and `1` none. Optional fields are None where they do not apply.
+"""
+
+# Generated from the types of the reports and their comments: `UPDATE_EXPECT=1 cargo test -p abbe-tests json_reference`.
+from __future__ import annotations
+
+from typing import Literal
+
+from ._abbe import Report
+from ._fields import Fields, Named
+
+
+class AcceptanceVerdict(Fields):
+    """Acceptance verdict on rows that were not used for fitting."""
+
+    rows: str
+    """Name of the rows, such as `the test rows`."""
+
+    limits: list[LimitCheck]
+    """Comparisons, one per limit."""
+
+    met: bool
+    """Indicates that all limits are met."""
+
+
+class AfterCompensation(Fields):
+    """Published residual after compensation, combined with the computed random errors. In the length unit."""
+
+    residual: float
+    """Published residual of the repeatable errors.
+
+    Unit: length unit.
+    """
+
+    random: float
+    """Computed random radius.
+
+    Unit: length unit.
+    """
+
+    total: float
+    """Sum of both.
+
+    Unit: length unit.
+    """
+
+    published: PublishedResidual
+    """The published figures."""
+
+
+class Alarm(Fields):
+    """First check at which a chart exceeds its limit."""
+
+    check: int
+    """Index of the check, from 0."""
+
+    date: str
+    """Date of the check."""
+
+    chart: str
+    """Name of the chart that is farthest beyond its limit."""
+
+
+class AnalyzeReport(Report):
+    """Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`; angles are in
+    rad.
+    """
+
+    __slots__ = ()
+
+    manipulator: str
+    """Name of the manipulator."""
+
+    configurations: int
+    """Number of configurations that were reached and evaluated."""
+
+    unreachable: int
+    """Number of configurations that could not be reached."""
+
+    sources: list[SourceReport]
+    """Position errors of each enabled source alone."""
+
+    combined: CombinedReport
+    """Position errors of all sources together."""
+
+    study: str
+    """Title of the study."""
+
+    workspace: str
+    """Description of the workspace in a sentence."""
+
+    length: str
+    """Symbol of the length unit."""
+
+    tolerance: float | None
+    """Tolerance of the position error, from the study, in the length unit."""
+
+    verdict: Verdicts | None
+    """Verdicts on the tolerances; None if the study has none."""
+
+    uncertainty: UncertaintyBudget | None
+    """Uncertainty budget of the position after the GUM; None if no random source moves the tool point."""
+
+    orientation: OrientationReport
+    """Orientation errors."""
+
+    published: list[Comparison]
+    """Published figures compared with the computed ones."""
+
+    after_compensation: AfterCompensation | None
+    """Published residual after compensation, combined with the computed random errors."""
+
+    first_order: FirstOrder
+    """First-order error."""
+
+    certified: CertifiedNorms | None
+    """Certified upper bounds on the norms; None if the workspace has no enclosing box, or too many names vary."""
+
+    unreachable_reasons: list[UnreachableReason]
+    """Reasons for unreachable configurations, most frequent first."""
+
+    not_reproducible: list[str]
+    """Published figures that cannot be reproduced, one sentence each."""
+
+    ledger: Ledger
+    """Sources by rank, and their sums."""
+
+    budget: ErrorAllowance | None
+    """Errors that the position tolerance allows; None without one."""
+
+    compensation: Named[float] | None
+    """Errors that remain after compensation, largest over the workspace, in the length unit: `residual`,
+    `residual_sum`, and `total` with the random sources. None if the study does not request it.
+    """
+
+    monte_carlo: MonteCarloReport | None
+    """Monte Carlo draws; None if they were not requested."""
+
+
+class BoundReport(Report):
+    """Bounds on the errors over a box of configurations. Lengths are in the spec's unit, angles in rad. To first
+    order in the errors of the sources, the true maximum of each error lies between `found` and `certified`.
+    """
+
+    __slots__ = ()
+
+    manipulator: str
+    """Name of the manipulator."""
+
+    length: str
+    """Symbol of the length unit."""
+
+    gap: float
+    """Requested gap: largest excess of `certified` over `found`, as a share of `found`."""
+
+    repeatable: ErrorBounds
+    """Errors of the repeatable sources, with signs."""
+
+    random: ErrorBounds
+    """Errors of the random sources at their bounds, root sum of squares."""
+
+    radius: ErrorBounds
+    """Sums of the repeatable and random errors."""
+
+    remainder: Remainder | None
+    """First-order error of the repeatable sources; None if there are none."""
+
+    after_one_step: StepResidual | None
+    """Error of the repeatable sources after one step of compensation; None without repeatable sources or with fewer
+    than three joints.
+    """
+
+    margin: Margin | None
+    """Margin to the position tolerance, in the length unit; None if the study has no such tolerance."""
+
+    orientation_margin: Margin | None
+    """Margin to the orientation tolerance, in rad; None if the study has no such tolerance."""
+
+    dexterity: Dexterity | None
+    """Smallest motion of the tool per unit of joint motion; None if not requested, or with fewer than three joints."""
+
+    stiffness: LowerBound | None
+    """Smallest stiffness at the tool point in any direction, in N/m, from the enabled repeatable beams and
+    compliances. None if not requested, or if nothing is compliant.
+    """
+
+    box: Named[list[float]]
+    """Ranges of all moving joint variables, parameters and inputs."""
+
+    contains_more: bool
+    """Indicates that the enclosing box is larger than the workspace of the study."""
+
+    boxes: int
+    """Number of evaluated boxes, all searches together."""
+
+    complete: bool
+    """Indicates that every search reached the gap."""
+
+
+class Certainty(Fields):
+    """Basis of the standard deviations."""
+
+    configurations: int
+    """Number of independent configurations."""
+
+    counted: str
+    """Unit of counting for degrees of freedom: `numbers` for every measured value, `points` for one point per
+    configuration, or `configurations`.
+    """
+
+    freedom: float
+    """Residual degrees of freedom."""
+
+    factor_95: float
+    """Coverage factor for 95 %, from Student's t."""
+
+    p_of_factor: float
+    """Probability of an uncertainty factor at least as far from 1 by chance."""
+
+
+class CertifiedNorms(Fields):
+    """Largest norms ‖ΔX‖ of the position errors over the enclosing box of a workspace, in the length unit. The true
+    maximum lies between `found` and `certified`.
+    """
+
+    repeatable: ErrorBound | None
+    """Norm of the sum of the repeatable sources, with signs; None if there are none."""
+
+    random: ErrorBound | None
+    """Norm of the root sum of squares of the random sources at their bounds; None if there are none."""
+
+    radius: ErrorBound | None
+    """Sum of both norms; None unless there are sources of both classes."""
+
+    contains_more: bool
+    """Indicates that the enclosing box is larger than the workspace."""
+
+
+class Chain(Fields):
+    """Matrices `A_1 … A_n`, the tool and the tool's pose at home, with nominal parameters."""
+
+    frames: list[Link]
+    """Frames, base to tip."""
+
+    tool: list[list[float]]
+    """Tool `T`, from `F_n` to the tool point, a homogeneous matrix, row by row."""
+
+    pose: list[list[float]]
+    """Pose of the tool in `F_0`, a homogeneous matrix, row by row."""
+
+
+class Change(Fields):
+    """Single difference. Joints are indexed from 0 in the order of the spec. Columns are reordered first, then signs,
+    couplings and zeros are applied.
+    """
+
+    order: list[int] | None = None
+    """Different order of the columns: joint `i` is in column `order[i]`."""
+
+    reversed: list[int] | None = None
+    """Opposite sign of these joints."""
+
+    coupled: ChangeCoupled | None = None
+    """Column relative to another joint: `by` times that joint must be added."""
+
+    zero: ChangeZero | None = None
+    """Offset of a joint's zero, in rad or in the spec's length unit."""
+
+
+class ChangeCoupled(Fields):
+    """Column relative to another joint: `by` times that joint must be added."""
+
+    joint: int
+    """Joint of the column."""
+
+    to: int
+    """Joint to add."""
+
+    by: float
+    """Factor, 1 or −1."""
+
+
+class ChangeZero(Fields):
+    """Offset of a joint's zero, in rad or in the spec's length unit."""
+
+    joint: int
+    """Joint with the offset."""
+
+    offset: float
+    """Value to add.
+
+    Unit: length unit or rad.
+    """
+
+
+class Chart(Fields):
+    """Control chart of one error, or of the residual."""
+
+    name: str
+    """Name of the error, or `what is left` for the residual."""
+
+    unit: str
+    """Unit of the values; empty for the residual."""
+
+    alike: list[str]
+    """Errors that are indistinguishable from this one at the monitored configurations."""
+
+    values: list[float]
+    """Value at every check: the error under the assumption that all others are unchanged, in `unit`; for the
+    residual, its norm in units of the instrument's uncertainty.
+    """
+
+    average: list[float]
+    """EWMA at every check, as a share of the limit. An alarm is a value beyond ±1 for an error, above 1 for the
+    residual.
+    """
+
+    alarm: int | None
+    """Index of the first check beyond the limit, from 0."""
+
+
+class CheckReport(Report):
+    """Content of a spec, its chain at home, and the results of the self-checks."""
+
+    __slots__ = ()
+
+    name: str
+    """Name of the manipulator."""
+
+    title: str
+    """Title of the manipulator."""
+
+    spec: str
+    """Path of the spec, or name of a shipped manipulator."""
+
+    length: str
+    """Symbol of the length unit."""
+
+    orientation: str
+    """Convention of rows 4–6: `rotation-vector` or `euler-yzx`."""
+
+    frames: list[Frame]
+    """Frames, base to tip."""
+
+    variables: list[Variable]
+    """Joint variables, in the order of the frames."""
+
+    parameters: list[NominalValue]
+    """Structural parameters."""
+
+    inputs: list[NominalValue]
+    """Inputs."""
+
+    sources: list[Source]
+    """Error sources, disabled ones included."""
+
+    operations: list[FunctionOperations]
+    """Operation counts of the generated functions."""
+
+    home: Chain | None
+    """Nominal chain at home; None if its pose is not finite."""
+
+    warnings: list[Warning]
+    """Suspicious numbers in the spec."""
+
+    notes: list[str]
+    """Properties of the spec that are easily misunderstood, one sentence each."""
+
+    identifiable: list[Identifiable]
+    """Identifiability from poses, then from tool points; each with a known and an unknown base frame."""
+
+    configurations: int
+    """Number of configurations at which the laws were checked."""
+
+    laws: list[Law]
+    """Results of the self-checks, one per law."""
+
+
+class CombinedReport(Fields):
+    """Combined position errors over the workspace, along x, y, z of `F_0`, in the length unit."""
+
+    repeatable_radius: float
+    """Norm of the sum of the repeatable sources.
+
+    Unit: length unit.
+    """
+
+    random_radius: float
+    """Norm of the root sum of squares of the random sources at their bounds.
+
+    Unit: length unit.
+    """
+
+    radius: float
+    """Sum of both norms at one configuration.
+
+    Unit: length unit.
+    """
+
+    repeatable: list[float]
+    """Absolute value of the sum of the repeatable sources, row by row.
+
+    Unit: length unit.
+    """
+
+    random: list[float]
+    """Root sum of squares of the random sources, row by row.
+
+    Unit: length unit.
+    """
+
+    worst: Named[float]
+    """Configuration with the largest radius: joint variables and varying inputs."""
+
+    worst_parameters: Named[float]
+    """Parameters of that configuration that vary over the workspace."""
+
+    rms: RootMeanSquares
+    """Root mean squares of the norms over the configurations."""
+
+    standard_deviation: list[float]
+    """Largest standard deviations along x, y, z.
+
+    Unit: length unit.
+    """
+
+    standard_radius: float
+    """Largest standard deviation of the position, √(trace of the covariance).
+
+    Unit: length unit.
+    """
+
+    worst_case: list[float]
+    """Largest sums of absolute values of all sources along x, y, z.
+
+    Unit: length unit.
+    """
+
+    worst_case_radius: float
+    """Largest sum of the norms of all sources.
+
+    Unit: length unit.
+    """
+
+    ellipsoid: LongestEllipsoid
+    """Longest of the 95 % ellipsoids."""
+
+    enclosing_sphere: Sphere
+    """Smallest sphere that encloses the repeatable errors of all configurations."""
+
+
+class Compared(Fields):
+    """Position errors of a set of rows."""
+
+    rows: int
+    """Number of rows."""
+
+    configurations: int
+    """Number of independent configurations among them."""
+
+    before: Sizes
+    """Errors as delivered: with the sources of the spec."""
+
+    base_and_tool: Sizes
+    """Errors with base and tool fitted."""
+
+    after: Sizes
+    """Errors with the identified model."""
+
+    gain: Gain
+    """Improvement of the identified model over base and tool alone."""
+
+
+class Comparison(Fields):
+    """A published figure, of one source in one metric or of all sources together."""
+
+    figure: str
+    """Name of the source, or `combined`."""
+
+    metric: str
+    """Name of the metric, or of the combined figure."""
+
+    x: float | None
+    """Published values for x, y, z and norm, in the length unit; None where nothing is printed."""
+
+    y: float | None
+    """Published values for x, y, z and norm, in the length unit; None where nothing is printed."""
+
+    z: float | None
+    """Published values for x, y, z and norm, in the length unit; None where nothing is printed."""
+
+    norm: float | None
+    """Published values for x, y, z and norm, in the length unit; None where nothing is printed."""
+
+    within: float
+    """Largest difference that counts as agreement, in the length unit: half a unit of the last printed digit."""
+
+    met: bool
+    """True if the computed figure agrees."""
+
+    reference: str
+    """Table or page where it is printed."""
+
+
+class Compliance(Fields):
+    """Probability that the norm of the error is within a limit at one configuration, to first order: the repeatable
+    sources are fixed, the random ones vary.
+    """
+
+    probability: float
+    """Probability."""
+
+    error: float
+    """Error of the probability: a bound for an integral, the standard error `√(p (1 − p)/N)` for draws."""
+
+    draws: int | None
+    """Number of draws. None for an integral."""
+
+
+class Counts(Fields):
+    """Number of identifiable errors of base and frames, out of how many."""
+
+    rank: int
+    """Number of identifiable combinations."""
+
+    unknowns: int
+    """Number of unknown errors."""
+
+    base: bool
+    """Is true if the errors of the base are among the unknowns."""
+
+
+class CrossValidation(Fields):
+    """Position errors of k-fold cross-validation."""
+
+    folds: int
+    """Number of parts."""
+
+    configurations: int
+    """Number of independent configurations distributed over the parts."""
+
+    constant: Sizes | None
+    """Errors with constants alone, if richer terms were tried."""
+
+    after: Sizes
+    """Errors with the complete model."""
+
+    gain: Gain | None
+    """Improvement by the richer terms over constants alone, if they were tried."""
+
+
+class Dexterity(Fields):
+    """Smallest singular value of the joint Jacobian `J_q`, in metres and radians: the smallest motion of the tool for
+    a joint motion of root sum of squares 1. It is 0 at a singularity.
+    """
+
+    point: LowerBound
+    """Dexterity of the tool point, rows 1–3."""
+
+    pose: LowerBound | None
+    """Dexterity of the tool, all rows with 1 rad counted as 1 m; None with fewer than six joints."""
+
+
+class Dh(Fields):
+    """Denavit-Hartenberg parameters: lengths in the spec's unit, angles in rad."""
+
+    convention: str
+    """Convention, `standard` for `Rz(theta) Tz(d) Tx(a) Rx(alpha)`, `modified` for `Rx(alpha) Tx(a) Rz(theta) Tz(d)`."""
+
+    theta: float
+    """Rotation about z.
+
+    Unit: length unit or rad.
+    """
+
+    d: float
+    """Translation along z.
+
+    Unit: length unit or rad.
+    """
+
+    a: float
+    """Translation along x.
+
+    Unit: length unit or rad.
+    """
+
+    alpha: float
+    """Rotation about x.
+
+    Unit: length unit or rad.
+    """
+
+
+class Directions(Fields):
+    """Configurations that were approached from several directions."""
+
+    configurations: int
+    """Number of configurations."""
+
+    fewest: int
+    """Smallest number of directions; the standard requires three."""
+
+    fewest_visits: int
+    """Smallest number of visits from a direction; the standard requires 30."""
+
+    vap: MeanAndMax
+    """`vAP_p`."""
+
+    vap_turns: list[MeanAndMax] | None
+    """`vAP_a`, `vAP_b`, `vAP_c`: rad."""
+
+
+class Distances(Fields):
+    """Pairs of configurations with equal numbers of visits."""
+
+    pairs: int
+    """Number of pairs."""
+
+    ad: MeanAndMax
+    """Absolute value of `AD_p`."""
+
+    ad_turns: list[MeanAndMax] | None
+    """Absolute values of `AD_a`, `AD_b`, `AD_c`, in rad."""
+
+    rd: MeanAndMax
+    """`RD_p`."""
+
+    rd_turns: list[MeanAndMax] | None
+    """`RD_a`, `RD_b`, `RD_c`, in rad."""
+
+
+class DoctorReport(Report):
+    """Units, order and format with which the numbers of a file agree with the spec."""
+
+    __slots__ = ()
+
+    name: str
+    """Name of the machine."""
+
+    length: str
+    """Symbol of the length unit."""
+
+    rows: int
+    """Number of rows that were used."""
+
+    joints: list[str]
+    """Names of the columns read as joints."""
+
+    seen: list[str]
+    """Names of the columns read as measured values."""
+
+    fits: bool
+    """Indicates that at least one interpretation fits."""
+
+    within: float
+    """Largest combined residual at which an interpretation fits, in the spec's length unit."""
+
+    found: list[Finding]
+    """Interpretations that fit and that the data cannot distinguish, simplest first."""
+
+    simpler: Finding | None
+    """Simplification of the first interpretation that is also within the tolerance, but fits significantly worse."""
+
+    others: list[Finding]
+    """Best of the interpretations that do not fit."""
+
+    sentence: str
+    """Conclusion in one sentence."""
+
+    map: str | None
+    """Map of the first interpretation; None if no interpretation fits."""
+
+    of_spec: list[str]
+    """Corrections that the map cannot express and that belong in the spec or the file, one sentence each."""
+
+
+class Drift(Fields):
+    """Configurations with at least twenty visits."""
+
+    configurations: int
+    """Number of configurations."""
+
+    most: int
+    """Largest number of groups of one configuration."""
+
+    dap: MeanAndMax
+    """`dAP_p`."""
+
+    dap_turns: list[MeanAndMax] | None
+    """`dAP_a`, `dAP_b`, `dAP_c`, in rad."""
+
+    drp: MeanAndMax
+    """`dRP_l`."""
+
+    drp_turns: list[MeanAndMax] | None
+    """`dRP_a`, `dRP_b`, `dRP_c`, in rad."""
+
+
+class ErrorAllowance(Fields):
+    """Errors that a tolerance allows, as factors of the present errors."""
+
+    together: float | None
+    """Factor for all sources at which the radius equals the tolerance; None if there is no error."""
+
+    equal_share: float | None
+    """Norm of the error that each contributing source may cause if all have equal shares, in the tolerance's unit."""
+
+    equal_share_probability: float
+    """Lower bound on the probability that the tolerance is met with equal shares."""
+
+    sources: list[SourceAllowance]
+    """Allowances of the sources, largest gain first."""
+
+
+class ErrorBound(Fields):
+    """Bounds on the largest magnitude of an error over the box, in the length unit or rad."""
+
+    found: float
+    """Lower bound: the value at the configuration `at`.
+
+    Unit: length unit or rad.
+    """
+
+    certified: float | None
+    """Certified upper bound; None if nothing could be proved.
+
+    Unit: length unit or rad.
+    """
+
+    at: Named[float]
+    """Configuration of `found`: values of all joint variables, and of the parameters and inputs that move."""
+
+    boxes: int
+    """Number of evaluated boxes."""
+
+    complete: bool
+    """Indicates that the gap was reached."""
+
+
+class ErrorBounds(Fields):
+    """Bounds on one kind of error."""
+
+    norm: ErrorBound
+    """Norm ‖ΔX‖ of the position error, in the length unit."""
+
+    x: ErrorBound
+    """Absolute position error along x of `F_0`."""
+
+    y: ErrorBound
+    """Absolute position error along y of `F_0`."""
+
+    z: ErrorBound
+    """Absolute position error along z of `F_0`."""
+
+    orientation: ErrorBound
+    """Norm of rows 4–6, in rad."""
+
+
+class Exceedance(Fields):
+    """Predicted time at which a drift exceeds the tolerance."""
+
+    time: float
+    """Time, as counted by the calendar of the checks."""
+
+    date: str
+    """Date of that time."""
+
+    standard_deviation: float
+    """Standard deviation, as counted by the calendar of the checks."""
+
+
+class Explained(Fields):
+    """Agreement of measurement and prediction. Lengths are in the length unit."""
+
+    left_mean: float
+    """Mean norm of the errors minus the repeatable sources, over all measured points.
+
+    Unit: length unit.
+    """
+
+    left_rms: float
+    """Root mean square of these norms.
+
+    Unit: length unit.
+    """
+
+    left_p95: float
+    """95th percentile of these norms.
+
+    Unit: length unit.
+    """
+
+    left_max: float
+    """Maximum of these norms.
+
+    Unit: length unit.
+    """
+
+    share: float
+    """Share of the sum of squares explained by the repeatable sources; negative if they increase it."""
+
+    inside: float | None
+    """Share of the rows within the 95 % prediction region of the spec: random sources drawn anew in each row, and the
+    noise of the instrument.
+
+    None for readings.
+    """
+
+    likely: list[float] | None
+    """99 % interval of that share of the points for a machine as specified, with as many rows."""
+
+    repeatable: int
+    """Number of repeatable sources."""
+
+    random: int
+    """Number of random sources."""
+
+
+class ExportReport(Report):
+    """Files in another format, and the differences between poses with and without them."""
+
+    __slots__ = ()
+
+    name: str
+    """Name of the machine."""
+
+    format: str
+    """Name of the format and its variant."""
+
+    length: str
+    """Unit of length of the differences."""
+
+    files: list[ExportedFile]
+    """The file, or several files that belong together."""
+
+    changes: list[str]
+    """Changes in a file that was given, as hunks of a diff."""
+
+    left_out: list[str]
+    """Sentences about the errors that the format cannot hold."""
+
+    compared: list[str]
+    """Names of the differences `before` and `remains`."""
+
+    before: PoseDifference
+    """Difference without the files."""
+
+    at_nodes: PoseDifference | None
+    """Difference with the files at the nodes of a table; `remains` is between the nodes."""
+
+    remains: PoseDifference
+    """Difference with the files."""
+
+    placed: PoseDifference | None
+    """Difference with the files and with rotary axes of the workpiece placed in the control; None without such axes."""
+
+    turned: list[RotaryAxis]
+    """Rotary axes of the workpiece."""
+
+    configurations: int
+    """Number of random configurations of the differences."""
+
+    seed: int
+    """Seed of the configurations."""
+
+    sign: str
+    """Sentence that explains the sign by a number of this machine."""
+
+
+class ExportedFile(Fields):
+    """Text of one file."""
+
+    name: str
+    """File name without a folder."""
+
+    text: str
+    """Complete text."""
+
+
+class Extrapolation(Fields):
+    """Configurations outside the ranges on which the errors of a spec were fitted."""
+
+    outside: int
+    """Number of configurations outside the ranges."""
+
+    all: int
+    """Number of all configurations."""
+
+    known: ToolPointDeviation | None
+    """Standard deviation of the tool point; None if the spec states no covariance."""
+
+
+class Figure(Fields):
+    """Statistics of a difference, in the length unit or rad."""
+
+    largest: float
+    """Largest value.
+
+    Unit: length unit or rad.
+    """
+
+    rms: float
+    """Root mean square.
+
+    Unit: length unit or rad.
+    """
+
+
+class Figures(Fields):
+    """Figure per axis, and of the norm: positions along the axes of `F_0` in the length unit, or orientations (rows
+    4–6) in rad.
+    """
+
+    x: float
+    """Figure along x.
+
+    Unit: length unit or rad.
+    """
+
+    y: float
+    """Figure along y.
+
+    Unit: length unit or rad.
+    """
+
+    z: float
+    """Figure along z.
+
+    Unit: length unit or rad.
+    """
+
+    norm: float
+    """Norm.
+
+    Unit: length unit or rad.
+    """
+
+
+class Finding(Fields):
+    """An interpretation and its residual."""
+
+    reading: Interpretation
+    """The interpretation."""
+
+    words: str
+    """Description of the interpretation."""
+
+    residual: float
+    """Root mean square residual of the positions, in the spec's length unit."""
+
+    angle: float | None
+    """Root mean square residual of the orientations, in rad; None if the data have no orientations."""
+
+    both: float
+    """Combined root mean square residual, in the spec's length unit, which is compared with `within`. Angles are
+    multiplied by a lever of 0.3 × the spread of the positions. Corrected for the degrees of freedom that fitted
+    numbers take.
+    """
+
+
+class FirstOrder(Fields):
+    """Largest distance between first order and the exact chain, over at most 2000 configurations spread evenly over
+    the workspace.
+
+    Compares the repeatable sources; if there are none, the random sources at their bounds, all with a positive
+    sign.
+    """
+
+    configurations: int
+    """Number of configurations that were compared."""
+
+    largest_difference: float
+    """Largest difference in the tool point's position, in the length unit."""
+
+
+class FoundInstrument(Fields):
+    """Identified fixture and zero of an instrument."""
+
+    name: str
+    """Name of the instrument."""
+
+    position: list[float] | None
+    """Position of its fixture in `F_0`, in the length unit; none if the fixture is a direction, or if there is none."""
+
+    direction: list[float] | None
+    """Unit vector of its direction in `F_0`; none if the fixture is a point, or if there is none."""
+
+    zero: float | None
+    """Offset of its readings, in the length unit or rad; for a sphere, minus its radius. None if it was known."""
+
+    is_angle: bool
+    """Is true if the readings are angles."""
+
+    covariance: list[list[float]]
+    """Covariance of x, y, z of the position or of the two tilts of the direction, followed by the zero, in products
+    of the units.
+    """
+
+
+class FoundPlacement(Fields):
+    """Identified placement of stations, tool and instruments."""
+
+    stations: list[FoundStation]
+    """Poses of the machine, one per station."""
+
+    targets: list[list[float]]
+    """Positions of the targets in the tool frame, in the length unit; empty if whole poses were measured."""
+
+    mounting: list[list[float]] | None
+    """Pose of the measured frame in the tool frame, as rows of a homogeneous matrix; none if points were measured."""
+
+    instruments: list[FoundInstrument]
+    """Fixtures and zeros of the instruments."""
+
+    covariance: list[list[float]]
+    """Covariance of all coordinates of the targets, target by target, or of the six errors of the mounting, in
+    products of the units.
+    """
+
+
+class FoundStation(Fields):
+    """Identified station."""
+
+    name: str
+    """Name; empty for the only station."""
+
+    pose: list[list[float]]
+    """Pose of `F_0` in the frame of the instrument, as rows of a homogeneous matrix."""
+
+    covariance: list[list[float]]
+    """Covariance of its six errors `e_x e_y e_z e_s e_r e_p` in the axes of `F_0`, in the length unit and rad."""
+
+
+class Frame(Fields):
+    """Frame of the chain."""
+
+    name: str
+    """Name of the frame."""
+
+    variable: str | None
+    """Name of its joint variable; None for a fixed frame."""
+
+
+class FunctionOperations(Fields):
+    """Operation counts of one generated function."""
+
+    function: str
+    """Name of the function."""
+
+    mul: int
+    """Multiplications."""
+
+    add: int
+    """Additions and subtractions."""
+
+    neg: int
+    """Negations."""
+
+    div: int
+    """Divisions."""
+
+    sincos: int
+    """Sine–cosine pairs."""
+
+    sqrt: int
+    """Square roots."""
+
+    other: int
+    """Other operations."""
+
+
+class Gain(Fields):
+    """Difference between the position errors of two models at the same points."""
+
+    mean: float
+    """Mean reduction of the error, in the length unit; negative if the second model is worse."""
+
+    standard_error: float | None
+    """Standard error of the mean, in the length unit, with configurations as independent samples; none for a single
+    configuration.
+    """
+
+    p: float
+    """Probability of a mean at least as far from 0 by chance if both models are equally good: paired t-test."""
+
+
+class Held(Fields):
+    """Unknown that is fixed at zero, and the combination it is equivalent to."""
+
+    name: str
+    """Name of the unknown."""
+
+    acts_as: list[list[str | float]]
+    """Names and factors of the equivalent combination of parameters; empty if the unknown has no effect."""
+
+
+class Identifiable(Fields):
+    """Identifiability for one kind of measurement."""
+
+    measurement: str
+    """Kind of measurement: `pose` or `point`."""
+
+    base: bool
+    """Indicates that the six errors of an unknown base frame count as unknowns."""
+
+    rank: int | None
+    """Number of identifiable combinations of errors: the rank of the observation matrix. None if a sample could not
+    be evaluated.
+    """
+
+    unknowns: int
+    """Number of unknown errors."""
+
+
+class IdentifyExtrapolation(Fields):
+    """Test rows outside the fitted ranges of joints and inputs."""
+
+    rows: int
+    """Number of such rows."""
+
+    known_outside: float
+    """Standard deviation of the tool position there, mean over these rows, in the length unit."""
+
+    known_within: float
+    """Standard deviation of the tool position at the fitted rows, mean over them, in the length unit."""
+
+
+class IdentifyReport(Report):
+    """Identified errors, their uncertainty, and the accuracy of the identified machine."""
+
+    __slots__ = ()
+
+    name: str
+    """Name of the machine."""
+
+    length: str
+    """Length unit of all values."""
+
+    title: str
+    """Title of the map."""
+
+    rank: int
+    """Number of combinations of unknowns that the data determine."""
+
+    unknowns: int
+    """Number of unknowns."""
+
+    machine: Counts
+    """Number of identifiable errors of base and frames alone, without targets on the tool."""
+
+    gap: float | None
+    """Ratio of the smallest significant singular value to the largest insignificant one; none if all are significant."""
+
+    condition: float
+    """Condition number of the kept columns of the design matrix, each scaled to unit length."""
+
+    observability: Indices
+    """Observability indices."""
+
+    groups: list[Indistinguishable]
+    """Combinations of unknowns that cannot be distinguished, with the reason."""
+
+    unexplained: int
+    """Number of undetermined combinations that `groups` and `not_known` do not explain; normally 0."""
+
+    parameters: list[Parameter]
+    """Kept unknowns, which stand for the identifiable combinations."""
+
+    meanings: list[JointError]
+    """Significant errors expressed as errors of joint zeros, parameters and Denavit-Hartenberg numbers."""
+
+    not_known: list[WeaklyDetermined]
+    """Errors that these data determine poorly compared with their prior; they are fixed at zero."""
+
+    magnitudes: list[Magnitude]
+    """Magnitudes of sources of the spec that were unknown."""
+
+    held: list[Held]
+    """Unknowns that are fixed at zero because they are equivalent to kept ones."""
+
+    correlations: list[Pair]
+    """Pairs of parameters with an absolute correlation above 0.9."""
+
+    uncertainty_factor: float
+    """Factor of the stated uncertainty that explains the residuals."""
+
+    certainty: Certainty
+    """Basis of all standard deviations."""
+
+    instruments: list[InstrumentFit]
+    """Instruments that are read one by one, with statistics of their residuals."""
+
+    base: list[list[float]]
+    """Initial pose of `F_0` in the frame of the instrument at the first station, without identified errors of the
+    base, as rows of a homogeneous matrix.
+    """
+
+    placed: FoundPlacement
+    """Identified placement of the machine and of what is mounted on its tool."""
+
+    fit: Compared
+    """Position errors of the fitted rows, without outliers."""
+
+    test: Compared | None
+    """Position errors of the test rows."""
+
+    test_rows_of_the_fit: int
+    """Number of test rows that are identical to fitted rows. They cannot assess the fit."""
+
+    outside: IdentifyExtrapolation | None
+    """Test rows outside the fitted ranges of joints and inputs; none if there are no such rows."""
+
+    cross_validation: CrossValidation
+    """Position errors of cross-validation."""
+
+    accepted: AcceptanceVerdict | None
+    """Verdict on the declared limits, if there are any."""
+
+    terms: list[TermGain]
+    """Richer terms that were accepted, in the order of acceptance."""
+
+    tried: int
+    """Number of groups of terms that were tried."""
+
+    order: ResidualDrift | None
+    """Drift of the residuals with the row order; none if there are too few rows for the test."""
+
+    unusable: list[LeftOut]
+    """Rows that cannot be used."""
+
+    rejected: list[int]
+    """Lines rejected as outliers by a robust loss."""
+
+    notes: list[str]
+    """Notes for the user."""
+
+
+class ImportReport(Report):
+    """Spec of an imported robot."""
+
+    __slots__ = ()
+
+    manipulator: str
+    """Name of the manipulator."""
+
+    length: str
+    """Unit of lengths."""
+
+    base: str
+    """Link that is `F_0`, or `F_0`."""
+
+    tip: str
+    """Link whose frame is the tool point, or the last frame."""
+
+    frames: list[ImportedFrame]
+    """Frames from base to tip."""
+
+    loads: int
+    """Number of masses that became loads."""
+
+    largest_difference: float
+    """Largest difference of an entry of `A_T` between the file and the spec, in the unit of length of the spec and
+    rad.
+    """
+
+    configurations: int
+    """Number of configurations that were compared."""
+
+    spec: str
+    """Text of the spec."""
+
+
+class ImportedFrame(Fields):
+    """Frame of an imported spec."""
+
+    joint: str
+    """Name of the frame, which is that of its joint."""
+
+    link: str | None
+    """Link that the frame belongs to; tables of numbers have none."""
+
+    variable: str | None
+    """Variable that moves the frame; None for a fixed one."""
+
+    follows: bool
+    """The variable belongs to another joint."""
+
+
+class Indices(Fields):
+    """Observability indices of the singular values `σ_1 ≥ … ≥ σ_r` of the design matrix with `m` rows and columns of
+    unit length, without a unit; see `abbe::identify::Observability`.
+    """
+
+    o1: float
+    """`O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`, without a unit."""
+
+    o2: float
+    """`O2 = σ_r / σ_1`, without a unit."""
+
+    o3: float
+    """`O3 = σ_r`, without a unit."""
+
+    o4: float
+    """`O4 = σ_r² / σ_1`, without a unit."""
+
+    o5: float
+    """`O5 = 1 / Σ 1/σ_i`, without a unit."""
+
+
+class Indistinguishable(Fields):
+    """Combination of unknowns that is equivalent to another, or that has no effect on the measurement."""
+
+    these: list[list[str | float]]
+    """Combination: names and factors."""
+
+    act_as: list[list[str | float]]
+    """Equivalent combination; empty if these unknowns have no effect on the measurement."""
+
+    reason: str
+    """Reason, in words."""
+
+
+class Input(Fields):
+    """Range of an input over the rows of a plan."""
+
+    name: str
+    """Name of the input."""
+
+    unit: str
+    """Coherent unit; empty for a pure number or an angle."""
+
+    between: list[float]
+    """Smallest and largest value, in `unit`; equal for a constant input."""
+
+
+class InstrumentErrors(Fields):
+    """An instrument, and its readings minus prediction."""
+
+    name: str
+    """Name in the map."""
+
+    unit: str
+    """Unit of the figures, that of its column."""
+
+    count: int
+    """Number of readings."""
+
+    configurations: int
+    """Number of independent configurations."""
+
+    uncertainty: float | None
+    """Stated standard deviation of a reading, in `unit`; none if it was estimated from the data."""
+
+    ideal: ReadingErrors
+    """Reading minus the ideal machine."""
+
+    left: ReadingErrors
+    """Reading minus the machine with the repeatable sources of the spec."""
+
+
+class InstrumentFit(Fields):
+    """Instrument and its residuals."""
+
+    name: str
+    """Name in the map."""
+
+    numbers: int
+    """Number of values that it measured."""
+
+    freedom: float
+    """Degrees of freedom of its residuals."""
+
+    uncertainty: float
+    """Standard deviation used in the fit, in `unit`."""
+
+    unit: str
+    """Unit: the length unit, or rad."""
+
+    estimated: bool
+    """Is true if the uncertainty was estimated from these data."""
+
+    factor: float
+    """Factor of the uncertainty that explains its residuals."""
+
+
+class Interpretation(Fields):
+    """Units, format and differences from the spec with which the numbers of a file are read."""
+
+    joints_in_degrees: bool | None
+    """Is true if revolute joints are in degrees, false for radians; none if there are no revolute joints."""
+
+    slides_in: str | None
+    """Unit of prismatic joints; none if there are none."""
+
+    lengths_in: str
+    """Unit of positions."""
+
+    layout: Literal["position"] | PoseFormat
+    """Format of the poses."""
+
+    changes: list[Literal["convention", "tool_inverted", "tool_left_out", "base_inverted", "base_left_out", "ends_exchanged", "pose_inverted", "base_elsewhere", "tool_elsewhere", "mirrored", "orientation_inverted"] | Change]
+    """Differences from the spec."""
+
+
+class JointError(Fields):
+    """Identified error of a number of the chain."""
+
+    in_place_of: str
+    """Error of a frame that it replaces, such as `e_r1`."""
+
+    number: str
+    """Name of the number: `zero of q2`, `reach`, `a of shoulder`."""
+
+    value: float
+    """Actual minus nominal value, in the length unit or rad."""
+
+    standard_deviation: float
+    """Standard deviation of the value, in the length unit or rad."""
+
+    sentence: str
+    """Statement of the result in one sentence."""
+
+
+class Law(Fields):
+    """Result of checking one law."""
+
+    law: str
+    """Statement of the law."""
+
+    value: float | None
+    """Relative discrepancy, or slope, without a unit; None if it is not finite."""
+
+    expected: float
+    """Expected value, without a unit."""
+
+    tolerance: float
+    """Permitted difference from the expected value, without a unit."""
+
+    holds: bool
+    """Indicates that the law holds within its tolerance."""
+
+    failure: str | None = None
+    """Reason of a failure: the discrepancy and its configuration, or why the law could not be evaluated."""
+
+
+class Ledger(Fields):
+    """Ledger of the position errors: norms in the length unit."""
+
+    sources: list[LedgerEntry]
+    """Sources, largest maximum first."""
+
+    sums: list[LedgerEntry]
+    """Sums over the sources: repeatable, random, all, worst case."""
+
+
+class LedgerEntry(Fields):
+    """Row of the ledger: a source, or a sum over the sources. Norms are in the length unit.
+
+    `["class"]`: Class of the source; None for sums.
+    """
+
+    name: str
+    """Name of the source or sum."""
+
+    max: float
+    """Largest norm over the workspace.
+
+    Unit: length unit.
+    """
+
+    rms: float | None = None
+    """Root mean square of the norm over the configurations; None for the worst case.
+
+    Unit: length unit.
+    """
+
+    share_of_tolerance: float | None = None
+    """Largest norm as a share of the tolerance; None without a tolerance."""
+
+    rank: int | None = None
+    """Rank of the source by its largest norm, 1 for the largest; None for sums."""
+
+
+class LeftOut(Fields):
+    """Row that cannot be used."""
+
+    file: str
+    """File of the row."""
+
+    line: int
+    """Line of the row in the file."""
+
+    reason: str
+    """Reason, in words."""
+
+
+class Limit(Fields):
+    """Control limit of the moving averages.
+
+    `["lambda"]`: Weight of a new check in an average, a factor from 0 to 1.
+    """
+
+    checks_per_false_alarm: float
+    """Smallest mean number of checks between false alarms, over all charts together."""
+
+    limit: float
+    """Limit as a factor of the standard deviation of an average."""
+
+
+class LimitCheck(Fields):
+    """A limit compared with its figure."""
+
+    figure: str
+    """Name of the figure: `mean`, `rms`, `p95` or `max`."""
+
+    limit: float
+    """Largest permitted value, in the length unit."""
+
+    value: float
+    """Actual value, in the length unit."""
+
+    met: bool
+    """Indicates that the value does not exceed the limit."""
+
+
+class Link(Fields):
+    """One matrix `A_i` at home."""
+
+    name: str
+    """Name of the frame."""
+
+    dh: Dh | None = None
+    """Denavit-Hartenberg parameters, if the spec states them, or a product of motions in their order."""
+
+    matrix: list[list[float]]
+    """Matrix from `F_i` coordinates to `F_{i-1}`, a homogeneous matrix, row by row."""
+
+
+class LongestEllipsoid(Fields):
+    """Longest of the 95 % ellipsoids of the random errors."""
+
+    semi_axes: list[float]
+    """Semi-axes, longest first, in the length unit."""
+
+    axes: list[list[float]]
+    """Directions of the semi-axes, unit vectors in `F_0`."""
+
+    worst: Named[float]
+    """Configuration with this ellipsoid."""
+
+
+class LowerBound(Fields):
+    """Bounds on a smallest value over the box, in N/m for a stiffness, in metres and radians for a dexterity."""
+
+    certified: float
+    """Certified lower bound.
+
+    Unit: N/m, or m and rad.
+    """
+
+    found: float | None
+    """Upper bound: the value at the configuration `at`; None if no evaluated value was finite.
+
+    Unit: N/m, or m and rad.
+    """
+
+    at: Named[float]
+    """Configuration of `found`: values of all joint variables, and of the parameters and inputs that move."""
+
+    boxes: int
+    """Number of evaluated boxes."""
+
+    complete: bool
+    """Indicates that the gap was reached, or that `found` is nearly zero."""
+
+
+class Magnitude(Fields):
+    """Identified magnitude of a source of the spec."""
+
+    source: str
+    """Name of the source."""
+
+    declared: float
+    """Magnitude declared in the spec, in coherent units."""
+
+    declared_deviation: float | None
+    """Standard deviation declared in the spec, in coherent units; None if there is none."""
+
+    value: float
+    """Identified magnitude, in coherent units; the declared one if the data do not determine it."""
+
+    standard_deviation: float | None
+    """Standard deviation of the magnitude, in coherent units; None if the data do not determine it."""
+
+    sentence: str
+    """Statement of the result in one sentence."""
+
+
+class Margin(Fields):
+    """Margin between the largest error and a tolerance, to first order, in the length unit or rad. The error is the
+    sum of repeatable and random norms; a negative margin exceeds the tolerance.
+    """
+
+    tolerance: float
+    """Tolerance: the length unit, or rad."""
+
+    certified: float | None
+    """Certified lower bound on the margin over the box; None if nothing could be proved.
+
+    Unit: length unit or rad.
+    """
+
+    found: float
+    """Smallest margin that was found, an upper bound.
+
+    Unit: length unit or rad.
+    """
+
+    after_one_step: float | None
+    """Certified lower bound on the margin after one step of compensation of the repeatable sources; None if nothing
+    could be proved or nothing is compensated.
+
+    Unit: length unit or rad.
+    """
+
+
+class MeanAndMax(Fields):
+    """Mean and maximum over all configurations, in the length unit or rad."""
+
+    mean: float
+    """The mean.
+
+    Unit: length unit or rad.
+    """
+
+    max: float
+    """The maximum.
+
+    Unit: length unit or rad.
+    """
+
+
+class MeasureReport(Report):
+    """Errors of measured rows, before and after the predicted errors are subtracted."""
+
+    __slots__ = ()
+
+    name: str
+    """Name of the machine."""
+
+    length: str
+    """Length unit of all lengths."""
+
+    title: str
+    """Title of the map."""
+
+    rows: int
+    """Number of usable rows."""
+
+    errors: list[Size]
+    """ΔX = measured − ideal: along x, y, z and its norm; for poses, also about x, y, z."""
+
+    instruments: list[InstrumentErrors]
+    """Reading minus prediction of each instrument, in its own unit."""
+
+    explained: Explained
+    """Comparison with the prediction by the sources of the spec."""
+
+    repeated: Repeated
+    """Characteristics of repeated visits."""
+
+    accepted: AcceptanceVerdict | None
+    """Verdict on the declared limits, if any."""
+
+    extrapolated: Extrapolation | None
+    """Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no such rows."""
+
+    configurations: int
+    """Number of independent configurations."""
+
+    standard_error: float | None
+    """Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single configuration."""
+
+    order: ResidualDrift | None
+    """Drift test of the errors minus the repeatable sources; none for too few rows."""
+
+    unusable: int
+    """Number of unusable rows."""
+
+
+class MonitorFinding(Fields):
+    """Change of one error that explains the measurements best."""
+
+    name: str
+    """Name of the error."""
+
+    as_well: list[str]
+    """Errors that explain the measurements equally well."""
+
+    may_be_outside: bool
+    """Is true if this error, or an equally good one, belongs to the station or to what is mounted on the tool instead
+    of the machine.
+    """
+
+    kind: str
+    """Kind of change: `drift` or `jump`."""
+
+    since: float
+    """Time of the change, or of the beginning of the drift, as counted by the calendar."""
+
+    since_date: str
+    """Date of that time."""
+
+    between: list[float | None]
+    """Interval of that time with 95 % coverage, as counted by the calendar; an end is none if it lies before the
+    first check.
+    """
+
+    between_dates: list[str | None]
+    """Dates of the interval."""
+
+    size: float
+    """Rate per day (or check) of a drift, or height of a jump, in `unit`."""
+
+    standard_deviation: float
+    """Standard deviation of the size, in `unit`."""
+
+    unit: str
+    """Unit of the error: the length unit, or rad."""
+
+    effect: float
+    """Largest displacement of the tool point per unit of the error, in the length unit."""
+
+    moved: float
+    """Displacement of the tool point at that configuration until the last check, in the length unit."""
+
+    leaves: Exceedance | None
+    """Time at which the tolerance is exceeded, if there are a tolerance and a drift."""
+
+
+class MonitorReport(Report):
+    """Result of monitoring: charts, alarm and the change found."""
+
+    __slots__ = ()
+
+    name: str
+    """Name of the machine."""
+
+    length: str
+    """Length unit of all lengths."""
+
+    title: str
+    """Title of the map."""
+
+    calendar: Literal["dates", "days", "checks"]
+    """Calendar of the times."""
+
+    times: list[float]
+    """Time of every check, as counted by the calendar."""
+
+    dates: list[str]
+    """Dates of the checks."""
+
+    configurations: int
+    """Number of configurations common to all checks."""
+
+    left_out: int
+    """Number of configurations that are not in all checks and therefore unused."""
+
+    numbers: int
+    """Number of independent values per check once the station is known."""
+
+    fixed_station: bool
+    """Is true if the instrument stays in place between checks; otherwise its pose is unknown at each check."""
+
+    limit: Limit
+    """Control limit of the charts."""
+
+    charts: list[Chart]
+    """Charts of the errors, one per group of indistinguishable errors."""
+
+    left: Chart
+    """Chart of the deviation from the preceding checks, from any cause."""
+
+    unseen: list[str]
+    """Errors that are indistinguishable from a displacement of the instrument."""
+
+    alarm: Alarm | None
+    """First alarm, if there is one."""
+
+    finding: MonitorFinding | None
+    """Change found, if there is an alarm."""
+
+    tolerance: float | None
+    """Permitted displacement of the tool point, in the length unit; none if not given."""
+
+
+class MonteCarloErrors(Fields):
+    """Errors drawn at one configuration."""
+
+    at: Named[float]
+    """Joint variables and varying inputs of the configuration."""
+
+    at_parameters: Named[float]
+    """Parameters of the configuration that vary over the workspace."""
+
+    quantiles: list[Quantile]
+    """The 50, 95 and 99 % quantiles of the norm of the total error."""
+
+    largest: float
+    """Largest norm of a draw.
+
+    Unit: length unit.
+    """
+
+    mean: list[float]
+    """Mean error: the repeatable sources, and second-order effects of random rotations.
+
+    Unit: length unit.
+    """
+
+    covariance: list[list[float]]
+    """Covariance of the draws, in the squared length unit."""
+
+    covariance_standard_error: list[list[float]]
+    """Standard error of each entry of the covariance, `√(Var(d_i d_j) / N)`, in the squared length unit."""
+
+    first_order_covariance: list[list[float]]
+    """Covariance to first order, `J_e Σ J_eᵀ`, in the squared length unit."""
+
+    inside_ellipsoid: float | None = None
+    """Share of the draws within the first-order 95 % ellipsoid about the error without random sources, 0.95 only for
+    normal sources. None if the ellipsoid is flat.
+    """
+
+
+class MonteCarloReport(Fields):
+    """Errors drawn at the worst configuration and at home."""
+
+    draws: int
+    """Number of draws at each configuration."""
+
+    seed: int
+    """Seed of the draws."""
+
+    worst: MonteCarloErrors
+    """Errors at the configuration with the largest radius."""
+
+    home: MonteCarloErrors
+    """Errors at home."""
+
+
+class NominalValue(Fields):
+    """Structural parameter or input."""
+
+    name: str
+    """Name of the parameter or input."""
+
+    nominal: float
+    """Nominal value, in `unit`."""
+
+    unit: str
+    """Coherent unit; empty for a plain number."""
+
+    range: list[float | None] | None = None
+    """Range of an input, in `unit`, with None for a missing end. Parameters have no range."""
+
+
+class OrientationReport(Fields):
+    """Orientation errors over the workspace, in rad."""
+
+    rows: list[str]
+    """Names of rows 4–6."""
+
+    sources: list[OrientationSource]
+    """Errors of each source alone."""
+
+    repeatable_radius: float
+    """Norm of the sum of the repeatable sources.
+
+    Unit: rad.
+    """
+
+    random_radius: float
+    """Norm of the root sum of squares of the random sources at their bounds.
+
+    Unit: rad.
+    """
+
+    radius: float
+    """Sum of both norms at one configuration.
+
+    Unit: rad.
+    """
+
+    repeatable: list[float]
+    """Absolute value of the sum of the repeatable sources, row by row.
+
+    Unit: rad.
+    """
+
+    random: list[float]
+    """Root sum of squares of the random sources, row by row.
+
+    Unit: rad.
+    """
+
+    standard_deviation: list[float]
+    """Largest standard deviations, row by row.
+
+    Unit: rad.
+    """
+
+    standard_radius: float
+    """Largest standard deviation of the norm.
+
+    Unit: rad.
+    """
+
+    worst: Named[float]
+    """Configuration with the largest radius: joint variables and varying inputs."""
+
+    tolerance: float | None = None
+    """Tolerance of the norm, from the study.
+
+    Unit: rad.
+    """
+
+    budget: ErrorAllowance | None = None
+    """Errors that this tolerance allows."""
+
+    uncertainty: UncertaintyBudget | None = None
+    """Uncertainty budget after the GUM; None if no random source rotates the tool."""
+
+
+class OrientationSource(Fields):
+    """Orientation errors of one source alone over the workspace: rows 4–6 and their norm, in rad."""
+
+    name: str
+    """Name of the source."""
+
+    plain_max: Figures
+    """Largest absolute error. Random sources count at their bounds."""
+
+    half_peak_to_peak: Figures
+    """Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere."""
+
+    relative_to_home: Figures
+    """Largest difference from the error at home."""
+
+    rms: float
+    """Root mean square of the norm over the configurations.
+
+    Unit: rad.
+    """
+
+    worst: Named[float]
+    """Configuration with the largest norm."""
+
+
+class Pair(Fields):
+    """Two correlated parameters."""
+
+    of: list[str]
+    """Names of the parameters."""
+
+    correlation: float
+    """Correlation coefficient."""
+
+
+class Parameter(Fields):
+    """Kept unknown, which stands for an identifiable combination."""
+
+    name: str
+    """Name: `e_x1`, or `e_x0` for the base."""
+
+    kind: Literal["machine", "station", "placement"]
+    """Object that the unknown belongs to."""
+
+    frame: int | None
+    """Frame of an error, from 1; 0 is the base. None for other unknowns."""
+
+    frame_name: str | None
+    """Name of that frame."""
+
+    value: float
+    """Identified value, in `unit`."""
+
+    standard_deviation: float
+    """Standard deviation of the value, in `unit`."""
+
+    unit: str
+    """Unit: the length unit, rad, or empty."""
+
+    hardly_known: bool
+    """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
+
+
+class PlanReport(Report):
+    """Planned measurement, and the uncertainty predicted for it."""
+
+    __slots__ = ()
+
+    name: str
+    """Name of the machine."""
+
+    length: str
+    """Length unit of all lengths."""
+
+    title: str
+    """Title of the plan."""
+
+    rows: int
+    """Number of rows to measure."""
+
+    sets: list[SetSize]
+    """Number of rows of each set."""
+
+    inputs: list[Input]
+    """Range of each variable input over the rows."""
+
+    rank: int
+    """Rank of the identification Jacobian: the number of identifiable combinations of unknowns."""
+
+    unknowns: int
+    """Number of unknowns."""
+
+    machine: Counts
+    """Number of identifiable errors of base and frames alone, without targets on the tool."""
+
+    not_known: list[WeaklyDetermined]
+    """Errors that these rows will determine poorly compared with their prior."""
+
+    condition: float
+    """Condition number of the kept columns of the design matrix, each scaled to unit length."""
+
+    log_det: float
+    """`ln det` of the information matrix of columns scaled to unit length."""
+
+    exchanges: int
+    """Number of exchanges of the optimization."""
+
+    model_error: float
+    """Assumed error of the identified model itself: root mean square position error in the length unit."""
+
+    used: int
+    """Number of evaluated configurations of use."""
+
+    predicted: Predicted
+    """Predicted standard deviation of the identified tool point at these configurations, with the model error, in the
+    length unit.
+    """
+
+    unseen: list[UndeterminedError]
+    """Errors that move the tool point at these configurations but that the rows cannot determine. `predicted`
+    excludes them.
+    """
+
+
+class PoseDifference(Fields):
+    """Size of the differences of many pairs of poses."""
+
+    position: Figure
+    """Distance of the tool points, in the unit of length."""
+
+    angle: Figure
+    """Angle between the orientations, in rad."""
+
+
+class PoseFormat(Fields):
+    """Format of a pose."""
+
+    difference: PoseFormatDifference | None = None
+    """Target position followed by a position difference."""
+
+    euler: PoseFormatEuler | None = None
+    """Position and three angles."""
+
+    rotation_vector: PoseFormatRotationVector | None = None
+    """Position and a rotation vector (axis times angle)."""
+
+    quaternion: PoseFormatQuaternion | None = None
+    """Position and a quaternion."""
+
+    matrix: PoseFormatMatrix | None = None
+    """Position and a rotation matrix."""
+
+    homogeneous: PoseFormatHomogeneous | None = None
+    """Upper three rows, or all four, of a homogeneous matrix."""
+
+
+class PoseFormatDifference(Fields):
+    """Target position followed by a position difference."""
+
+    target_minus_actual: bool
+    """Is true if the difference is target − actual, false for actual − target."""
+
+
+class PoseFormatEuler(Fields):
+    """Position and three angles."""
+
+    axes: list[int]
+    """Axes, 0 = x, in the order of the columns."""
+
+    fixed: bool
+    """Is true for fixed axes, false for moving axes: `R = R_1 R_2 R_3`."""
+
+    degrees: bool
+    """Is true if the angles are in degrees, false for radians."""
+
+
+class PoseFormatHomogeneous(Fields):
+    """Upper three rows, or all four, of a homogeneous matrix."""
+
+    by_rows: bool
+    """Is true for row-major order, false for column-major."""
+
+
+class PoseFormatMatrix(Fields):
+    """Position and a rotation matrix."""
+
+    by_rows: bool
+    """Is true for row-major order, false for column-major."""
+
+
+class PoseFormatQuaternion(Fields):
+    """Position and a quaternion."""
+
+    scalar_first: bool
+    """Is true if the scalar is the first component, false for the last."""
+
+
+class PoseFormatRotationVector(Fields):
+    """Position and a rotation vector (axis times angle)."""
+
+    degrees: bool
+    """Is true if the angle is in degrees, false for radians."""
+
+
+class Predicted(Fields):
+    """Statistics of a standard deviation over the configurations of use, in the length unit."""
+
+    mean: float
+    """Mean.
+
+    Unit: length unit.
+    """
+
+    rms: float
+    """Root mean square.
+
+    Unit: length unit.
+    """
+
+    max: float
+    """Maximum.
+
+    Unit: length unit.
+    """
+
+    p95: float
+    """95 % quantile.
+
+    Unit: length unit.
+    """
+
+
+class PublishedResidual(Fields):
+    """Published errors after compensation, in the length unit."""
+
+    residual: float
+    """Repeatable residual after compensation.
+
+    Unit: length unit.
+    """
+
+    random: float
+    """Random errors.
+
+    Unit: length unit.
+    """
+
+    total: float
+    """Sum of both.
+
+    Unit: length unit.
+    """
+
+
+class Quantile(Fields):
+    """Quantile of a sample."""
+
+    probability: float
+    """Probability: the share of the values at or below the quantile."""
+
+    value: float
+    """Value, in the length unit."""
+
+    standard_error: float
+    """Standard error of the value, in the length unit."""
+
+
+class ReadingErrors(Fields):
+    """Figures of reading minus prediction; of the norm where an instrument reads three coordinates. They are in the
+    `unit` of the instrument.
+    """
+
+    mean: float
+    """The mean.
+
+    Unit: `unit` of the instrument.
+    """
+
+    standard_error: float | None
+    """Cluster-robust standard error of the mean; none for a single configuration.
+
+    Unit: `unit` of the instrument.
+    """
+
+    rms: float
+    """The root mean square.
+
+    Unit: `unit` of the instrument.
+    """
+
+    max: float
+    """The largest absolute value.
+
+    Unit: `unit` of the instrument.
+    """
+
+
+class Remainder(Fields):
+    """First-order error: distance of the tool point between the exact chain `A_1 E_1 … A_n E_n T` and `ΔX = J_e ε` of
+    the repeatable sources.
+    """
+
+    certified: float | None
+    """Certified upper bound over the box, in the length unit; None if nothing could be proved."""
+
+    boxes: int
+    """Number of evaluated boxes."""
+
+
+class Repeated(Fields):
+    """Characteristics of configurations with more than one visit."""
+
+    configurations: int
+    """Number of configurations."""
+
+    visits: int
+    """Number of visits."""
+
+    fewest: int
+    """Smallest number of visits of a configuration; the standard requires 30."""
+
+    ap: MeanAndMax | None
+    """Pose accuracy AP_p, 7.2.1; none without repeated visits."""
+
+    ap_turns: list[MeanAndMax] | None
+    """Absolute values of AP_a, AP_b, AP_c, 7.2.1, in rad; none without measured orientations."""
+
+    rp: MeanAndMax | None
+    """Pose repeatability RP_l, 7.2.2."""
+
+    rp_turns: list[MeanAndMax] | None
+    """RP_a, RP_b, RP_c, 7.2.2, in rad."""
+
+    three_sigma: list[float] | None
+    """Three standard deviations about the barycentres, along x, y, z, in the length unit."""
+
+    directions: Directions | None
+    """Multi-directional pose accuracy variation, 7.2.3; none without several directions of approach."""
+
+    distances: Distances | None
+    """Distance accuracy and repeatability, 7.3."""
+
+    drift: Drift | None
+    """Drift of pose characteristics, 7.6."""
+
+
+class ResidualDrift(Fields):
+    """Autocorrelation and drift of the residuals over time."""
+
+    lag_1: float
+    """Lag-1 autocorrelation of the residuals."""
+
+    p_of_lag_1: float
+    """Probability of such an autocorrelation in a random row order."""
+
+    follows: str
+    """Quantity that follows time best: `x`, `y`, `z` or `distance`."""
+
+    settling: float | None
+    """Time constant of the settling as a share of the run; none for a linear drift."""
+
+    change: float
+    """Change of that quantity from the first row to the last, in the length unit."""
+
+    p: float
+    """Probability of following time as well in a random row order."""
+
+    is_drift: bool
+    """Is true if `p` is at most the false-alarm rate."""
+
+    false_alarms: float
+    """False-alarm rate of the test."""
+
+    ends: list[float]
+    """Mean residual distance of the first tenth and of the last tenth of the rows, in the length unit."""
+
+    sentence: str
+    """Statement of the result in words."""
+
+
+class RootMeanSquares(Fields):
+    """Root mean squares of three norms over the configurations, in the length unit."""
+
+    repeatable: float
+    """Sum of the repeatable sources.
+
+    Unit: length unit.
+    """
+
+    random: float
+    """Root sum of squares of the random sources at their bounds.
+
+    Unit: length unit.
+    """
+
+    both: float
+    """Sum of both norms.
+
+    Unit: length unit.
+    """
+
+
+class RotaryAxis(Fields):
+    """Mean displacement of a rotary axis of the workpiece from its nominal pose."""
+
+    variable: str
+    """Name of its variable."""
+
+    position: list[float]
+    """Displacement of its origin along X, Y and Z of its base, in the unit of length of the spec."""
+
+    angles: list[float]
+    """Rotation about X, Y and Z of its base, in rad; the part about the axis itself is an error of its zero."""
+
+
+class SetSize(Fields):
+    """Number of rows of a set."""
+
+    name: str
+    """Name of the set."""
+
+    rows: int
+    """Number of rows."""
+
+
+class SimulateReport(Report):
+    """Simulated measurements."""
+
+    __slots__ = ()
+
+
+class Size(Fields):
+    """One component of ΔX over all rows. Values are in `unit`."""
+
+    name: str
+    """`x`, `norm`, `about x`."""
+
+    unit: str
+    """The length unit, or rad."""
+
+    mean: float
+    """The mean.
+
+    Unit: `unit`.
+    """
+
+    rms: float
+    """The root mean square.
+
+    Unit: `unit`.
+    """
+
+    max: float
+    """The largest absolute value.
+
+    Unit: `unit`.
+    """
+
+    three_sigma: float
+    """Three standard deviations about the mean.
+
+    Unit: `unit`.
+    """
+
+
+class Sizes(Fields):
+    """Statistics of the norms of position errors, in the length unit."""
+
+    mean: float
+    """Mean norm.
+
+    Unit: length unit.
+    """
+
+    standard_error: float | None
+    """Standard error of the mean, by the number of configurations; None if there is only one.
+
+    Unit: length unit.
+    """
+
+    rms: float
+    """Root mean square.
+
+    Unit: length unit.
+    """
+
+    max: float
+    """Largest norm.
+
+    Unit: length unit.
+    """
+
+    p95: float
+    """95th percentile.
+
+    Unit: length unit.
+    """
+
+
+class Source(Fields):
+    """Error source.
+
+    `["class"]`: Class of the source: `repeatable`, or `random` with its distribution.
+    """
+
+    name: str
+    """Name of the source."""
+
+    at: str
+    """Element of the chain that the source acts on."""
+
+    effects: int
+    """Number of generalized errors that the source causes."""
+
+    enabled: bool
+    """Indicates that the source is switched on."""
+
+
+class SourceAllowance(Fields):
+    """Errors that a tolerance allows one source."""
+
+    name: str
+    """Name of the source."""
+
+    alone: float | None
+    """Factor if there were no other source; None if it causes no error."""
+
+    equal: float | None
+    """Factor for an equal share; None if it causes no error."""
+
+    gain_per_percent: float
+    """Decrease of the radius if the source is reduced by one percent, in the tolerance's unit."""
+
+
+class SourceReport(Fields):
+    """Position errors of one source alone over the workspace: along x, y, z of `F_0` and their norm, in the length
+    unit. Random sources count at their bounds.
+
+    `["class"]`: Class of the source: `repeatable` or `random`.
+    """
+
+    name: str
+    """Name of the source."""
+
+    at: str
+    """Element of the chain that the source acts on."""
+
+    plain_max: Figures
+    """Largest absolute error."""
+
+    half_peak_to_peak: Figures
+    """Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere. For a random source, its
+    largest bound.
+    """
+
+    relative_to_home: Figures
+    """Largest difference from the error at home. For a random source, the largest difference of two draws."""
+
+    worst: Named[float]
+    """Configuration with the largest norm: joint variables and varying inputs."""
+
+    distribution: str | None = None
+    """Distribution of a random source; None for a repeatable one."""
+
+    worst_parameters: Named[float]
+    """Parameters of that configuration that vary over the workspace."""
+
+    orientation: list[float]
+    """Largest absolute orientation errors, rows 4–6, in rad."""
+
+
+class SourceUncertainty(Fields):
+    """Contribution of one random source. Arrays hold three rows and the norm. Lengths are in the spec's unit, angles
+    in rad.
+    """
+
+    source: str
+    """Name of the source."""
+
+    distribution: str
+    """Distribution of its error."""
+
+    value: float | None
+    """Value of the source in coherent units; None if it causes several errors, whose common factor is 1."""
+
+    divisor: float
+    """Divisor of the value: `u = value × sensitivity / divisor`."""
+
+    sensitivity: list[float]
+    """Sensitivity `|∂ΔX / ∂value|`, in products of the units."""
+
+    standard_uncertainty: list[float]
+    """Standard uncertainties u.
+
+    Unit: length unit or rad.
+    """
+
+    degrees_of_freedom: float
+    """Degrees of freedom of the standard uncertainty; infinite if it is exact."""
+
+    share: float
+    """Share of the variance of the norm, from 0 to 1."""
+
+
+class Sphere(Fields):
+    """Sphere around all points of a cloud, in the length unit."""
+
+    centre: list[float]
+    """Center.
+
+    Unit: length unit.
+    """
+
+    radius: float
+    """Radius.
+
+    Unit: length unit.
+    """
+
+    excess: float
+    """Upper bound of the excess over the radius of the smallest sphere. 0 if this is the smallest.
+
+    Unit: length unit.
+    """
+
+
+class StepResidual(Fields):
+    """Error of the repeatable sources after one step of compensation, `q′ = q − J_q⁻¹ J_e ε`: the exact chain at q′
+    compared with the ideal chain at q.
+    """
+
+    position: float | None
+    """Certified upper bound on the distance of the tool point over the box, in the length unit; None if nothing could
+    be proved.
+    """
+
+    orientation: float | None
+    """Certified upper bound on the rotation of the tool over the box, in rad. None if nothing could be proved, or
+    with fewer than six joints, which correct the tool point alone.
+    """
+
+    boxes: int
+    """Number of evaluated boxes."""
+
+
+class Table(Fields):
+    """A table of numbers for a CSV file."""
+
+    heading: list[str]
+    """Names of the columns."""
+
+    rows: list[list[float | None]]
+    """Rows, in the units of the map; a missing number is an empty cell."""
+
+    labels: list[str] | None = None
+    """Texts of a first column, such as the station of each row; empty if there is none."""
+
+
+class TermGain(Fields):
+    """Accepted group of terms."""
+
+    name: str
+    """Name of the group."""
+
+    lines: list[str]
+    """Terms of the group as lines of a spec with the identified magnitudes, one source effect each."""
+
+    written: bool
+    """Is true if a spec can contain these terms."""
+
+    before: float
+    """Root mean square residual of a coordinate in cross-validation without the group, in the length unit."""
+
+    after: float
+    """Root mean square residual of a coordinate in cross-validation with the group, in the length unit."""
+
+    f: float
+    """F statistic of the group, with configurations as independent samples."""
+
+    p: float
+    """Probability of an F at least as large by chance."""
+
+
+class ToleranceVerdict(Fields):
+    """Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
+
+    The probability is the smallest over the evaluated configurations: the one with the largest radius (norm of the
+    repeatable errors + norm of the random bounds), and those that an approximation ranks least likely to meet the
+    tolerance. To first order; repeatable sources have their nominal values, random sources are distributed.
+    """
+
+    verdict: Literal["met", "met-with-probability", "not-met"]
+    """Verdict on the tolerance."""
+
+    tolerance: float
+    """Largest permitted norm of the error.
+
+    Unit: length unit or rad.
+    """
+
+    probability: float
+    """Probability."""
+
+    error: float
+    """Error of the probability: a bound for an integral, the standard error `√(p (1 − p)/N)` for draws."""
+
+    draws: int | None
+    """Number of draws. None for an integral."""
+
+    largest: float | None
+    """Largest possible error over the workspace: the norm of the repeatable errors + the norms of all random bounds.
+    None if a random source is unbounded.
+
+    Unit: length unit or rad.
+    """
+
+    at: Named[float]
+    """Configuration with that probability. If the tolerance is certainly met, the configuration with the largest
+    radius.
+    """
+
+    configurations: int
+    """Number of configurations at which the probability was evaluated."""
+
+
+class ToolPointDeviation(Fields):
+    """Standard deviation of the tool point (√trace of its covariance) caused by the covariance of the identified
+    errors, in the length unit.
+    """
+
+    within: float
+    """Root mean square over configurations within the ranges.
+
+    Unit: length unit.
+    """
+
+    outside: float
+    """Root mean square over the configurations outside the ranges.
+
+    Unit: length unit.
+    """
+
+    outside_max: float
+    """Largest value outside the ranges.
+
+    Unit: length unit.
+    """
+
+
+class UncertaintyBudget(Fields):
+    """Uncertainty budget at the configuration with the largest combined standard uncertainty of the norm. Arrays hold
+    three rows and the norm; lengths are in the spec's unit, angles in rad.
+    """
+
+    at: Named[float]
+    """Joint variables and varying inputs of the configuration."""
+
+    at_parameters: Named[float]
+    """Parameters of the configuration that vary over the workspace."""
+
+    sources: list[SourceUncertainty]
+    """Random sources that contribute, largest share first."""
+
+    bias: list[float]
+    """Sum of the repeatable sources, with signs, and its norm.
+
+    Unit: length unit or rad.
+    """
+
+    standard_uncertainty: list[float]
+    """Combined standard uncertainties u.
+
+    Unit: length unit or rad.
+    """
+
+    effective_degrees_of_freedom: list[float]
+    """Effective degrees of freedom; infinite if all standard uncertainties are exact."""
+
+    coverage_probability: float
+    """Coverage probability of U."""
+
+    coverage_factor: list[float]
+    """Coverage factors k."""
+
+    expanded_uncertainty: list[float]
+    """Expanded uncertainties `U = k u`.
+
+    Unit: length unit or rad.
+    """
+
+    coverage: Compliance
+    """Probability that the deviation from the bias has a norm within U, with the actual distributions."""
+
+
+class UndeterminedError(Fields):
+    """Error that moves the tool point where the machine is used, but that the rows cannot determine."""
+
+    name: str
+    """Name: `e_r3`."""
+
+    moves: float
+    """Root mean square displacement of the tool point per `per`, beyond the equivalent kept errors, in the length
+    unit.
+    """
+
+    per: str
+    """Unit of the error: `mrad`, or the length unit."""
+
+
+class UnreachableReason(Fields):
+    """Reason why configurations are unreachable, with its count."""
+
+    reason: str
+    """Description of the reason."""
+
+    count: int
+    """Number of configurations with this reason."""
+
+
+class Variable(Fields):
+    """Joint variable, in the length unit or rad."""
+
+    name: str
+    """Name of the variable."""
+
+    kind: str
+    """Kind of the joint: `revolute` or `prismatic`."""
+
+    limits: list[float | None]
+    """Lower and upper limit; None where there is no limit.
+
+    Unit: length unit or rad.
+    """
+
+    home: float
+    """Value at home.
+
+    Unit: length unit or rad.
+    """
+
+
+class Verdicts(Fields):
+    """Verdicts on the tolerances of a study."""
+
+    verdict: Literal["met", "met-with-probability", "not-met"]
+    """Worst of the verdicts."""
+
+    probability_asked: float
+    """Required probability of meeting each tolerance."""
+
+    position: ToleranceVerdict | None = None
+    """Verdict on the position error; None without a position tolerance."""
+
+    orientation: ToleranceVerdict | None = None
+    """Verdict on the orientation error; None without an orientation tolerance."""
+
+
+class Warning(Fields):
+    """A suspicious number in the spec."""
+
+    line: int | None
+    """Line of the spec, from 1; None if only its name is known."""
+
+    message: str
+    """Description of the number, with a suggested correction."""
+
+
+class WeaklyDetermined(Fields):
+    """Error whose standard deviation exceeds half of the prior's. It is fixed at zero and not written to the spec."""
+
+    name: str
+    """Name of the error."""
+
+    told: float
+    """Standard deviation from the data alone, beside all kept unknowns, in `unit`."""
+
+    expected: float
+    """Standard deviation of the prior about zero, in `unit`."""
+
+    unit: str
+    """Unit: the length unit, rad, or empty."""

@@ -1,0 +1,29 @@
+//! Crates whose types are in reports.
+
+/// Folder of each crate, and the name of its modules here.
+pub(super) const FOLDERS: [(&str, &str); 8] = [
+    ("runtime/core", "core"),
+    ("analysis", "analysis"),
+    ("bound", "bound"),
+    ("calibration", "calibration"),
+    ("spec", "spec"),
+    ("codegen", "codegen"),
+    ("exchange", "exchange"),
+    ("study", "study"),
+];
+
+/// Returns the crates whose types a path can name that begins with this crate.
+pub(super) fn declare(first: &str) -> &'static [&'static str] {
+    match first {
+        "abbe" => &["core", "analysis", "calibration"],
+        "abbe_core" => &["core"],
+        "abbe_analysis" => &["analysis"],
+        "abbe_bound" => &["bound"],
+        "abbe_calibration" => &["calibration"],
+        "abbe_spec" => &["spec"],
+        "abbe_codegen" => &["codegen"],
+        "abbe_exchange" => &["exchange"],
+        "abbe_study" => &["study"],
+        _ => &[],
+    }
+}
