@@ -34,7 +34,7 @@ def test_readme(tmp_path):
         *_, jacobian, predicted = [line for line in python.splitlines() if "# (" in line]
         names = {}
         exec(python.split("arm.error_jacobian")[0], names)
-        assert names["arm"].error_jacobian(names["q"]).shape == (1_000_000, 6, 18) and "(1000000, 6, 18)" in jacobian
-        assert names["arm"].predict(names["q"], payload="2 kg").shape == (1_000_000, 6) and "(1000000, 6)" in predicted
+        assert names["arm"].error_jacobian(names["q"]).shape == (1_000_000, 6, 12) and "(1000000, 6, 12)" in jacobian
+        assert names["arm"].predict(names["q"]).shape == (1_000_000, 6) and "(1000000, 6)" in predicted
     finally:
         os.chdir(here)

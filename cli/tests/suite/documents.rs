@@ -1,8 +1,12 @@
 //! The documents show the output of the command: every `$ abbe …` in `docs/` is run, and the lines
-//! below it must appear in its output in that order.
+//! below it must appear in its output in that order. The pictures of a chapter are files that its
+//! commands write; `UPDATE_EXPECT=1` writes them to `docs/pictures`.
 
-use std::fs;
+use std::fs::{self, OpenOptions};
+use std::io::Write as _;
 use std::path::Path;
+
+use expect_test::expect_file;
 
 use super::running::command;
 
@@ -13,7 +17,7 @@ pub(crate) fn blocks(text: &str) -> Vec<(&str, &str)> {
 
 #[test]
 fn what_they_show_is_what_is_printed() {
-    let mut run = 0;
+    let (mut run, mut pictures) = (0, 0);
     let pages = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")).unwrap();
     let pages =
         pages.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "md"));
@@ -30,7 +34,11 @@ fn what_they_show_is_what_is_printed() {
                 "xml" => first.strip_prefix("<!-- ").and_then(|line| line.strip_suffix(" -->")),
                 _ => None,
             };
-            if let Some(name) = name {
+            if let Some(name) = name.and_then(|name| name.strip_prefix("at the end of ")) {
+                let path = folder.path().join(name);
+                let mut file = OpenOptions::new().append(true).open(path).unwrap();
+                write!(file, "\n{block}").unwrap();
+            } else if let Some(name) = name {
                 fs::write(folder.path().join(name), block).unwrap();
             }
             if language == "console" {
@@ -38,8 +46,15 @@ fn what_they_show_is_what_is_printed() {
                 run += 1;
             }
         }
+        let linked = text.split("](pictures/").skip(1).filter_map(|rest| rest.split(')').next());
+        for picture in linked.filter(|picture| !picture.starts_with("gallery/")) {
+            let written = fs::read_to_string(folder.path().join(picture)).unwrap();
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pictures").join(picture);
+            expect_file![path].assert_eq(&written);
+            pictures += 1;
+        }
     }
-    assert!(run >= 4);
+    assert!(run >= 100 && pictures >= 1, "{run} commands, {pictures} pictures");
 }
 
 /// The counts in the chapter are those of the plan file.
