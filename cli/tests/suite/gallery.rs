@@ -16,8 +16,9 @@ const HEAD: &str = "\
 # Gallery: the shipped manipulators
 
 These manipulators come with `abbe`: every command takes their name instead of a file, and their specs in
-[`manipulators/specs`](../manipulators/specs) are examples to start from. `abbe list` prints the table. The pictures and the
-figures are those of `abbe analyze NAME --out DIR`; errors that a maker does not publish are assumptions, marked as such in the spec.
+[`manipulators/specs`](../manipulators/specs) are examples to start from. `abbe list` prints their names. The pictures
+and the figures are those of `abbe analyze NAME --out DIR`. The `reference` of each source in a spec says where its
+error comes from; many are assumptions.
 
 | name | manipulator | joints | error sources | largest error |
 |---|---|---|---|---|

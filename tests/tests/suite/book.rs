@@ -1,5 +1,5 @@
-//! The book in `docs`: its table of contents has every chapter, and every relative link leads to a
-//! file.
+//! The book in `docs`: its tables of contents have every chapter, and every relative link leads to
+//! a file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,12 +33,14 @@ fn links(text: &str) -> Vec<&str> {
 fn every_chapter_is_in_the_table_of_contents() {
     let summary = fs::read_to_string(docs().join("SUMMARY.md")).expect("a summary");
     let index = fs::read_to_string(docs().join("README.md")).expect("an index");
+    let list = fs::read_to_string(docs().join("../llms.txt")).expect("a list");
     let chapters = chapters(&docs());
     assert!(chapters.len() > 25, "{}", chapters.len());
     for path in chapters {
         let name = path.strip_prefix(docs()).expect("below docs").to_str().expect("ASCII").to_owned();
         if name != "SUMMARY.md" {
             assert!(summary.contains(&format!("]({name})")), "{name} is not in SUMMARY.md");
+            assert!(list.contains(&format!("](docs/{name})")), "{name} is not in llms.txt");
             assert!(
                 name == "README.md" || index.contains(&format!("]({name})")),
                 "{name} is not in README.md"
@@ -49,9 +51,9 @@ fn every_chapter_is_in_the_table_of_contents() {
 
 #[test]
 fn every_relative_link_leads_to_a_file() {
-    let readme = docs().join("../README.md");
+    let others = ["README.md", "llms.txt"].map(|name| docs().join("..").join(name));
     let mut checked = 0;
-    for path in chapters(&docs()).into_iter().chain([readme]) {
+    for path in chapters(&docs()).into_iter().chain(others) {
         let text = fs::read_to_string(&path).expect("a chapter");
         for link in links(&text) {
             let target = path.parent().expect("a folder").join(link);

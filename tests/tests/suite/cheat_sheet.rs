@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use abbe::{Component, Manipulator};
+use abbe::{Component, Manipulator, Pose, real_pose};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
@@ -46,7 +46,7 @@ fn six_errors() {
     for (index, row) in rows.iter().enumerate() {
         let [number, error, kind, axis, _] = &row[..] else { panic!("{row:?}") };
         assert_eq!(number.parse(), Ok(index + 1));
-        assert_eq!(error.as_str(), Component::ALL[index].symbol());
+        assert_eq!(error.as_str(), Component::ALL[index].name());
         let axis = ["x", "y", "z"].iter().position(|name| name == axis).unwrap();
         let spec = format!(
             "[[frame]]\nname = \"f\"\nvariable = {{ name = \"q1\", kind = \"revolute\" }}\ntransform = \"Rz(q1)\"\n\
@@ -55,7 +55,10 @@ fn six_errors() {
             tool[0], tool[1], tool[2]
         );
         let robot = robot(&spec);
-        let (real, ideal) = (robot.real_pose(&[0.0], &[], &[]).unwrap().0, robot.pose(&[0.0], &[]).unwrap().0);
+        let (mut errors, mut transforms) = ([[0.0; 6]], [Pose::IDENTITY; 2]);
+        robot.generalized_errors(&[0.0], &[], &[], &mut errors).unwrap();
+        robot.transforms(&[0.0], &[], &mut transforms).unwrap();
+        let (real, ideal) = (real_pose(&transforms, &errors).0, robot.pose(&[0.0], &[]).unwrap().0);
         let displaced: [f64; 3] = std::array::from_fn(|i| (real[3][i] - ideal[3][i]) / size);
         let unit: [f64; 3] = std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
         let expected = if kind == "shift" {
@@ -89,8 +92,7 @@ fn denavit_hartenberg_and_urdf_are_their_formulas() {
         let given = pose(&format!("{key} = {{ theta = 0.3, d = 20, a = 50, alpha = 0.7 }}"));
         assert!(close(&given, &with(&row[1], &numbers)), "{key}");
     }
-    let numbers =
-        [("x", 10.0), ("y", 20.0), ("z", 30.0), ("roll", 0.2), ("pitch", 0.4), ("yaw", 0.6)];
+    let numbers = [("x", 10.0), ("y", 20.0), ("z", 30.0), ("roll", 0.2), ("pitch", 0.4), ("yaw", 0.6)];
     let [row] = &table("URDF")[..] else { panic!("one row") };
     let given = pose("origin = { xyz = [10, 20, 30], rpy = [0.2, 0.4, 0.6] }");
     assert!(close(&given, &with(&row[1], &numbers)));
@@ -105,10 +107,10 @@ fn letters_of_iso_230() {
     for row in table("The six errors") {
         for axis in ["X", "Y", "Z"] {
             let name = format!("{}{axis}", row[4]);
-            let effect = description.effects.iter().find(|e| description.sources[e.source].name == name);
+            let effect = description.effects.iter().find(|e| &*description.sources[e.source].name == name);
             let effect = effect.unwrap_or_else(|| panic!("{name}"));
-            assert_eq!(effect.component.symbol(), row[1], "{name}");
-            assert_eq!(description.frames[effect.frame].name, axis, "{name}");
+            assert_eq!(effect.component.name(), row[1], "{name}");
+            assert_eq!(&*description.frames[effect.frame].name, axis, "{name}");
             compared += 1;
         }
     }
