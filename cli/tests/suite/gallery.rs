@@ -1,5 +1,6 @@
 //! The gallery in `docs/gallery.md` and its pictures: the first screen, the manipulator and the
-//! shares of its sources, as `abbe analyze` writes them for every shipped manipulator. `UPDATE_EXPECT=1` writes them.
+//! shares of its sources, as `abbe analyze` writes them for every shipped manipulator.
+//! `UPDATE_EXPECT=1` writes them.
 
 use std::fmt::Write as _;
 use std::fs;
