@@ -95,3 +95,23 @@ fn its_commands_run() {
     }
     assert!(folder.path().join("src/arm.rs").exists());
 }
+
+#[test]
+fn commands_in_the_table_of_the_chapter_run() {
+    let folder = tempfile::tempdir().unwrap();
+    for sub in ["specs", "src"] {
+        fs::create_dir(folder.path().join(sub)).unwrap();
+    }
+    fs::write(folder.path().join("specs/arm.toml"), spec()).unwrap();
+    let chapter = fs::read_to_string(root().join("docs/in-your-program.md")).unwrap();
+    let commands = chapter.lines().filter_map(|line| line.strip_prefix("| `abbe ")?.split('`').next());
+    let mut run = 0;
+    for line in commands {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let output = command(&words).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        assert!(folder.path().join(words[words.len() - 1]).exists(), "{line}");
+        run += 1;
+    }
+    assert_eq!(run, 6);
+}

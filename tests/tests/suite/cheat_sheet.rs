@@ -107,7 +107,7 @@ fn letters_of_iso_230() {
     for row in table("The six errors") {
         for axis in ["X", "Y", "Z"] {
             let name = format!("{}{axis}", row[4]);
-            let effect = description.effects.iter().find(|e| &*description.sources[e.source].name == name);
+            let effect = description.effects.iter().find(|e| *description.sources[e.source].name == name);
             let effect = effect.unwrap_or_else(|| panic!("{name}"));
             assert_eq!(effect.component.name(), row[1], "{name}");
             assert_eq!(&*description.frames[effect.frame].name, axis, "{name}");
