@@ -1,8 +1,12 @@
 //! The documents show the output of the command: every `$ abbe …` in `docs/` is run, and the lines
-//! below it must appear in its output in that order.
+//! below it must appear in its output in that order. The pictures of a chapter are files that its
+//! commands write. `UPDATE_EXPECT=1` writes lines and pictures anew: look at the diff.
 
-use std::fs;
+use std::fs::{self, OpenOptions};
+use std::io::Write as _;
 use std::path::Path;
+
+use expect_test::expect_file;
 
 use super::running::command;
 
@@ -13,7 +17,7 @@ pub(crate) fn blocks(text: &str) -> Vec<(&str, &str)> {
 
 #[test]
 fn what_they_show_is_what_is_printed() {
-    let mut run = 0;
+    let (mut run, mut pictures) = (0, 0);
     let pages = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")).unwrap();
     let pages =
         pages.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "md"));
@@ -21,7 +25,8 @@ fn what_they_show_is_what_is_printed() {
     for page in pages.chain([readme]) {
         // Each chapter has its own files.
         let folder = tempfile::tempdir().unwrap();
-        let text = fs::read_to_string(page).unwrap();
+        let text = fs::read_to_string(&page).unwrap();
+        let mut new = text.clone();
         for (language, block) in blocks(&text) {
             // The first line of a file names it.
             let first = block.lines().next().unwrap_or_default();
@@ -30,16 +35,29 @@ fn what_they_show_is_what_is_printed() {
                 "xml" => first.strip_prefix("<!-- ").and_then(|line| line.strip_suffix(" -->")),
                 _ => None,
             };
-            if let Some(name) = name {
+            if let Some(name) = name.and_then(|name| name.strip_prefix("at the end of ")) {
+                let path = folder.path().join(name);
+                let mut file = OpenOptions::new().append(true).open(path).unwrap();
+                write!(file, "\n{block}").unwrap();
+            } else if let Some(name) = name {
                 fs::write(folder.path().join(name), block).unwrap();
             }
             if language == "console" {
-                shown(block, folder.path());
+                let fenced = |block: &str| format!("```console\n{block}```");
+                new = new.replace(&fenced(block), &fenced(&refreshed(block, folder.path())));
                 run += 1;
             }
         }
+        expect_file![page].assert_eq(&new);
+        let linked = text.split("](pictures/").skip(1).filter_map(|rest| rest.split(')').next());
+        for picture in linked.filter(|picture| !picture.starts_with("gallery/")) {
+            let written = fs::read_to_string(folder.path().join(picture)).unwrap();
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pictures").join(picture);
+            expect_file![path].assert_eq(&written);
+            pictures += 1;
+        }
     }
-    assert!(run >= 4);
+    assert!(run >= 100 && pictures >= 1, "{run} commands, {pictures} pictures");
 }
 
 /// The counts in the chapter are those of the plan file.
@@ -53,17 +71,29 @@ fn counts_in_sentences_are_those_of_the_plan() {
     assert!(plan.contains(&sentence), "{sentence}");
 }
 
-fn shown(block: &str, folder: &Path) {
+/// Runs the command of a block, and returns the block with the lines that it prints: a line that is
+/// not printed becomes the most similar line below the one before it.
+fn refreshed(block: &str, folder: &Path) -> String {
     let mut lines = block.lines();
-    let line = lines.next().and_then(|line| line.strip_prefix("$ abbe ")).expect("a command");
+    let first = lines.next().unwrap_or_default();
+    let line = first.strip_prefix("$ abbe ").expect("a command");
     let output = command(&shell_words::split(line).unwrap()).current_dir(folder).output().unwrap();
     let printed = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    let mut rest = printed.lines();
+    let mut rest = &printed.lines().collect::<Vec<_>>()[..];
+    let mut text = format!("{first}\n");
     for expected in lines {
-        assert!(
-            rest.any(|found| found == expected),
-            "{line}\ndoes not print, or not there:\n{expected}\nbut\n{printed}"
-        );
+        let exact = rest.iter().position(|found| *found == expected);
+        let found = exact.or_else(|| (0..rest.len()).rev().max_by_key(|i| common_words(expected, rest[*i])));
+        if let Some(found) = found {
+            text.extend([rest[found], "\n"]);
+            rest = &rest[found + 1..];
+        }
     }
+    text
+}
+
+/// Counts the words of a line that another line has, too.
+fn common_words(line: &str, other: &str) -> usize {
+    line.split_whitespace().filter(|word| other.split_whitespace().any(|found| found == *word)).count()
 }

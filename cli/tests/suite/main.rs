@@ -9,6 +9,7 @@ mod check;
 mod compensate;
 mod documents;
 mod export;
+mod gallery;
 mod generate;
 mod help;
 mod identify;

@@ -9,6 +9,7 @@ mod batches;
 mod beams;
 mod book;
 mod bound;
+mod cheat_sheet;
 mod chosen;
 mod compensate;
 mod deviations;
