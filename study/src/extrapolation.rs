@@ -14,7 +14,7 @@ use crate::{Notes, number};
 const SAMPLES: usize = 500;
 
 /// Configurations outside the ranges on which the errors of a spec were fitted.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Extrapolation {
     /// Number of configurations outside the ranges.
     pub outside: usize,
@@ -22,6 +22,9 @@ pub struct Extrapolation {
     pub all: usize,
     /// Standard deviation of the tool point; `None` if the spec states no covariance.
     pub known: Option<ToolPointDeviation>,
+    /// Warning in a sentence, for texts and pages.
+    #[serde(skip)]
+    pub sentence: String,
 }
 
 /// Standard deviation of the tool point (√trace of its covariance) caused by the covariance of the
@@ -81,11 +84,12 @@ pub(crate) fn warn_of_extrapolation<'r>(
     let named = named.collect::<Vec<_>>().join(", ");
     let deviation_there = known.map_or(String::new(), |known| known.sentence(spec));
     let count = outside.len();
-    notes.warn(&format!(
+    let warning = format!(
         "{count} of {all} {what} are outside the ranges on which the errors of this spec were fitted ({named}): what is said of \
          them is extrapolated{deviation_there}"
-    ));
-    Some(Extrapolation { outside: count, all, known })
+    );
+    notes.warn(&warning);
+    Some(Extrapolation { outside: count, all, known, sentence: format!("{warning}.") })
 }
 
 impl ToolPointDeviation {

@@ -9,6 +9,8 @@ use std::process::Command;
 
 use abbe_tests::needs::{Missing, Tests, tool};
 
+use crate::browser::{chromium, pages};
+
 pub(crate) const TESTS: Tests = &[("pages_are_accessible", pages_are_accessible)];
 
 /// Opens folded tables, checks the page, and replaces it with the result.
@@ -36,41 +38,10 @@ fn pages_are_accessible() -> Result<(), Missing> {
     Ok(())
 }
 
-/// Writes a page of every kind.
-fn pages(folder: &Path) -> Vec<PathBuf> {
-    let run = |line: &str| {
-        let words = shell_words::split(line).expect("words");
-        let run = Command::new(env!("CARGO_BIN_EXE_abbe")).args(words).current_dir(folder).output();
-        let run = run.expect("abbe runs");
-        assert!(run.status.success(), "{line}: {}", String::from_utf8_lossy(&run.stderr));
-    };
-    run("analyze pps --monte-carlo 100 --out analysis");
-    run("analyze ur5 --out arm");
-    run("simulate pps --map pps --samples 40 --out data.csv");
-    run("simulate pps --map pps --samples 40 --seed 1 --out test.csv");
-    run("measure pps data.csv --map pps --accept 'mean 9 mm' --out measured");
-    run("identify pps data.csv --map pps --test test.csv --report identification.html");
-    run("compensate pps data.csv --map pps --report compensation.html");
-    run("plan ur5 --map ur5 --optimal 20 --out plan.csv");
-    for (seed, day) in (1..).zip(["monday", "tuesday", "wednesday"]) {
-        run(&format!("simulate ur5 plan.csv --map ur5 --seed {seed} --out {day}.csv"));
-    }
-    run("monitor ur5 monday.csv tuesday.csv wednesday.csv --map ur5 --report monitoring.html");
-    let pages =
-        ["analysis/report", "arm/report", "measured/report", "identification", "compensation", "monitoring"];
-    pages.map(|page| folder.join(page).with_extension("html")).to_vec()
-}
-
 /// Returns the content of a page after its scripts have run.
 fn opened(page: &Path, folder: &Path) -> String {
-    let output = Command::new("chromium")
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=60000", "--dump-dom"])
-        .arg(format!("--user-data-dir={}", folder.join("profile").display()))
-        .arg(page)
-        .output()
-        .expect("chromium runs");
-    let text = String::from_utf8_lossy(&output.stdout);
-    text.split_once("<body").map_or_else(|| text.to_string(), |(_, body)| body.to_owned())
+    let text = chromium(folder, &["--virtual-time-budget=60000", "--dump-dom"], page);
+    text.split_once("<body").map_or_else(|| text.clone(), |(_, body)| body.to_owned())
 }
 
 /// Returns the path of axe-core.

@@ -2,9 +2,11 @@
 //! missing, the test is ignored with the reason.
 
 mod accessibility;
+mod browser;
 mod fmu;
 mod full_disk;
 mod measured_data;
+mod printing;
 mod reference;
 
 use std::process::ExitCode;
@@ -17,6 +19,7 @@ fn main() -> ExitCode {
         ("fmu", fmu::TESTS),
         ("full_disk", full_disk::TESTS),
         ("measured_data", measured_data::TESTS),
+        ("printing", printing::TESTS),
         ("reference", reference::TESTS),
     ])
 }
