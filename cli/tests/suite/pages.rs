@@ -30,15 +30,9 @@ fn pages_say_what_they_rest_on_and_are_the_same_every_time() {
         for (arguments, expected) in [
             (
                 &identify[..],
-                &[
-                    "Date as given: 21 November",
-                    "Residuals in space",
-                    "Over each joint",
-                    "Ranges",
-                    "cannot be told apart",
-                ][..],
+                &["Date: 21 November", "Residuals in space", "By joint", "Ranges", "cannot be told apart"][..],
             ),
-            (&compensate[..], &["Distance over each joint", "Corrections of the joints", "commands"][..]),
+            (&compensate[..], &["Position error by joint", "Joint corrections", "commands"][..]),
         ] {
             let written = || {
                 // Status 1: some commands are at a limit and not corrected.
@@ -66,9 +60,7 @@ fn a_measuring_report_has_its_instrument_and_files() {
     full(&["measure", "pps", &data, "--map", "pps", "--out", path(&out), "--date", "2026-11-21"]);
     let text = fs::read_to_string(out.join("report.html")).unwrap();
     is_alone(&text);
-    for expected in
-        ["Instrument", "Over each joint", "Accuracy: errors in space", "SHA-256", "Date as given: 2026-11-21"]
-    {
+    for expected in ["Instrument", "By joint", "Accuracy: errors in space", "SHA-256", "Date: 2026-11-21"] {
         assert!(text.contains(expected), "{expected}");
     }
 }

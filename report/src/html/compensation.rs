@@ -36,7 +36,7 @@ pub fn compensation(
     let after = [
         section("Figures", &format!("<p>Distances are in mm.</p>\n{drawn}")),
         section("Position error of the tool point", &sizes(spec, report)),
-        section("Rows that are not compensated", &failed(report)),
+        section("Rows not compensated", &failed(report)),
         folded("Rows", &format!("<p>{lines}</p>\n")),
         section("Input files", &provenance.table()),
     ];
@@ -50,12 +50,12 @@ fn summary(spec: &Spec, report: &Report) -> String {
     let card = |name, size: &NormStatistics| Card {
         name,
         value: format!("{} {}", visible(size.mean, decimals), report.length),
-        note: format!("on average; largest {} {}", visible(size.max, decimals), report.length),
+        note: format!("mean; maximum {} {}", visible(size.max, decimals), report.length),
     };
     let tolerance = Card {
         name: "Tolerance",
         value: number::length(report.tolerance, spec.length),
-        note: "allowed at the tool point".to_owned(),
+        note: "largest error allowed at the tool point".to_owned(),
     };
     cards([card("As commanded", &report.before), card("Corrected", &report.after), tolerance])
 }
@@ -70,7 +70,8 @@ fn sizes(spec: &Spec, report: &Report) -> String {
     let rows = [("as commanded", &report.before), ("corrected", &report.after)].map(row).concat();
     let unit = report.length;
     let columns = ["mean", "rms", "largest"].map(|name| format!("{name} ({unit})"));
-    let columns = [""].into_iter().chain(columns.iter().map(String::as_str)).chain(["largest turn (mrad)"]);
+    let columns =
+        [""].into_iter().chain(columns.iter().map(String::as_str)).chain(["max orientation error (mrad)"]);
     let body = format!("<tbody>{rows}</tbody>\n");
     ledger("Position errors before and after", &columns.collect::<Vec<_>>(), &[0], &body)
 }

@@ -58,12 +58,13 @@ fn table(report: &Report) -> String {
     let unseen = match report.unseen.len() {
         0 => String::new(),
         _ => format!(
-            "<p>These cannot be told from where the instrument stands, or do not move what is measured: {}.</p>\n",
+            "<p>Not observable, because indistinguishable from the station or without effect on \
+             the measurements: {}.</p>\n",
             escaped(&report.unseen.join(", "))
         ),
     };
-    let columns = ["error", "last value", "unit", "average, share of the limit", "alarm"];
-    let caption =
-        "Control charts, the nearest to its limit first; below each error those that cannot be told from it";
+    let columns = ["error", "last value", "unit", "average as share of the limit", "alarm"];
+    let caption = "Control charts, nearest to the limit first; the small print names indistinguishable \
+         errors";
     ledger(caption, &columns, &[0, 2], &format!("<tbody>{rows}</tbody>\n")) + &unseen
 }

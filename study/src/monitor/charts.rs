@@ -108,7 +108,7 @@ fn residual_chart(numbers: &CheckValues, limit: &Limit) -> Chart {
         first.chain(norms.iter().skip(1).map(|norm| series.next(norm.powf(2.0 / 3.0)))).collect();
     let average = limit.averages(standard.into_iter());
     Chart {
-        name: "what is left".to_owned(),
+        name: "residual change".to_owned(),
         unit: "",
         alike: Vec::new(),
         alarm: average.iter().position(|share| *share > 1.0),

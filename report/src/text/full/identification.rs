@@ -35,7 +35,7 @@ fn known(report: &Report) -> String {
     if report.unexplained > 0 {
         let line = format!(
             "{} more combinations have no effect at these configurations; other configurations \
-             would show them.",
+             may reveal them.",
             report.unexplained
         );
         text += &format!("{}\n", wrapped(&line, 0));
@@ -70,7 +70,8 @@ fn parameters(spec: &Spec, report: &Report) -> String {
         text += &format!("Estimated magnitudes of sources of the spec\n{sentences}");
     }
     if report.parameters.iter().any(|parameter| parameter.hardly_known) {
-        let line = "Hardly known: the prior determines it more than the data do (`--prior`).";
+        let line = "Prior-dominated: the prior has more influence on these errors than the data \
+            (`--prior`).";
         text += &format!("{line}\n");
     }
     text += &not_known(spec, report);
@@ -103,7 +104,7 @@ fn table(spec: &Spec, report: &Report, wanted: impl Fn(&Parameter) -> bool) -> T
             "" => digits(value, 4),
             _ => fixed(value * factor, decimals),
         };
-        let remark = if parameter.hardly_known { "hardly known" } else { "" };
+        let remark = if parameter.hardly_known { "prior-dominated" } else { "" };
         table.row(vec![
             parameter.name.clone(),
             parameter.frame_name.clone().unwrap_or_default(),
@@ -162,7 +163,7 @@ fn not_known(spec: &Spec, report: &Report) -> String {
 /// Tabulates errors as delivered, with base and tool fitted, and identified.
 fn sizes(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
-    let what = if report.instruments.is_empty() { "position error" } else { "error of a reading" };
+    let what = if report.instruments.is_empty() { "position error" } else { "residual of a reading" };
     let mut table = Table::new(&[what, "rows", "mean", "±", "rms", "95 %", "max"]);
     let mut row = |name: &str, rows: usize, sizes: &Sizes| {
         let sure = sizes.standard_error.map_or("?".to_owned(), |error| fixed(error, decimals));
@@ -300,7 +301,9 @@ fn behind(report: &Report) -> String {
 
 /// Compares two models with the p-value of the difference.
 fn comparison(gain: Gain, unit: &str) -> String {
-    let Some(error) = gain.standard_error else { return "one configuration cannot tell".to_owned() };
+    let Some(error) = gain.standard_error else {
+        return "not comparable: there is only one configuration".to_owned();
+    };
     let by = format!("{} ± {} {unit}", digits(gain.mean.abs(), 3), digits(error, 2));
     let p = if gain.p < 1e-12 { "below 1e-12".to_owned() } else { digits(gain.p, 2) };
     match gain.p < 0.05 {
@@ -365,7 +368,7 @@ fn terms(spec: &Spec, report: &Report) -> String {
     let lines = report.terms.iter().flat_map(|term| &term.lines);
     let lines: String = lines.map(|line| format!("  {}\n", line.replace('\n', ", "))).collect();
     let mut text =
-        format!("{}{}\n{constant}As a spec reads\n{lines}", table.right(&[1, 2, 3]), wrapped(&line, 0));
+        format!("{}{}\n{constant}As written to a spec\n{lines}", table.right(&[1, 2, 3]), wrapped(&line, 0));
     let unwritten: Vec<&str> =
         report.terms.iter().filter(|term| !term.written).map(|term| term.name.as_str()).collect();
     if !unwritten.is_empty() {

@@ -49,7 +49,7 @@ impl Part {
     /// Sweeps a share of the workspace.
     pub fn new(request: AnalysisRequest, shard: Shard, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
         let job = request.job(&mut ())?;
-        let refused = |message| mistake::with_help(&request.spec, message, "ask for fewer draws");
+        let refused = |message| mistake::with_help(&request.spec, message, "choose fewer draws");
         request.check_draws().map_err(refused)?;
         let identity = request.identity(&job)?;
         let gathered = job.sweep_chunks(|count| shard.chunks(count), notes)?;

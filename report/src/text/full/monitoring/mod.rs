@@ -33,8 +33,14 @@ pub(in crate::text) fn monitoring(spec: &Spec, report: &Report) -> String {
 fn charts(report: &Report) -> String {
     let all = report.nearest_first();
     let now = |chart: &Chart| chart.average.last().copied().unwrap_or_default();
-    let mut table =
-        Table::new(&["error", "acts alike", "last value", "", "average, share of the limit", "alarm"]);
+    let mut table = Table::new(&[
+        "error",
+        "indistinguishable from",
+        "last value",
+        "",
+        "average as share of the limit",
+        "alarm",
+    ]);
     let hidden = all.len().saturating_sub(SHOWN);
     for chart in all.into_iter().take(SHOWN).chain([&report.left]) {
         let (factor, unit) = if chart.unit == "rad" { (1e3, "mrad") } else { (1.0, chart.unit) };
