@@ -233,7 +233,7 @@ pub struct Summary {
     /// Name of the file.
     pub file: String,
     /// Description of the dialect, if it is not the usual one.
-    #[serde(rename = "written", skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub dialect: Option<&'static str>,
     /// Number of usable rows.
     pub rows: usize,

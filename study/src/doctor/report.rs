@@ -7,8 +7,7 @@ use crate::interpretations::Interpretation;
 /// An interpretation and its residual.
 #[derive(Clone, Debug, Serialize)]
 pub struct Finding {
-    /// The interpretation. Serialized as `reading`.
-    #[serde(rename = "reading")]
+    /// The interpretation.
     pub interpretation: Interpretation,
     /// Description of the interpretation.
     pub words: String,

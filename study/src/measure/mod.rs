@@ -71,7 +71,6 @@ pub struct Report {
     /// Cluster-robust standard error of the mean norm of ΔX; none for a single configuration.
     pub standard_error: Option<f64>,
     /// Drift test of the errors minus the repeatable sources; none for too few rows.
-    #[serde(rename = "order")]
     pub drift: Option<ResidualDrift>,
     /// Number of unusable rows.
     pub unusable: usize,

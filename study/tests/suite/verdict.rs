@@ -185,7 +185,7 @@ fn figures_of_the_orientation() {
     let largest = report.budget.orientation.combined.radius.value;
     assert!((norm - largest).abs() < 1e-12 * largest, "{norm} {largest}");
     let json = serde_json::to_value(&report.figures).unwrap();
-    assert_eq!(json["figures"][3]["asked"]["measurand"], "orientation");
+    assert_eq!(json["figures"][3]["request"]["measurand"], "orientation");
 }
 
 /// The value of a joint's encoder error is the angle, and its sensitivity the lever, here 100 mm.

@@ -19,7 +19,6 @@ use crate::notes::Notes;
 pub struct Part {
     pub(super) made_by: Build,
     pub(super) identity: String,
-    #[serde(rename = "question")]
     pub(super) request: AnalysisRequest,
     pub(super) shard: Shard,
     pub(super) gathered: SweepData,
