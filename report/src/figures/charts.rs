@@ -88,7 +88,10 @@ fn changed(finding: &Finding, report: &Report) -> Scene {
 fn all(report: &Report) -> Scene {
     let charts = || report.charts.iter().chain([&report.left]);
     let named = |name: &str| {
-        report.charts.iter().find(|chart| chart.name == name || chart.alike.iter().any(|alike| alike == name))
+        report
+            .charts
+            .iter()
+            .find(|chart| chart.name == name || chart.indistinguishable.iter().any(|other| other == name))
     };
     let found = report.finding.as_ref().and_then(|finding| named(&finding.name));
     let first =

@@ -139,9 +139,10 @@ fn placed(spec: &Spec, report: &Report) -> String {
 fn not_known(report: &Report) -> String {
     let one = |not_known: &WeaklyDetermined| {
         let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
-        let [told, expected] = [not_known.told, not_known.expected].map(|value| digits(value * factor, 2));
+        let [deviation, expected] =
+            [not_known.standard_deviation, not_known.expected].map(|value| digits(value * factor, 2));
         format!(
-            "<li>{}: standard deviation {told} {unit} from these data, expected {expected} \
+            "<li>{}: standard deviation {deviation} {unit} from these data, expected {expected} \
              {unit}</li>\n",
             escaped(&not_known.name)
         )

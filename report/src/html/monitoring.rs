@@ -48,7 +48,7 @@ fn table(report: &Report) -> String {
             "<tr><th scope=\"row\" class=\"words\">{}<small>{}</small></th><td>{}</td><td class=\"words\">{unit}</td><td>{}</td>\
              <td>{}</td></tr>\n",
             escaped(&chart.name),
-            escaped(&chart.alike.join(", ")),
+            escaped(&chart.indistinguishable.join(", ")),
             fixed(last(&chart.values) * factor, 4),
             percent(last(&chart.average), 1.0),
             chart.alarm.map_or("", |check| &report.dates[check]),

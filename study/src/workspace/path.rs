@@ -228,9 +228,9 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
 /// Returns the first mistake of a document in one line.
 fn mistake(document: &Document) -> String {
     let mistake = document.found.first();
-    let said = mistake.map(|mistake| match &mistake.help {
+    let message = mistake.map(|mistake| match &mistake.help {
         Some(help) => format!("{}; {help}", mistake.message),
         None => mistake.message.clone(),
     });
-    said.unwrap_or_default()
+    message.unwrap_or_default()
 }

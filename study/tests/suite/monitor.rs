@@ -202,7 +202,7 @@ fn the_drifting_error_is_identified() {
         named += u64::from(
             finding.name == name
                 || finding.as_well.iter().any(|other| other == name)
-                || alike.flat_map(|chart| &chart.alike).any(|other| other == name),
+                || alike.flat_map(|chart| &chart.indistinguishable).any(|other| other == name),
         );
         assert_eq!(finding.kind, "drift");
         let [first, last] = finding.between;

@@ -307,7 +307,7 @@ fn a_reflector_on_the_last_axis() {
     assert!(report.condition < 1000.0, "{}", report.condition);
     assert!(!report.not_known.is_empty());
     for weak in &report.not_known {
-        assert!(weak.told > 0.5 * weak.expected, "{weak:?}");
+        assert!(weak.standard_deviation > 0.5 * weak.expected, "{weak:?}");
     }
     for parameter in report.parameters.iter().filter(|parameter| parameter.unit == "rad") {
         assert!(parameter.standard_deviation < 0.5 * 0.01, "{parameter:?}");

@@ -5,7 +5,7 @@ use abbe_study::data::Map;
 use abbe_study::number::{digits, quantity, short};
 use abbe_study::plan::{Input, Report, UndeterminedError};
 
-use super::{alike, wrapped};
+use super::{indistinguishable, wrapped};
 
 /// Returns what `abbe plan` prints, except where the configurations are written.
 pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
@@ -63,7 +63,7 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }
-    text + &format!("\n{}\n", alike::table(&report.groups))
+    text + &format!("\n{}\n", indistinguishable::table(&report.groups))
 }
 
 /// `payload goes from 0 kg to 5 kg`, or `payload stays at 0 kg`.
