@@ -79,7 +79,7 @@ pub(crate) fn watch() {
             let silent = line.counted.unwrap_or(begun).elapsed();
             if silent > PATIENCE {
                 let make = || ProgressBar::new_spinner().with_elapsed(begun.elapsed());
-                line.show(false, make, "{spinner} at work for {elapsed}, Ctrl-C ends it").tick();
+                line.show(false, make, "{spinner} running for {elapsed}, Ctrl-C stops").tick();
             }
         }
     });
@@ -128,7 +128,7 @@ impl Notes for Console {
             let bar = ProgressBar::new(total as u64).with_elapsed(begun.elapsed());
             bar.with_position(done as u64).with_message(rest.clone())
         };
-        let template = "{bar:30} {pos} of {len} done, {msg} left, Ctrl-C ends it";
+        let template = "{bar:30} {pos} of {len} done, {msg} left, Ctrl-C stops";
         let bar = line.show(true, make, template);
         bar.set_message(rest.clone());
         bar.set_position(done as u64);

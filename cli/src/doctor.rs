@@ -20,7 +20,7 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
         Some(text) => {
             let mut document = Document::new("--within", text.as_str());
             let length = machine.spec.length;
-            let value = parse_value(&mut document, 0..text.len(), length, Dimension::LENGTH, "this length");
+            let value = parse_value(&mut document, 0..text.len(), length, Dimension::LENGTH, "`--within`");
             Some(document.finish(value)?)
         }
     };
@@ -37,10 +37,11 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
         None => None,
     };
     let none = match report.fits {
-        false => ["no reading fits: no map is written, and what was there stays"; 2],
+        false => ["no interpretation fits: no file was written, existing files are unchanged"; 2],
         true => [
             "",
-            "the reading is not of the spec, or of something that its text cannot say: no spec is written, and what was there stays",
+            "no spec was written: the interpretation needs no change of the spec, or one that \
+             cannot be made in its text; an existing file is unchanged",
         ],
     };
     let mut written = Vec::new();

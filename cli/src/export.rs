@@ -21,8 +21,8 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
         (None, _) if *is_json => Vec::new(),
         (None, [_]) => vec![PathBuf::from("-")],
         (None, several) => {
-            let message = format!("this is written as {} files", several.len());
-            return Err(Failure::new("--to", message).help("name a folder for them: `-o DIR`"));
+            let message = format!("this format consists of {} files", several.len());
+            return Err(Failure::new("--to", message).help("give a folder: `-o DIR`"));
         }
         (Some(file), [_]) => vec![file.clone()],
         (Some(folder), several) => {

@@ -14,7 +14,7 @@ pub(crate) struct Failure(Box<Diagnostics>);
 impl Failure {
     /// Creates a failure about a file, a spec or an argument as a whole.
     pub(crate) fn new(subject: impl Display, message: impl Display) -> Self {
-        mistake::with_help(subject, message, "`abbe COMMAND --help` says what can be given").into()
+        mistake::with_help(subject, message, "`abbe COMMAND --help` lists the arguments and options").into()
     }
 
     /// Replaces the help line.

@@ -21,8 +21,8 @@ pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
     let paths: Vec<PathBuf> = match (&arguments.out, &files[..]) {
         (None, [file]) => return Ok(Outcome::passed(file.text.clone())),
         (None, _) => {
-            let message = format!("{} is written as {} files", language.name(), files.len());
-            return Err(Failure::new("--lang", message).help("name a folder for them: `--out DIR`"));
+            let message = format!("{} consists of {} files", language.name(), files.len());
+            return Err(Failure::new("--lang", message).help("give a folder: `--out DIR`"));
         }
         (Some(file), [_]) => vec![file.clone()],
         (Some(folder), _) => {
@@ -46,15 +46,15 @@ fn language(arguments: &Generate) -> Result<Language, Failure> {
         (language, None) => language,
         (Language::C(_), Some(real)) => Language::C(real),
         (language, Some(real)) => {
-            let message = format!("{} has no type of numbers to choose", language.name());
-            let help = format!("`--lang c --real {}`, or leave `--real` out", real.name());
+            let message = format!("`--real` has no effect on {}", language.name());
+            let help = format!("use `--lang c --real {}`, or leave `--real` out", real.name());
             return Err(Failure::new("--real", message).help(help));
         }
     };
     match (language, arguments.fmi) {
         (Language::Fmu(_), Some(fmi)) => Ok(Language::Fmu(fmi)),
-        (_, Some(_)) => Err(Failure::new("--fmi", "only a functional mock-up unit has a version of FMI")
-            .help("ask for one: `--lang fmu`; or leave `--fmi` out")),
+        (_, Some(_)) => Err(Failure::new("--fmi", "`--fmi` has an effect on functional mock-up units only")
+            .help("add `--lang fmu`, or leave `--fmi` out")),
         (language, None) => Ok(language),
     }
 }
@@ -62,11 +62,8 @@ fn language(arguments: &Generate) -> Result<Language, Failure> {
 /// Writes a functional mock-up unit, an archive of all files.
 fn unit(arguments: &Generate, job: &generate::Generate, mut outputs: Outputs) -> Result<Outcome, Failure> {
     let Some(path) = &arguments.out else {
-        return Err(Failure::new(
-            "--lang",
-            "a functional mock-up unit is an archive, which is nothing to read",
-        )
-        .help(format!("name a file for it: `--out {}.fmu`", job.machine.spec.name)));
+        return Err(Failure::new("--lang", "a functional mock-up unit is an archive and cannot be printed")
+            .help(format!("give a file: `--out {}.fmu`", job.machine.spec.name)));
     };
     let files = job.run(&mut Console::default())?;
     let archive = archive(&files);

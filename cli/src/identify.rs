@@ -23,9 +23,9 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     if arguments.out.is_some() && !changes.is_empty() {
         return Err(Failure::new(
             "--out",
-            "the spec that is written has no room for changes of this command line",
+            "the identified spec cannot hold the changes by --set, --enable and --disable",
         )
-        .help("make them in a copy of the spec, then identify that"));
+        .help("change a copy of the spec instead, and identify that"));
     }
     machine.change(&changes);
     let mut map = Map::find(&arguments.measured.map, &machine.spec)?;
@@ -95,9 +95,9 @@ fn begin<'f>(file: &'f Path, outputs: &mut Outputs) -> Result<(Pending, Pending,
     if !spec.is_file() {
         return Err(Failure::new(
             file.display(),
-            "this is not a regular file, and the map is written beside it",
+            "this is not a regular file, so the map cannot be written beside it",
         )
-        .help("name a file for the spec"));
+        .help("give the path of a file"));
     }
     Ok((spec, outputs.file(&map_file(file))?, file))
 }
@@ -130,8 +130,10 @@ impl IdentifiedFiles {
             }
             Detail::Answer => (format!("{count} lines"), String::new()),
         };
-        let text =
-            format!("Written to {file}: the nominal spec, {what}, and the covariance of what they say");
+        let text = format!(
+            "Written to {file}: the nominal spec, {what}, and the covariance of the \
+                identified errors"
+        );
         match detail {
             Detail::Full => format!("{text}\n{lines}{map_note}\n"),
             Detail::Answer => format!("{}\n{map_note}\n", wrapped(&format!("{text}."), 0)),
@@ -147,8 +149,8 @@ fn identified_files(file: &Path, job: &Identify, report: &Report) -> Result<Iden
     let map = report.found.identified_map(&job.map, &machine.spec, &name)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned());
     let map_note = format!(
-        "Beside it {name}: the map with where the machine stands and what is mounted on its tool. Give `measure`, \
-         `simulate`, `compensate` and `plan` both."
+        "Written to {name}: the map with the identified station and targets; `measure`, \
+         `simulate`, `compensate` and `plan` need both files."
     );
     let (file, map_note) = (file.display().to_string(), wrapped(&map_note, 0));
     Ok(IdentifiedFiles { spec: spec.text, map, file, map_note, lines: lines.collect() })
@@ -159,15 +161,15 @@ fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>, Failur
     let read = |argument: &String| {
         let mistake = |message: &str| {
             Failure::new(format!("--harmonics {argument}"), message)
-                .help("a revolute joint and how many times per turn of it: `--harmonics q2=1,2,101`")
+                .help("give a revolute joint and its cycles per turn: `--harmonics q2=1,2,101`")
         };
-        let (joint, times) = argument.split_once('=').ok_or_else(|| mistake("there is no `=`"))?;
+        let (joint, times) = argument.split_once('=').ok_or_else(|| mistake("expected JOINT=N,…"))?;
         let variable = spec.variables.iter().position(|variable| variable.name == joint.trim());
         let revolute = variable.filter(|i| spec.variables[*i].kind == VariableKind::Revolute);
-        let variable = revolute.ok_or_else(|| mistake("there is no such revolute joint"))?;
+        let variable = revolute.ok_or_else(|| mistake("unknown revolute joint"))?;
         let number = |text: &str| {
             let number = text.trim().parse::<u16>().ok().filter(|number| *number > 0);
-            number.ok_or_else(|| mistake("these are no whole numbers from 1 to 65535"))
+            number.ok_or_else(|| mistake("expected whole numbers from 1 to 65535"))
         };
         let times = times.split(',').map(number).collect::<Result<Vec<_>, _>>()?;
         Ok(Harmonics { variable, times })

@@ -20,8 +20,10 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
         (Some(folder), Some((name, part))) => {
             let question = part.request();
             if !question.figures {
-                return Err(Failure::new(name, "this part was made with --no-figures")
-                    .help("leave --out away: text and --json are complete; or make the parts with figures"));
+                return Err(Failure::new(name, "this part was made with --no-figures").help(
+                    "leave --out out (text and --json are complete), or create the parts \
+                        without --no-figures",
+                ));
             }
             let job = question.job(&mut ())?;
             let inputs = [arguments.parts.clone(), job.files(), named(question)].concat();
@@ -35,7 +37,7 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
     arguments.dated.date(&mut report.record);
     if let Some((folder, files, outputs)) = begun {
         analyze::write(folder, files, outputs, &report)?;
-        note("note: configurations.csv is not written: parts hold no single configurations");
+        note("note: configurations.csv is not written: parts do not contain single configurations");
     }
     analyze::outcome(
         &report,

@@ -13,6 +13,6 @@ pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64, Failu
     let value = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
     match document.finish(value)? {
         value if value >= 0.0 => Ok(value),
-        _ => Err(Failure::new(option, "this may not be negative").help(format!("write `{option} 0.04mm`"))),
+        _ => Err(Failure::new(option, "this must not be negative").help(format!("write `{option} 0.04mm`"))),
     }
 }

@@ -35,8 +35,8 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
         true => json(&report)?,
         false => {
             let next = match &arguments.out {
-                None => "--out FILE writes the configurations, --full lists what cannot be told apart",
-                Some(_) => "--full lists what cannot be told apart",
+                None => "--out FILE writes the configurations, --full lists indistinguishable errors",
+                Some(_) => "--full lists indistinguishable errors",
             };
             text::plan(&job.machine.spec, &job.map, &report, arguments.showing.detail())
                 + &arguments.showing.next(next)

@@ -51,7 +51,7 @@ pub fn compile_into(specs: &Path, out: &Path) -> Result<Vec<PathBuf>, CompileErr
             Ok(spec) => match read.iter().find(|other| other.name == spec.name) {
                 Some(other) => {
                     let message =
-                        format!("`{}` is the name of the manipulator in `{}` too", spec.name, other.file);
+                        format!("duplicate manipulator name `{}`: also in `{}`", spec.name, other.file);
                     let mistake = Diagnostic::whole_file(message).help("rename one of them");
                     let path = file.display().to_string();
                     mistaken.push(Diagnostics { path, text: "".into(), list: vec![mistake] });

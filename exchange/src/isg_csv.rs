@@ -50,24 +50,25 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
             }
         }
     }
-    let tables = Tables::read(&text, slides).ok_or_else(|| unreadable("what was written cannot be read"))?;
+    let tables =
+        Tables::read(&text, slides).ok_or_else(|| unreadable("the exported file cannot be read back"))?;
     let turned = RotaryAxis::all(machine, &axes).map_err(evaluated)?;
     let mut left_out: Vec<String> = turned.iter().map(|axis| axis.sentence(mm)).collect();
     left_out.extend(axes.errors_beyond_own_axis(machine));
     left_out.push(
-        "The control corrects the position of the tool point, not its orientation, with the length of the tool that it is told."
+        "The control corrects the position of the tool point, not its orientation, with the tool \
+         length set in the control."
             .to_owned(),
     );
     left_out.push(
-        "Errors of frames that stand still, and of the tool, are not errors of an axis: they are left out."
-            .to_owned(),
+        "Errors of fixed frames and of the tool are not errors of an axis; they are left out.".to_owned(),
     );
     left_out.push(
-        "The chain of the axes is configured in the control, from the bed to the tool: ".to_owned()
+        "Configure the kinematic chain in the control, from the bed to the tool: ".to_owned()
             + &slides.iter().map(|slide| slide.letter().to_string()).collect::<Vec<_>>().join(", ")
             + ".",
     );
-    let format = "tables of volumetric compensation (ISG CSV)".to_owned();
+    let format = "volumetric compensation tables (ISG CSV)".to_owned();
     let files = vec![ExportedFile { name: format!("{}.volcomp.csv", machine.spec.name), text }];
     let corrected = |q: &[f64]| tables.corrected(slides, q, mm);
     let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
@@ -80,9 +81,10 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
 fn sentence(letter: char, at: f64, direction: usize, error: f64) -> String {
     let axis = ['X', 'Y', 'Z'][direction];
     format!(
-        "The tables hold errors, actual minus nominal, and the control subtracts them: at {letter} = {} mm the carriage really stands {} mm \
-         from where it should along {axis} (E{axis}{letter}), and {axis} is moved by {} mm. Measure one axis after the tables are active: if \
-         its error has doubled, the control is configured with `negate`.",
+        "The tables hold errors, actual minus nominal, and the control subtracts them: at \
+         {letter} = {} mm the position error of the carriage is {} mm along {axis} \
+         (E{axis}{letter}), so the control moves {axis} by {} mm. Measure one axis with the \
+         tables active: if its error has doubled, the control is configured with `negate`.",
         digits(at, 6),
         digits(error, 4),
         digits(-error, 4)

@@ -40,8 +40,8 @@ pub fn write(
     let endless =
         spec.variables.iter().find(|variable| !variable.limits.iter().all(|limit| limit.is_finite()));
     if let Some(variable) = endless {
-        let message = format!("`{}` has no limits, between which the table would go", variable.name);
-        return Err(mistake::with_help(&machine.origin, message, "give it `limits`"));
+        let message = format!("`{}` has no limits, so its table has no ends", variable.name);
+        return Err(mistake::with_help(&machine.origin, message, "add `limits` to the variable"));
     }
     let dimensions = i32::try_from(joints).unwrap_or(i32::MAX);
     let count =
@@ -49,8 +49,9 @@ pub fn write(
     let total =
         count.checked_pow(u32::try_from(joints).unwrap_or(u32::MAX)).filter(|total| *total <= MOST_NODES);
     let Some(total) = total else {
-        let message = format!("{count} nodes for each of {joints} joints are more than {MOST_NODES} in all");
-        return Err(mistake::with_help("--nodes", message, "ask for fewer"));
+        let message =
+            format!("{count} nodes for each of {joints} joints exceed the maximum of {MOST_NODES} in all");
+        return Err(mistake::with_help("--nodes", message, "choose fewer nodes"));
     };
     let axes: Vec<Vec<f64>> =
         spec.variables.iter().map(|variable| sampling::grid(variable.limits, count)).collect();
@@ -95,7 +96,7 @@ pub fn write(
     let heading = names.clone().chain(names.map(|name| format!("add to {name}"))).collect();
     let text = text(heading, &rows).unwrap_or_default();
     let corrections =
-        read(&text, joints, total).ok_or_else(|| unreadable("what was written cannot be read"))?;
+        read(&text, joints, total).ok_or_else(|| unreadable("the exported file cannot be read back"))?;
     let corrected = |q: &[f64]| {
         let added = interpolated(&axes, &corrections, count, q);
         q.iter().zip(added).map(|(q, added)| q + added).collect()
@@ -105,7 +106,7 @@ pub fn write(
     if !spec.inputs.is_empty() {
         let inputs: Vec<String> = spec.inputs.iter().map(|input| format!("`{}`", input.name)).collect();
         left_out.push(format!(
-            "The table is that of the inputs as they are ({}); `--set` gives another value.",
+            "The table holds for the current values of the inputs ({}); `--set` changes them.",
             inputs.join(", ")
         ));
     }
@@ -115,10 +116,11 @@ pub fn write(
          at the {total} nodes. `--nodes` sets the number of nodes per joint, here {count}."
     ));
     left_out.push(
-        "At the limits of the joints corrected commands go beyond them, by what is to be corrected there."
+        "Near joint limits, corrected commands may exceed the limits by the size of the \
+         correction."
             .to_owned(),
     );
-    let format = format!("corrections of the joints, {count} nodes for each of {joints}");
+    let format = format!("joint corrections, {count} nodes for each of {joints} joints");
     let files = vec![ExportedFile { name: format!("{}.corrections.csv", spec.name), text }];
     let sign = if largest.1.is_empty() { "All corrections are 0.".to_owned() } else { largest.1 };
     let at_nodes = Some(PoseDifference::new(at_nodes));
@@ -148,7 +150,8 @@ fn sentence(machine: &RealMachine, q: &[f64], joint: usize, correction: f64) -> 
     let variable = &machine.spec.variables[joint];
     let unit = if variable.kind == VariableKind::Revolute { "rad" } else { machine.spec.length.symbol() };
     format!(
-        "The table holds corrections, to be added to the commands: where {} is commanded, the controller sends {} by {} {unit} {}.",
+        "The table holds corrections that are added to the commands: for the command {} the \
+         controller sends {} by {} {unit} {}.",
         variables(q, &machine.spec),
         variable.name,
         digits(correction.abs(), 4),

@@ -28,8 +28,12 @@ const MOST_NODES: usize = 256;
 /// Z that carry the tool, after rotary axes of the workpiece if any.
 pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagnostics> {
     if nodes > MOST_NODES {
-        let message = format!("a file of LinuxCNC has {MOST_NODES} lines at most");
-        return Err(mistake::with_help("--nodes", message, format!("ask for fewer: `--nodes {MOST_NODES}`")));
+        let message = format!("a compensation file of LinuxCNC has at most {MOST_NODES} lines");
+        return Err(mistake::with_help(
+            "--nodes",
+            message,
+            format!("choose fewer nodes: `--nodes {MOST_NODES}`"),
+        ));
     }
     let axes = Axes::find(machine)?;
     let slides = &axes.slides;
@@ -49,7 +53,7 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
         files.push(ExportedFile { name: format!("{}.comp", slide.letter().to_ascii_lowercase()), text });
     }
     let read: Option<Vec<_>> = files.iter().map(|file| read(&file.text)).collect();
-    let read = read.ok_or_else(|| unreadable("what was written cannot be read"))?;
+    let read = read.ok_or_else(|| unreadable("the exported file cannot be read back"))?;
     let corrected = |q: &[f64]| {
         let mut q = q.to_vec();
         for (slide, (nominal, forward)) in slides.iter().zip(&read) {
@@ -62,21 +66,24 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     let mut left_out: Vec<String> = turned.iter().map(|axis| axis.sentence(mm)).collect();
     left_out.extend(axes.errors_beyond_own_axis(machine));
     left_out.push(
-        "A joint is corrected along itself, by its own position: straightness, squareness and what turns with a lever that changes remain. What the \
-         tool point is off by along each axis is taken with the other axes at home."
+        "LinuxCNC corrects each joint along itself by its own position: straightness, squareness \
+         and angular errors with varying lever arms remain. The error along each axis is that of \
+         the tool point with the other axes at home."
             .to_owned(),
     );
     left_out.push(
-        "Forward and reverse are the same: backlash that is known by an input stands at that input's value, and `BACKLASH` is not used beside a \
-         file."
+        "The forward and reverse columns are equal: backlash that depends on an input is \
+         evaluated at the value of the input. LinuxCNC does not use `BACKLASH` together with a \
+         compensation file."
             .to_owned(),
     );
     let names: Vec<String> = files.iter().map(|file| format!("`COMP_FILE = {}`", file.name)).collect();
     left_out.push(format!(
-        "The INI file names them, in mm: {}, each with `COMP_FILE_TYPE = 0`, in the section of its joint.",
+        "Name the files in the INI file, in mm: {}, each with `COMP_FILE_TYPE = 0` in the section \
+         of its joint.",
         names.join(", ")
     ));
-    let format = "files of compensation of LinuxCNC".to_owned();
+    let format = "compensation files of LinuxCNC".to_owned();
     let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
     let report = ExportReport::for_commands(machine, format, files, corrected, sign).map_err(evaluated)?;
     let placed = Kinematics::new(machine, &axes).remains(corrected).map_err(evaluated)?;
@@ -96,8 +103,8 @@ fn error_along(machine: &RealMachine, axes: &Axes, k: usize, value: f64) -> Resu
 /// Returns the sentence about the sign: an actual position in mm of an axis.
 fn sentence(letter: char, nominal: f64, actual: f64) -> String {
     format!(
-        "The files hold where the axis really is: commanded to {letter} = {} mm it stands at {} mm, and LinuxCNC adds nominal minus actual, {} mm, \
-         to the command.",
+        "The files hold actual positions: at the command {letter} = {} mm the axis is at {} mm, \
+         and LinuxCNC adds nominal minus actual, {} mm, to the command.",
         digits(nominal, 6),
         digits(actual, 8),
         digits(nominal - actual, 4)

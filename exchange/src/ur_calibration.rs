@@ -39,7 +39,8 @@ const KEYS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 /// The chain is not that of an arm of Universal Robots.
 pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let refused = |message: String| {
-        let help = "the chain is that of an arm of Universal Robots, from `base` (F_0) on; other robots have `--to urdf`";
+        let help = "this format is for arms of Universal Robots, whose chain begins at `base` \
+            (F_0); use `--to urdf` for other robots";
         mistake::with_help(&machine.origin, message, help)
     };
     let table = DhTable::nominal(machine)?;
@@ -47,7 +48,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let turning =
         table.rows.iter().filter(|row| row.variable.is_some() && !row.prismatic && !row.reversed).count();
     if turning != JOINTS.len() || table.rows.len() != JOINTS.len() {
-        return Err(refused(format!("{turning} joints turn here, and six in such an arm")));
+        return Err(refused(format!("this machine has {turning} revolute joints, not the six of a UR arm")));
     }
     let mut joints = Vec::new();
     let mut before = Pose::IDENTITY;
@@ -56,9 +57,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
         let expected = about_x(quarters * std::f64::consts::FRAC_PI_2, 0.0);
         let is_parallel = |k: usize| (0..3).map(|i| origin.0[k][i] * expected.0[k][i]).sum::<f64>() > 0.99;
         if !(0..3).all(is_parallel) {
-            return Err(refused(format!(
-                "the joint {name} does not stand in the one before it as in such an arm"
-            )));
+            return Err(refused(format!("the axes of the joint {name} are not placed as in a UR arm")));
         }
         let frame = machine.spec.frames.iter().position(|frame| frame.variable == table.rows[i].variable);
         joints.push(Joint { origin, axis: Some([0.0, 0.0, 1.0]), at_zero: Pose::IDENTITY, frame });
@@ -70,7 +69,7 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let new = origins(machine, &joints, &tool).map_err(evaluated)?;
     let metres = machine.spec.length.in_metres();
     let text = text(machine, &new, metres);
-    let read = read(&text, metres).ok_or_else(|| unreadable("what was written cannot be read"))?;
+    let read = read(&text, metres).ok_or_else(|| unreadable("the exported file cannot be read back"))?;
     let variables: Vec<usize> = table.rows.iter().filter_map(|row| row.variable).collect();
     let model = |q: &[f64]| {
         let joints = read.iter().zip(&variables);
@@ -80,15 +79,17 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     };
     let mut left_out: Vec<String> = machine.held_at_mean().into_iter().collect();
     left_out.push(
-        "Behind the last joint there is no origin: of what is wrong there the file holds a turn about the axis and a shift along it. The rest \
-         belongs to the tool that the controller is told."
+        "The file has no origin after the last joint: of the errors there it holds the rotation \
+         about the joint axis and the translation along it. The others belong to the tool set in \
+         the controller."
             .to_owned(),
     );
     left_out.push(
-        "The hash is that of this spec. The driver compares it with that of the robot's own calibration, and warns where they differ."
+        "The hash is computed from this spec. The driver compares it with the hash of the robot's \
+         own calibration and warns if they differ."
             .to_owned(),
     );
-    let format = "the calibration of an arm of Universal Robots (YAML)".to_owned();
+    let format = "calibration of a Universal Robots arm (YAML)".to_owned();
     let files = vec![ExportedFile { name: format!("{}.calibration.yaml", machine.spec.name), text }];
     let sign = sign(&joints, &new, metres);
     Ok(ExportReport { left_out, ..ExportReport::for_model(machine, format, files, model, sign) })
@@ -161,8 +162,9 @@ fn sign(joints: &[Joint], new: &[Pose], metres: f64) -> String {
             if change > most.0 && change < 1.0 {
                 let (key, unit) = (KEYS[i], if i < 3 { "m" } else { "rad" });
                 let text = format!(
-                    "These are the numbers of the real arm, to be used in place of the nominal ones: {key} of {name} is {} {unit} where the \
-                     spec has {} {unit}. Nothing is to be subtracted from it.",
+                    "The file holds the numbers of the real arm, which replace the nominal ones: \
+                     {key} of {name} is {} {unit}; in the spec it is {} {unit}. Do not subtract \
+                     anything from it.",
                     digits(new, 8),
                     digits(old, 8)
                 );

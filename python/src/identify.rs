@@ -105,8 +105,8 @@ fn families(terms: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Family>> {
         Some(one) if one.is_instance_of::<PyString>() => vec![one.extract()?],
         Some(several) => several.extract()?,
     };
-    let asked = names.iter().map(|name| named("terms", name, TERMS));
-    Ok(asked.collect::<PyResult<Vec<_>>>()?.concat())
+    let families = names.iter().map(|name| named("terms", name, TERMS));
+    Ok(families.collect::<PyResult<Vec<_>>>()?.concat())
 }
 
 /// Parses a prior: a number, "spec" or "auto".

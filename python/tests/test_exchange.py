@@ -123,14 +123,14 @@ def test_the_doctor_reads_arrays_and_tables(tmp_path):
     q, pose = q[np.trace(pose[:, :3, :3], axis1=1, axis2=2) > -0.9], pose[np.trace(pose[:, :3, :3], axis1=1, axis2=2) > -0.9]
     report = ur5.doctor(np.degrees(q), pose)
     [first, *others] = report.found
-    assert report.fits and not others and first.reading.joints_in_degrees is True and first.reading.layout.homogeneous.by_rows is True
-    assert ur5.doctor(q, pose.swapaxes(1, 2)).found[0].reading.layout.homogeneous.by_rows is False
+    assert report.fits and not others and first.interpretation.joints_in_degrees is True and first.interpretation.layout.homogeneous.by_rows is True
+    assert ur5.doctor(q, pose.swapaxes(1, 2)).found[0].interpretation.layout.homogeneous.by_rows is False
     # Metres, the second joint with the opposite sign, a scalar-first quaternion.
     turned = q * [1, -1, 1, 1, 1, 1]
     four = np.array([as_quaternion(each[:3, :3]) for each in pose])
     seen = np.hstack([pose[:, :3, 3] / 1000, four])
     report = ur5.doctor(turned, seen)
-    first = report.found[0].reading
+    first = report.found[0].interpretation
     assert first.lengths_in == "m" and first.layout.quaternion.scalar_first is True and [change.reversed for change in first.changes] == [[1]]
     # The written map reads the same rows.
     table = dict(zip(ur5.variables, turned.T)) | {f"seen_{k + 1}": column for k, column in enumerate(seen.T)}

@@ -66,7 +66,7 @@ def test_the_command_makes_the_same_parts(tmp_path):
 def test_what_does_not_belong_together(tmp_path):
     one, two = (pps.analyze(shard=(i, 2)) for i in (1, 2))
     for parts, says in [
-        ([], "there is no part"),
+        ([], "no part is given"),
         ([one], "missing: part 2/2"),
         ([one, two, two], "this is part 2/2"),
         ([one, pps.analyze(shard=(2, 3))], "one of 3 parts"),

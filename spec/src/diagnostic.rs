@@ -172,8 +172,8 @@ pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
     names.sort();
     let word = missing.file_name()?.to_str()?;
     // Extensions are too short to compare, so the stems must be similar as well.
-    let alike = |name: &&str| nearest(stem(word), [stem(name)]).is_some();
-    let names = names.iter().map(String::as_str).filter(alike);
+    let is_near = |name: &&str| nearest(stem(word), [stem(name)]).is_some();
+    let names = names.iter().map(String::as_str).filter(is_near);
     nearest(word, names).map(|name| missing.with_file_name(name))
 }
 

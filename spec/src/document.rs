@@ -101,7 +101,7 @@ impl Document {
                 Some(name) if is_table && message == "duplicate key" => {
                     format!("write `[[{name}]]` for an array of tables, or merge the two tables")
                 }
-                _ => "the file is TOML: `key = value`, `[table]`".to_owned(),
+                _ => "expected TOML: `key = value`, `[table]`".to_owned(),
             };
             self.found.push(Diagnostic::new(span, message).help(help));
         }
@@ -217,7 +217,7 @@ impl Document {
             );
             return None;
         }
-        self.array(item, &format!("tables, each a [[{key}]]"))
+        self.array(item, &format!("an array of tables [[{key}]]"))
     }
 
     /// Reads an array of exactly `N` entries.
@@ -276,7 +276,7 @@ impl Document {
                 if text.trim().is_empty() {
                     let message = format!("{} is missing", entry.what);
                     self.mistake(
-                        Diagnostic::new(span, message).label("this is empty").help("write 0 for nothing"),
+                        Diagnostic::new(span, message).label("this is empty").help("write 0 if it is zero"),
                     );
                     return None;
                 }

@@ -36,7 +36,7 @@ impl dyn Notes + '_ {
     /// Returns an error if the job is to stop; jobs call it between two parts.
     pub fn go_on(&self) -> Result<(), Diagnostics> {
         if self.stop() {
-            Err(mistake::with_help("abbe", "stopped before the end", "start it again"))
+            Err(mistake::with_help("abbe", "interrupted before the end", "run the command again"))
         } else {
             Ok(())
         }

@@ -36,7 +36,7 @@ pub fn parse_value(
     let whole = document.text.clone();
     let text = whole.get(span.clone()).unwrap_or_default();
     if text.trim().is_empty() {
-        document.mistake(Diagnostic::new(span, format!("{what} is missing")).help("write 0 for nothing"));
+        document.mistake(Diagnostic::new(span, format!("{what} is missing")).help("write 0 if it is zero"));
         return None;
     }
     let place = TextLocation::Exact(span.start);

@@ -56,9 +56,9 @@ impl Acceptance {
             at += part.len() + 1;
             let name = text[start..end.max(start)].split_whitespace().next().unwrap_or_default();
             let Some(figure) = FIGURE_NAMES.into_iter().find(|figure| *figure == name) else {
-                let message = format!("there is no figure `{}`", name.escape_debug());
+                let message = format!("unknown figure `{}`", name.escape_debug());
                 let help = format!(
-                    "write a figure and its limit: `mean 0.15 mm, max 0.3 mm`; there are {}",
+                    "write a figure and its limit: `mean 0.15 mm, max 0.3 mm`; the figures are {}",
                     FIGURE_NAMES.join(", ")
                 );
                 document.mistake(Diagnostic::new(start..end.max(start), message).help(help));

@@ -94,8 +94,9 @@ impl Changes {
                 let message = format!("`{}` is outside its range", input.name);
                 let label = format!("this is {}", number::quantity(value, &input.unit));
                 let range = format!("{} … {}", number::short(lower), number::quantity(upper, &input.unit));
-                document
-                    .mistake(Diagnostic::new(span, message).label(label).help(format!("its range: {range}")));
+                document.mistake(
+                    Diagnostic::new(span, message).label(label).help(format!("its range is {range}")),
+                );
                 return;
             }
         }
@@ -141,7 +142,7 @@ pub fn find_symbol(
 ) -> Option<(Symbol, Dimension)> {
     if spec.variables.iter().any(|variable| variable.name == name) {
         let message = format!("`{name}` is a joint variable, not a parameter or input");
-        let help = "a workspace moves joint variables; `abbe jacobian` takes them with `--q`";
+        let help = "`abbe jacobian` sets joint variables by `--q`; a workspace moves them";
         document.mistake(Diagnostic::new(span, message).help(help));
         return None;
     }

@@ -85,8 +85,8 @@ pub(crate) fn warn_of_extrapolation<'r>(
     let deviation_there = known.map_or(String::new(), |known| known.sentence(spec));
     let count = outside.len();
     let warning = format!(
-        "{count} of {all} {what} are outside the ranges on which the errors of this spec were fitted ({named}): what is said of \
-         them is extrapolated{deviation_there}"
+        "{count} of {all} {what} are outside the ranges on which the errors of this spec were \
+         fitted ({named}); there, predictions are extrapolations{deviation_there}"
     );
     notes.warn(&warning);
     Some(Extrapolation { outside: count, all, known, sentence: format!("{warning}.") })
@@ -98,8 +98,9 @@ impl ToolPointDeviation {
             [self.within, self.outside, self.outside_max].map(|value| number::length(value, spec.length));
         let times = number::digits(self.outside / self.within, 2);
         format!(
-            ". By what is not known of these errors the tool point has a standard deviation of {outside} there, {most} at most: \
-             {times} times the {within} that it has within the ranges. Another shape of the errors there is not in these figures"
+            ". The covariance of these errors gives the tool point a standard deviation of \
+             {outside} there (at most {most}), {times} times the {within} within the ranges. \
+             Errors that the model does not have are not included"
         )
     }
 }

@@ -23,8 +23,8 @@ pub fn finite<R: Serialize>(subject: impl Display, report: R) -> Result<R, Diagn
     match report.serialize(&mut FiniteCheck { path: Vec::new(), text: String::new() }) {
         Err(NotFinite(place)) if !place.is_empty() => {
             let message = format!("`{place}` of the result is not a finite number");
-            let help = "a number that went in is far too large or too small: are the units of the spec, the map and the \
-                        options right?";
+            let help = "an input is far too large or too small: check the units in the spec, the \
+                map and the options";
             Err(mistake::with_help(subject, message, help))
         }
         _ => Ok(report),

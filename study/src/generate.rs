@@ -46,8 +46,11 @@ impl Generate {
             None => Ok(self.language.files(spec)),
             Some(number) => Err(mistake::with_help(
                 &spec.file,
-                format!("it has the number {number:e}, which single precision cannot hold"),
-                "leave `--real float` out; or is the unit of a quantity not the one that was meant?",
+                format!(
+                    "the code contains the number {number:e}, which single precision cannot \
+                    represent"
+                ),
+                "remove `--real float`, or check the units of the spec",
             )),
         }
     }

@@ -156,12 +156,9 @@ pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnos
     let spans = value_spans(text);
     if spans.len() != spec.variables.len() {
         let names = spec.variables.iter().map(|variable| variable.name.as_str()).collect::<Vec<_>>();
-        let message = format!("{} joint variables are needed, {} are given", names.len(), spans.len());
-        let help = if names.is_empty() {
-            "leave --q out".into()
-        } else {
-            format!("in this order: {}", names.join(","))
-        };
+        let message = format!("expected {} joint variables, found {}", names.len(), spans.len());
+        let help =
+            if names.is_empty() { "omit --q".into() } else { format!("the order is {}", names.join(",")) };
         document.mistake(Diagnostic::new(0..text.len(), message).help(help));
         return document.finish(None);
     }

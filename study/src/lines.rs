@@ -40,8 +40,7 @@ impl<R: Read> Read for RecordedReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let mut window = self.window.borrow_mut();
         if window.bytes.len() > LONGEST {
-            let message =
-                format!("the row in line {} does not end within {} MiB", window.line, LONGEST >> 20);
+            let message = format!("the row in line {} is longer than {} MiB", window.line, LONGEST >> 20);
             return Err(Unfit::new(message, "check for an unclosed quotation mark").into());
         }
         let length = self.inner.read(buffer)?;

@@ -45,9 +45,9 @@ pub(crate) fn unknown(option: &str, argument: &str, names: &[&str], what: &str) 
     let near = [argument.to_owned() + ".toml", argument.to_owned()].into_iter();
     let near = near.filter(|_| !argument.is_empty()).find_map(|name| nearest_file(Path::new(&name)));
     let label = |mistake: Diagnostic| match &near {
-        _ if Path::new(argument).is_dir() => mistake.label("and this folder is no file"),
-        Some(file) => mistake.label(format!("and no such file; there is `{}`", file.display())),
-        None => mistake.label("and no such file"),
+        _ if Path::new(argument).is_dir() => mistake.label("this is a folder, not a file"),
+        Some(file) => mistake.label(format!("there is no such file; did you mean `{}`?", file.display())),
+        None => mistake.label("there is no such file"),
     };
     Diagnostics { path, text, list: found.into_iter().map(label).collect() }
 }

@@ -42,5 +42,5 @@ impl<T: Copy + PartialEq> Choices<T> {
 
 /// Checks that a share is between 0 and 1.
 pub fn share(value: f64) -> Result<f64, &'static str> {
-    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share is from 0 to 1") }
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share must be between 0 and 1") }
 }

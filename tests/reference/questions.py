@@ -76,7 +76,7 @@ def alone(comparison, place, sweep, first, theirs, radius):
 
 def covered(comparison, place, sweep, report):
     """What figures cover: the budget of the GUM and the verdict, of the position and of the orientation."""
-    asked = report["verdict"]["probability_asked"]
+    asked = report["verdict"]["probability_required"]
     for name, first, there in (("position", 0, report), ("orientation", 3, report["orientation"])):
         budgets = [sweep.uncertainty(moves, first) for moves in sweep.moves]
         largest = max(math.sqrt(budget.total) for budget in budgets)

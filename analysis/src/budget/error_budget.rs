@@ -75,7 +75,7 @@ pub trait Watch {
     fn rows(&self) -> bool {
         false
     }
-    /// Receives a configuration that was reached; in order.
+    /// Receives the reached configurations in order, one per call.
     fn row(&mut self, _row: &Row) {}
     /// Reports that all configurations before this one are done. Returns whether to continue;
     /// otherwise the budget covers these configurations.

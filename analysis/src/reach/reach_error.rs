@@ -33,14 +33,15 @@ impl fmt::Display for ReachError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfReach { residual, turn: 0.0 } => {
-                write!(f, "out of reach: at best {residual:.6} length units away")
+                write!(f, "out of reach by {residual:.6} length units")
             }
             Self::OutOfReach { residual, turn } => {
-                write!(f, "out of reach: at best {residual:.6} length units away and {turn:.6} rad turned")
+                write!(f, "out of reach by {residual:.6} length units and {turn:.6} rad")
             }
             Self::OutsideLimits { variable, value, limits: [lower, upper] } => write!(
                 f,
-                "variable {variable} would have to be {value:.6}, outside its limits {lower} … {upper}"
+                "variable {variable} would need to be {value:.6}, outside its limits {lower} … \
+                 {upper}"
             ),
             Self::Evaluation(error) => error.fmt(f),
         }

@@ -98,8 +98,8 @@ impl<'a> Block<'a> {
                         self.indices.push(index);
                     }
                     Err(reason) => {
-                        let (point, asked) = (workspace.point(index), configuration.clone());
-                        self.unreachable.push(Unreachable { index, point, asked, reason });
+                        let (point, requested) = (workspace.point(index), configuration.clone());
+                        self.unreachable.push(Unreachable { index, point, requested, reason });
                     }
                 }
             });
@@ -161,7 +161,7 @@ impl<'a> Block<'a> {
                 }
                 Err(error @ Error::EulerSingularity { .. }) => {
                     let (point, reason) = (self.workspace.point(index), ReachError::Evaluation(error));
-                    self.unreachable.push(Unreachable { index, point, asked: here.clone(), reason });
+                    self.unreachable.push(Unreachable { index, point, requested: here.clone(), reason });
                 }
                 Err(error) => return Err(self.at(place, error)),
             }

@@ -14,7 +14,7 @@ pub struct Unreachable {
     /// Target point in `F_0`, if targets vary.
     pub point: Option<[f64; 3]>,
     /// Requested configuration. Variables to be solved hold their start values.
-    pub asked: Configuration,
+    pub requested: Configuration,
     /// Reason.
     pub reason: ReachError,
 }

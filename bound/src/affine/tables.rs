@@ -1,7 +1,7 @@
 //! Table lookups of affine forms: piecewise polynomials, each over the part of it that is reached.
 
 use abbe_core::LookupTable;
-use abbe_spec::expr::{Interpolation, Outside, Table};
+use abbe_spec::expr::{Extrapolation, Interpolation, Table};
 
 use super::form::{Affine, UNIT, above};
 
@@ -16,7 +16,7 @@ impl<const N: usize> Affine<N> {
         let is_inside = range[0] >= first - margin && range[1] <= last + margin;
         let range = if is_inside { range.map(|end| end.clamp(first, last)) } else { range };
         let centre = if is_inside { self.centre.clamp(first, last) } else { self.centre };
-        let is_known = table.outside == Outside::Hold || is_inside;
+        let is_known = table.outside == Extrapolation::Hold || is_inside;
         if !(range[0].is_finite() && range[1].is_finite() && is_known) {
             return Self::anything();
         }

@@ -45,12 +45,12 @@ impl fmt::Display for Failure {
             Self::TooFew { numbers, configurations, rank } => {
                 write!(
                     f,
-                    "{numbers} independent numbers were measured ({configurations} configurations) for {rank} unknowns: \
-                     none is left to judge the result by"
+                    "{numbers} independent values were measured ({configurations} configurations) \
+                     for {rank} unknowns: no degrees of freedom remain to assess the result"
                 )
             }
             Self::Untouched { line } => {
-                write!(f, "line {line}: within the limits, the tool does not come to where it is to touch")
+                write!(f, "line {line}: within the joint limits the tool does not reach contact")
             }
             Self::NotConverged { steps } => write!(f, "no least squares solution after {steps} steps"),
         }

@@ -229,8 +229,8 @@ fn write_unreachable(writer: &mut Writer<impl Write>, report: &Report) -> csv::R
         let reason = unreachable_reason(refused, spec);
         let point =
             [0, 1, 2].map(|i| refused.point.map(|point| format_number(&point[i])).unwrap_or_default());
-        let asked = [refused.index.to_string()].into_iter().chain(values(&refused.asked, &all));
-        writer.write_record(asked.chain(point).chain([reason]).collect::<Vec<_>>())?;
+        let requested = [refused.index.to_string()].into_iter().chain(values(&refused.requested, &all));
+        writer.write_record(requested.chain(point).chain([reason]).collect::<Vec<_>>())?;
     }
     Ok(())
 }

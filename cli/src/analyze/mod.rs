@@ -92,7 +92,7 @@ pub(crate) fn outcome(
     };
     match (check, report.verdict()) {
         (true, None) => Err(Failure::new("--check", "the study has no tolerance")
-            .help("give one: tolerance = \"0.5 mm\" in its [study]")),
+            .help("add one: tolerance = \"0.5 mm\" in its [study]")),
         (true, Some(Verdict::NotMet)) => Ok(Outcome::checked(text, false)),
         _ => Ok(Outcome::passed(text)),
     }
@@ -123,8 +123,7 @@ fn part(
     let printed = outputs.finish([pending])?;
     let [reached, not] = part.configurations();
     let name = &part.request().spec;
-    let text =
-        format!("part {shard} of {name}: {reached} configurations, and {not} that cannot be reached\n");
+    let text = format!("part {shard} of {name}: {reached} configurations, {not} unreachable\n");
     Ok(Outcome::passed(text).beside(printed))
 }
 

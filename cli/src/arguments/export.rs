@@ -63,7 +63,7 @@ impl Export {
         let of_axis = nodes.unwrap_or(Format::NODES);
         let has_nodes = Format::WITH_NODES.contains(&to.as_str());
         if nodes.is_some() && !has_nodes {
-            let failure = Failure::new("--nodes", format!("`--to {to}` has no nodes"));
+            let failure = Failure::new("--nodes", format!("`--nodes` has no effect on `--to {to}`"));
             return Err(failure.help("leave `--nodes` out"));
         }
         match (to.as_str(), from) {
@@ -71,11 +71,11 @@ impl Export {
                 Ok(Format::Urdf { file: file.clone(), base: base.clone(), tip: tip.clone() })
             }
             ("urdf", None) => {
-                let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is not given");
-                Err(failure.help("name it: `--from robot.urdf`"))
+                let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is missing");
+                Err(failure.help("add `--from robot.urdf`"))
             }
             (_, Some(_)) => {
-                let failure = Failure::new("--from", format!("`--to {to}` is made of the spec alone"));
+                let failure = Failure::new("--from", format!("`--from` has no effect on `--to {to}`"));
                 Err(failure.help("leave `--from` out"))
             }
             ("ur-calibration", None) => Ok(Format::UrCalibration),
@@ -83,7 +83,8 @@ impl Export {
             ("linuxcnc", None) => Ok(Format::LinuxCnc { nodes: of_axis }),
             ("table", None) => Ok(Format::Table { nodes: *nodes }),
             ("dh", None) => Ok(Format::Dh),
-            (to, None) => Err(Failure::new("--to", format!("`{to}` has no arm here")).help("report this")),
+            (to, None) => Err(Failure::new("--to", format!("`{to}` is not implemented"))
+                .help("this is an error in abbe: please report it")),
         }
     }
 }

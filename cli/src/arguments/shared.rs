@@ -162,7 +162,7 @@ impl Running {
 pub(crate) fn study(file: Option<&Path>, machine: &Machine) -> Result<Study, Diagnostics> {
     let study = Study::find(file, machine)?;
     if let (None, Some(beside)) = (file, Study::beside(machine)) {
-        note(&format!("note: the study is {}, beside the spec", beside.display()));
+        note(&format!("note: using the study {} beside the spec", beside.display()));
     }
     Ok(study)
 }

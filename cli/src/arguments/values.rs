@@ -30,7 +30,7 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
         "s" => 1.0,
         "min" => 60.0,
         "h" => 3600.0,
-        _ => return Err("a time has a unit: `60s`, `5min`, `1h`".to_owned()),
+        _ => return Err("expected a time with a unit: `60s`, `5min`, `1h`".to_owned()),
     };
     let seconds = digits.trim().parse::<f64>().map_err(|error| error.to_string())? * factor;
     Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())

@@ -87,10 +87,12 @@ pub(crate) fn note(message: &str) {
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     let help = match error.kind() {
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            "name another folder, or make this one writable"
+            "choose another folder, or make this one writable"
         }
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "name another folder, or make room in this one",
-        _ => "name another file or folder",
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "choose a folder on another disk, or free some space"
+        }
+        _ => "choose another file or folder",
     };
     Failure::new(path.display(), format!("cannot write this: {error}")).help(help)
 }

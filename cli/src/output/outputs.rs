@@ -38,8 +38,8 @@ impl Outputs {
         let target = Target::find(path)?;
         self.check(path, &target)?;
         if self.taken.contains(&target) {
-            return Err(Failure::new(path.display(), "two results of this run would be written there")
-                .help("give each a file of its own"));
+            return Err(Failure::new(path.display(), "two outputs of this command have this path")
+                .help("give each its own file"));
         }
         self.taken.push(target.clone());
         Pending::begin(path, target)
@@ -64,8 +64,9 @@ impl Outputs {
         if path.is_dir() && !self.force && !record::is_in(path) {
             let mut others = fs::read_dir(path).map_err(|error| cannot_write(path, &error))?.flatten();
             if others.any(|entry| !entry.file_name().as_encoded_bytes().starts_with(PREFIX.as_bytes())) {
-                let help = "name another folder, or give `--force`: files of the same names are replaced, others stay";
-                let message = "there are files in this folder, and none was written by abbe";
+                let help = "choose another folder, or use `--force` to replace files of the same \
+                    names; others stay";
+                let message = "this folder contains files, and abbe wrote none of them";
                 return Err(Failure::new(path.display(), message).help(help));
             }
         }
@@ -77,21 +78,23 @@ impl Outputs {
         let here = identity(path);
         if let Some((input, _)) = self.inputs.iter().find(|(_, input)| here.as_ref() == Some(input)) {
             let message = match input == path {
-                true => "this run reads this file, and would write over it".to_owned(),
-                false => format!("this is {}, which this run reads, and would write over", input.display()),
+                true => "this file is an input of the command and cannot be overwritten".to_owned(),
+                false => {
+                    format!("this is {}, an input of the command, and cannot be overwritten", input.display())
+                }
             };
-            return Err(Failure::new(path.display(), message).help("name another file for the result"));
+            return Err(Failure::new(path.display(), message).help("choose another file for the output"));
         }
         let Target::File(file) = target else { return Ok(()) };
         let Some(old) = fs::metadata(file).ok().filter(|_| !self.force) else { return Ok(()) };
-        let help = "name another file, or replace it with `--force`";
+        let help = "choose another file, or use `--force` to replace this one";
         if old.permissions().readonly() {
-            return Err(Failure::new(path.display(), "this file may only be read").help(help));
+            return Err(Failure::new(path.display(), "this file is read-only").help(help));
         }
         match record::is_ours(file) {
             Ok(true) => Ok(()),
             Ok(false) => {
-                let message = "this file was not written by abbe, or was changed since";
+                let message = "abbe did not write this file, or it was changed since";
                 Err(Failure::new(path.display(), message).help(help))
             }
             Err(error) => Err(cannot_write(path, &error).help(help)),
@@ -124,7 +127,8 @@ impl Outputs {
         if let Some((file, error)) = unknown {
             let folder = parent(file).display();
             note(&format!(
-                "note: {folder}: what was written cannot be noted ({error}); to write it anew will need --force"
+                "note: {folder}: cannot record which files were written ({error}); replacing them \
+                 will need --force"
             ));
         }
         for (path, file, temporary, _) in complete {

@@ -16,8 +16,8 @@ use super::target::parent;
 /// File name of the record.
 const NAME: &str = ".abbe-written";
 
-const HEAD: &str = "# SHA-256 of the files that abbe wrote here. It replaces them as long as they are unchanged; others it \
-                    replaces only with --force.\n";
+const HEAD: &str = "# SHA-256 of the files that abbe wrote in this folder. abbe replaces them \
+    while they are unchanged, and other files only with --force.\n";
 
 /// Returns true if the folder has a record.
 pub(super) fn is_in(folder: &Path) -> bool {
@@ -41,7 +41,7 @@ pub(super) fn is_ours(file: &Path) -> io::Result<bool> {
 pub(super) fn add(file: &Path, hash: &str) -> io::Result<()> {
     let path = parent(file).join(NAME);
     if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
-        return Err(io::Error::other(format!("{NAME} is no file")));
+        return Err(io::Error::other(format!("{NAME} is not a regular file")));
     }
     let mut record = File::options().read(true).append(true).create(true).open(path)?;
     lock(&record)?;

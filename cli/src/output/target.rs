@@ -50,7 +50,9 @@ impl Target {
             Ok(found) if !found.is_dir() => Ok(Self::Stream(path.to_owned())),
             Err(error) if error.kind() == ErrorKind::NotFound && !names_folder => new_file(path),
             Err(error) if error.kind() != ErrorKind::NotFound => Err(cannot_write(path, &error)),
-            _ => Err(Failure::new(path.display(), "this is a folder, not a file").help("name a file in it")),
+            _ => {
+                Err(Failure::new(path.display(), "this is a folder, not a file").help("choose a file in it"))
+            }
         }
     }
 }
@@ -68,11 +70,11 @@ fn new_file(path: &Path) -> Result<Target, Failure> {
     }
     let folder = fs::canonicalize(parent(&end)).map_err(|error| {
         let failure = cannot_write(path, &error);
-        if error.kind() == ErrorKind::NotFound { failure.help("make its folder first") } else { failure }
+        if error.kind() == ErrorKind::NotFound { failure.help("create the folder first") } else { failure }
     })?;
     match end.file_name() {
         Some(name) => Ok(Target::File(folder.join(name))),
-        None => Err(Failure::new(path.display(), "this names no file")),
+        None => Err(Failure::new(path.display(), "this is not the path of a file")),
     }
 }
 

@@ -108,7 +108,7 @@ fn one_cell_holds_nothing_up() {
     let folder = tempdir().unwrap();
     let (map, data) = measurements(folder.path());
     for (cell, said) in
-        [("1e300", Some("numbers go up to 1e150")), ("1e150", None), ("1e149", None), ("1e75", None)]
+        [("1e300", Some("the maximum is 1e150")), ("1e150", None), ("1e149", None), ("1e75", None)]
     {
         let file = write(folder.path(), "wild.csv", &with_cell(&data, cell));
         for command in ["measure", "identify"] {
@@ -125,18 +125,18 @@ fn what_never_ends_is_not_read_to_its_end() {
     let folder = tempdir().unwrap();
     let (map, _) = measurements(folder.path());
     refused(&["check", "/dev/zero"], "larger than 4 MiB");
-    refused(&["measure", "scara", "/dev/zero", "--map", &map], "no text");
+    refused(&["measure", "scara", "/dev/zero", "--map", &map], "not a text file");
     refused(&["measure", "scara", path(folder.path()), "--map", &map], "directory");
     let study = "[study]\ntitle = \"Path\"\n[workspace.path]\nfile = \"/dev/zero\"\n";
     let study = write(folder.path(), "study.toml", study);
     refused(
         &["analyze", "scara", "--study", path(&study)],
-        "/dev/zero: the row in line 1 does not end within 4 MiB",
+        "/dev/zero: the row in line 1 is longer than 4 MiB",
     );
     // An unclosed quotation mark.
     let file =
         write(folder.path(), "open.csv", &format!("q1,q2,d3,q4,x,y,z\n1,\"{}", "2,3\n".repeat(2_000_000)));
-    refused(&["measure", "scara", path(&file), "--map", &map], "does not end within 4 MiB");
+    refused(&["measure", "scara", path(&file), "--map", &map], "is longer than 4 MiB");
 }
 
 #[test]

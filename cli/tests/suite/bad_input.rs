@@ -35,17 +35,17 @@ fn specs_that_are_not_there() {
 #[test]
 fn values_of_joints() {
     let q = |value: &str, expected: &[&str]| refused(&["jacobian", "pps", "--q", value], expected);
-    q("1,2,3,4,5", &["6 joint variables are needed, 5 are given", "in this order: d1,d2,d3,q4,q5,q6"]);
-    q("", &["6 joint variables are needed, 0 are given"]);
-    q("1,2,3,4,5,6,7", &["7 are given"]);
+    q("1,2,3,4,5", &["expected 6 joint variables, found 5", "the order is d1,d2,d3,q4,q5,q6"]);
+    q("", &["expected 6 joint variables, found 0"]);
+    q("1,2,3,4,5,6,7", &["found 7"]);
     q("90deg,0,0,0,0,0", &["the value of `d1` must be a length, not a pure number", "--q:1:1"]);
     q("0,0,0,3mm,0,0", &["the value of `q4` must be a pure number, not a length", "--q:1:7"]);
     q("0,0,0,90degg,0,0", &["`degg` is neither a unit nor a function", "did you mean `deg`?", "--q:1:9"]);
     q("0,0,,0,0,0", &["the value of `d3` is missing"]);
     q("nan,inf,0,0,0,0", &["`nan` is neither", "`inf` is neither"]);
     q("1e999,1e308m,1/0,0,0,0", &["too large for a number", "too large to compute with", "division by zero"]);
-    q("d1,((0,0,0,0", &["5 are given"].map(|_| "joint variables are needed"));
-    q("0,0,0,0,(0,0)", &["joint variables are needed"]);
+    q("d1,((0,0,0,0", &["expected 6 joint variables"]);
+    q("0,0,0,0,(0,0)", &["expected 6 joint variables"]);
     q("é,0,0,0,0,0°", &["`é` is neither", "--q:1:12"]);
     q("0,0,0,0,90deg,0", &["Euler angles are singular", "rotation-vector"]);
 }
@@ -70,14 +70,14 @@ fn usage() {
     refused(&["frobnicate"], &["unrecognized subcommand"]);
     refused(&["check"], &["Usage: abbe check"]);
     refused(&["generate", "pps", "--lang", "fortran"], &["invalid value 'fortran'", "rust"]);
-    refused(&["generate", "pps", "--lang", "c"], &["c is written as 2 files", "--out DIR"]);
+    refused(&["generate", "pps", "--lang", "c"], &["c consists of 2 files", "--out DIR"]);
     refused(
         &["generate", "pps", "--real", "float"],
-        &["rust has no type of numbers", "--lang c --real float"],
+        &["`--real` has no effect on rust", "--lang c --real float"],
     );
     refused(
         &["generate", "pps", "--lang", "js", "--real", "double"],
-        &["js has no type of numbers", "leave"],
+        &["`--real` has no effect on js", "leave"],
     );
     refused(
         &["generate", "pps", "--lang", "c", "--real", "half"],
@@ -99,7 +99,7 @@ fn places_to_write_to() {
 
     let blocked = folder.path().join("blocked");
     fs::create_dir_all(blocked.join("sources.csv")).unwrap();
-    refused(&["analyze", "pps", "--out", &path(&blocked)], &["none was written by abbe", "--force"]);
+    refused(&["analyze", "pps", "--out", &path(&blocked)], &["abbe wrote none of them", "--force"]);
     refused(&["analyze", "pps", "--force", "--out", &path(&blocked)], &["sources.csv"]);
     assert_eq!(fs::read_dir(&blocked).unwrap().count(), 1, "no partial file is left");
 }
@@ -115,26 +115,26 @@ fn study(lines: &str, expected: &[&str]) {
 fn studies() {
     study("", &["`workspace` is missing"]);
     study("tolernace = 1", &["no key `tolernace`", "did you mean `tolerance`?", "study.toml:3:1"]);
-    study("tolerance = 0\n[workspace.joints]\nsamples = 1", &["must be more than zero", "study.toml:3:13"]);
+    study("tolerance = 0\n[workspace.joints]\nsamples = 1", &["must be positive", "study.toml:3:13"]);
     study("tolerance = \"1 deg\"\n[workspace.joints]\nsamples = 1", &["must be a length"]);
-    study("[workspace]", &["a workspace has one form"]);
-    study("[workspace]\njoints = 1\ngrid = 2", &["a workspace has one form"]);
-    study("[workspace.joints]\nsamples = 0", &["whole number from 1 to"]);
-    study("[workspace.joints]\nsamples = 1e99", &["whole number from 1 to"]);
+    study("[workspace]", &["a workspace needs exactly one form"]);
+    study("[workspace]\njoints = 1\ngrid = 2", &["a workspace needs exactly one form"]);
+    study("[workspace.joints]\nsamples = 0", &["integer from 1 to"]);
+    study("[workspace.joints]\nsamples = 1e99", &["integer from 1 to"]);
     study("[workspace.joints]\nsamples = 5\nmoved = [\"d7\"]", &["no variable `d7`"]);
     study("[workspace.grid]\nq7 = [0]", &["no variable `q7`", "`q6`"]);
     study("[workspace.grid]\nd1 = []", &["`d1` has no values"]);
     study("[workspace.grid]\nd1 = [\"1 deg\"]", &["a value of `d1` must be a length"]);
     study("[workspace.grid]\nd1 = { from = 0, to = 10 }", &["either `count` or `step`"]);
-    study("[workspace.grid]\nd1 = { from = 0, to = 10, step = 3 }", &["does not end at `to`"]);
-    study("[workspace.grid]\nd1 = { from = 0, to = 10, step = -1 }", &["more than zero"]);
+    study("[workspace.grid]\nd1 = { from = 0, to = 10, step = 3 }", &["does not reach `to`"]);
+    study("[workspace.grid]\nd1 = { from = 0, to = 10, step = -1 }", &["a step must be positive"]);
     study("[workspace.grid]\nd1 = { from = 0, to = 1, step = 1e-99 }", &["more than 10000000 values"]);
     let axes =
         ["d1", "d2", "d3"].map(|name| format!("{name} = {{ from = 0, to = 1, count = 10000 }}\n")).concat();
     study(&format!("[workspace.grid]\n{axes}"), &["more than 1000000000 configurations"]);
     study(
         "[workspace.presented]\npoint = [0, 0]\nsolve = [\"d1\", \"d1\"]\ntool_points = { w = [1] }",
-        &["expected 3 entries, found 2", "`d1` stands here twice", "no parameter `w`"],
+        &["expected 3 entries, found 2", "duplicate name `d1`", "no parameter `w`"],
     );
     study(
         "[workspace.presented]\npoint = [0, 0, 0]\nsolve = [\"d1\"]\napproaches = { d1 = [1] }",
@@ -171,23 +171,23 @@ fn what_is_nearest() {
         (&["generate", "pps", "--lang", "rsut"], "a similar value exists: 'rust'"),
         (&["compensate", "pps", "--data", "x.csv"], "unexpected argument '--data'"),
         (&["check", "pumma560"], "did you mean `puma560`?"),
-        (&["check", "arm"], "there is `arm.toml`"),
-        (&["check", "amr"], "there is `arm.toml`"),
+        (&["check", "arm"], "did you mean `arm.toml`?"),
+        (&["check", "amr"], "did you mean `arm.toml`?"),
         (&["measure", "ur5", "arm.csv", "--map", "ur6"], "did you mean `ur5`?"),
-        (&["measure", "ur5", "arm.csv", "--map", "arn"], "there is `arm.toml`"),
+        (&["measure", "ur5", "arm.csv", "--map", "arn"], "did you mean `arm.toml`?"),
         (&["plan", "pps", "--map", "pps", "--sets", "pss"], "did you mean `pps`?"),
         (&["check", "amr.toml"], "did you mean `arm.toml`?"),
         (&["check", "arms/arm.toml"], "there is no folder `arms`"),
         (&["analyze", "pps", "--study", "arn.toml"], "did you mean `arm.toml`?"),
         (&["measure", "ur5", "arm.csv", "--map", "./arm.tml"], "did you mean `./arm.toml`?"),
         (&["measure", "ur5", "arn.csv", "--map", "ur5"], "did you mean `arm.csv`?"),
-        (&["plan", "pps", "--map", "pps", "--sets", "arm.tom1"], "there is `arm.toml`"),
+        (&["plan", "pps", "--map", "pps", "--sets", "arm.tom1"], "did you mean `arm.toml`?"),
         // A shared file ending alone is no reason for a suggestion.
         (&["check", "quay.toml"], "give the path of a file that can be read"),
         (&["analyze", "pps", "--study", "quay.toml"], "give the path of a file that can be read"),
         (&["import", "quay.urdf"], "give the path of a file that can be read"),
         (&["measure", "ur5", "quay.csv", "--map", "ur5"], "give a CSV file with a heading in its first line"),
-        (&["check", "folder"], "this folder is no file"),
+        (&["check", "folder"], "this is a folder, not a file"),
     ] {
         let output = crate::running::command(words).current_dir(folder.path()).output().unwrap();
         let stderr = String::from_utf8(output.stderr).unwrap();

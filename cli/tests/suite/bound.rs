@@ -89,7 +89,10 @@ fn an_analysis_says_it_too() {
     assert!(shown.contains("the dashed line is the tolerance"), "pps has one");
     // The largest error found in an enclosing box is no lower bound over the workspace.
     let of_box = shown.split("<h2>Certified bounds</h2>").nth(1).unwrap().split("</section>").next().unwrap();
-    assert!(of_box.contains("whose own maximum may be smaller") && !of_box.contains("at least"), "{of_box}");
+    assert!(
+        of_box.contains("the maximum over the workspace may be smaller") && !of_box.contains("at least"),
+        "{of_box}"
+    );
     let (_, shown) = page("machine3", &folder.path().join("machine3"));
     let of_box = shown.split("<h2>Certified bounds</h2>").nth(1).unwrap().split("</section>").next().unwrap();
     assert!(!of_box.contains("may be smaller") && of_box.contains("at least"), "{of_box}");
@@ -120,7 +123,7 @@ fn the_place_has_the_error_that_was_found() {
 fn the_text_says_what_is_proved() {
     let text = full(&["bound", "machine3"]);
     for part in
-        ["The box: x from 0 mm to 600 mm", "at least", "at most", "no error in the box exceeds the second"]
+        ["Box: x from 0 mm to 600 mm", "at least", "at most", "no error in the box exceeds the second"]
     {
         assert!(
             text.replace('\u{a0}', " ").split_whitespace().collect::<Vec<_>>().join(" ").contains(part),
@@ -298,7 +301,7 @@ fn mistakes_have_a_way_out() {
         "[manipulator]\nname = \"endless\"\nlength = \"mm\"\n[[frame]]\nname = \"rail\"\nvariable = { name = \"d1\", kind = \"prismatic\" }\n\
          transform = \"Tx(d1)\"\n",
     );
-    refused(&["bound", spec.to_str().unwrap()], &["`d1` has no limits", "give it `limits` in the spec"]);
-    refused(&["bound", "pps", "--gap", "0"], &["a gap is more than 0"]);
+    refused(&["bound", spec.to_str().unwrap()], &["`d1` has no limits", "add `limits` in the spec"]);
+    refused(&["bound", "pps", "--gap", "0"], &["a gap must be positive"]);
     refused(&["bound", "pps", "--gap", "x%"], &["invalid float"]);
 }

@@ -147,10 +147,10 @@ fn bad_input_writes_nothing() {
         assert!(!out.exists());
     };
     refused("d1,d2,d3,q4,q5,Q6\n1,2,3,4,5,6\n", &[], &["there is no column `q6`", "did you mean `Q6`?"]);
-    refused("", &[], &["6 columns of the map are not in"]);
+    refused("", &[], &["6 columns of the map are missing in"]);
     let heading = "d1,d2,d3,q4,q5,q6\n";
-    refused(heading, &[], &["no row in it that can be used"]);
-    refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "-1mm"], &["may not be negative"]);
+    refused(heading, &[], &["no row can be used"]);
+    refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "-1mm"], &["must not be negative"]);
     refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "1deg"], &["length"]);
     let hot = write(folder.path(), "hot.csv", "x,y,z,temperature_rise\n1,2,3,50\n");
     let run = abbe(&["compensate", "machine3", path(&hot), "--out", path(&out)]);

@@ -23,14 +23,14 @@ fn the_file_that_it_is_made_from_is_never_written_over() {
     let spec = spec.to_str().unwrap();
     for out in [urdf, spec] {
         let run = abbe(&["export", spec, "--to", "urdf", "--from", urdf, "--force", "-o", out]);
-        assert!(run.status == 2 && run.stderr.contains("would write over"), "{}", run.stderr);
+        assert!(run.status == 2 && run.stderr.contains("cannot be overwritten"), "{}", run.stderr);
     }
     assert_eq!(fs::read_to_string(urdf).unwrap(), CELL);
 
     // The file alone on stdout, its report on stderr; the same content in a file.
     let printed = abbe(&["export", spec, "--to", "urdf", "--from", urdf, "--full"]);
     assert!(printed.stdout.starts_with("<robot name=\"cell\"><!-- one joint -->"), "{}", printed.stdout);
-    assert!(printed.stderr.contains("+") && printed.stderr.contains("The sign"), "{}", printed.stderr);
+    assert!(printed.stderr.contains("+") && printed.stderr.contains("Sign convention"), "{}", printed.stderr);
     let out = folder.path().join("calibrated.urdf");
     let said = full(&["export", spec, "--to", "urdf", "--from", urdf, "-o", out.to_str().unwrap()]);
     assert_eq!(fs::read_to_string(&out).unwrap(), printed.stdout);
@@ -59,7 +59,7 @@ fn several_files_need_a_folder_and_options_their_format() {
         (&["--to", "urdf"][..], "--from robot.urdf"),
         (&["--to", "dh", "--from", "robot.urdf"], "leave `--from` out"),
         (&["--to", "dh", "--nodes", "5"], "leave `--nodes` out"),
-        (&["--to", "table", "--nodes", "1000"], "ask for fewer"),
+        (&["--to", "table", "--nodes", "1000"], "choose fewer nodes"),
     ] {
         let run = abbe(&[&["export", "ur5"][..], words].concat());
         assert!(run.status == 2 && run.stderr.contains(said), "{words:?}: {}", run.stderr);

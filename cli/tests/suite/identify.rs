@@ -157,7 +157,7 @@ fn the_result_is_a_spec() {
     // listed as added.
     let (found, covariance) = found.split_once("# The covariance of the errors that were fitted.\n").unwrap();
     assert!(
-        covariance.starts_with("[covariance]\n") && text.contains("the covariance of what they say"),
+        covariance.starts_with("[covariance]\n") && text.contains("the covariance of the identified errors"),
         "{text}"
     );
     let mut rest = found.lines();
@@ -177,7 +177,7 @@ fn the_result_is_a_spec() {
 
     // The written spec predicts the measurements: the same chain and errors, to the written digits.
     let map = out.with_extension("map.toml");
-    assert!(text.contains("found.map.toml: the map with where the machine stands"), "{text}");
+    assert!(text.contains("found.map.toml: the map with the identified station"), "{text}");
     let measured = json(&["measure", path(&out), path(&data), "--map", path(&map), "--json"]);
     let fitted = bench.identify(&data, &[]);
     let left = number(&measured, &["explained", "left_rms"]);
@@ -228,7 +228,7 @@ fn what_is_grouped_with_what_is_said() {
         "Identifiable: 27 combinations of 45 unknowns, 27 of the 42 errors of frames and base",
         "q2 is revolute: errors about and along   e_z1 acts as e_z2",
         "e_r1 acts as −425 e_y2 + e_r2",
-        "e_p6 cannot be seen",
+        "e_p6 cannot be observed",
         "used for validation only",
     ] {
         assert_eq!(text.contains(expected), expected != "used for validation only", "{expected}\n{text}");
@@ -242,7 +242,7 @@ fn what_is_grouped_with_what_is_said() {
     let simulated = prints(&["simulate", path(&bench.spec), "--map", path(&map), "--samples", "100"]);
     let data = bench.file("still.csv", &simulated);
     let text = prints(&["identify", "ur5", path(&data), "--map", path(&map), "--full"]);
-    assert!(text.contains("q5 is not moved in these data"), "{text}");
+    assert!(text.contains("q5 does not move in these data"), "{text}");
     assert!(!text.contains("e9") && !text.contains("NaN") && !text.contains("inf"), "{text}");
 }
 
@@ -267,7 +267,7 @@ fn a_page_begins_with_the_answer() {
     let expected = format!(": mean error {mean:.4} mm on 50 test rows, ");
     assert!(answer.contains(&expected), "{answer}, not {expected}");
     let groups = report["groups"].as_array().unwrap().len();
-    let listed = all.matches(" acts as ").count() + all.matches("cannot be seen").count();
+    let listed = all.matches(" acts as ").count() + all.matches("cannot be observed").count();
     assert_eq!(listed, groups, "{all}");
     // The errors shown are the most significant ones.
     let parameters = report["parameters"].as_array().unwrap().iter();
@@ -374,8 +374,8 @@ fn rows_that_cannot_be_used_are_listed() {
         (5, "`y` is missing"),
         (7, "`j3` is `n/a`, not a number"),
         (8, "`z` is `1e999`"),
-        (11, "it ends before `j6`"),
-        (82, "the same as a row before it, digit by digit"),
+        (11, "the row ends before `j6`"),
+        (82, "identical to an earlier row"),
     ];
     assert_eq!(found, expected);
     assert_eq!(report["fit"]["rows"], 76);
@@ -464,7 +464,7 @@ fn targets_in_line() {
     let map = bench.file("line.toml", &text);
     let run = abbe(&["simulate", "ur5", "--map", path(&map)]);
     assert_eq!(run.status, 2);
-    assert!(run.stderr.contains("these targets are in line"), "{}", run.stderr);
+    assert!(run.stderr.contains("these targets are collinear"), "{}", run.stderr);
     assert!(run.stderr.contains("line.toml"));
 }
 
@@ -514,5 +514,9 @@ fn limits_make_a_verdict() {
     let again = ["identify", "ur5", path(&data), "--map", path(&map), "--out", path(&out)];
     let run = abbe(&again);
     assert_eq!(run.status, 2);
-    assert!(run.stderr.contains("this run reads this file, and would write over it"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("this file is an input of the command and cannot be overwritten"),
+        "{}",
+        run.stderr
+    );
 }

@@ -179,11 +179,11 @@ fn mistakes_have_a_place_and_a_way_out() {
     };
     refused(
         "[workspace.grid]\nq2 = [0]\npayload = [\"2 kg\", \"7 kg\"]",
-        &["`payload` goes beyond its range", "7 kg is asked for here", "0 kg … 5 kg", "study.toml:5:11"],
+        &["`payload` exceeds its range", "7 kg is requested here", "0 kg … 5 kg", "study.toml:5:11"],
     );
     refused(
         "[workspace.grid]\nq2 = { from = \"-160 deg\", to = \"160 deg\", count = 5 }",
-        &["`q2` goes beyond its limits", "-160° is asked for here", "-150° … 150°", "study.toml:4:6"],
+        &["`q2` exceeds its limits", "-160° is requested here", "-150° … 150°", "study.toml:4:6"],
     );
     refused("[workspace.grid]\npayload = [\"2 mm\"]", &["a value of `payload` must be a mass"]);
     refused(
@@ -192,13 +192,13 @@ fn mistakes_have_a_place_and_a_way_out() {
     );
     refused(
         "[workspace.grid]\npayload = [\"2 kg\"]\n[workspace.inputs]\npayload = [\"3 kg\"]",
-        &["`payload` moves twice", "take it out of `inputs` or out of `grid`"],
+        &["`payload` is moved twice", "remove it from `inputs` or from `grid`"],
     );
     refused(
         "set = { payload = \"2 kg\" }\n[workspace.grid]\npayload = [\"2 kg\"]",
-        &["`payload` is set, and the workspace moves it", "study.toml:3:9"],
+        &["`payload` is both set and moved by the workspace", "study.toml:3:9"],
     );
-    refused("[workspace.inputs]\npayload = [\"2 kg\"]", &["a workspace has one form"]);
+    refused("[workspace.inputs]\npayload = [\"2 kg\"]", &["a workspace needs exactly one form"]);
 }
 
 /// Writes the arm of the README with a second error that measurements can separate from the sag,
@@ -298,7 +298,7 @@ fn an_identified_spec_remembers_where_it_was_fitted() {
         let run = abbe(arguments);
         let expected = format!("{count} of 60 rows are outside the ranges");
         assert!(run.stderr.contains(&expected), "{command}: {expected}\n{}", run.stderr);
-        assert!(run.stderr.contains("what is said of them is extrapolated"), "{}", run.stderr);
+        assert!(run.stderr.contains("there, predictions are extrapolations"), "{}", run.stderr);
     }
     let run = abbe(&["analyze", &found]);
     assert!(run.stderr.contains("of 2000 configurations are outside the ranges"), "{}", run.stderr);

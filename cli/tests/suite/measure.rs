@@ -39,7 +39,7 @@ fn chosen_poses_tell_more_than_as_many_others() {
     assert!(run.stderr.contains("too few configurations"), "{}", run.stderr);
     let run = abbe(&["plan", "ur5", "--map", "ur5", "--optimal", "50", "--candidates", "1"]);
     assert_eq!(run.status, 2);
-    assert!(run.stderr.contains("50 configurations cannot be chosen from 1 samples"), "{}", run.stderr);
+    assert!(run.stderr.contains("cannot choose 50 configurations from 1 samples"), "{}", run.stderr);
 }
 
 /// The best set by one criterion is worse by the other; predictions include the model error.
@@ -108,7 +108,7 @@ fn accuracy_and_repeatability_are_those_put_in() {
     assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains("as expected"), "{text}");
     assert_eq!(fs::read_to_string(out.join("errors.csv")).unwrap().lines().count(), 301);
     let page = fs::read_to_string(out.join("report.html")).unwrap();
-    for expected in ["cf. Figure 13", "cf. Figure 14", "Repeatability: how often"] {
+    for expected in ["cf. Figure 13", "cf. Figure 14", "Repeatability: distribution of errors"] {
         assert!(page.contains(expected), "{expected}");
     }
     // Without noise and random errors, the sources explain everything.
@@ -140,27 +140,24 @@ fn maps_and_plans_with_mistakes() {
     );
     map(
         "[data]\nuncertainty = \"0 mm\"\n[joints]\n[point]",
-        &["`uncertainty` must be more than zero", "has no column", "`unit` is missing"],
+        &["`uncertainty` must be positive", "has no column", "`unit` is missing"],
     );
     map(
         "[data]\nuncertainty = \"1 deg\"\n[joints]\nq9 = { column = \"a\", unit = \"deg\" }",
-        &["must be a length", "no variable `q9`", "once what was measured"],
+        &["must be a length", "no variable `q9`", "exactly one description of the measurements"],
     );
     map(
         "[data]\n[joints]\nq1 = { column = \"a\", unit = \"mm\", sign = 2 }\n[point]\ncolumns = [\"x\"]\nunit = \"degg\"",
-        &["must be a pure number", "a sign is 1 or -1", "expected 3 entries, found 1", "`degg`"],
+        &["must be a pure number", "a sign must be 1 or -1", "expected 3 entries, found 1", "`degg`"],
     );
     let plan = write(folder.path(), "plan.toml", "[plan]\nrepeat = 0\n[[set]]\naxes = { d9 = [1] }");
-    refused(
-        &["plan", "pps", "--map", "pps", "--sets", path(&plan)],
-        &["whole number from 1", "no variable `d9`"],
-    );
+    refused(&["plan", "pps", "--map", "pps", "--sets", path(&plan)], &["integer from 1", "no variable `d9`"]);
     refused(&["measure", "pps", "nowhere.csv", "--map", "pps"], &["nowhere.csv"]);
     let empty =
         write(folder.path(), "empty.csv", "d1,d2,d3,q4,p1_x,p1_y,p1_z,p2_x,p2_y,p2_z,p3_x,p3_y,p3_z\n");
-    refused(&["measure", "pps", path(&empty), "--map", "pps"], &["no row in it that can be used"]);
-    refused(&["simulate", "pps", "--map", "pps", "--noise", "-1mm"], &["may not be negative"]);
-    refused(&["simulate", "pps", "--map", "pps", "--outliers", "2"], &["a share is from 0 to 1"]);
+    refused(&["measure", "pps", path(&empty), "--map", "pps"], &["no row can be used"]);
+    refused(&["simulate", "pps", "--map", "pps", "--noise", "-1mm"], &["must not be negative"]);
+    refused(&["simulate", "pps", "--map", "pps", "--outliers", "2"], &["a share must be between 0 and 1"]);
 }
 
 /// The comparison with the paper appears only for the machine that the paper measured.

@@ -137,17 +137,17 @@ fn what_does_not_belong_together_is_refused() {
         }
     };
     refused(&[&two], &["missing: part 1/2", "abbe analyze scara --shard 1/2 --out FILE"]);
-    refused(&[&one, &two, &one], &["this is part 1/2, as", "give every part once"]);
+    refused(&[&one, &two, &one], &["this is part 1/2, and so is", "give every part once"]);
     let third = other("scara", &[], "3/9");
     refused(&[&third], &["missing: parts 1/9, 2/9, 4/9, 5/9, 6/9 and 3 more"]);
     refused(&[&one, &third], &["one of 9 parts", "one of 2", "same N"]);
     for (spec, options, says) in [
         ("ur5", &[][..], "the specs differ"),
-        ("scara", &["--set", "arm1=210mm"], "what was set"),
+        ("scara", &["--set", "arm1=210mm"], "changes by --set"),
         ("scara", &["--seed", "2"], "the seeds differ"),
         ("scara", &["--monte-carlo", "10"], "numbers of draws differ"),
         ("scara", &["--no-figures"], "with figures, the other without"),
-        ("scara", &["--interpret"], "interpreted"),
+        ("scara", &["--interpret"], "by the interpreter"),
     ] {
         let stranger = other(spec, options, "2/2");
         refused(&[&one, &stranger], &["belong to different analyses", says]);
@@ -172,10 +172,10 @@ fn what_does_not_belong_together_is_refused() {
         damaged(&changed, &["damaged"]);
     }
     // CBOR, the format of version 0.1.
-    damaged(b"abbe part 1\n\xa1\x61a\x01\xff\xfe", &["of format 1", "reads 2", "one version of abbe"]);
+    damaged(b"abbe part 1\n\xa1\x61a\x01\xff\xfe", &["the format 1", "reads 2", "one version of abbe"]);
     damaged(&[&bytes[..12], b"\xff\xfe", &bytes[14..]].concat(), &["damaged"]);
-    damaged(b"q1,q2\n0,0\n", &["no part of an analysis", "--shard I/N"]);
-    damaged(b"", &["no part of an analysis"]);
+    damaged(b"q1,q2\n0,0\n", &["not a part of an analysis", "--shard I/N"]);
+    damaged(b"", &["not a part of an analysis"]);
     refused(&[&at.join("nowhere.part")], &["cannot read"]);
 
     let bare = ["1/2", "2/2"].map(|shard| other("scara", &["--no-figures"], shard));

@@ -87,7 +87,7 @@ fn the_elbow_of_the_chapter_is_found() {
     assert!(call(&["--since", "88"]).stdout.contains("no alarm"));
     let wrong = call(&["--since", "soon"]);
     assert_eq!(wrong.status, 2);
-    assert!(wrong.stderr.contains("`soon` is no date"), "{}", wrong.stderr);
+    assert!(wrong.stderr.contains("`soon` is not a date"), "{}", wrong.stderr);
 
     prints(
         &with(&["--report", &page, "--date", "2026-11-21"]).iter().map(String::as_str).collect::<Vec<_>>(),
@@ -96,9 +96,9 @@ fn the_elbow_of_the_chapter_is_found() {
     is_alone(&text);
     for expected in [
         "<th scope=\"row\">Date</th><td>2026-11-21</td>",
-        "What has changed",
+        "Detected change",
         "All charts",
-        "What is left",
+        "Residual change",
         "Laser tracker, bolted to the floor",
     ] {
         assert!(text.contains(expected), "{expected}");
@@ -131,11 +131,11 @@ fn files_are_checks_by_the_dates_in_their_names() {
     assert!(stdout.contains("20 checks from 2026-03-01 to 2026-03-20; 6 configurations in each"), "{stdout}");
     let (status, _, stderr) = run(&[names[3], names[2]]);
     assert_eq!(status, Some(2));
-    assert!(stderr.contains("dates go back: 2026-03-03 comes after 2026-03-04"), "{stderr}");
+    assert!(stderr.contains("not in chronological order: 2026-03-03 comes after 2026-03-04"), "{stderr}");
     // Other configurations.
     let other = days(folder.path(), 4..5).replace("\n", "\n1").trim_end_matches('1').to_owned();
     fs::write(folder.path().join("check-2026-03-21.csv"), other).unwrap();
     let (status, _, stderr) = run(&[names[0], "check-2026-03-21.csv"]);
     assert_eq!(status, Some(2));
-    assert!(stderr.contains("no configuration is in all checks"), "{stderr}");
+    assert!(stderr.contains("no configuration is common to all checks"), "{stderr}");
 }

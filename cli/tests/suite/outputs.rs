@@ -47,7 +47,7 @@ fn no_command_writes_over_what_it_reads() {
                     continue;
                 }
                 let out = if in_folder(line).is_some() { workshop.path("folder") } else { out.clone() };
-                refused(&run(&workshop, line, &out, &["--force"]), "this run reads");
+                refused(&run(&workshop, line, &out, &["--force"]), "an input of the command");
             }
             let _ = fs::remove_file(&linked);
         }
@@ -63,13 +63,13 @@ fn the_map_beside_a_found_spec_is_not_that_of_the_run() {
     let before = contents(workshop.0.path());
     for out in ["x", "x.toml"] {
         let run = run(&workshop, "identify s.toml d.csv --map x.map.toml --out", &workshop.path(out), &[]);
-        refused(&run, "this run reads this file");
+        refused(&run, "this file is an input of the command");
         assert!(run.stderr.contains("x.map.toml"), "{}", run.stderr);
     }
     // A map of the user is not replaced, and the spec is not written without its map.
     refused(
         &run(&workshop, "identify s.toml d.csv --map m.toml --out", &workshop.path("x.toml"), &[]),
-        "not written by abbe",
+        "abbe did not write this file",
     );
     assert!(contents(workshop.0.path()) == before);
     refused(
@@ -79,7 +79,7 @@ fn the_map_beside_a_found_spec_is_not_that_of_the_run() {
             &workshop.path("x.html"),
             &[],
         ),
-        "two results",
+        "two outputs",
     );
     assert!(contents(workshop.0.path()) == before);
 }
@@ -122,7 +122,7 @@ fn a_folder_of_somebodys_is_left_alone() {
         fs::create_dir(workshop.at("mine")).unwrap();
         fs::write(workshop.at("mine/thesis.tex"), "ten years").unwrap();
         let before = contents(workshop.0.path());
-        refused(&run(&workshop, line, &workshop.path("mine"), &[]), "none was written by abbe");
+        refused(&run(&workshop, line, &workshop.path("mine"), &[]), "abbe wrote none of them");
         assert!(contents(workshop.0.path()) == before);
         refused(&run(&workshop, line, &workshop.path("d.csv"), &["--force"]), "not a folder");
         refused(&run(&workshop, line, "-", &["--force"]), "not a folder");
@@ -162,7 +162,7 @@ fn links_are_followed_and_modes_kept() {
         assert!(expected.is_none_or(|expected| mode("elsewhere/arm.rs") == expected));
     }
     set("elsewhere/arm.rs", 0o444);
-    refused(&generate(&workshop.path("link.rs"), &[]), "may only be read");
+    refused(&generate(&workshop.path("link.rs"), &[]), "this file is read-only");
     assert_eq!(generate(&workshop.path("link.rs"), &["--force"]).status, 0);
     assert_eq!(mode("elsewhere/arm.rs"), 0o444);
     let around = workshop.path("circle");
@@ -170,7 +170,7 @@ fn links_are_followed_and_modes_kept() {
     assert_eq!(generate(&around, &["--force"]).status, 2);
     refused(&generate(&workshop.path("elsewhere"), &["--force"]), "this is a folder");
     refused(&generate(&workshop.path("nowhere/"), &["--force"]), "this is a folder");
-    refused(&generate(&workshop.path("nowhere/arm.rs"), &["--force"]), "make its folder");
+    refused(&generate(&workshop.path("nowhere/arm.rs"), &["--force"]), "create the folder first");
 }
 
 #[test]

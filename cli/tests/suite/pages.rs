@@ -34,12 +34,12 @@ fn pages_say_what_they_rest_on_and_are_the_same_every_time() {
                 &[
                     "<th scope=\"row\">Date</th><td>2026-11-21</td>",
                     "Residuals in space",
-                    "Over each joint",
+                    "By joint",
                     "Fitted ranges",
                     "Indistinguishable errors",
                 ][..],
             ),
-            (&compensate[..], &["Distance over each joint", "Corrections of the joints", "commands"][..]),
+            (&compensate[..], &["Position error by joint", "Joint corrections", "commands"][..]),
         ] {
             let written = || {
                 // Status 1: some commands are at a limit and not corrected.
@@ -67,9 +67,7 @@ fn a_measuring_report_has_its_instrument_and_files() {
     full(&["measure", "pps", &data, "--map", "pps", "--out", path(&out), "--date", "2026-11-21"]);
     let text = fs::read_to_string(out.join("report.html")).unwrap();
     is_alone(&text);
-    for expected in
-        ["Instrument", "Over each joint", "Accuracy: errors in space", "SHA-256", "<td>2026-11-21</td>"]
-    {
+    for expected in ["Instrument", "By joint", "Accuracy: errors in space", "SHA-256", "<td>2026-11-21</td>"] {
         assert!(text.contains(expected), "{expected}");
     }
 }

@@ -73,7 +73,7 @@ fn progress_counts(text: &str) -> Option<(usize, usize)> {
     let (before, after) = text.split_once(" done, ")?;
     let (before, total) = before.rsplit_once(" of ")?;
     let done = before.rsplit(|c: char| !c.is_ascii_digit()).next()?;
-    let (left, _) = after.split_once(" left, Ctrl-C ends it")?;
+    let (left, _) = after.split_once(" left, Ctrl-C stops")?;
     let number = left.trim_end_matches(['s', 'm', 'h', 'd', 'w', 'y']);
     (number != left && number.parse().is_ok_and(|number: u64| number > 0)).then_some(())?;
     Some((done.parse().ok()?, total.parse().ok()?))
@@ -107,7 +107,7 @@ fn what_takes_long_says_how_long_to_a_terminal_alone() {
             let left = PATIENCE.saturating_sub(begun.elapsed());
             let piece = pieces.recv_timeout(left).unwrap_or_else(|_| panic!("{line} tells nothing: {text}"));
             text += &String::from_utf8_lossy(&piece);
-            let at_work = text.contains("at work for ") && text.contains("s, Ctrl-C ends it");
+            let at_work = text.contains("running for ") && text.contains("s, Ctrl-C stops");
             if let Some(found) = progress_counts(&text) {
                 break found;
             } else if at_work && UNCOUNTED.contains(&line) {
@@ -133,13 +133,13 @@ fn what_takes_long_says_how_long_to_a_terminal_alone() {
 
 #[test]
 fn what_a_line_of_progress_tells() {
-    assert_eq!(progress_counts("\r####------ 12 of 345 done, 6s left, Ctrl-C ends it"), Some((12, 345)));
+    assert_eq!(progress_counts("\r####------ 12 of 345 done, 6s left, Ctrl-C stops"), Some((12, 345)));
     for text in [
         "",
         "12 of 345 done",
-        "12 of 345 done,  left, Ctrl-C ends it",
-        "12 of 345 done, 0s left, Ctrl-C ends it",
-        "of done, 6s left, Ctrl-C ends it",
+        "12 of 345 done,  left, Ctrl-C stops",
+        "12 of 345 done, 0s left, Ctrl-C stops",
+        "of done, 6s left, Ctrl-C stops",
     ] {
         assert_eq!(progress_counts(text), None, "{text}");
     }

@@ -85,7 +85,7 @@ fn the_papers_figures_are_drawn() {
     for figure in ["here: 0.12 mm", "here: -0.44 mm", "here: 0.2501 mm", "±0.44 mm"] {
         assert!(surface.contains(figure), "{figure}");
     }
-    assert!(text("cloud.svg").contains("radius 5.48 mm, random errors added (the paper: 5.48 mm)"));
+    assert!(text("cloud.svg").contains("radius 5.48 mm, including random errors (the paper: 5.48 mm)"));
     for csv in ["configurations.csv", "sources.csv", "unreachable.csv"] {
         assert!(files.contains_key(csv));
     }
@@ -181,7 +181,7 @@ fn a_study_says_which_figures() {
     // The page names a disabled source as disabled.
     let off = study("[[figure]]\nkind = \"cloud\"\nsource = \"assembly\"\n");
     let files = written(&["pps", "--study", &off, "--disable", "assembly"]);
-    assert!(files["report.html"].contains("“assembly” is switched off"));
+    assert!(files["report.html"].contains("“assembly” is disabled"));
 
     for (figures, message) in [
         ("kind = \"travl\"", "`kind` cannot be `travl`"),
@@ -190,7 +190,7 @@ fn a_study_says_which_figures() {
         ("kind = \"surface\"\nover = [\"q4\"]", "two names"),
         ("kind = \"cloud\"\nsource = \"rail\"", "source"),
         ("kind = \"pareto\"\nover = \"q4\"", "there is no key `over`"),
-        ("kind = \"cloud\"\n[[figure]]\nkind = \"cloud\"", "stands here twice"),
+        ("kind = \"cloud\"\n[[figure]]\nkind = \"cloud\"", "duplicate figure"),
     ] {
         let bad = study(&format!("[[figure]]\n{figures}\n"));
         let run = abbe(&["analyze", "pps", "--study", &bad]);

@@ -37,7 +37,7 @@ fn random_samples_follow_from_their_seed_alone() {
     assert_eq!(own, study("pps", text, &["--seed", "4", "--threads", "1"]));
     assert_eq!(own, study("pps", text, &["--threads", "2"]));
     assert_ne!(own["ledger"], study("pps", text, &["--seed", "5"])["ledger"]);
-    refused("[workspace.random]\nsamples = 3\nseed = -1", &[], &["`seed` must be a whole number from 0"]);
+    refused("[workspace.random]\nsamples = 3\nseed = -1", &[], &["`seed` must be an integer from 0"]);
     refused("[workspace.joints]\nsamples = 3\nseed = 1", &[], &["no key `seed`"]);
 }
 
@@ -61,7 +61,7 @@ fn a_box_is_reached_by_inverse_kinematics() {
     refused(
         "[workspace.box]\nx = [\"90 m\"]\ny = [1626]\nz = [1568]\nsolve = [\"d1\"]",
         &[],
-        &["no configuration of the workspace can be reached", "d1 outside its limits (1)"],
+        &["no configuration of the workspace is reachable", "d1 outside its limits (1)"],
     );
 }
 
@@ -74,7 +74,7 @@ fn a_path_is_read_from_a_file_beside_the_study() {
     let arguments = ["analyze", "pps", "--study", path.to_str().unwrap()];
     let text = full(&arguments);
     narrow(&text);
-    assert!(text.contains("3 configurations of path.csv") && text.contains("d1 = 2300 mm: needs d1 = "));
+    assert!(text.contains("3 configurations from path.csv") && text.contains("d1 = 2300 mm: needs d1 = "));
     let report = json(&[&arguments[..], &["--json"]].concat());
     assert_eq!((&report["configurations"], &report["unreachable"]), (&2.into(), &1.into()));
     assert_eq!(report["combined"]["worst_parameters"].as_object().unwrap().keys().collect::<Vec<_>>(), ["x"]);
@@ -86,9 +86,9 @@ fn a_path_is_read_from_a_file_beside_the_study() {
         ("d1 (deg)\n1", "the unit of the column `d1` must be a length"),
         ("d1\n1\nfar", "line 3: `far` is not a number"),
         ("d1\nnan", "line 2: `nan` is not a number"),
-        ("d1,d1\n1,2", "the column `d1` stands there twice"),
+        ("d1,d1\n1,2", "duplicate column `d1`"),
         ("d1,q4\n1", "found record with 1 fields"),
-        ("d1\n", "there is no configuration in it"),
+        ("d1\n", "it contains no configuration"),
     ] {
         refused(path, &[("path.csv", csv)], &[expected]);
     }
@@ -106,8 +106,8 @@ fn compensation_leaves_shares_and_bounds() {
     assert!((number(&report["compensation"]["total"]) - 0.02 - random).abs() < 1e-12);
     let compensation =
         |line: &str, expected: &[&str]| refused(&format!("{workspace}[compensation]\n{line}"), &[], expected);
-    compensation("default = 2", &["a residual is a share from 0 to 1, or a length"]);
-    compensation("default = \"3 kg\"", &["a residual is a share"]);
+    compensation("default = 2", &["a residual must be a share from 0 to 1, or a length"]);
+    compensation("default = \"3 kg\"", &["a residual must be a share"]);
     compensation("\"spin encoder\" = 0.5", &["the source \"spin encoder\" is random"]);
     compensation("rail = 0.5", &["no source `rail`"]);
 }
@@ -305,7 +305,7 @@ fn a_study_beside_the_spec() {
     let beside = abbe(&["analyze", spec]);
     assert!(beside.stdout.contains("Study     Beside\n"), "{}", beside.stdout);
     let note =
-        format!("note: the study is {}, beside the spec\n", folder.path().join("arm.study.toml").display());
+        format!("note: using the study {} beside the spec\n", folder.path().join("arm.study.toml").display());
     assert_eq!(beside.stderr, note);
     let given = abbe(&["analyze", spec, "--study", other.to_str().unwrap()]);
     assert!(given.stdout.contains("Study     Another\n") && given.stderr.is_empty(), "{}", given.stderr);

@@ -64,7 +64,10 @@ fn a_folder_that_may_only_be_read() {
         let said = joined(&String::from_utf8_lossy(&output.stderr));
         assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
         assert!(said.contains("cannot write this: Permission denied"), "{command:?}: {said}");
-        assert!(said.contains("help: name another folder, or make this one writable"), "{command:?}: {said}");
+        assert!(
+            said.contains("help: choose another folder, or make this one writable"),
+            "{command:?}: {said}"
+        );
     }
 }
 
@@ -120,7 +123,7 @@ fn test_rows_that_were_fitted_judge_nothing() {
             for said in [joined(&run.stdout), joined(&run.stderr)] {
                 assert_eq!(said.contains(expected), known > 0, "{said}");
             }
-            let claims = ["for validation only", "used for nothing else"];
+            let claims = ["for validation only", "used for validation only"];
             let page = std::fs::read_to_string(&page).unwrap();
             assert_eq!(page.contains(claims[1]), known == 0);
             assert_eq!(run.stdout.contains(claims[0]), known == 0 && more == ["--full"]);
@@ -145,7 +148,7 @@ fn what_stands_above_a_heading() {
         let run = measured(&format!("{title}\n{rows}"));
         assert_eq!(run.status, 2);
         assert!(run.stderr.contains("line 1 is not the heading: it has "), "{}", run.stderr);
-        assert!(run.stderr.contains("remove what stands above the heading"), "{}", run.stderr);
+        assert!(run.stderr.contains("remove the lines above the heading"), "{}", run.stderr);
     }
 }
 
@@ -160,11 +163,11 @@ fn robots_in_the_words_of_their_numbers() {
     for fold in [&[][..], &["--fold"]] {
         let run = abbe(&[&["import", path(&robot), "--tip", "base"][..], fold].concat());
         assert_eq!(run.status, 2);
-        assert!(run.stderr.contains("help: name a tip behind a joint that moves\n"), "{}", run.stderr);
+        assert!(run.stderr.contains("help: choose a tip after a moving joint\n"), "{}", run.stderr);
     }
     let said = joined(&abbe(&["import", path(&robot)]).stderr);
     assert!(
-        said.contains("note: 1 angle is a multiple of 45° but for") && said.contains("writes it as such"),
+        said.contains("note: 1 angle is a multiple of 45° within") && said.contains("rounds it"),
         "{said}"
     );
     let said = joined(&abbe(&["import", path(&robot), "--round-angles"]).stderr);

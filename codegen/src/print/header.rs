@@ -1,7 +1,7 @@
 //! The documentation at the top of a generated module.
 
 use abbe_core::Orientation;
-use abbe_spec::expr::{Binary, Expression, Function, Interpolation, Kind, Outside, Term};
+use abbe_spec::expr::{Binary, Expression, Extrapolation, Function, Interpolation, Kind, Term};
 use abbe_spec::{Factor, Spec};
 
 use super::layout::Writer;
@@ -108,8 +108,8 @@ fn place_without_derivative(spec: &Spec, term: &Term) -> Option<String> {
             let table = &spec.tables[usize::from(lookup.table)];
             match (table.interpolation, table.outside) {
                 (Interpolation::Linear, _) => format!("at the points of `{}`", table.name),
-                (Interpolation::Cubic, Outside::Hold) => format!("at the ends of `{}`", table.name),
-                (Interpolation::Cubic, Outside::Nothing) => return None,
+                (Interpolation::Cubic, Extrapolation::Hold) => format!("at the ends of `{}`", table.name),
+                (Interpolation::Cubic, Extrapolation::Nothing) => return None,
             }
         }
         _ => return None,

@@ -83,7 +83,8 @@ impl DhTable {
         Err(mistake::with_help(
             &machine.origin,
             format!("the frame \"{name}\" has no Denavit-Hartenberg numbers: {reason}"),
-            "write the chain with `dh`, or with `mdh`, throughout; or export it to another format: `--to urdf`",
+            "write all frames with `dh`, or all with `mdh`; or export to another format: `--to \
+             urdf`",
         ))
     }
 
@@ -100,7 +101,7 @@ impl DhTable {
         let mut table =
             Self { convention, base: Pose::IDENTITY, rows: Vec::new(), tool: zero[spec.frames.len()] };
         if !depends[spec.frames.len()].is_empty() {
-            return Err((spec.frames.len() - 1, "the tool behind it moves".to_owned()));
+            return Err((spec.frames.len() - 1, "the tool transform depends on a joint".to_owned()));
         }
         let last = spec.frames.iter().rposition(|frame| frame.variable.is_some()).unwrap_or_default();
         for (i, frame) in spec.frames.iter().enumerate() {
@@ -108,7 +109,7 @@ impl DhTable {
             let numbers = numbers(&zero[i], convention);
             let Some(variable) = frame.variable else {
                 match (numbers, depends[i].is_empty()) {
-                    (_, false) => return refused("it moves with the joint of another frame"),
+                    (_, false) => return refused("its transform depends on the joint of another frame"),
                     _ if is_same(&zero[i], &Pose::IDENTITY) => {}
                     _ if table.rows.is_empty() => table.base = table.base.then(&zero[i]),
                     _ if i > last => {
@@ -123,15 +124,17 @@ impl DhTable {
                         reversed: false,
                         numbers,
                     }),
-                    (None, _) => return refused("it is fixed, and takes more than four"),
+                    (None, _) => {
+                        return refused("it is a fixed transform that four DH numbers cannot express");
+                    }
                 }
                 continue;
             };
             if depends[i].iter().any(|other| *other != variable) {
-                return refused("it moves with more than its own joint");
+                return refused("its transform depends on other joints, too");
             }
             let Some(numbers) = numbers else {
-                return refused("its axes do not stand as either convention has them");
+                return refused("its axes are not placed as either convention requires");
             };
             let mut q = vec![0.0; count];
             q[variable] = 1.0;
@@ -142,7 +145,7 @@ impl DhTable {
                 Row { name, variable, prismatic, reversed, numbers }
             });
             let Some(row) = row.into_iter().find(|row| is_same(&row.pose(convention, &q), one)) else {
-                return refused("its joint does not turn about z or slide along it, one to one");
+                return refused("its joint does not rotate about z or translate along z with factor 1");
             };
             table.rows.push(row);
         }

@@ -213,8 +213,9 @@ impl RealMachine {
         }
         (!names.is_empty()).then(|| {
             format!(
-                "What depends on more than the position of its own axis is taken with the other axes at home and the inputs as they are \
-                 (`--set`): {}.",
+                "These sources depend on more than the position of their own axis; they are \
+                 evaluated with the other axes at home and the inputs at their values (`--set`): \
+                 {}.",
                 names.join(", ")
             )
         })
@@ -226,7 +227,8 @@ impl RealMachine {
         let names = self.varying.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
         (!names.is_empty()).then(|| {
             format!(
-                "What changes with the configuration is held at its mean over the workspace: {}.",
+                "These sources vary with the configuration; the file holds their means over the \
+                 workspace: {}.",
                 names.join(", ")
             )
         })

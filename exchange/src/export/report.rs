@@ -115,12 +115,12 @@ impl ExportReport {
 
 /// Returns the diagnostics of a text that cannot be read back.
 pub(crate) fn unreadable(message: impl Display) -> Diagnostics {
-    mistake::with_help("abbe export", message, "this is a mistake of abbe: please report the spec")
+    mistake::with_help("abbe export", message, "this is an error in abbe: please report it with the spec")
 }
 
 /// Returns the sentence about the sign where no number changes.
 pub(crate) fn nominal_sign() -> String {
-    "Nothing is wrong with this machine: the numbers are the nominal ones.".to_owned()
+    "The machine has no errors: the numbers are nominal.".to_owned()
 }
 
 /// Rounds a length or an angle to the 15 decimals that files have.

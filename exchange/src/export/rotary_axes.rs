@@ -57,8 +57,9 @@ impl RotaryAxis {
             names.into_iter().zip(values).map(one).collect::<Vec<_>>().join(", ")
         };
         format!(
-            "`{}` turns the workpiece and is in no table. Where it stands belongs in the kinematics of the control, which has numbers for that: seen \
-             from what carries it, and in the mean, it is displaced by {} mm and turned by {} mrad.",
+            "The rotary axis `{}` of the workpiece has no table. Enter its pose in the kinematic \
+             parameters of the control: relative to the part that carries it, it is displaced by \
+             {} mm and rotated by {} mrad on average.",
             self.variable,
             numbers(self.position, ["X", "Y", "Z"], mm),
             numbers(self.angles, ["A", "B", "C"], 1e3)

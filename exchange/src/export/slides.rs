@@ -49,7 +49,8 @@ impl Axes {
     pub(crate) fn find(machine: &RealMachine) -> Result<Self, Diagnostics> {
         let spec = &machine.spec;
         let refused = |name: &str, reason: &str| {
-            let help = "such tables are for slides along X, Y and Z of F_0 that carry the tool, behind axes that turn the workpiece if there are any; every machine has `--to table`";
+            let help = "these tables need slides along X, Y and Z of F_0 that carry the tool; \
+                rotary axes must carry the workpiece. `--to table` exports any machine";
             Err(mistake::with_help(&machine.origin, format!("`{name}` {reason}"), help))
         };
         let evaluated = |error: Error| mistake::whole(&machine.origin, &error);
@@ -71,9 +72,11 @@ impl Axes {
             let (name, frame) = (variable.name.as_str(), variable.frame);
             match (variable.kind, first) {
                 (VariableKind::Prismatic, _) => {}
-                (VariableKind::Revolute, None) => return refused(name, "turns, and nothing slides"),
+                (VariableKind::Revolute, None) => {
+                    return refused(name, "is a rotary axis, and the machine has no slide");
+                }
                 (VariableKind::Revolute, Some(first)) if frame > first => {
-                    return refused(name, "turns the tool, which a slide carries");
+                    return refused(name, "is a rotary axis of the tool");
                 }
                 (VariableKind::Revolute, Some(_)) => {
                     rotary.push(i);
@@ -81,7 +84,7 @@ impl Axes {
                 }
             }
             if !variable.limits.iter().all(|limit| limit.is_finite()) {
-                return refused(name, "has no limits, between which the table would go");
+                return refused(name, "has no limits, so its table has no ends");
             }
             let mut q = zero.clone();
             q[i] = 1.0;
@@ -90,15 +93,15 @@ impl Axes {
             let along =
                 |axis: usize| (0..3).all(|k| (moved[k] - f64::from(u8::from(k == axis))).abs() < 1e-9);
             let Some(axis) = (0..3).find(|axis| along(*axis)) else {
-                return refused(name, "does not slide along X, Y or Z of F_0, in their direction");
+                return refused(name, "does not translate in the direction of X, Y or Z of F_0");
             };
             let parallel =
                 (0..3).all(|k| (0..3).all(|l| (from.0[k][l] - Pose::IDENTITY.0[k][l]).abs() < 1e-9));
             if !parallel {
-                return refused(name, "moves a frame that is turned against F_0");
+                return refused(name, "moves a frame whose axes are not parallel to those of F_0");
             }
             if slides.iter().any(|other| other.axis == axis) {
-                return refused(name, "slides along the same axis as another one");
+                return refused(name, "is a second slide along the same axis");
             }
             slides.push(Slide { variable: i, frame, axis, range: variable.limits });
         }

@@ -45,15 +45,16 @@ impl AngleRounding {
         let one = *count == 1;
         notes.note(&match round {
             true => {
-                let angles = if one { "angle was rounded to a multiple" } else { "angles were rounded to multiples" };
+                let angles =
+                    if one { "angle was rounded to a multiple" } else { "angles were rounded to multiples" };
                 format!("{count} {angles} of 45°, by {farthest:.0e} rad at most")
             }
             false => {
                 let angles = if one { "angle is a multiple" } else { "angles are multiples" };
                 let them = if one { "it" } else { "them" };
                 format!(
-                    "{count} {angles} of 45° but for {farthest:.0e} rad at most; `--round-angles` writes {them} as such, which makes \
-                     generated code shorter"
+                    "{count} {angles} of 45° within {farthest:.0e} rad; `--round-angles` rounds \
+                     {them}, which makes generated code shorter"
                 )
             }
         });

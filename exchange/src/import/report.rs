@@ -70,7 +70,7 @@ impl ImportReport {
     pub fn new(chain: &Chain, file: &str, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
         for variable in chain.variables.iter().filter(|one| one.limits.is_none() && !one.continuous) {
             notes.warn(&format!(
-                "the joint `{}` has no limits: add `limits` to its variable, so that a workspace is known",
+                "the joint `{}` has no limits: add `limits` to its variable to define a workspace",
                 variable.joint
             ));
         }
@@ -131,7 +131,7 @@ fn largest_difference(chain: &Chain, spec: Spec) -> Result<f64, Diagnostics> {
     let reach = 1.0 + chain.frames.iter().map(|frame| frame.geometry.size()).sum::<f64>();
     if largest > ROUNDING * reach {
         let message = format!("the written spec differs from the file by {largest:.1e}");
-        let help = "this is a mistake of abbe: please report the file";
+        let help = "this is an error in abbe: please report it with the file";
         return Err(mistake::with_help("abbe import", message, help));
     }
     Ok(largest)

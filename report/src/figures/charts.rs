@@ -21,15 +21,16 @@ pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
     let own = charts.iter().take(DRAWN).map(|chart| one(chart, report)).collect::<Vec<_>>();
     if !own.is_empty() {
         let hidden = charts.len().saturating_sub(DRAWN);
-        let more = if hidden > 0 { format!(" {hidden} more are nearer to zero.") } else { String::new() };
-        let caption = format!("Dots: the error at every check, less its mean.{more}");
-        scenes
-            .push(Scene::new("The charts nearest to their limits", own.len().min(3), own).captioned(caption));
+        let more =
+            if hidden > 0 { format!(" {hidden} more charts are nearer to zero.") } else { String::new() };
+        let caption = format!("Dots: error at every check minus its mean.{more}");
+        scenes.push(Scene::new("Charts nearest to their limits", own.len().min(3), own).captioned(caption));
     }
     let left = dots(&report.left.values, Colour::INK, report);
     let panel = panel(240.0, "norm", "", vec![left], report);
-    let caption = "The norm of what differs from the checks before, in units of the instrument's uncertainty: 1 where checks scatter as it does.";
-    scenes.push(Scene::new("What is left", 1, vec![panel]).captioned(caption));
+    let caption = "Norm of the change from earlier checks, relative to the uncertainty of the \
+        instrument; 1 is the usual scatter.";
+    scenes.push(Scene::new("Residual change", 1, vec![panel]).captioned(caption));
     scenes
 }
 
@@ -71,14 +72,15 @@ fn changed(finding: &Finding, report: &Report) -> Scene {
     };
     let (since, others): (Vec<_>, Vec<_>) = column(0).into_iter().partition(is_since);
     let radius = if report.times.len() > 300 { 1.6 } else { 2.4 };
-    let mut marks = vec![Mark::points(Colour::BAR, radius, others).named("the error at every check")];
+    let mut marks = vec![Mark::points(Colour::BAR, radius, others).named("error at every check")];
     if !since.is_empty() {
-        let name = "the change began here, with 95 % probability";
+        let name = "95 % interval for the time of change";
         marks.push(Mark::points(Colour::INK, radius, since).named(name));
     }
-    marks.push(Mark::line(CHANGED, 2.5, column(1)).named("the change that explains them best"));
-    let title = format!("What has changed: {}", finding.name);
-    let caption = "The error at every check is computed as if all others stayed what they are.";
+    marks.push(Mark::line(CHANGED, 2.5, column(1)).named("best-fitting change"));
+    let title = format!("Detected change: {}", finding.name);
+    let caption = "The error at every check is computed under the assumption that no other error \
+        has changed.";
     Scene::new(title, 1, vec![panel(280.0, &finding.name, unit, marks, report)]).captioned(caption)
 }
 
@@ -86,7 +88,10 @@ fn changed(finding: &Finding, report: &Report) -> Scene {
 fn all(report: &Report) -> Scene {
     let charts = || report.charts.iter().chain([&report.left]);
     let named = |name: &str| {
-        report.charts.iter().find(|chart| chart.name == name || chart.alike.iter().any(|alike| alike == name))
+        report
+            .charts
+            .iter()
+            .find(|chart| chart.name == name || chart.indistinguishable.iter().any(|other| other == name))
     };
     let found = report.finding.as_ref().and_then(|finding| named(&finding.name));
     let first =
@@ -102,8 +107,8 @@ fn all(report: &Report) -> Scene {
     if let Some(chart) = charts().find(|chart| Some(chart.name.as_str()) == first) {
         marks.push(Mark::line(CHANGED, 2.5, percents(chart)).named(&chart.name));
     }
-    let panel = panel(280.0, "average, share of the limit", "%", marks, report);
-    let caption = "Moving averages as shares of their limits: an alarm beyond ±100 %.";
+    let panel = panel(280.0, "average as share of the limit", "%", marks, report);
+    let caption = "Moving averages as shares of their limits; beyond ±100 % there is an alarm.";
     Scene::new("All charts", 1, vec![panel]).captioned(caption)
 }
 

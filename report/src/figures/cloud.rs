@@ -54,7 +54,7 @@ fn around(radius: f64, errors: &Quantity, figure: &NamedFigure, report: &Report)
     let added = figure.request.source.is_none() && !figure.bounds;
     let mut name = format!("radius {} {unit}", trimmed(radius, 3));
     if added {
-        name += ", random errors added";
+        name += ", including random errors";
     }
     if let Some(published) = figure.published_total(report) {
         name += &format!(" ({}: {} {unit})", report.publisher(), short(errors.show(published)));

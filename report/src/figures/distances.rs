@@ -26,9 +26,9 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
     let numbered = report.rows.iter().enumerate().step_by(every);
     let shown: Vec<(f64, &Row)> = numbered.map(|(i, row)| (i as f64 + 1.0, row)).collect();
     let few = thinned(report.rows.len(), every);
-    let caption = format!("Logarithmic scale; what is below 10 nm is drawn there.{few}");
-    let x = Axis::linear("rows in their order", "", [0.0, report.rows.len() as f64 + 1.0]);
-    let over_rows = Scene::new("Distance over the order of the rows", 1, vec![distances(&shown, x, to_mm)]);
+    let caption = format!("Logarithmic scale; values below 10 nm are drawn at 10 nm.{few}");
+    let x = Axis::linear("row", "", [0.0, report.rows.len() as f64 + 1.0]);
+    let over_rows = Scene::new("Position error by row", 1, vec![distances(&shown, x, to_mm)]);
     let over_joint = |joint: usize| {
         let quantity = Quantity::over(Over::Variable(joint), spec);
         let at = |row: &Row| row.q.0.get(joint).map_or(0.0, |(_, value)| quantity.show(*value));
@@ -56,10 +56,10 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
     });
     let scenes = [
         over_rows.captioned(&caption),
-        Scene::new("Distance over each joint", 3, over_joints).captioned(caption),
-        Scene::new("Distribution of the distance", 1, vec![histogram]),
-        Scene::new("Corrections of the joints", 3, changes.collect())
-            .captioned("Corrected minus what the row has, all rows."),
+        Scene::new("Position error by joint", 3, over_joints).captioned(caption),
+        Scene::new("Distribution of position errors", 1, vec![histogram]),
+        Scene::new("Joint corrections", 3, changes.collect())
+            .captioned("Corrected minus original commands, all rows."),
     ];
     scenes.into_iter().filter(|scene| !scene.panels.is_empty()).collect()
 }

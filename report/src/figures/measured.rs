@@ -38,7 +38,7 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
     ];
     let about = report.about_barycentres.iter().map(|error| in_mm(*error)).collect::<Vec<_>>();
     if !about.is_empty() {
-        let caption = "About the barycentre of the visits of each configuration.";
+        let caption = "Deviations from the barycentre of the visits of each configuration.";
         scenes.push(cited(histograms("Repeatability", &about).captioned(caption), 14));
     }
     let residuals = report.row_errors.iter().map(|row| Residual {
@@ -68,8 +68,8 @@ fn cloud(errors: &[[f64; 3]]) -> Scene {
     });
     let caption = match reach.beyond {
         0 => "Each dot is ΔX of one row.".to_owned(),
-        1 => "Each dot is ΔX of one row; 1 is beyond the picture.".to_owned(),
-        beyond => format!("Each dot is ΔX of one row; {beyond} are beyond the picture."),
+        1 => "Each dot is ΔX of one row; 1 is outside the figure.".to_owned(),
+        beyond => format!("Each dot is ΔX of one row; {beyond} are outside the figure."),
     };
     Scene::new("Accuracy: errors in space", 3, panels).captioned(caption)
 }
@@ -81,7 +81,7 @@ fn histograms(what: &str, errors: &[[f64; 3]]) -> Scene {
     let names = ["x error", "y error", "z error", "norm of the error"];
     let panels =
         all.zip(names).map(|((values, colour), name)| panel(name, "mm", &[NamedValues::new(values, colour)]));
-    Scene::new(format!("{what}: how often which error occurs"), 2, panels.collect())
+    Scene::new(format!("{what}: distribution of errors"), 2, panels.collect())
 }
 
 /// Shows one histogram of residuals per observable.
@@ -94,7 +94,7 @@ fn readings(report: &Report) -> Vec<Scene> {
         let instrument = report.instruments.iter().find(|one| is_its(&one.name));
         let unit = instrument.map_or("", |one| &one.unit);
         let panel = panel(name, unit, &[NamedValues::new(left.clone(), Colour::INK)]);
-        let scene = Scene::new(format!("{name}: how often which error occurs"), 1, vec![panel]);
+        let scene = Scene::new(format!("{name}: distribution of residuals"), 1, vec![panel]);
         let caption = "Reading minus prediction with the repeatable sources of the spec.";
         (!left.is_empty()).then(|| scene.captioned(caption))
     };

@@ -52,10 +52,10 @@ impl<'a> NamedFigure<'a> {
         let kept = request.source.as_deref().unwrap_or(kept);
         let over = |over| Quantity::over(over, &report.spec).name;
         let (kind, overs, title) = match request.content {
-            Content::Travel(first) => ("travel", vec![over(first)], format!("{of}, over {}", over(first))),
+            Content::Travel(first) => ("travel", vec![over(first)], format!("{of} over {}", over(first))),
             Content::Surface([first, second]) => {
                 let [first, second] = [over(first), over(second)];
-                let title = format!("{of}, over {first} and {second}");
+                let title = format!("{of} over {first} and {second}");
                 ("surface", vec![first, second], title)
             }
             Content::Cloud => (
@@ -63,9 +63,9 @@ impl<'a> NamedFigure<'a> {
                 Vec::new(),
                 format!("{} in space: {kept}", if *bounds { "Bounds" } else { "Errors" }),
             ),
-            Content::Histogram => ("histogram", Vec::new(), format!("Distribution of the error: {kept}")),
+            Content::Histogram => ("histogram", Vec::new(), format!("Distribution of errors: {kept}")),
             Content::Pareto => ("pareto", Vec::new(), "Share of each source".to_owned()),
-            Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
+            Content::Manipulator(_) => ("manipulator", Vec::new(), "Frames at home".to_owned()),
         };
         let (rows, title) = match request.measurand {
             Measurand::Position => (None, title),
@@ -73,7 +73,7 @@ impl<'a> NamedFigure<'a> {
         };
         let words = [kind.to_owned()].into_iter().chain(rows).chain(request.source.clone()).chain(overs);
         let workspace_note = own_workspace.map(|[reached, unreached]| {
-            format!("{reached} configurations of its own, {unreached} unreachable.")
+            format!("Own workspace: {reached} configurations, {unreached} unreachable.")
         });
         Self {
             request,
@@ -107,7 +107,7 @@ impl<'a> NamedFigure<'a> {
         let (value, metric) = published?;
         let (middle, about) = match metric {
             Metric::PlainMaximum => (0.0, ""),
-            Metric::HalfPeakToPeak => (found.middle(), " about the middle"),
+            Metric::HalfPeakToPeak => (found.middle(), " about the mean of the range"),
             // This metric is about differences from home, which the figure does not show.
             Metric::RelativeToHome => return None,
         };
@@ -140,7 +140,7 @@ impl<'a> NamedFigure<'a> {
 
     /// Returns the remark on random errors, if it is needed.
     pub(super) fn remark(&self) -> &'static str {
-        if self.request.source.is_none() && !self.bounds { ", random errors added" } else { "" }
+        if self.request.source.is_none() && !self.bounds { ", including random errors" } else { "" }
     }
 
     /// Returns "bound" for random sources, "error" otherwise.

@@ -26,7 +26,7 @@ pub(super) fn scene(figure: &NamedFigure, report: &Report) -> Scene {
     let x = Axis::names(names.collect(), [-0.8, errors.len().max(1) as f64 - 0.4]);
     let marks = vec![
         Mark::bars(Colour::BAR, bars).named("share of the sum of the largest errors"),
-        Mark::line(Colour::XYZ[0], 1.8, curve.clone()).named("shares added up"),
+        Mark::line(Colour::XYZ[0], 1.8, curve.clone()).named("cumulative share"),
         Mark::points(Colour::XYZ[0], 3.2, curve),
     ];
     let panel = Panel::plane(330.0, x, Axis::linear("share", "%", [0.0, 105.0]), marks);

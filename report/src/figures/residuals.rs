@@ -85,7 +85,7 @@ impl Residuals<'_> {
             panels.push(last.titled(title(after, own)));
         }
         let caption = format!(
-            "Lines begin at the tool point, a dot, and are as many times longer than the errors as stands above.{}",
+            "Dots are tool points; lines are the errors, enlarged by the factor above.{}",
             thinned(self.residuals.len(), every)
         );
         Scene::new("Residuals in space", panels.len(), panels).captioned(caption)
@@ -126,9 +126,9 @@ impl Residuals<'_> {
         let every = step(self.residuals.len(), DOTS);
         let numbered = self.residuals.iter().enumerate().map(|(i, residual)| (i as f64 + 1.0, residual));
         let shown = numbered.step_by(every).collect::<Vec<_>>();
-        let x = Axis::linear("points in the order of the rows", "", [0.0, self.residuals.len() as f64 + 1.0]);
+        let x = Axis::linear("point, in the order of the rows", "", [0.0, self.residuals.len() as f64 + 1.0]);
         let caption = thinned(self.residuals.len(), every);
-        Scene::new("Over the order of the rows", 1, vec![self.dots(&shown, x)]).captioned(caption.trim())
+        Scene::new("By row", 1, vec![self.dots(&shown, x)]).captioned(caption.trim())
     }
 
     /// Shows errors over each joint; none if no joint moves.
@@ -145,12 +145,12 @@ impl Residuals<'_> {
         let panels = (0..self.spec.variables.len()).filter_map(panel).collect::<Vec<_>>();
         let few = thinned(self.residuals.len(), every);
         let still = if panels.len() < self.spec.variables.len() {
-            "A joint that does not move has no picture."
+            "Joints that do not move are omitted."
         } else {
             ""
         };
         let caption = format!("{still}{few}");
-        (!panels.is_empty()).then(|| Scene::new("Over each joint", 3, panels).captioned(caption.trim()))
+        (!panels.is_empty()).then(|| Scene::new("By joint", 3, panels).captioned(caption.trim()))
     }
 
     /// Shows norms as dots: before in grey, after in blue on top.
@@ -197,7 +197,7 @@ impl Residuals<'_> {
         let lists = lists.into_iter().filter(|list| !list.values.is_empty()).collect::<Vec<_>>();
         let panels = [along(0), along(1), along(2), panel("norm of the error", "mm", &lists)];
         let caption = format!("x, y and z: {after}.");
-        Scene::new("Distribution of the error", 2, panels.to_vec()).captioned(caption)
+        Scene::new("Distribution of errors", 2, panels.to_vec()).captioned(caption)
     }
 }
 

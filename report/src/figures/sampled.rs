@@ -38,10 +38,10 @@ pub(crate) fn scene(report: &Report) -> Option<Scene> {
         let line = height.map(|at| [tolerance, at]).to_vec();
         marks.push(Mark::dashed(Colour::TOLERANCE, vec![line]).named("tolerance"));
     }
-    let name = if contains_more { "not exceeded in the box" } else { "the true maximum lies between" };
+    let name = if contains_more { "certified maximum of the box" } else { "the true maximum lies between" };
     marks.push(Mark::lines(Colour::XYZ[0], 2.0, lines).named(name));
     marks.push(Mark::texts(texts));
-    let x = errors.named("largest norm of the position's error").axis(range);
+    let x = errors.named("largest norm of the position error").axis(range);
     let panel = Panel::plane(ROW * rows.len() as f64, x, Axis::names(Vec::new(), height), marks);
     let scene = Scene::new("Sampled and certified", 1, vec![panel]).captioned(caption(report));
     Some(Scene { manipulator: report.spec.title.clone(), ..scene })
@@ -51,16 +51,17 @@ pub(crate) fn scene(report: &Report) -> Option<Scene> {
 fn caption(report: &Report) -> String {
     let lines = match report.box_exceeds_workspace() {
         true => {
-            "The line: what nothing in the box that contains the workspace exceeds, to first order. The box holds more than the \
-             workspace, whose own maximum may be smaller"
+            "Line: certified maximum to first order over the enclosing joint box, which is larger \
+             than the workspace; the maximum over the workspace may be smaller"
         }
         false => {
-            "The true maximum lies between the two lines: the first was found, and nothing in the box of the workspace exceeds the \
-             second, to first order. Where both fall together it is one line"
+            "Lines: the largest error found and the certified maximum over the box of the \
+             workspace, to first order. The true maximum lies between them; where both coincide \
+             there is one line"
         }
     };
     let tolerance = if report.study.tolerance.is_some() { "; the dashed line is the tolerance" } else { "" };
-    format!("Bars: what was sampled, a lower bound. {lines}{tolerance}.")
+    format!("Bars: sampled maximum, a lower bound. {lines}{tolerance}.")
 }
 
 fn label(row: &NormComparison, errors: &Quantity, contains_more: bool) -> String {

@@ -32,7 +32,7 @@ pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &NamedFigure, report: 
         Panel { title, published: published(axis, mesh, figure, report), height: 270.0, view }
     });
     let subtitle =
-        format!("The {} farthest from zero where others vary too{}", figure.what(), figure.remark());
+        format!("Largest magnitude of {} over all other variables{}", figure.what(), figure.remark());
     Scene { subtitle, ..Scene::new("", 3, panels.collect()) }
 }
 

@@ -46,6 +46,7 @@ pub(super) fn scene(envelope: &Envelope, over: Over, figure: &NamedFigure, repor
         let x = if axis == 2 { x } else { x.without_numbers() };
         Panel { published, ..Panel::plane(150.0, x, y, marks) }
     });
-    let subtitle = format!("Least and largest {} where others vary too{}", figure.what(), figure.remark());
+    let subtitle =
+        format!("Smallest and largest {} over all other variables{}", figure.what(), figure.remark());
     Scene { subtitle, ..Scene::new("", 1, panels.collect()) }
 }

@@ -51,12 +51,12 @@ fn summary(spec: &Spec, report: &Report) -> String {
     let card = |name, size: &NormStatistics| Card {
         name,
         value: format!("{} {}", visible(size.mean, decimals), report.length),
-        note: format!("on average; largest {} {}", visible(size.max, decimals), report.length),
+        note: format!("mean; maximum {} {}", visible(size.max, decimals), report.length),
     };
     let tolerance = Card {
         name: "Tolerance",
         value: number::length(report.tolerance, spec.length),
-        note: "allowed at the tool point".to_owned(),
+        note: "largest error allowed at the tool point".to_owned(),
     };
     cards([card("As commanded", &report.before), card("Corrected", &report.after), tolerance])
 }
@@ -71,7 +71,8 @@ fn sizes(spec: &Spec, report: &Report) -> String {
     let rows = [("as commanded", &report.before), ("corrected", &report.after)].map(row).concat();
     let unit = report.length;
     let columns = ["mean", "rms", "largest"].map(|name| format!("{name} ({unit})"));
-    let columns = [""].into_iter().chain(columns.iter().map(String::as_str)).chain(["largest turn (mrad)"]);
+    let columns =
+        [""].into_iter().chain(columns.iter().map(String::as_str)).chain(["max orientation error (mrad)"]);
     let body = format!("<tbody>{rows}</tbody>\n");
     ledger("Position errors before and after", &columns.collect::<Vec<_>>(), &[0], &body)
 }
@@ -89,5 +90,5 @@ fn failed(report: &Report) -> String {
     let more = failed.len().saturating_sub(LISTED);
     let more = if more > 0 { format!("<li>… and {more} more</li>\n") } else { String::new() };
     let list = format!("<ul>\n{}{more}</ul>\n", items.collect::<String>());
-    section("Rows that are not corrected", &list)
+    section("Rows not compensated", &list)
 }

@@ -59,7 +59,7 @@ pub(super) fn values(report: &Report) -> String {
     let others = [
         ("Parameters", list(parameters.collect())),
         ("Inputs", report.inputs().join(", ")),
-        ("Sources switched off", off.collect::<Vec<_>>().join(", ")),
+        ("Disabled sources", off.collect::<Vec<_>>().join(", ")),
     ];
     let others = others.map(|(name, values)| (name.to_owned(), escaped(&values)));
     table::facts("Frames, parameters and inputs", frames.chain(others))

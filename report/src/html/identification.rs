@@ -49,7 +49,7 @@ fn summary(spec: &Spec, report: &Report) -> String {
         card(
             "Base and tool fitted",
             show(report.fit.base_and_tool.mean),
-            "mean position error of the rows that were used".to_owned(),
+            "mean position error of the fitted rows".to_owned(),
         ),
         card("Identified", show(report.fit.after.mean), "the same rows".to_owned()),
         card(
@@ -60,8 +60,8 @@ fn summary(spec: &Spec, report: &Report) -> String {
     ];
     if let Some(test) = &report.test {
         let note = match report.test_rows_of_the_fit {
-            0 => format!("{} rows, used for nothing else", test.rows),
-            known => format!("{} rows, {known} of them rows of the fit", test.rows),
+            0 => format!("{} rows, used for validation only", test.rows),
+            known => format!("{} rows, {known} of them also in the fit", test.rows),
         };
         all.push(card("Test rows", show(test.after.mean), note));
     }
@@ -90,9 +90,9 @@ fn sizes(spec: &Spec, report: &Report) -> String {
             rows += &row(&name, compared.rows, &report.cross_validation.after);
         }
     }
-    let what = if report.instruments.is_empty() { "Position error" } else { "Error of a reading" };
+    let what = if report.instruments.is_empty() { "Position error" } else { "Residual of a reading" };
     let caption = format!("{what} ({}); ± is the standard error of the mean", spec.length.symbol());
-    let columns = ["rows of", "rows", "mean", "±", "rms", "95 %", "max"];
+    let columns = ["data set", "rows", "mean", "±", "rms", "95 %", "max"];
     ledger(&caption, &columns, &[0], &format!("<tbody>{rows}</tbody>\n"))
 }
 
@@ -106,7 +106,8 @@ fn machine(spec: &Spec, report: &Report) -> String {
     let meanings = match meanings.collect::<String>() {
         list if list.is_empty() => list,
         list => format!(
-            "<p>Equivalent joint offsets and DH errors, each in place of the error in brackets:</p>\n<ul>\n{list}</ul>\n"
+            "<p>Equivalent joint offsets and DH errors, in place of the error in \
+             brackets:</p>\n<ul>\n{list}</ul>\n"
         ),
     };
     let table = parameters("Errors of the machine", spec, report, |kind| kind == Kind::Machine);
@@ -131,18 +132,19 @@ fn placed(spec: &Spec, report: &Report) -> String {
         return String::new();
     }
     let table = parameters("Station and targets", spec, report, is_placed);
-    let words =
-        "<p>A placement is no error of the machine: it is not written to the spec and not compensated.</p>\n";
+    let words = "<p>Placements are not errors of the machine: they are not written to the spec \
+        and not compensated.</p>\n";
     folded("Placement of the machine and of its tool", &format!("{table}{words}"))
 }
 
 fn not_known(report: &Report) -> String {
     let one = |not_known: &WeaklyDetermined| {
         let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
-        let [told, expected] = [not_known.told, not_known.expected].map(|value| digits(value * factor, 2));
+        let [deviation, expected] =
+            [not_known.standard_deviation, not_known.expected].map(|value| digits(value * factor, 2));
         format!(
-            "<li>{}: standard deviation {told} {unit} from these data alone, {expected} {unit} \
-             expected beforehand</li>\n",
+            "<li>{}: standard deviation {deviation} {unit} from these data, expected {expected} \
+             {unit}</li>\n",
             escaped(&not_known.name)
         )
     };
@@ -162,7 +164,7 @@ fn parameters(caption: &str, spec: &Spec, report: &Report, is_shown: impl Fn(Kin
             _ => fixed(value * factor, decimals),
         };
         let sure = parameter.value.abs() / parameter.standard_deviation.max(1e-300);
-        let remark = if parameter.hardly_known { "hardly known" } else { "" };
+        let remark = if parameter.hardly_known { "prior-dominated" } else { "" };
         format!(
             "<tr>{}<td class=\"words\">{}</td><td>{}</td><td>{}</td><td class=\"words\">{unit}</td><td>{}</td>\
              <td class=\"words\">{remark}</td></tr>\n",
@@ -193,7 +195,7 @@ fn groups(report: &Report) -> String {
         return "<p>All unknowns are identifiable.</p>\n".to_owned();
     }
     let rows = reasons.into_iter().map(|(reason, sentences)| (escaped(reason), sentences.join("<br>")));
-    facts("Indistinguishable errors, by the reason", rows)
+    facts("Indistinguishable errors, by reason", rows)
 }
 
 fn terms(spec: &Spec, report: &Report) -> String {
@@ -211,7 +213,8 @@ fn terms(spec: &Spec, report: &Report) -> String {
         )
     });
     let caption = format!(
-        "Terms in the order of their gain: root mean square of a coordinate in cross-validation before and after ({})",
+        "Additional terms in order of acceptance: root mean square of a coordinate in \
+         cross-validation before and after ({})",
         spec.length.symbol()
     );
     let columns = ["term", "before", "after", "p of the F-test"];
@@ -232,7 +235,7 @@ fn pictures(spec: &Spec, report: &Report) -> String {
     };
     let names = ErrorNames { before: "base and tool fitted", after: "identified" };
     let (used, test) = (scenes(&list(false), &names, spec), list(true));
-    let mut text = format!("<p>Rows of the fit, without outliers.</p>\n{}", figures(&used, 0));
+    let mut text = format!("<p>Rows used in the fit, without outliers.</p>\n{}", figures(&used, 0));
     if !test.is_empty() {
         let drawn = figures(&scenes(&test, &names, spec), used.len());
         text += &format!("<h3>Test rows</h3>\n{drawn}");
@@ -245,8 +248,5 @@ fn ranges(spec: &Spec, report: &Report) -> String {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
         (escaped(spec.name_of(fitted.symbol)), escaped(&format!("{lower} … {upper}")))
     };
-    facts(
-        "Ranges of the fitted rows; beyond them, the result is extrapolated",
-        report.found.fitted.iter().map(row),
-    )
+    facts("Fitted ranges; results beyond them are extrapolations", report.found.fitted.iter().map(row))
 }

@@ -95,5 +95,5 @@ fn instruments(report: &Report) -> String {
     });
     let columns = ["", "read", "ideal: rms", "mean", "std. error", "rms", "largest", "stated σ"];
     let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
-    ledger("Residuals of each instrument, in its unit", &columns, &[0], &body)
+    ledger("Residuals by instrument, in its unit", &columns, &[0], &body)
 }

@@ -71,7 +71,7 @@ fn table(report: &Report) -> String {
             "<tr><th scope=\"row\" class=\"words\">{}<small>{}</small></th><td>{}</td><td class=\"words\">{unit}</td><td>{}</td>\
              <td>{}</td></tr>\n",
             escaped(&chart.name),
-            escaped(&chart.alike.join(", ")),
+            escaped(&chart.indistinguishable.join(", ")),
             fixed(last(&chart.values) * factor, 4),
             percent(last(&chart.average), 1.0),
             chart.alarm.map_or("", |check| &report.dates[check]),
@@ -82,8 +82,8 @@ fn table(report: &Report) -> String {
         0 => String::new(),
         _ => paragraphs(&[not_observable(report)]),
     };
-    let columns = ["error", "last value", "unit", "average, share of the limit", "alarm"];
-    let caption =
-        "Control charts, the nearest to its limit first; below each error those that cannot be told from it";
+    let columns = ["error", "last value", "unit", "average as share of the limit", "alarm"];
+    let caption = "Control charts, nearest to the limit first; the small print names indistinguishable \
+         errors";
     ledger(caption, &columns, &[0, 2], &format!("<tbody>{rows}</tbody>\n")) + &unseen
 }

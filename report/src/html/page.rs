@@ -53,10 +53,11 @@ pub(crate) fn page(
     document(&format!("{}: error analysis", report.spec.title), &[before, findings, after].concat())
 }
 
-const METRICS: &str = "<p>Largest errors of the tool point over the workspace, along the axes of F<sub>0</sub>. \
-    <i>Plain maximum</i>: the largest |ΔX|. <i>Half peak-to-peak</i>: half of what it varies by; of the norm the radius of the smallest sphere around all errors. \
-    <i>Relative to home</i>: the largest difference from the error at home. Of a random source the bound, plus or \
-    minus. Sources in order of their largest norm.</p>";
+const METRICS: &str = "<p>Largest errors of the tool point over the workspace, along the axes of \
+    F<sub>0</sub>. <i>Plain maximum</i>: the largest |ΔX|. <i>Half peak-to-peak</i>: half of the \
+    range of ΔX; for the norm, the radius of the smallest sphere that contains all errors. \
+    <i>Relative to home</i>: the largest difference from the error at home. For a random source, \
+    the bound (±). Sources are sorted by their largest norm.</p>";
 
 const LEDGER: &str =
     "Norms of the errors of the tool point: the largest and the root mean square over the workspace";
@@ -77,8 +78,8 @@ fn summary(report: &Report) -> String {
     };
     let card = |name, value, note: Option<String>| Card { name, value, note: note.unwrap_or_default() };
     let mut all = vec![
-        card("Radius of all errors", show(radii.radius), of(radii.radius)),
-        card("Random errors alone", format!("± {}", show(radii.random_radius)), of(radii.random_radius)),
+        card("Total error radius", show(radii.radius), of(radii.radius)),
+        card("Random errors only", format!("± {}", show(radii.random_radius)), of(radii.random_radius)),
     ];
     if let Some(AfterCompensation { total, .. }) = report.after_compensation {
         all.push(card("After compensation", format!("± {}", show(total)), of(total)));
@@ -88,7 +89,7 @@ fn summary(report: &Report) -> String {
     }
     let unreachable = &report.budget.unreachable;
     let unreached = match unreachable.count {
-        0 => "all reached".to_owned(),
+        0 => "all reachable".to_owned(),
         count => format!("{count} unreachable: {}", analyze::unreachable_summary(unreachable, &report.spec)),
     };
     all.push(card("Configurations", report.configurations.to_string(), Some(unreached)));
@@ -108,12 +109,13 @@ fn certified(sampled: Option<&Scene>, report: &Report) -> String {
 
 /// Formats the allowed sizes of the sources.
 fn allowed(report: &Report) -> String {
-    let about = "<p><i>Alone at most</i>: how much larger a source may be if it is the only one. <i>Equal shares</i>: how \
-        much larger it may be if each takes the same share of the tolerance. <i>Gain</i>: by how much the radius shrinks \
-        per percent that the source becomes smaller; the first is the one to tighten first.</p>\n";
+    let about = "<p><i>Alone at most</i>: factor by which a source may grow if all other errors \
+        are zero. <i>Equal shares</i>: factor by which it may grow if every source takes an equal \
+        share of the tolerance. <i>Gain</i>: decrease of the radius per percent decrease of the \
+        source; tighten the first source first.</p>\n";
     let tables = Measurand::ALL.into_iter().filter_map(|measurand| {
         let (_, unit) = analyze::unit::display_unit(report, measurand);
-        let caption = format!("Factors by which each source may grow, and gain per percent ({unit})");
+        let caption = format!("Allowed factors of the sources, and gain per percent ({unit})");
         Some(ledger::listed(&caption, &analyze::allowance_table(report, measurand)?))
     });
     let tables = tables.collect::<String>();
@@ -135,7 +137,7 @@ fn drawn(title: &str, figures: &[(NamedFigure, Scene)], before: usize) -> String
 }
 
 fn not_drawn(sources: &[String]) -> String {
-    let sentence = |source: &String| format!("Not drawn: the source “{source}” is switched off.");
+    let sentence = |source: &String| format!("Not drawn: the source “{source}” is disabled.");
     paragraphs(&sources.iter().map(sentence).collect::<Vec<_>>())
 }
 

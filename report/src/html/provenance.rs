@@ -85,7 +85,7 @@ fn table<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>
     let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
     format!(
         "{}<p>Written by abbe {}. The same files and options give the same bytes.</p>\n",
-        ledger("Files that this report was computed from", &["input", "file", "SHA-256"], &[0, 1, 2], &body),
+        ledger("Input files of this report", &["input", "file", "SHA-256"], &[0, 1, 2], &body),
         env!("CARGO_PKG_VERSION")
     )
 }
@@ -94,7 +94,7 @@ fn table<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>
 pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
     let angle = format!(" and {} mrad", short(map.uncertainty.angle * 1e3));
     let uncertainty = match &map.layout {
-        Layout::Instruments(_) => "every instrument has its own".to_owned(),
+        Layout::Instruments(_) => "see each instrument".to_owned(),
         _ => format!(
             "{}{} (one standard deviation)",
             number::quantity(map.uncertainty.length, spec.length.symbol()),
@@ -102,13 +102,13 @@ pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
         ),
     };
     let base = match map.base {
-        Base::Known => "in F<sub>0</sub> but for small errors",
-        Base::Unknown => "anywhere: its place was fitted",
+        Base::Known => "in F<sub>0</sub>, up to small errors",
+        Base::Unknown => "fitted",
         Base::Exact => "exactly in F<sub>0</sub>",
     };
     let measured = match &map.layout {
         Layout::Point(..) => "the tool point".to_owned(),
-        Layout::Difference(..) => "the tool point, as commanded minus actual".to_owned(),
+        Layout::Difference(..) => "the tool point, as target − actual".to_owned(),
         Layout::Targets(targets) => format!("{} targets", targets.len()),
         Layout::Pose(..) => "position and orientation of the tool".to_owned(),
         Layout::Instruments(all) => {
@@ -123,5 +123,5 @@ pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
         ("Stands", base.to_owned()),
         ("Map", escaped(map.path())),
     ];
-    facts("Instrument and what it measured", all)
+    facts("Instrument and measured quantity", all)
 }

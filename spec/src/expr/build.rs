@@ -56,7 +56,9 @@ impl<'b> Builder<'b> {
                 let message = format!("{} must be {expected}, not {found}", entry.what);
                 let mistake = Diagnostic::new(whole.span.clone(), message).label(format!("this is {found}"));
                 let help = if Dimension::NONE.over(expected) == Some(found) {
-                    "this is the reciprocal, as a stiffness is of a compliance: write `1/(…)`".to_owned()
+                    "this is the reciprocal of the expected quantity, such as a stiffness instead \
+                     of a compliance: write `1/(…)`"
+                        .to_owned()
                 } else if expected == Dimension::NONE {
                     "angles and slopes are pure numbers: `0.1`, `5 deg`, `d1/(1600 mm)`".to_owned()
                 } else {

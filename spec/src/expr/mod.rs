@@ -23,7 +23,7 @@ pub use dimension::Dimension;
 pub use expression::{Binary, Expression, Kind, Lookup, Term};
 pub use function::{FUNCTION_NAMES, Function};
 pub use scope::{Allowed, Entry, Name, Scope, Symbol};
-pub use table::{Interpolation, Outside, Table};
+pub use table::{Extrapolation, Interpolation, Table};
 pub use transform::{Elementary, Motion, motion};
 pub use unit::{LARGEST, UNIT_NAMES, Unit};
 

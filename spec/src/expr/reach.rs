@@ -1,7 +1,7 @@
 //! Checks whether the argument of a table can leave its range.
 
 use super::expression::values;
-use super::{Kind, Outside, Scope, Symbol, Table, Term};
+use super::{Extrapolation, Kind, Scope, Symbol, Table, Term};
 use crate::diagnostic::Diagnostic;
 
 /// Number of configurations that are tried in addition to the corners of the ranges.
@@ -18,7 +18,7 @@ const CORNERS: usize = 6;
 /// at evaluation.
 pub(super) fn reaches_beyond(terms: &[Term], table: &Table, scope: &Scope) -> Option<Diagnostic> {
     let argument = terms.last()?;
-    if table.outside == Outside::Hold || argument.dimension != Some(table.dimensions[0]) {
+    if table.outside == Extrapolation::Hold || argument.dimension != Some(table.dimensions[0]) {
         return None;
     }
     let range = |symbol: Symbol| {

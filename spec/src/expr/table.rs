@@ -16,7 +16,7 @@ pub enum Interpolation {
 
 /// Values beyond the first and the last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outside {
+pub enum Extrapolation {
     /// No value: evaluation gives NaN.
     Nothing,
     /// The value at the end.
@@ -37,7 +37,7 @@ pub struct Table {
     /// Interpolation between the points.
     pub interpolation: Interpolation,
     /// Values beyond the points.
-    pub outside: Outside,
+    pub outside: Extrapolation,
     scale: f64,
     starts: Vec<u32>,
     knots: Vec<f64>,
@@ -53,7 +53,7 @@ impl Table {
         dimensions: [Dimension; 2],
         points: Vec<[f64; 2]>,
         interpolation: Interpolation,
-        outside: Outside,
+        outside: Extrapolation,
     ) -> Self {
         let intervals = points.len() - 1;
         let [first, last] = [points[0][0], points[intervals][0]];
@@ -114,8 +114,8 @@ impl Table {
             Interpolation::Cubic => "monotone cubic",
         };
         let beyond = match self.outside {
-            Outside::Nothing => "NaN outside",
-            Outside::Hold => "end value held outside",
+            Extrapolation::Nothing => "NaN outside",
+            Extrapolation::Hold => "end value held outside",
         };
         let ([first, last], count) = (self.ends(), self.points.len());
         let description = description.trim_end_matches('.');
@@ -182,8 +182,8 @@ impl Table {
             [y(k), first / length, second / length.powi(2), third / length.powi(3)]
         };
         let end = |k: usize| match self.outside {
-            Outside::Nothing => [f64::NAN; 4],
-            Outside::Hold => [y(k), 0.0, 0.0, 0.0],
+            Extrapolation::Nothing => [f64::NAN; 4],
+            Extrapolation::Hold => [y(k), 0.0, 0.0, 0.0],
         };
         [end(0)].into_iter().chain((0..intervals).map(piece)).chain([end(intervals)]).collect()
     }

@@ -74,7 +74,7 @@ pub(crate) fn tokens<'t>(text: &'t str, place: &TextLocation) -> Result<Vec<(Tok
             let help =
                 "write a measured function as a table, `[tables.NAME]`, and split a sum into several sources";
             return Err(Diagnostic::new(place.span(range), message)
-                .label("too many from here on")
+                .label("first one beyond the maximum")
                 .help(help));
         }
         tokens.push((token, range.clone()));

@@ -38,7 +38,7 @@ fn fault(name: &str) -> Option<(String, String)> {
     let mut letters = name.chars();
     let starts = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
     let fault = if name.is_empty() {
-        ("a name is empty".to_owned(), "use letters, digits and `_`".to_owned())
+        ("this name is empty".to_owned(), "use letters, digits and `_`".to_owned())
     } else if !starts || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
         let help = "names consist of letters a to z, digits and `_`, and begin with a letter";
         (format!("`{shown}` is not a valid name"), help.to_owned())

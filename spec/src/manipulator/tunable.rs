@@ -41,7 +41,7 @@ impl Spec {
                 dimension: Dimension::NONE,
                 unit: String::new(),
                 range: [f64::NEG_INFINITY, f64::INFINITY],
-                description: format!("{}: what this source is multiplied by", source.name),
+                description: format!("{}: factor of this source", source.name),
             });
         }
         spec

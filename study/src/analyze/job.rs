@@ -53,8 +53,8 @@ impl Analyze {
     pub fn change(&mut self, changes: &Changes, notes: &mut dyn Notes) {
         if !changes.is_empty() && self.study.remove_published() {
             notes.note(
-                "published figures are left out: --set, --enable and --disable define a different \
-             machine",
+                "published figures are not compared: --set, --enable and --disable define a \
+                 different machine",
             );
         }
         self.machine.change(changes);
@@ -139,7 +139,7 @@ impl Analyze {
                 };
                 if !put {
                     let message = "this part lacks data that its options ask for";
-                    return Err(mistake::with_help(name, message, "make it again"));
+                    return Err(mistake::with_help(name, message, "create the part again"));
                 }
             }
             match all {

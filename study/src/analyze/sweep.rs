@@ -210,8 +210,8 @@ impl Sweep<'_> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let mut builder = FiguresBuilder::new(study, manipulator.description());
         if !builder.append(data) {
-            let message = "the figures are not those of the study";
-            return Err(mistake::with_help(&machine.origin, message, "make all parts again"));
+            let message = "the figures of this part are not those of the study";
+            return Err(mistake::with_help(&machine.origin, message, "create all parts again"));
         }
         builder.finish(manipulator, workspace.home(), &machine.spec)
     }
@@ -232,7 +232,7 @@ impl Sweep<'_> {
             return Ok(());
         }
         let reasons = unreachable::unreachable_summary(&budget.unreachable, &self.machine.spec);
-        let message = format!("no configuration of the workspace can be reached: {reasons}");
+        let message = format!("no configuration of the workspace is reachable: {reasons}");
         let help = "move or shrink the workspace of the study, or widen the limits of the joints";
         Err(mistake::with_help(&self.machine.origin, message, help))
     }

@@ -49,7 +49,7 @@ pub fn first_unreachable(unreachable: &UnreachableSummary, home: &Configuration,
                 let [x, y, z] = point.map(number::short);
                 format!("({x}, {y}, {z}) {}", spec.length.symbol())
             }
-            None => number::configuration(&unreachable.asked, home, spec),
+            None => number::configuration(&unreachable.requested, home, spec),
         };
         format!("{requested}: {}", unreachable_reason(unreachable, spec))
     });

@@ -36,11 +36,11 @@ impl Domain {
             return Err(mistake::with_help(
                 &machine.origin,
                 format!(
-                    "{moving} joints, parameters and inputs vary: a bound can be computed for up \
+                    "{moving} joints, parameters and inputs vary; a bound can be computed for up \
                      to {MOST_NAMES}"
                 ),
-                "fix some of them: a study whose workspace is a `grid` varies only those that it \
-                 names, `--set` fixes inputs",
+                "fix some of them: use a study whose workspace is a `grid`, which varies only the \
+                 joints that it names, or fix inputs by `--set`",
             ));
         }
         Ok(domain)

@@ -19,7 +19,7 @@ impl Gap {
     /// Creates a gap; fails unless it is greater than 0 and less than 10.
     pub fn new(share: f64) -> Result<Self, &'static str> {
         let is_gap = share > 0.0 && share < 10.0;
-        if is_gap { Ok(Self(share)) } else { Err("a gap is more than 0: `1%`, `0.1%`") }
+        if is_gap { Ok(Self(share)) } else { Err("a gap must be positive: `1%`, `0.1%`") }
     }
 
     /// Returns the gap as a share.

@@ -55,11 +55,12 @@ pub(super) fn above_heading(text: &[u8], dialect: Dialect) -> Option<Unfit> {
             }
             let line = first.line;
             let message = format!(
-                "line {line} is not the heading: it has {}, line {} and the rows below have {columns}",
+                "line {line} is not the heading: it has {}, but line {} and the rows below have \
+                 {columns}",
                 counted(first.cells, "cell", "cells"),
                 names.line
             );
-            Some(Unfit::new(message, "remove what stands above the heading, the names of the columns"))
+            Some(Unfit::new(message, "remove the lines above the heading, which names the columns"))
         },
     )
 }
@@ -95,7 +96,7 @@ mod tests {
     fn titles_are_told_from_headings() {
         let title = |line: u64, cells: &str, heading: u64| {
             Some(format!(
-                "line {line} is not the heading: it has {cells}, line {heading} and the rows below have 3"
+                "line {line} is not the heading: it has {cells}, but line {heading} and the rows below have 3"
             ))
         };
         for (text, expected) in [

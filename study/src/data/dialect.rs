@@ -74,11 +74,11 @@ impl Dialect {
     pub(super) fn words(&self) -> Option<&'static str> {
         Some(match (self.delimiter, self.decimal_comma) {
             (b',', false) => return None,
-            (b',', true) => "its decimals have a comma",
-            (b';', false) => "its cells stand between semicolons",
-            (b';', true) => "its cells stand between semicolons, its decimals have a comma",
-            (_, false) => "its cells stand between tabs",
-            (_, true) => "its cells stand between tabs, its decimals have a comma",
+            (b',', true) => "with decimal commas",
+            (b';', false) => "separated by semicolons",
+            (b';', true) => "separated by semicolons, with decimal commas",
+            (_, false) => "separated by tabs",
+            (_, true) => "separated by tabs, with decimal commas",
         })
     }
 

@@ -59,7 +59,11 @@ impl File {
         let heading: Arc<[String]> = heading.iter().map(|name| meant(name).to_owned()).collect();
         if heading.len() > MOST_COLUMNS {
             let message = format!("this file has {} columns; the maximum is {MOST_COLUMNS}", heading.len());
-            return Err(mistake::with_help(name, message, "leave out those that the map does not name"));
+            return Err(mistake::with_help(
+                name,
+                message,
+                "leave out the columns that the map does not name",
+            ));
         }
         Ok(Self { file: name, reader, lines, dialect, heading })
     }
@@ -71,8 +75,8 @@ impl File {
             let fields = record.map_err(|error| unreadable(&file, &error))?;
             let line = fields.position().map_or(0, |position| lines.record_line(position.byte()));
             if row == MOST_ROWS {
-                let message = format!("this file has more rows than can be worked with: {MOST_ROWS}");
-                let help = "split it, or take every second row";
+                let message = format!("this file has more than the maximum of {MOST_ROWS} rows");
+                let help = "split it, or keep every second row";
                 return Err(mistake::with_help(&file, message, help));
             }
             Ok(Record::written(line, Arc::clone(&heading), dialect, fields))
@@ -83,13 +87,13 @@ impl File {
 /// Recognizes a text that is not a table by its first line.
 fn other_text(head: &[u8]) -> Option<Unfit> {
     if head.contains(&0) {
-        return Some(Unfit::new("this file is no text: it has bytes that are 0", WANTED));
+        return Some(Unfit::new("this is not a text file: it contains null bytes", WANTED));
     }
     let text = String::from_utf8_lossy(head);
     let mut lines = text.lines().map(str::trim);
     let line = lines.find(|line| !line.is_empty() && !line.starts_with('#'))?;
     let (what, help) = if line.starts_with('[') && line.ends_with(']') {
-        ("TOML", "data are a CSV file; a spec stands before it, a map after `--map`")
+        ("TOML", "data are a CSV file; the spec is the argument before it, and a map follows `--map`")
     } else if line.starts_with('<') {
         ("XML", WANTED)
     } else if line.starts_with('{') || line == "[" {
@@ -97,7 +101,7 @@ fn other_text(head: &[u8]) -> Option<Unfit> {
     } else {
         return None;
     };
-    Some(Unfit::new(format!("this file is no table; it seems to be {what}"), help))
+    Some(Unfit::new(format!("this file is not a table; it seems to be {what}"), help))
 }
 
 fn unreadable(file: &str, error: &csv::Error) -> Diagnostics {
@@ -105,7 +109,7 @@ fn unreadable(file: &str, error: &csv::Error) -> Diagnostics {
         csv::ErrorKind::Io(error) => Unfit::from_error(error, WANTED),
         csv::ErrorKind::Utf8 { pos, .. } => {
             let line = pos.as_ref().map_or(1, csv::Position::line);
-            let message = format!("near line {line} of this file there is a byte that is no UTF-8 text");
+            let message = format!("this file has a byte near line {line} that is not UTF-8 text");
             Unfit::new(message, "save it as UTF-8, or write names without accents")
         }
         _ => Unfit::new(format!("cannot read this file: {error}"), WANTED),

@@ -28,13 +28,13 @@ impl FromRows {
         match *self {
             Self::Approach(variable) => {
                 let name = &spec.variables[variable].name;
-                format!("1 where the last move of {name} was forward, -1 where it was back")
+                format!("1 if the last motion of {name} was forward, -1 if backward")
             }
             Self::GravityMoment { variable, at } => {
                 let name = &spec.variables[variable].name;
                 let frame = spec.frames.get(at).map(|frame| format!("the origin of {}", frame.name));
                 let place = frame.unwrap_or_else(|| "the tool point".to_owned());
-                format!("1 where a weight at {place} turns {name} forward, -1 where it turns it back")
+                format!("1 if a weight at {place} turns {name} forward, -1 if backward")
             }
         }
     }

@@ -7,7 +7,7 @@ use abbe::identify::{Fixture, InstrumentKind, Observable, Reference};
 use super::column::Column;
 
 /// Reason of a row without readings.
-pub(super) const NOTHING_READ: &str = "nothing was read";
+pub(super) const NOTHING_READ: &str = "no reading in this row";
 
 /// One instrument of a map.
 #[derive(Clone, Debug)]
@@ -144,7 +144,7 @@ impl Instruments {
         let mut readings = vec![None; self.observables.len()];
         let read = self.read_in(setup);
         if read.is_empty() {
-            return Err("no instrument of the map is read in this setup".to_owned());
+            return Err("the map has no instrument in this setup".to_owned());
         }
         for instrument in read.into_iter().map(|i| &self.list[i]) {
             for (place, reading) in instrument.observables.clone().enumerate() {

@@ -17,20 +17,21 @@ impl Map {
         {
             let name = |column: &Column| column.name.escape_debug().to_string();
             let message = format!(
-                "{} columns of the map are not in {}: `{}` … `{}`",
+                "{} columns of the map are missing in {}: `{}` … `{}`",
                 columns.len(),
                 file,
                 name(first),
                 name(last)
             );
             let help = match header {
-                [] => "the file has no first line".to_owned(),
-                [only] => format!("its first line has one cell, `{}`", only.escape_debug()),
-                _ => format!("its first line has: {there_are}"),
+                [] => "the file has no heading".to_owned(),
+                [only] => format!("its heading has one cell, `{}`", only.escape_debug()),
+                _ => format!("the columns are: {there_are}"),
             };
             let span = first.span.clone();
-            let mistake =
-                Diagnostic { span, ..Diagnostic::whole_file(message) }.label("the first of them").help(help);
+            let mistake = Diagnostic { span, ..Diagnostic::whole_file(message) }
+                .label("first missing column")
+                .help(help);
             return Diagnostics { path: self.path.clone(), text: self.text.clone(), list: vec![mistake] };
         }
         let list = columns.iter().map(|column| {
@@ -43,12 +44,14 @@ impl Map {
             let near = free.max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
             let near = near.filter(|name| similarity(name) > 0.55);
             let help = match near {
-                Some(name) => format!("did you mean `{name}`? there are: {there_are}"),
-                None => format!("there are: {there_are}"),
+                Some(name) => format!("did you mean `{name}`? the columns are: {there_are}"),
+                None => format!("the columns are: {there_are}"),
             };
             let message = format!("there is no column `{}` in {}", column.name.escape_debug(), file);
             let span = column.span.clone();
-            Diagnostic { span, ..Diagnostic::whole_file(message) }.label("the map wants it").help(help)
+            Diagnostic { span, ..Diagnostic::whole_file(message) }
+                .label("the map names this column")
+                .help(help)
         });
         Diagnostics { path: self.path.clone(), text: self.text.clone(), list: list.collect() }
     }

@@ -20,8 +20,8 @@ pub(crate) fn raw_table(source: Source<'_>) -> Result<RawTable, Diagnostics> {
     let Opened { heading, records, .. } = source.open()?;
     let heading = heading.to_vec();
     if source.file().is_some() && heading.iter().any(|name| name.parse::<f64>().is_ok()) {
-        let message = "the first line of this file has numbers";
-        let help = "give it a heading: a name for each column, such as q1, …, x, y, z, a, b, c";
+        let message = "the first line of this file contains numbers";
+        let help = "add a heading with a name for each column, such as q1, …, x, y, z, a, b, c";
         return Err(mistake::with_help(source.name(), message, help));
     }
     let (mut rows, mut slips) = (Vec::new(), vec![None; heading.len()]);
@@ -32,7 +32,7 @@ pub(crate) fn raw_table(source: Source<'_>) -> Result<RawTable, Diagnostics> {
             return Err(mistake::with_help(
                 source.name(),
                 message,
-                "one row of numbers in every line below the heading",
+                "write one row of numbers in every line below the heading",
             ));
         }
         let cell = |(place, slip): (usize, &mut Option<(u64, String)>)| {

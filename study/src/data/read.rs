@@ -62,7 +62,7 @@ fn merge_duplicates(document: &mut Document) {
         .map(|(mut first, others)| {
             if !others.is_empty() {
                 let more = format!(
-                    "the same in line{} {}",
+                    "same error in line{} {}",
                     if others.len() == 1 { "" } else { "s" },
                     others.join(", ")
                 );
@@ -162,8 +162,9 @@ fn layout(
     }
     let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
-        let message = "a map says once what was measured";
-        let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more), `[pose]` and `[[instrument]]`";
+        let message = "a map needs exactly one description of the measurements";
+        let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more), `[pose]` \
+            and `[[instrument]]`";
         document.mistake(Diagnostic::new(0..0, message).help(help));
         return None;
     };
@@ -221,7 +222,7 @@ fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<T
 }
 
 fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layout> {
-    let items = document.array(item, "tables, each a [[target]]")?;
+    let items = document.array(item, "an array of tables [[target]]")?;
     let mut targets = Vec::new();
     for item in &items {
         let mut section = document.section(item)?;
@@ -238,13 +239,13 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layo
     }
     let positions: Vec<[f64; 3]> = targets.iter().map(|target| target.position).collect();
     let mistake = match register(&positions, &positions) {
-        None => "three targets make a frame; this has fewer",
+        None => "at least three targets are needed",
         Some(found) if found.breadth < 1e-3 => {
-            "these targets are in line: a turn about that line cannot be seen"
+            "these targets are collinear: a rotation about their line cannot be measured"
         }
         Some(_) => return Some(Layout::Targets(targets)),
     };
-    let help = "move one of them out of the line, or measure a single one as `[point]`";
+    let help = "move one of them off the line, or measure a single one as `[point]`";
     document.mistake(Diagnostic::new(item.key_span.clone(), mistake).help(help));
     None
 }

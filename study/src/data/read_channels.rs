@@ -27,7 +27,8 @@ pub(super) fn joints(root: &Section<'_>, document: &mut Document, spec: &Spec) -
             let name = &variable.name;
             let message = format!("`{name}` has no column");
             let help = format!(
-                "add `{name} = {{ column = \"…\", unit = \"…\" }}`, or `{name} = {{ value = 0 }}` if it stays"
+                "add `{name} = {{ column = \"…\", unit = \"…\" }}`, or `{name} = {{ value = 0 }}` \
+                 if it is constant"
             );
             document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
             return None;
@@ -94,7 +95,8 @@ fn read_from_rows(
         (None, Some(item), frame) => {
             let joint = variable(&item, document)?;
             if spec.variables[joint].kind != VariableKind::Revolute {
-                let message = format!("`{}` does not turn: no moment acts on it", spec.variables[joint].name);
+                let message =
+                    format!("`{}` is not revolute, so no moment acts about it", spec.variables[joint].name);
                 document.mistake(Diagnostic::new(item.span(), message).help("name a revolute joint"));
                 return None;
             }
@@ -106,7 +108,8 @@ fn read_from_rows(
             let at = find_name(document, frame.span(), &name, &names, "frame")?;
             if at < spec.variables[joint].frame {
                 let message = format!("`{}` does not move the frame `{name}`", spec.variables[joint].name);
-                let help = "name the frame of the joint or one behind it, or none for the tool point";
+                let help = "name the frame of the joint or a later one, or omit `frame` for the \
+                    tool point";
                 document.mistake(Diagnostic::new(frame.span(), message).help(help));
                 return None;
             }
@@ -115,7 +118,7 @@ fn read_from_rows(
         _ => {
             let help =
                 "write `{ approach = \"JOINT\" }` or `{ gravity_moment = \"JOINT\", frame = \"FRAME\" }`";
-            let message = format!("how `{}` follows from the rows is not clear", input.name);
+            let message = format!("`{}` is not defined by a valid rule", input.name);
             document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
             None
         }
@@ -137,7 +140,8 @@ fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dim
             sign if sign.abs() == 1.0 => sign,
             _ => {
                 document.mistake(
-                    Diagnostic::new(item.span(), "a sign is 1 or -1").help("a factor belongs into `unit`"),
+                    Diagnostic::new(item.span(), "a sign must be 1 or -1")
+                        .help("include any other factor in `unit`"),
                 );
                 return None;
             }

@@ -34,7 +34,7 @@ pub(super) fn instruments(
         None => vec![Named { name: String::new(), position: [0.0; 3] }],
     };
     let items = root.get("instrument")?;
-    let items = document.array(&items, "tables, each an [[instrument]]")?;
+    let items = document.array(&items, "an array of tables [[instrument]]")?;
     let mut all = Instruments {
         targets: targets.iter().map(|t| t.position).collect(),
         setup,
@@ -47,8 +47,8 @@ pub(super) fn instruments(
         section.name = "this [[instrument]]".to_owned();
         match instrument(&section, &targets, stated, &mut all, document, spec) {
             Some(one) if all.list.iter().any(|other| other.name == one.name) => {
-                let message = format!("there are two instruments `{}`", one.name.escape_debug());
-                let help = "give each a `name` of its own";
+                let message = format!("duplicate instrument `{}`", one.name.escape_debug());
+                let help = "give each its own `name`";
                 document.mistake(Diagnostic::new(item.span(), message).help(help));
                 return None;
             }
@@ -60,7 +60,7 @@ pub(super) fn instruments(
 }
 
 fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Named>> {
-    let items = document.array(item, "tables, each a [[target]]")?;
+    let items = document.array(item, "an array of tables [[target]]")?;
     let one = |item: &Item<'_>, document: &mut Document| {
         let mut section = document.section(item)?;
         section.span = item.span();
@@ -129,12 +129,12 @@ fn instrument(
     let unit = section.get("unit").and_then(|item| document.string(&item));
     let range = match section.get("range") {
         Some(item) => {
-            let ends: [Item<'_>; 2] = document.entries(&item, "the least and the largest reading")?;
+            let ends: [Item<'_>; 2] = document.entries(&item, "the smallest and the largest reading")?;
             let [lower, upper] = ends.map(|end| constant(&end, document, spec, dimension));
             let (lower, upper) = (lower?, upper?);
             if lower >= upper {
-                let mistake = Diagnostic::new(item.span(), "`range` ends before it begins");
-                document.mistake(mistake.help("write the least reading first"));
+                let mistake = Diagnostic::new(item.span(), "the ends of `range` are reversed");
+                document.mistake(mistake.help("write the smallest reading first"));
                 return None;
             }
             Some([lower, upper])
@@ -185,7 +185,7 @@ fn targets_of(
     };
     if kind.has("targets") {
         let item = section.required("targets", document)?;
-        let both: [Item<'_>; 2] = document.entries(&item, "two names of targets")?;
+        let both: [Item<'_>; 2] = document.entries(&item, "the names of two targets")?;
         let [first, second] = both.map(|item| find(&item, document));
         return Some([first?, second?]);
     }
@@ -203,7 +203,7 @@ fn setup(
 ) -> Option<Option<f64>> {
     let Some(item) = section.get("setup") else { return Some(None) };
     if all.setup.is_none() {
-        let mistake = Diagnostic::new(item.span(), "the map does not say which column has the setup");
+        let mistake = Diagnostic::new(item.span(), "the map does not name the column of the setup");
         document.mistake(mistake.help("name it: `setup = \"COLUMN\"` in [data]"));
         return None;
     }
@@ -229,9 +229,9 @@ fn zero(
             Some((about.map_or(Some(0.0), |about| about.map(|about| sign * about))?, false))
         }
         (Some(_), Some(nominal)) => {
-            let message =
-                "`nominal_radius` is about how large a radius is that is unknown; this one is known";
-            let help = "leave it out, or write `radius = \"unknown\"`";
+            let message = "`nominal_radius` is the approximate value of an unknown radius, but this radius \
+                 is known";
+            let help = "remove it, or write `radius = \"unknown\"`";
             document.mistake(Diagnostic::new(nominal.key_span.clone(), message).help(help));
             None
         }
@@ -276,8 +276,8 @@ fn own_direction(
     let along = own_vector(section, kind, key, document, spec, Dimension::NONE)?;
     match section.get(key) {
         Some(item) if kind.has(key) && norm(along) == 0.0 => {
-            let mistake = Diagnostic::new(item.span(), format!("`{key}` has no direction"));
-            document.mistake(mistake.help("write where it points: [0, 0, 1] is z"));
+            let mistake = Diagnostic::new(item.span(), format!("the direction `{key}` must not be zero"));
+            document.mistake(mistake.help("write a vector such as [0, 0, 1] for z"));
             None
         }
         _ => Some(along),

@@ -28,7 +28,7 @@ pub(super) fn stations(
     };
     let mut stated: Vec<StatedStation> = Vec::new();
     let Some(list) = root.get("station") else { return Some(Stations { column, stated }) };
-    for item in document.array(&list, "tables, each a [[station]]")? {
+    for item in document.array(&list, "an array of tables [[station]]")? {
         let mut section = document.section(&item)?;
         section.span = item.span();
         section.name = "this [[station]]".to_owned();
@@ -37,16 +37,16 @@ pub(super) fn stations(
         let pose = place(&section, document, spec)?;
         covariance(&section, document, 6)?;
         if stated.iter().any(|station| station.name == name) {
-            let message = format!("there are two stations `{}`", name.escape_debug());
-            let help = "give each a `name` of its own";
+            let message = format!("duplicate station `{}`", name.escape_debug());
+            let help = "give each its own `name`";
             document.mistake(Diagnostic::new(item.span(), message).help(help));
             return None;
         }
         stated.push(StatedStation { name, pose });
     }
     if column.is_none() && stated.len() > 1 {
-        let help = "say under [data] which column names the station of a row: `station = \"…\"`";
-        let message = "several stations, and nothing that says where a row was measured";
+        let help = "name the column of the station in [data]: `station = \"…\"`";
+        let message = "several stations, but no column with the station of each row";
         document.mistake(Diagnostic::new(list.key_span.clone(), message).help(help));
         return None;
     }
@@ -82,14 +82,14 @@ pub(super) fn placement(
     };
     let list = section.required("targets", document)?;
     let mut targets = Vec::new();
-    for item in document.array(&list, "places, each three lengths in the frame of the tool")? {
+    for item in document.array(&list, "positions, each three lengths in the frame of the tool")? {
         let three: [Item<'_>; 3] = document.entries(&item, "three lengths in the frame of the tool")?;
         let [x, y, z] = three.map(|item| constant(&item, document, spec, Dimension::LENGTH));
         targets.push([x?, y?, z?]);
     }
     if targets.len() != count {
-        let message = format!("there are {count} targets, and places of {}", targets.len());
-        let help = "one place for every target, in their order";
+        let message = format!("the map has {count} targets, but positions of {}", targets.len());
+        let help = "give one position for each target, in their order";
         document.mistake(Diagnostic::new(list.span(), message).help(help));
         return None;
     }
@@ -107,12 +107,11 @@ pub(super) fn found_places(
 ) -> Option<Layout> {
     let Some(list) = root.get("place") else { return layout };
     let Layout::Instruments(mut all) = layout? else {
-        let message =
-            "`[[place]]` says where what an instrument looks at stands: this map has no instruments";
-        document.mistake(Diagnostic::new(list.key_span.clone(), message).help("leave it out"));
+        let message = "`[[place]]` is for fixtures of instruments, and this map has no [[instrument]]";
+        document.mistake(Diagnostic::new(list.key_span.clone(), message).help("remove it"));
         return None;
     };
-    for item in document.array(&list, "tables, each a [[place]]")? {
+    for item in document.array(&list, "an array of tables [[place]]")? {
         let mut section = document.section(&item)?;
         section.span = item.span();
         section.name = "this [[place]]".to_owned();
@@ -136,8 +135,8 @@ pub(super) fn found_places(
                 FixtureGeometry::Point(_) => FixtureGeometry::Point(found),
                 FixtureGeometry::Direction(_) if norm(found) > 0.0 => FixtureGeometry::Direction(found),
                 FixtureGeometry::Direction(_) => {
-                    let mistake = Diagnostic::new(item.span(), "`direction` has no direction");
-                    document.mistake(mistake.help("write where it points: [0, 0, 1] is z"));
+                    let mistake = Diagnostic::new(item.span(), "`direction` must not be zero");
+                    document.mistake(mistake.help("write a vector such as [0, 0, 1] for z"));
                     return None;
                 }
             };
@@ -166,7 +165,8 @@ fn place(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     match rotation::from_quaternion(&numbers) {
         Ok([a, b, c]) => Some(Pose([a, b, c, [x?, y?, z?]])),
         Err(reason) => {
-            document.mistake(Diagnostic::new(item.span(), reason).help("write `[1, 0, 0, 0]` for no turn"));
+            document
+                .mistake(Diagnostic::new(item.span(), reason).help("write `[1, 0, 0, 0]` for no rotation"));
             None
         }
     }
@@ -184,7 +184,6 @@ fn covariance(section: &Section<'_>, document: &mut Document, size: usize) -> Op
         return Some(());
     }
     let message = format!("this covariance must have {size} rows of {size} numbers");
-    document
-        .mistake(Diagnostic::new(item.span(), message).help("or leave it out: nothing is computed from it"));
+    document.mistake(Diagnostic::new(item.span(), message).help("or remove it: no result depends on it"));
     None
 }

@@ -19,9 +19,9 @@ pub(super) fn positive(
     if value >= 1.0 / LARGEST {
         return Some(value);
     }
-    let what = if value > 0.0 { "is too small to compute with" } else { "must be more than zero" };
+    let what = if value > 0.0 { "is too small to compute with" } else { "must be positive" };
     let mistake = Diagnostic::new(item.span(), format!("`{}` {what}", item.key));
-    document.mistake(mistake.help("say what the instrument's data sheet says: one standard deviation"));
+    document.mistake(mistake.help("write one standard deviation, from the data sheet of the instrument"));
     None
 }
 
@@ -64,7 +64,7 @@ pub(super) fn unit(
     if name.trim().is_empty() {
         let help = match dimension {
             Dimension::NONE => "write `rad` or `deg`, or `1` for a pure number",
-            _ => "write `mm`, `m`, `kg` …: what the numbers of the file are in",
+            _ => "write the unit of the numbers in the file: `mm`, `m`, `kg` …",
         };
         document.mistake(Diagnostic::new(item.span(), "this unit is empty").help(help));
         return None;

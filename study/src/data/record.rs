@@ -70,8 +70,8 @@ impl Record {
         (cells > columns).then(|| {
             let between = dialect.delimiter();
             format!(
-                "it has {cells} cells, the heading {columns}: is a cell with one of the {between} \
-                 not quoted?"
+                "the row has {cells} cells, but the heading has {columns}; quote cells that \
+                 contain {between}"
             )
         })
     }
@@ -100,7 +100,7 @@ impl Record {
         let text = self.text(place);
         let time = parse_date(&text).map(|(_, time)| time).or_else(|| self.parsed(&text));
         time.filter(|time| time.abs() <= LARGEST).ok_or_else(|| {
-            format!("`{}` is `{}`, no date and no number", self.heading[place], text.escape_debug())
+            format!("`{}` is `{}`, neither a date nor a number", self.heading[place], text.escape_debug())
         })
     }
 
@@ -108,16 +108,14 @@ impl Record {
     pub(super) fn number(&self, place: usize) -> Result<f64, String> {
         let name = &self.heading[place];
         let (number, text) = match self.cell(place) {
-            None => return Err(format!("it ends before `{name}`")),
+            None => return Err(format!("the row ends before `{name}`")),
             Some(Cell::Text("")) => return Err(format!("`{name}` is missing")),
             Some(Cell::Text(text)) => (self.parsed(text), text),
             Some(Cell::Number(number)) => (Some(number), ""),
         };
         match number {
             Some(value) if value.abs() <= LARGEST => Ok(value),
-            Some(value) if value.is_finite() => {
-                Err(format!("`{name}` is `{value:e}`: numbers go up to 1e150"))
-            }
+            Some(value) if value.is_finite() => Err(format!("`{name}` is `{value:e}`; the maximum is 1e150")),
             Some(value) if text.is_empty() => Err(format!("`{name}` is `{value}`")),
             Some(_) => Err(format!("`{name}` is `{}`", text.escape_debug())),
             None => Err(format!("`{name}` is `{}`, not a number", text.escape_debug())),

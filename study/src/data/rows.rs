@@ -102,7 +102,7 @@ impl Data {
         let wanted = commanded.iter().chain(&measured);
         let twice = |column: &&&Column| header.iter().filter(|name| **name == column.name).count() > 1;
         if let Some(column) = wanted.into_iter().find(twice) {
-            let message = format!("two columns are called `{}`", column.name.escape_debug());
+            let message = format!("duplicate column `{}`", column.name.escape_debug());
             return Err(mistake::with_help(source.name(), message, "rename one of them in the heading"));
         }
         let places = |columns: &[&Column]| columns.iter().filter_map(place).collect::<Vec<_>>();
@@ -128,10 +128,10 @@ impl Data {
             let here = from_before.then(|| row(&record, &commanded, None, map).ok()).flatten();
             let row = row(&record, &commanded, measured, map).and_then(|row| {
                 if once && known.has(&row, &data.observations) {
-                    return Err("the same as a row before it, digit by digit".to_owned());
+                    return Err("identical to an earlier row".to_owned());
                 }
                 if moved_from_nowhere(&row, before.as_ref(), map) {
-                    return Err("how far it moved was read, and there is no row before it".to_owned());
+                    return Err("this relative reading has no row before it".to_owned());
                 }
                 Ok((row, time.map(|place| record.time(place)).transpose()?))
             });
@@ -169,10 +169,10 @@ impl Data {
         }
         if data.observations.is_empty() {
             let why = data.unusable.first().map(|row| format!(": {}: {}", data.place(row.line), row.reason));
-            let message = format!("there is no row in it that can be used{}", why.unwrap_or_default());
+            let message = format!("no row can be used{}", why.unwrap_or_default());
             let help = match source {
-                Source::File(_) => "one row of numbers in every line below the heading",
-                Source::Columns(_) => "a column of numbers for each that the map names",
+                Source::File(_) => "write one row of numbers in every line below the heading",
+                Source::Columns(_) => "give a column of numbers for each name in the map",
             };
             return Err(mistake::with_help(source.name(), message, help));
         }
@@ -233,7 +233,7 @@ pub struct Summary {
     /// Name of the file.
     pub file: String,
     /// Description of the dialect, if it is not the usual one.
-    #[serde(rename = "written", skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub dialect: Option<&'static str>,
     /// Number of usable rows.
     pub rows: usize,
@@ -356,7 +356,7 @@ fn measured_numbers(record: &Record, places: &[usize], map: &Map) -> Result<Vec<
         }
     }
     if numbers.iter().all(Option::is_none) {
-        return Err("no target was seen".to_owned());
+        return Err("no target was measured".to_owned());
     }
     Ok(numbers)
 }

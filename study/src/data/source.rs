@@ -44,11 +44,11 @@ impl Columns {
                 cells.len(),
                 columns[0].0.escape_debug()
             );
-            return Err(mistake::with_help(name, message, "all columns of a table have a cell in every row"));
+            return Err(mistake::with_help(name, message, "give columns of equal length"));
         }
         if rows > MOST_ROWS {
             let message = format!("this table has {rows} rows; the maximum is {MOST_ROWS}");
-            return Err(mistake::with_help(name, message, "split it, or take every second row"));
+            return Err(mistake::with_help(name, message, "split it, or keep every second row"));
         }
         let (mut heading, cells): (Vec<_>, Vec<_>) =
             columns.into_iter().map(|(name, cells)| (name, Arc::new(cells))).unzip();

@@ -49,10 +49,11 @@ impl Columns {
                 count => format!("{count} columns"),
             };
             let message = format!(
-                "this {what} has {columns} of numbers; {count} joints and a position are {}",
+                "this {what} has {columns} of numbers; {count} joints and a position need {}",
                 count + 3
             );
-            let help = "first the joints, then x, y, z, then the orientation if there is one; between cells stand commas, semicolons or tabs";
+            let help = "write the joints first, then x, y, z, then the orientation, if any; \
+                separate cells by commas, semicolons or tabs";
             return fail(message, help);
         }
         if !texts.is_empty() {
@@ -65,7 +66,7 @@ impl Columns {
         if let Some((line, reason)) = slip {
             let others = match rows.len() - whole.len() {
                 1 => String::new(),
-                count => format!("; {count} rows are like this"),
+                count => format!("; {count} rows have this problem"),
             };
             let place = if source.file().is_some() { "line" } else { "row" };
             notes.warn(&format!("an incomplete row is ignored: {place} {line}: {reason}{others}"));
@@ -90,14 +91,14 @@ impl Columns {
         if configurations < LEAST {
             let message = match at.len() {
                 rows if rows == configurations => {
-                    format!("this {what} has {rows} complete rows below its heading")
+                    format!("this {what} has only {rows} complete rows below its heading")
                 }
                 rows if configurations == 1 => {
-                    format!("the {rows} rows of this {what} are of one configuration")
+                    format!("the {rows} rows of this {what} have one configuration only")
                 }
-                rows => format!("the {rows} rows of this {what} are of {configurations} configurations"),
+                rows => format!("the {rows} rows of this {what} have {configurations} configurations only"),
             };
-            return fail(message, "give at least four rows, better ten, at well-spread configurations");
+            return fail(message, "at least four rows are needed, better ten, at well-spread configurations");
         }
         let names = |places: &[usize]| places.iter().map(|place| heading[*place].clone()).collect();
         Ok(Self { joint_names: names(&joints), pose_names: names(&pose), joints: at, pose: seen })

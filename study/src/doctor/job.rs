@@ -40,8 +40,9 @@ impl Doctor<'_> {
         let formats = PoseFormat::all(columns.pose.first().map_or(0, Vec::len));
         if formats.is_empty() {
             let count = columns.pose.first().map_or(0, Vec::len);
-            let message = format!("beside the joints there are {count} columns of numbers");
-            let help = "a position has 3; a pose 6 with angles, 7 with a quaternion, 12 with a matrix, 16 as 4×4; leave out the others";
+            let message = format!("there are {count} columns of numbers besides the joints");
+            let help = "a position has 3 columns; a pose has 6 with angles, 7 with a quaternion, \
+                12 with a 3×4 matrix or 16 with a 4×4 matrix; remove the others";
             return Err(mistake::with_help(self.data.name(), message, help));
         }
         let tolerance = Tolerance { within: self.within, share: WITHIN, enough: 1.0 };
@@ -56,8 +57,8 @@ impl Doctor<'_> {
         if let Some(requested) = self.within.filter(|requested| *requested > within) {
             let unit = spec.length.symbol();
             notes.warn(&format!(
-                "{} {unit} is more than a tenth of the spread of the positions, which any \
-                 interpretation meets: {} {unit} is used",
+                "{} {unit} exceeds a tenth of the spread of the positions; within that, any \
+                 interpretation would fit. The limit {} {unit} is used instead",
                 digits(requested, 3),
                 digits(within, 3)
             ));

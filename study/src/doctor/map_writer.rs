@@ -40,15 +40,18 @@ pub(super) fn map(
         }
     }
     if interpretation.layout == (PoseFormat::Difference { target_minus_actual: false }) {
-        let turn = "differences are actual − target, a map has target − actual: turn their signs in the file";
+        let turn = "differences are actual − target, but a map needs target − actual: change \
+            their signs in the file";
         of_spec.push(turn.to_owned());
     }
-    let mut text = String::from("# A map by `abbe doctor`.\n");
+    let mut text = String::from("# Map written by `abbe doctor`.\n");
     if !of_spec.is_empty() {
-        text += "# It cannot hold all of the reading. To be changed in the spec, or in the file:\n";
+        text += "# A map cannot express all of this interpretation. Change in the spec or in the \
+            file:\n";
         of_spec.iter().for_each(|line| text += &format!("# - {line}\n"));
     }
-    text += "\n[data]\ntitle = \"As abbe doctor reads it\"\n# Not known: state those of the instrument.\n";
+    text += "\n[data]\ntitle = \"Interpretation by abbe doctor\"\n# Estimated: enter the standard \
+        uncertainty of the instrument.\n";
     let uncertainty = 0.05 * within;
     let _ = writeln!(text, "uncertainty = \"{} {}\"", digits(uncertainty, 2), spec.length.symbol());
     if interpretation.layout.is_oriented() {
@@ -84,7 +87,8 @@ impl Joints {
                 writeln!(text, "{} = {{ column = {column}, unit = \"{unit}\"{sign}{zero} }}", variable.name);
         }
         if self.zeros.iter().any(|zero| *zero != 0.0) {
-            text += "# A zero is as the rows fit it; a convention is a round number.\n";
+            text += "# Zeros are fitted to the rows; enter the exact value if you know the \
+                convention.\n";
         }
         text
     }

@@ -8,7 +8,6 @@ use crate::interpretations::Interpretation;
 #[derive(Clone, Debug, Serialize)]
 pub struct Finding {
     /// The interpretation.
-    #[serde(rename = "reading")]
     pub interpretation: Interpretation,
     /// Description of the interpretation.
     pub words: String,

@@ -20,16 +20,27 @@ pub(super) fn sentence(found: &[Finding], others: &[Finding], spec: &Spec, withi
                         )
                     });
                     let (within, left) = (digits(within, 3), digits(one.residual, 3));
-                    format!("{within} {unit} may be left, the nearest leaves {left} {unit}{turns}")
+                    format!(
+                        "the closest leaves {left} {unit}{turns}, and the limit is {within} \
+                        {unit}"
+                    )
                 }
             };
-            format!("None fits: {nearest}. Is it another machine, or are other columns the joints?")
+            format!(
+                "No interpretation fits: {nearest}. Check that these are data of this \
+                machine, and which columns are the joints."
+            )
         }
         [only] => {
-            format!("One reading fits, and leaves {} {unit}: {}.", digits(only.residual, 3), only.words)
+            format!(
+                "One interpretation fits, with an error of {} {unit}: {}.",
+                digits(only.residual, 3),
+                only.words
+            )
         }
         [first, rest @ ..] => format!(
-            "These rows fit {} readings that they cannot tell apart; the simplest leaves {} {unit}: {}.",
+            "{} interpretations fit these rows equally well; the simplest has an error of {} \
+             {unit}: {}.",
             rest.len() + 1,
             digits(first.residual, 3),
             first.words

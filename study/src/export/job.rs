@@ -48,8 +48,9 @@ impl Export {
         if remains.position.rms > before.position.rms && !machine.is_nominal() {
             let [before, remains] = [before, remains].map(|difference| digits(difference.position.rms, 3));
             notes.warn(&format!(
-                "with this the tool is farther off than without, {remains} {unit} against {before} {unit} (rms): do not load it; a table needs more nodes, or \
-                 joints with narrower `limits`",
+                "the exported file makes the error of the tool larger, {remains} {unit} instead \
+                 of {before} {unit} (rms): do not use it; increase the number of nodes, or narrow \
+                 the `limits` of the joints",
                 unit = report.length
             ));
         }

@@ -165,8 +165,8 @@ impl FoundNumber {
             digits(standard_deviation * factor, 2)
         );
         let sentence = match (of, value < 0.0) {
-            (ChainNumber::Joint(_), true) => format!("the {number} is off by -{size} ({in_place_of})"),
-            (ChainNumber::Joint(_), false) => format!("the {number} is off by {size} ({in_place_of})"),
+            (ChainNumber::Joint(_), true) => format!("the {number} is offset by -{size} ({in_place_of})"),
+            (ChainNumber::Joint(_), false) => format!("the {number} is offset by {size} ({in_place_of})"),
             (_, true) => format!("{number} is {size} less than nominal ({in_place_of})"),
             (_, false) => format!("{number} is {size} more than nominal ({in_place_of})"),
         };

@@ -101,7 +101,7 @@ pub(super) fn choose(
         if over(settings.time) {
             let rest: usize = stages[i..].iter().map(Vec::len).sum();
             chosen.notes.push(format!(
-                "note: the time was over before {rest} of {} groups of terms were tried",
+                "note: the time limit was reached before {rest} of {} groups of terms were tried",
                 rest + chosen.tried
             ));
             break;

@@ -52,7 +52,7 @@ impl FoundModel {
         (0..3).for_each(|i| matrix[i][i] += off[i]);
         let (frame, owner) = match of {
             Some(frame) => (spec.frames[frame].name.as_str(), spec.frames[frame].name.as_str()),
-            None => (base, "what the machine stands on"),
+            None => (base, "foundation"),
         };
         let source = |name: &str, what: &str, magnitude: &str, matrix: &[[f64; 3]; 3]| {
             format!(
@@ -63,14 +63,15 @@ impl FoundModel {
                 format_matrix(spec, matrix),
             )
         };
-        let name = format!("identified: {owner}: gives way under weight");
-        let what = format!("Standard deviations, as shares of the entries: {}", deviations.join(", "));
+        let name = format!("identified: {owner}: elastic deflection");
+        let what = format!("Standard deviations, relative to the entries: {}", deviations.join(", "));
         let mut text = source(&name, &what, "", &matrix);
         if off != [0.0; 3] {
             let diagonal =
                 std::array::from_fn(|i| std::array::from_fn(|j| if i == j { off[i] } else { 0.0 }));
-            let what = "Taken off again: by itself what was found is no compliance, it stands for something else as well";
-            text += &source(&format!("{name}, less"), what, "magnitude = { value = -1 }\n", &diagonal);
+            let what = "Correction: the identified matrix alone is not a valid compliance, so it \
+                includes effects that are not elastic";
+            text += &source(&format!("{name}, correction"), what, "magnitude = { value = -1 }\n", &diagonal);
         }
         text
     }

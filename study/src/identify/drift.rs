@@ -52,7 +52,7 @@ impl ResidualDrift {
         let sentence = match (is_drift, settling) {
             (true, Some(share)) => format!(
                 "The residuals may settle with time, {what} by {} with a time constant of {} of \
-                 the run: the machine may be warming up, or a mounting settling. Mean error of \
+                 the run; the machine may be warming up, or a mounting settling. Mean error of \
                  the first tenth of the rows {}, of the last {}. Measure when the machine is \
                  warm, or leave the first rows out.",
                 length(change.abs()),

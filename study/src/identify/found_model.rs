@@ -128,7 +128,8 @@ impl FoundModel {
         found.covariance = joint_errors.map_or_else(of_fit, |one| one.covariance.clone());
         let unit = spec.length.symbol();
         found.reference = format!(
-            "Identified from {} rows{} of {} by abbe {}: rms {} {unit} left, {} {unit} on rows left out in turn",
+            "Identified from {} rows{} of {} by abbe {}: rms {} {unit} on these rows, {} {unit} \
+             in cross-validation",
             data.observations.len(),
             match Configurations::new(&data.observations).count {
                 count if count == data.observations.len() => String::new(),

@@ -43,8 +43,8 @@ pub(crate) fn indistinguishable(
         Indistinguishable {
             these: group.act_as.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect(),
             act_as: Vec::new(),
-            reason: "the placement of the instruments is unknown: motions of the whole machine cannot \
-                 be told from it"
+            reason: "the placement of the instruments is unknown: motions of the whole machine \
+                are indistinguishable from it"
                 .to_owned(),
         }
     }));
@@ -70,7 +70,7 @@ impl Indistinguishable {
         let these = combination(&self.these);
         let verb = if self.these.len() == 1 { "acts" } else { "act" };
         if self.act_as.is_empty() {
-            format!("{these} cannot be seen")
+            format!("{these} cannot be observed")
         } else {
             format!("{these} {verb} as {}", combination(&self.act_as))
         }
@@ -101,24 +101,24 @@ fn reason(reason: Reason, description: &Description) -> String {
         Reason::Commutes(variable) => match description.variables[variable].kind {
             VariableKind::Revolute => {
                 format!(
-                    "{} is revolute: errors about and along its axis cannot be told from those of \
-                     the next frame",
+                    "{} is revolute: errors about and along its axis are indistinguishable from \
+                     those of the next frame",
                     name(variable)
                 )
             }
             VariableKind::Prismatic => {
                 format!(
-                    "{} is prismatic: translations, and rotations about its axis, cannot be told \
-                     from those of the next frame",
+                    "{} is prismatic: translations, and rotations about its axis, are \
+                     indistinguishable from those of the next frame",
                     name(variable)
                 )
             }
         },
-        Reason::Still(variable) => format!("{} is not moved in these data", name(variable)),
+        Reason::Still(variable) => format!("{} does not move in these data", name(variable)),
         Reason::Fixed(frame) => {
-            format!("nothing moves at frame {} ({})", frame + 1, description.frames[frame].name)
+            format!("the frame {} ({}) is fixed", frame + 1, description.frames[frame].name)
         }
         Reason::Tool => "the mounting of the target on the tool is unknown".to_owned(),
-        Reason::Unseen => "turns about a single target do not move it".to_owned(),
+        Reason::Unseen => "rotations about a single target do not move it".to_owned(),
     }
 }

@@ -52,13 +52,13 @@ pub(crate) fn check_interpretation(
     let there = number::length(there.rms, unit);
     let message = match rms {
         Some(here) => format!(
-            "with the map's interpretation the machine misses these data by {} (root mean square, \
-             base and tool fitted); with another one, by {there}",
+            "with the interpretation in the map the residual is {} (root mean square, base and \
+             tool fitted); with another interpretation it is {there}",
             number::length(here, unit),
         ),
         None => format!(
-            "with the map's interpretation no placement of base and tool fits these data; with \
-             another one the machine misses them by {there} (root mean square)"
+            "with the interpretation in the map no placement of base and tool fits these data; \
+             with another interpretation the residual is {there} (root mean square)"
         ),
     };
     Err(mistake::with_help(&data.file, message, questions.join("; ")))

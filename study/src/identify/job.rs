@@ -111,7 +111,8 @@ impl Identify {
             test.as_deref().and_then(|test| overlap_warning(overlap, test.observations.len()))
         {
             notes.warn(&format!(
-                "{warning}; measure others, or give no test: rows of the fit are left out in turn"
+                "{warning}; measure separate test data, or omit --test and rely on \
+                 cross-validation"
             ));
         }
         let derived = derived(&machine.spec, map, &self.terms, data.observations.len());
@@ -320,17 +321,17 @@ fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup, map: &Map) -> R
     }
     let length = |value| number::length(value, setup.description.length);
     let message = format!(
-        "the fit is worse than its start: the machine of the spec misses the positions by {} \
-         (root mean square), the fitted one by {}",
+        "the fit increases the errors: the root mean square is {} with the nominal machine and {} \
+         with the fitted one",
         length(before),
         length(after)
     );
     let help = match setup.pose {
         true => {
-            "positions and orientations contradict each other: check the orientation convention \
-             and `angle_uncertainty`"
+            "check the orientation convention and `angle_uncertainty`: positions and orientations \
+             contradict each other"
         }
-        false => "check `uncertainty`, and that these are measurements of this machine",
+        false => "check `uncertainty`, and check that these are measurements of this machine",
     };
     Err(mistake::with_help(&data.file, message, help))
 }
@@ -446,8 +447,8 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
 }
 
 fn unknown_station(test: &Data, name: &str) -> Diagnostics {
-    let message = format!("rows of station `{}`, which the data does not have", name.escape_debug());
-    let help = "`abbe measure --station new` fits a station for the identified machine";
+    let message = format!("there is no station `{}` in the fitted data", name.escape_debug());
+    let help = "fit a station of the identified machine by `abbe measure --station new`";
     mistake::with_help(&test.file, message, help)
 }
 

@@ -19,24 +19,30 @@ pub const LOSSES: Choices<Loss> =
 
 /// Families of richer terms.
 pub const TERMS: Choices<&[Family]> = Choices(&[
-    (&Family::ALL, "auto", "All that follow"),
+    (&Family::ALL, "auto", "All of the following"),
     (
         &[Family::Joint],
         "joint",
-        "Errors that change with a frame's own joint: one to four times per turn, or with its travel",
+        "Errors that vary with the frame's own joint: one to four cycles per turn, or \
+         proportional to its travel",
     ),
-    (&[Family::Load], "load", "Errors in proportion to an input: a load, a temperature, a motor's current"),
-    (&[Family::Elastic], "elastic", "Turns in proportion to the moment of weights"),
+    (
+        &[Family::Load],
+        "load",
+        "Errors proportional to an input, such as a load, a temperature or a motor current",
+    ),
+    (&[Family::Elastic], "elastic", "Rotations proportional to the moment of weights"),
     (
         &[Family::Backlash],
         "backlash",
-        "Errors of joints by the direction they came from, row by row, or in which a weight pulls",
+        "Joint errors that depend on the direction of approach, or on the sign of the weight's \
+         moment",
     ),
-    (&[Family::Product], "product", "Errors of joints with another joint, or with two"),
+    (&[Family::Product], "product", "Joint errors that depend on one or two other joints"),
     (
         &[Family::Drift],
         "drift",
-        "Errors that grow or settle from row to row: they are of the file, not of the machine",
+        "Errors that vary with time along the file; they are not written to the spec",
     ),
 ]);
 

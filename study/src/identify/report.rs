@@ -85,7 +85,6 @@ pub struct Report {
     /// Number of groups of terms that were tried.
     pub tried: usize,
     /// Drift of the residuals with the row order; none if there are too few rows for the test.
-    #[serde(rename = "order")]
     pub drift: Option<ResidualDrift>,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,

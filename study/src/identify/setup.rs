@@ -379,11 +379,16 @@ fn missing_station(map: &Map, data: &Data, name: &str) -> Diagnostics {
     let stated = map.stations.stated.iter().map(|station| format!("`{}`", station.name.escape_debug()));
     let stated = stated.collect::<Vec<_>>().join(", ");
     let message = match name {
-        "" => format!("rows without a station, and the map says where {stated} stand"),
-        name => format!("rows of station `{}`: the map does not say where it is", name.escape_debug()),
+        "" => format!(
+            "these rows name no station, and the map gives the poses of the stations \
+            {stated} only"
+        ),
+        name => {
+            format!("the map does not give the pose of the station `{}` of these rows", name.escape_debug())
+        }
     };
     let help = format!(
-        "the map states {stated}: add a [[station]], or fit it to these rows by `base = \
+        "add a [[station]] to those of the map ({stated}), or fit it to these rows by `base = \
          \"unknown\"` (in `abbe measure` by `--station new`)"
     );
     mistake::with_help(&data.file, message, help)
@@ -391,7 +396,7 @@ fn missing_station(map: &Map, data: &Data, name: &str) -> Diagnostics {
 
 fn collinear(data: &Data, name: &str) -> Diagnostics {
     let at = if name.is_empty() { String::new() } else { format!(" (station `{name}`)") };
-    let message = format!("the station of the instrument needs three points that are not collinear{at}");
+    let message = format!("to locate the instrument, three points that are not collinear are needed{at}");
     let help = "measure more points, or set `base = \"known\"` in the map if it measures in F_0";
     mistake::with_help(&data.file, message, help)
 }

@@ -149,14 +149,14 @@ impl FoundModel {
         let (size, reversed, remark) = match is_reversed {
             true => {
                 let fitted = magnitude_table(*magnitude, *standard_deviation);
-                let remark = ". Negative: it stands for something else than elasticity";
+                let remark = ". Negative, so it is not only elasticity";
                 (1.0, format!("magnitude = {fitted}\n"), remark)
             }
             false => (*magnitude, String::new(), ""),
         };
         let deviation = match term.basis {
             Basis::One => format!("{} {}", digits(*standard_deviation, 2), term.site.unit(spec)),
-            _ => format!("{} of it", digits((standard_deviation / magnitude).abs(), 2)),
+            _ => format!("{} of the value", digits((standard_deviation / magnitude).abs(), 2)),
         };
         format!(
             "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\n{reversed}reference = {:?}\n\n[[source.effect]]\n{}\n",

@@ -197,9 +197,9 @@ impl Term {
                 ErrorSite::Parameter(_) => owner.to_owned(),
                 _ => format!("{error} of {owner}"),
             },
-            Basis::Moment => format!("{owner}: gives way under weight, {error}"),
+            Basis::Moment => format!("{owner}: elastic deflection, {error}"),
             Basis::Coupled(other) => {
-                format!("{owner}: gives way under weight, {error} with {}", other.name())
+                format!("{owner}: elastic deflection, {error} coupled with {}", other.name())
             }
             Basis::Input(input) => format!("{owner}: {error} with {}", spec.inputs[input].name),
             Basis::Wave(Wave::Power { variable, exponent }) => {
@@ -239,7 +239,7 @@ impl ErrorSite {
             Self::Parameter(parameter) => (&spec.parameters[parameter].name, "error"),
             Self::DenavitHartenberg(frame, number) => (&spec.frames[frame].name, number.name()),
             Self::Frame(frame, component) => (&spec.frames[frame].name, component.name()),
-            Self::Base(component) => ("what the machine stands on", component.name()),
+            Self::Base(component) => ("foundation", component.name()),
         }
     }
 }

@@ -11,7 +11,7 @@ pub struct WeaklyDetermined {
     /// Name of the error.
     pub name: String,
     /// Standard deviation from the data alone, beside all kept unknowns, in `unit`.
-    pub told: f64,
+    pub standard_deviation: f64,
     /// Standard deviation of the prior about zero, in `unit`.
     pub expected: f64,
     /// Unit: the length unit, rad, or empty.
@@ -36,7 +36,7 @@ impl WeaklyDetermined {
             };
             Self {
                 name: model.name(unknown),
-                told: weak.deviation,
+                standard_deviation: weak.deviation,
                 expected: weak.expected,
                 unit: match unknown {
                     Unknown::Magnitude(_) => "",

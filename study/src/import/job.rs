@@ -28,9 +28,9 @@ impl Import {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let is_table = self.file.extension().is_some_and(|ending| ending == "csv" || ending == "tsv");
         if is_table && matches!(self.format, Format::Urdf { .. }) {
-            let message = "this is a table, and Denavit-Hartenberg numbers are written in two ways";
-            let help = "say which: `--dh standard`, Rz(theta) Tz(d) Tx(a) Rx(alpha), or `--dh modified`, \
-                        Rx(alpha) Tx(a) Rz(theta) Tz(d)";
+            let message = "the convention of these Denavit-Hartenberg numbers is unknown";
+            let help = "give it: `--dh standard`, Rz(theta) Tz(d) Tx(a) Rx(alpha), or `--dh \
+                modified`, Rx(alpha) Tx(a) Rz(theta) Tz(d)";
             return Err(mistake::with_help(self.file.display(), message, help));
         }
         self.read(Document::read(&self.file)?, notes)

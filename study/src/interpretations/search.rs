@@ -142,7 +142,11 @@ impl<'a> Search<'a> {
         for (done, Trial { joints, ends }) in trials.iter().enumerate() {
             notes.progress(done, trials.len());
             if notes.stop() {
-                return Err(mistake::with_help("doctor", "it was stopped", "begin again"));
+                return Err(mistake::with_help(
+                    "doctor",
+                    "interrupted before the end",
+                    "run the command again",
+                ));
             }
             for units in &self.units {
                 let Some(nodes) = self.nodes(*units, joints) else { continue };

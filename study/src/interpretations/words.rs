@@ -79,7 +79,7 @@ pub(crate) fn change(change: &Change, spec: &Spec) -> String {
         }
         Change::Coupled { joint, to, by } => {
             let sign = if *by > 0.0 { "+" } else { "−" };
-            format!("{} is coupled: {} {sign} {} is meant", name(*joint), name(*joint), name(*to))
+            format!("{} is coupled: it means {} {sign} {}", name(*joint), name(*joint), name(*to))
         }
         Change::Zero { joint, offset } => {
             let amount = match spec.variables[*joint].kind {
@@ -88,7 +88,7 @@ pub(crate) fn change(change: &Change, spec: &Spec) -> String {
             };
             format!("the zero of {} is offset: add {amount}", name(*joint))
         }
-        Change::Convention => "the Denavit-Hartenberg numbers are of the other convention".to_owned(),
+        Change::Convention => "the Denavit-Hartenberg numbers follow the other convention".to_owned(),
         Change::ToolInverted => "the tool transform is inverted".to_owned(),
         Change::ToolLeftOut => "the poses are those of the flange, without the tool".to_owned(),
         Change::BaseInverted => "the base transform is inverted".to_owned(),

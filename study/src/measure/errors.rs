@@ -105,11 +105,11 @@ pub(super) fn leave_out(setup: &Setup, data: &mut Data) -> Result<(), Diagnostic
         return Err(mistake::whole(&data.file, &failure));
     }
     for line in hidden {
-        data.leave_out(line, "fewer than three targets were seen: they make no frame");
+        data.leave_out(line, "fewer than three targets were measured, so the pose is unknown");
     }
     if data.observations.is_empty() {
-        let help = "three of them make a frame";
-        return Err(mistake::with_help(&data.file, "no row shows three targets", help));
+        let help = "a pose needs three targets";
+        return Err(mistake::with_help(&data.file, "no row has three measured targets", help));
     }
     Ok(())
 }

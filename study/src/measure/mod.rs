@@ -72,7 +72,6 @@ pub struct Report {
     /// configuration.
     pub standard_error: Option<f64>,
     /// Drift test of the errors minus the repeatable sources; none for too few rows.
-    #[serde(rename = "order")]
     pub drift: Option<ResidualDrift>,
     /// Number of unusable rows.
     pub unusable: usize,

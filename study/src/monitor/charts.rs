@@ -17,7 +17,7 @@ pub struct Chart {
     /// Unit of the values; empty for the residual.
     pub unit: &'static str,
     /// Errors that are indistinguishable from this one at the monitored configurations.
-    pub alike: Vec<String>,
+    pub indistinguishable: Vec<String>,
     /// Value at every check: the error under the assumption that all others are unchanged, in
     /// `unit`; for the residual, its norm in units of the instrument's uncertainty.
     pub values: Vec<f64>,
@@ -73,7 +73,7 @@ pub(super) fn charts(errors: &SingleErrors, numbers: &CheckValues, limit: &Limit
         Chart {
             name: single.name.clone(),
             unit: single.unit,
-            alike: others.iter().map(|k| errors.list[*k].name.clone()).collect(),
+            indistinguishable: others.iter().map(|k| errors.list[*k].name.clone()).collect(),
             alarm: average.iter().position(|share| share.abs() > 1.0),
             values,
             average,
@@ -108,9 +108,9 @@ fn residual_chart(numbers: &CheckValues, limit: &Limit) -> Chart {
         first.chain(norms.iter().skip(1).map(|norm| series.next(norm.powf(2.0 / 3.0)))).collect();
     let average = limit.averages(standard.into_iter());
     Chart {
-        name: "what is left".to_owned(),
+        name: "residual change".to_owned(),
         unit: "",
-        alike: Vec::new(),
+        indistinguishable: Vec::new(),
         alarm: average.iter().position(|share| *share > 1.0),
         values: norms,
         average,

@@ -70,7 +70,7 @@ impl CheckValues {
         let Some(model) = model else {
             return Err(mistake::with_help(
                 "abbe monitor",
-                "there is no check",
+                "no check is given",
                 "give the files of the checks",
             ));
         };
@@ -200,8 +200,8 @@ fn one_station(check: &Check, map: &Map) -> Result<(), Diagnostics> {
     if map.base == Base::Exact || rows.iter().all(|row| Some(row.station) == first) {
         return Ok(());
     }
-    let help =
-        "make a check of every station: a file for each, or say `base = \"exact\"` if all are known exactly";
+    let help = "use one file for each station, or write `base = \"exact\"` if all stations are known \
+         exactly";
     Err(mistake::with_help(
         &check.data.file,
         "the rows of one check were measured from several stations",
@@ -219,11 +219,11 @@ impl<'c> Visits<'c> {
         };
         let found = check.data.observations.iter().map(configuration).collect::<Result<_, _>>();
         let help = format!(
-            "a check visits the same few configurations every time (joints within 1 mrad), {MOST} are more than enough: give fewer \
-             rows, or `abbe identify` all of them"
+            "use the same few configurations in every check (joints within 1 mrad), at most \
+             {MOST}; or identify the machine from all rows by `abbe identify`"
         );
         let many = |TooManyConfigurations| {
-            let message = format!("more than {MOST} different configurations until here");
+            let message = format!("more than {MOST} different configurations up to this check");
             mistake::with_help(&check.data.file, message, help)
         };
         let to_base = setup.real.stations.iter().map(|station| station.pose.inverse()).collect();
@@ -268,10 +268,12 @@ fn nothing_in_common(checks: &Checks, visits: &[Visits], count: usize) -> Diagno
     let least = checks.list.iter().zip(visits).min_by_key(|(_, visits)| shared(visits));
     let (check, shared) = least.map_or((&checks.list[0], 0), |(check, visits)| (check, shared(visits)));
     let message = format!(
-        "no configuration is in all checks: the one of {} has {shared} of those of the first, all targets seen",
+        "no configuration is common to all checks: the check {} has {shared} configurations in \
+         common with the first, with all targets measured",
         checks.calendar.show(check.time)
     );
-    let help = "every check visits the same few configurations (joints within 1 mrad): leave this file out, or begin with another";
+    let help = "use the same few configurations in every check (joints within 1 mrad): leave this \
+        file out, or begin with another";
     mistake::with_help(&check.data.file, message, help)
 }
 

@@ -31,8 +31,7 @@ pub struct Checks {
     pub since: Option<String>,
 }
 
-const DATES: &str =
-    "a date is written 2026-03-14, with a time behind it or without, or it is a number of days";
+const DATES: &str = "write a date as 2026-03-14, optionally with a time, or as a number of days";
 
 impl Checks {
     /// Reads files or tables of checks. A source with rows of several dates becomes several checks.
@@ -65,23 +64,24 @@ impl Checks {
             let [(before, first), (calendar, check)] = pair else { continue };
             if before != calendar {
                 let message = format!(
-                    "this counts in {}, the check before it in {}",
+                    "this file counts time in {}, the check before it in {}",
                     calendar_name(*calendar),
                     calendar_name(*before)
                 );
                 return Err(mistake::with_help(
                     &check.data.file,
                     message,
-                    "write dates everywhere, or days everywhere",
+                    "use either dates or days in all files",
                 ));
             }
             if check.time < first.time {
                 let [here, earlier] = [check.time, first.time].map(|time| calendar.show(time));
-                let message = format!("dates go back: {here} comes after {earlier}");
+                let message =
+                    format!("the checks are not in chronological order: {here} comes after {earlier}");
                 return Err(mistake::with_help(
                     &check.data.file,
                     message,
-                    "give the checks in the order of their dates",
+                    "give the checks in chronological order",
                 ));
             }
         }
@@ -110,20 +110,20 @@ impl Checks {
         let (calendar, since) = match (parse_date(date), self.calendar) {
             (Some((Calendar::Days, number)), Calendar::Checks) => (Calendar::Checks, number),
             (Some(date), _) => date,
-            (None, _) => return Err(wrong(format!("`{}` is no date", date.escape_debug()), DATES)),
+            (None, _) => return Err(wrong(format!("`{}` is not a date", date.escape_debug()), DATES)),
         };
         if calendar != self.calendar {
             let message = format!(
-                "this counts in {}, the checks in {}",
+                "this is in {}, but the checks are in {}",
                 calendar_name(calendar),
                 calendar_name(self.calendar)
             );
-            return Err(wrong(message, "use the same kind of dates as in the checks"));
+            return Err(wrong(message, "use the same unit as the checks"));
         }
         self.list.retain(|check| check.time >= since);
         self.since = Some(date.to_owned());
         match self.list.is_empty() {
-            true => Err(wrong("there is no check after that date".to_owned(), "give an earlier date")),
+            true => Err(wrong("there is no check after this date".to_owned(), "give an earlier date")),
             false => Ok(()),
         }
     }

@@ -8,8 +8,8 @@ use super::check_values::CheckValues;
 use super::checks::Checks;
 use super::single_errors::{SingleError, SingleErrors};
 
-/// Largest log-likelihood difference to the best explanation for equally good ones: a likelihood
-/// ratio of e².
+/// Largest difference in log-likelihood at which an explanation counts as equally good as the best
+/// one; a likelihood ratio of e².
 const EQUALLY_GOOD: f64 = 2.0;
 
 /// Change of one error that explains the measurements best.

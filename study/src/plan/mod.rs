@@ -94,7 +94,7 @@ impl Plan {
         let Some(design) = design.filter(|_| numbers > identifiable.rank) else {
             let rank = identifiable.rank;
             let message = format!("too few configurations to determine {rank} combinations of errors");
-            return Err(mistake::with_help(&machine.origin, message, "plan more of them"));
+            return Err(mistake::with_help(&machine.origin, message, "choose more configurations"));
         };
         let own = self.model_error;
         // An optimal design is assessed again on its own rows, as an identification would do it.
@@ -187,7 +187,8 @@ impl Plan {
             }
             Choice::Optimal { criterion, count, candidates } => {
                 if self.map.instruments().is_some_and(Instruments::depend_on_previous_row) {
-                    let message = "a reading relative to the row before depends on that row: single configurations cannot be chosen";
+                    let message = "this instrument reads relative to the row before, so single \
+                        configurations cannot be chosen";
                     let help = "plan ordered rows with `--sets`";
                     return Err(mistake::with_help(self.map.path(), message, help));
                 }
@@ -203,9 +204,9 @@ impl Plan {
                 let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
                 let list = self.readable(setup, list.collect())?;
                 if *count > list.len() {
-                    let message =
-                        format!("{count} configurations cannot be chosen from {} samples", list.len());
-                    let help = "each is chosen once at most: ask for more `--candidates`, or for fewer configurations";
+                    let message = format!("cannot choose {count} configurations from {} samples", list.len());
+                    let help = "each sample is chosen at most once: increase `--candidates`, or \
+                        choose fewer configurations";
                     return Err(mistake::with_help(&self.machine.origin, message, help));
                 }
                 let list = with_nominal_measurements(model, list.into_iter()).map_err(fail)?;

@@ -78,7 +78,7 @@ impl Sets {
         let few_enough = |more: usize| match count.saturating_mul(more) {
             rows if rows > MOST_ROWS => {
                 let message = format!("this plan has too many rows; the limit is {MOST_ROWS}");
-                let help = "give fewer values of inputs, fewer configurations, or a smaller `repeat`";
+                let help = "use fewer input values, fewer configurations, or a smaller `repeat`";
                 Err(mistake::with_help(&self.title, message, help))
             }
             _ => Ok(()),
@@ -100,7 +100,7 @@ impl Sets {
                     few_enough(workspace.len())?;
                     let unreached = workspace.len() - workspace.reached().len();
                     if unreached > 0 {
-                        notes.note(&format!("{}: {unreached} configurations cannot be reached", set.name));
+                        notes.note(&format!("{}: {unreached} configurations are unreachable", set.name));
                     }
                     workspace.reached()
                 }
@@ -149,7 +149,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
     };
     let items = root
         .required_list("set", document)
-        .and_then(|item| document.array(&item, "tables, each a [[set]]"))?;
+        .and_then(|item| document.array(&item, "an array of tables [[set]]"))?;
     if items.is_empty() {
         let item = root.get("set").map_or(0..0, |item| item.span());
         document.mistake(Diagnostic::new(item, "a plan needs at least one set").help("add a [[set]]"));
@@ -167,7 +167,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
                     Diagnostic::new(axes.key_span.clone(), "a set has a `workspace` or `axes`, not both")
                         .label("one too many")
                         .context(workspace.key_span, "the other one")
-                        .help("make two sets of them"),
+                        .help("write two sets instead"),
                 );
             }
             Content::Axes(Candidates::variables(spec).axes(&axes, document, spec))

@@ -146,9 +146,9 @@ impl Simulate {
             && all.depend_on_previous_row()
             && all.list.iter().any(|instrument| instrument.kind.is_touched())
         {
-            let message =
-                "readings relative to the row before cannot be simulated beside instruments that are touched";
-            let help = "simulate them in a map of their own";
+            let message = "readings relative to the row before cannot be simulated together with contact \
+                 instruments";
+            let help = "simulate them with separate maps";
             return Err(mistake::with_help(map.path(), message, help).into());
         }
         let stations = self.stations();

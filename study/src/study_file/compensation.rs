@@ -44,8 +44,9 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
         let Some(source) = found.map(|found| &spec.sources[found]) else { continue };
         if source.class != abbe::Class::Repeatable {
             let message = format!("the source \"{}\" is random", source.name);
-            let mistake = Diagnostic::new(item.key_span.clone(), message).label("nothing compensates this");
-            document.mistake(mistake.help("leave it out: random errors remain as they are"));
+            let mistake =
+                Diagnostic::new(item.key_span.clone(), message).label("random errors cannot be compensated");
+            document.mistake(mistake.help("remove this entry: random errors are not changed"));
         }
         if let Some(residual) = residual(&item, document, spec) {
             compensated.named.push((item.key.clone(), residual));
@@ -63,10 +64,10 @@ fn residual(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Res
         Dimension::LENGTH if value >= 0.0 => Some(Residual::Bound(value)),
         Dimension::NONE if (0.0..=1.0).contains(&value) => Some(Residual::Share(value)),
         _ => {
-            let message = "a residual is a share from 0 to 1, or a length";
+            let message = "a residual must be a share from 0 to 1, or a length";
             document.mistake(
                 Diagnostic::new(item.span(), message)
-                    .label("this is neither")
+                    .label("neither a share nor a length")
                     .help("write 0.05 for one twentieth of the error, or \"0.02 mm\""),
             );
             None

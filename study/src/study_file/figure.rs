@@ -146,7 +146,7 @@ pub(super) fn read_figures(
     region: Option<&Region>,
 ) -> Vec<Figure> {
     let Some(item) = root.get("figure") else { return region.map(Figure::defaults).unwrap_or_default() };
-    let items = document.array(&item, "tables, each a [[figure]]").unwrap_or_default();
+    let items = document.array(&item, "an array of tables [[figure]]").unwrap_or_default();
     let mut figures: Vec<Figure> = Vec::new();
     for item in items {
         let Some(mut section) = document.section(&item) else { continue };
@@ -158,8 +158,8 @@ pub(super) fn read_figures(
                 == (figure.content, &figure.source, figure.measurand)
         };
         if figures.iter().any(same) {
-            let message = "this figure stands here twice";
-            document.mistake(Diagnostic::new(item.span(), message).help("keep one of them"));
+            let message = "duplicate figure";
+            document.mistake(Diagnostic::new(item.span(), message).help("remove one of them"));
         }
         figures.push(figure);
     }

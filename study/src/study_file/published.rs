@@ -86,7 +86,8 @@ pub struct PublishedResidual {
 
 /// Reads every `[[published]]`.
 pub(super) fn read_published(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Vec<Published> {
-    let items = root.get("published").and_then(|item| document.array(&item, "tables, each a [[published]]"));
+    let items =
+        root.get("published").and_then(|item| document.array(&item, "an array of tables [[published]]"));
     let mut read: Vec<Published> = Vec::new();
     for item in items.into_iter().flatten() {
         let Some(mut section) = document.section(&item) else { continue };
@@ -94,8 +95,8 @@ pub(super) fn read_published(root: &Section<'_>, document: &mut Document, spec: 
         section.name = "a [[published]]".to_owned();
         let Some(published) = read_one(&section, document, spec) else { continue };
         if read.iter().any(|other| other.subject == published.subject) {
-            let message = "this figure is published twice";
-            document.mistake(Diagnostic::new(item.span(), message).help("keep one of them"));
+            let message = "duplicate published figure";
+            document.mistake(Diagnostic::new(item.span(), message).help("remove one of them"));
         }
         read.push(published);
     }
@@ -120,9 +121,12 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         }
         _ => {
             document.mistake(
-                Diagnostic::new(section.span.clone(), "a published figure is of one source, or combined")
-                    .label("of what?")
-                    .help("give either `source` and `metric`, or `combined`"),
+                Diagnostic::new(
+                    section.span.clone(),
+                    "a published figure needs either `source` or `combined`",
+                )
+                .label("neither or both are given")
+                .help("give either `source` and `metric`, or `combined`"),
             );
             None
         }

@@ -105,9 +105,9 @@ fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec, moved:
             let symbol = find_symbol(document, item.key_span.clone(), &item.key, spec);
             let Some((symbol, dimension)) = symbol else { continue };
             if matches!(symbol, Symbol::Input(i) if moved.contains(&i)) {
-                let message = format!("`{}` is set, and the workspace moves it", item.key);
+                let message = format!("`{}` is both set and moved by the workspace", item.key);
                 let mistake = Diagnostic::new(item.key_span.clone(), message);
-                document.mistake(mistake.help("take it out of `set`, or out of the workspace"));
+                document.mistake(mistake.help("remove it from `set` or from the workspace"));
                 continue;
             }
             let what = format!("the value of `{}`", item.key);

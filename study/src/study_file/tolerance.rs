@@ -42,9 +42,9 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
             }
             let message = match most {
                 1.0 => format!("`{key}` must be between 0 and 1"),
-                _ => format!("`{key}` must be more than zero"),
+                _ => format!("`{key}` must be positive"),
             };
-            document.mistake(Diagnostic::new(item.span(), message).label("this is not").help(help));
+            document.mistake(Diagnostic::new(item.span(), message).label("out of range").help(help));
             None
         })
     };
@@ -52,8 +52,8 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     let probability = number("probability", 1.0, "write 0.95 for 95 %");
     if position.is_none() && orientation.is_none() {
         document.mistake(
-            Diagnostic::new(item.span(), "this tolerance says nothing")
-                .label("of what?")
+            Diagnostic::new(item.span(), "this tolerance is empty")
+                .label("no limit is given")
                 .help("give `position`, a length, or `orientation`, an angle, or both"),
         );
         return None;

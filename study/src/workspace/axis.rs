@@ -121,8 +121,8 @@ impl<'a> Candidates<'a> {
             let index = self.find(document, item.span(), &name);
             if index.is_some_and(|index| indices.contains(&index)) {
                 document.mistake(
-                    Diagnostic::new(item.span(), format!("`{name}` stands here twice"))
-                        .help("keep one of them"),
+                    Diagnostic::new(item.span(), format!("duplicate name `{name}`"))
+                        .help("remove one of them"),
                 );
             }
             indices.extend(index);
@@ -149,10 +149,10 @@ impl Candidate<'_> {
     fn require_within(&self, values: &[f64], item: &Item<'_>, document: &mut Document) {
         let (what, [lower, upper]) = self.within;
         let Some(outside) = values.iter().find(|value| !(lower..=upper).contains(*value)) else { return };
-        let message = format!("`{}` goes beyond its {what}", self.name);
-        let label = format!("{} is asked for here", self.show(*outside));
+        let message = format!("`{}` exceeds its {what}", self.name);
+        let label = format!("{} is requested here", self.show(*outside));
         let help = format!(
-            "its {what} in the spec: {} … {}; stay within, or change the spec",
+            "its {what} in the spec: {} … {}; use values within, or change the spec",
             self.show(lower),
             self.show(upper)
         );
@@ -206,7 +206,9 @@ pub(super) fn values(
         }
         _ => {
             let message = format!("{} needs either `count` or `step`", section.name);
-            document.mistake(Diagnostic::new(section.span.clone(), message).help("add `count = 5`, say"));
+            document.mistake(
+                Diagnostic::new(section.span.clone(), message).help("add `count`, such as `count = 5`"),
+            );
             None
         }
     }
@@ -216,14 +218,15 @@ pub(super) fn values(
 fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>, document: &mut Document) -> Option<Vec<f64>> {
     let steps = ((to - from) / step).abs();
     let mistake = if step <= 0.0 {
-        "a step must be more than zero".to_owned()
+        "a step must be positive".to_owned()
     } else if steps.is_nan() || steps >= VALUES as f64 {
         format!("this step makes more than {VALUES} values")
     } else if (steps - steps.round()).abs() > 1e-6 {
-        "this step does not end at `to`".to_owned()
+        "this step does not reach `to`".to_owned()
     } else {
         return Some(sampling::grid([from, to], steps.round() as usize + 1));
     };
-    document.mistake(Diagnostic::new(item.span(), mistake).help("or give `count`, both ends included"));
+    document
+        .mistake(Diagnostic::new(item.span(), mistake).help("or write `count`, which includes both ends"));
     None
 }

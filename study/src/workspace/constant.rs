@@ -25,9 +25,9 @@ pub fn positive_length(item: &Item<'_>, document: &mut Document, spec: &Spec) ->
         return Some(value);
     }
     document.mistake(
-        Diagnostic::new(item.span(), format!("`{}` must be more than zero", item.key))
-            .label("this is not")
-            .help("leave it out if there is none"),
+        Diagnostic::new(item.span(), format!("`{}` must be positive", item.key))
+            .label("zero or negative")
+            .help("remove it if there is none"),
     );
     None
 }
@@ -48,9 +48,9 @@ pub fn whole(
     if value.fract() == 0.0 && (least as f64..=largest as f64).contains(&value) {
         return Some(value as usize);
     }
-    let message = format!("`{}` must be a whole number from {least} to {largest}", item.key);
+    let message = format!("`{}` must be an integer from {least} to {largest}", item.key);
     document.mistake(
-        Diagnostic::new(item.span(), message).label("this is not").help("write a number such as 100"),
+        Diagnostic::new(item.span(), message).label("not such an integer").help("write a number such as 100"),
     );
     None
 }

@@ -23,8 +23,8 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
         let forms = WORKSPACE.keys.iter().map(|form| format!("`{form}`")).collect::<Vec<_>>();
         let help = format!("give one of {}", forms.join(", "));
         document.mistake(
-            Diagnostic::new(section.span.clone(), "a workspace has one form")
-                .label("which configurations?")
+            Diagnostic::new(section.span.clone(), "a workspace needs exactly one form")
+                .label("none or several are given")
                 .help(help),
         );
         return None;
@@ -33,19 +33,19 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     if let Some(item) = section.get("inputs") {
         for axis in Candidates::inputs(spec).axes(&item, document, spec) {
             if region.moving_inputs().contains(&axis.index) {
-                let message = format!("`{}` moves twice", spec.inputs[axis.index].name);
+                let message = format!("`{}` is moved twice", spec.inputs[axis.index].name);
                 let mistake = Diagnostic::new(item.key_span.clone(), message);
-                document.mistake(mistake.help(format!("take it out of `inputs` or out of `{}`", form.key)));
+                document.mistake(mistake.help(format!("remove it from `inputs` or from `{}`", form.key)));
             }
             region.inputs.push(axis);
         }
     }
     if region.count().is_none() {
         let message = format!("this workspace has more than {LARGEST} configurations");
-        document.mistake(
-            Diagnostic::new(form.key_span.clone(), message)
-                .help("take fewer values per axis, or random samples: `joints = { samples = 100000 }`"),
-        );
+        document.mistake(Diagnostic::new(form.key_span.clone(), message).help(
+            "use fewer values per axis, or random samples: `joints = { samples = 100000 \
+                    }`",
+        ));
         return None;
     }
     Some(region)
@@ -92,8 +92,7 @@ fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opt
     let solved = section.required("solve", document).map(|item| variables.list(&item, document))?;
     if let Some(both) = approaches.iter().find(|axis| solved.contains(&axis.index)) {
         let message = format!("`{}` cannot be both fixed and solved for", spec.variables[both.index].name);
-        document
-            .mistake(Diagnostic::new(span, message).help("take it out of `approaches` or out of `solve`"));
+        document.mistake(Diagnostic::new(span, message).help("remove it from `approaches` or from `solve`"));
     }
     Some(Presentation { point: point?, tool_points: tool_points.unwrap_or_default(), approaches, solved })
 }
@@ -139,8 +138,8 @@ fn samples(section: &Section<'_>, document: &mut Document, spec: &Spec, random: 
     let (moved, inputs): (Vec<usize>, Vec<usize>) = moved.into_iter().partition(|i| *i < variables);
     let sampled_inputs: Vec<usize> = inputs.into_iter().map(|i| i - variables).collect();
     if let Some(input) = sampled_inputs.iter().map(|i| &spec.inputs[*i]).find(|input| !has_range(input)) {
-        let message = format!("`{}` has no range to move in", input.name);
-        let help = "give it one in the spec: `range = [LOWER, UPPER]`";
+        let message = format!("`{}` has no range", input.name);
+        let help = "add one in the spec: `range = [LOWER, UPPER]`";
         document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
         return None;
     }

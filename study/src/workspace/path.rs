@@ -119,8 +119,8 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
         let message = format!("{}: {message}", file.escape_debug());
         document.mistake(
             Diagnostic::new(item.span(), message)
-                .label("read from here")
-                .help("a heading such as `d1 (mm),q4 (deg)`, then one configuration in every line"),
+                .label("read by this key")
+                .help("write a heading such as `d1 (mm),q4 (deg)`, then one configuration per line"),
         );
     });
     let (columns, configurations) = found.ok()?;
@@ -138,20 +138,20 @@ fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64
     let columns = heading.iter().map(|name| column(meant(name), spec)).collect::<Result<Vec<_>, _>>()?;
     for (i, column) in columns.iter().enumerate() {
         if columns[..i].iter().any(|other| other.symbol == column.symbol) {
-            return Err(format!("the column `{}` stands there twice", &heading[i]));
+            return Err(format!("duplicate column `{}`", &heading[i]));
         }
     }
     let mut configurations = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| describe_error(&error))?;
         if configurations.len() == MOST_ROWS {
-            return Err(format!("it has more than {MOST_ROWS} lines; take fewer configurations"));
+            return Err(format!("it has more than {MOST_ROWS} lines; use fewer configurations"));
         }
         let line = record.position().map_or(0, |position| lines.record_line(position.byte()));
         configurations.push(values(&record, line, &columns, spec)?);
     }
     if configurations.is_empty() {
-        return Err("there is no configuration in it".to_owned());
+        return Err("it contains no configuration".to_owned());
     }
     Ok((columns, configurations))
 }
@@ -175,7 +175,7 @@ fn values(record: &StringRecord, line: u64, columns: &[Column], spec: &Spec) -> 
             value.ok_or_else(|| format!("line {line}: `{}` is not a number", field.escape_debug()))?;
         if value.abs() > LARGEST {
             return Err(format!(
-                "line {line}: `{}` is too large: numbers go up to 1e150",
+                "line {line}: `{}` is too large; the maximum is 1e150",
                 field.escape_debug()
             ));
         }
@@ -228,9 +228,9 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
 /// Returns the first mistake of a document in one line.
 fn mistake(document: &Document) -> String {
     let mistake = document.found.first();
-    let said = mistake.map(|mistake| match &mistake.help {
+    let message = mistake.map(|mistake| match &mistake.help {
         Some(help) => format!("{}; {help}", mistake.message),
         None => mistake.message.clone(),
     });
-    said.unwrap_or_default()
+    message.unwrap_or_default()
 }

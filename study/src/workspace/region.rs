@@ -183,7 +183,8 @@ impl Region {
                 let held = approaches.iter().map(|axis| variable(&axis.index));
                 let [x, y, z] = point.map(number::short);
                 format!(
-                    "{} tool points ({}) in {} approaches ({}), each brought to ({x}, {y}, {z}) {} by {}",
+                    "{} tool points ({}) in {} approaches ({}), each moved to ({x}, {y}, {z}) {} \
+                     by {}",
                     sizes(tool_points),
                     names(parameters),
                     sizes(approaches),
@@ -207,13 +208,13 @@ impl Region {
                 let [x, y, z] = points.each_ref().map(Vec::len);
                 let turned = match orientation {
                     ToolOrientation::Free => "in any orientation",
-                    ToolOrientation::Home => "in the orientation of home",
+                    ToolOrientation::Home => "in the home orientation",
                 };
                 let solved = names(solved.iter().map(variable));
                 format!("box of {x} × {y} × {z} points in F_0, each reached {turned} by {solved}")
             }
             Form::Path(path) => {
-                format!("{} configurations of {}", path.configurations.len(), path.file)
+                format!("{} configurations from {}", path.configurations.len(), path.file)
             }
         }
     }

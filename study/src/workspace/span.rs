@@ -45,8 +45,11 @@ impl Region {
             None => Ok(spans),
             Some(endless) => Err(mistake::with_help(
                 origin,
-                format!("`{}` has no limits: no box contains its values", spec.name_of(endless.symbol)),
-                "give it `limits` in the spec, or a study whose workspace is a `grid`",
+                format!(
+                    "`{}` has no limits, so the box of its values is infinite",
+                    spec.name_of(endless.symbol)
+                ),
+                "add `limits` in the spec, or use a study whose workspace is a `grid`",
             )),
         }
     }

@@ -192,13 +192,10 @@ fn delimiters_and_decimal_commas_are_recognized() {
     assert_eq!(expected.dialect, None);
     let decimals = |delimiter: &str| plain.replace(',', delimiter).replace('.', ",");
     for (text, said) in [
-        (decimals(";"), "its cells stand between semicolons, its decimals have a comma"),
-        (decimals("\t"), "its cells stand between tabs, its decimals have a comma"),
-        (plain.replace(',', ";"), "its cells stand between semicolons"),
-        (
-            decimals(";").replace('\n', "\r\n"),
-            "its cells stand between semicolons, its decimals have a comma",
-        ),
+        (decimals(";"), "separated by semicolons, with decimal commas"),
+        (decimals("\t"), "separated by tabs, with decimal commas"),
+        (plain.replace(',', ";"), "separated by semicolons"),
+        (decimals(";").replace('\n', "\r\n"), "separated by semicolons, with decimal commas"),
     ] {
         let data = read(&text, &map).unwrap();
         assert_eq!(data.dialect, Some(said));
@@ -213,22 +210,25 @@ fn delimiters_and_decimal_commas_are_recognized() {
     let data = read(&lines.join("\r\n"), &map).unwrap();
     let unusable: Vec<_> = data.unusable.iter().map(|row| (row.line, row.reason.as_str())).collect();
     let [(11, long), (31, wrong)] = unusable[..] else { panic!("{unusable:?}") };
-    assert!(long.contains("10 cells, the heading 9") && wrong.contains("not a number"), "{unusable:?}");
+    assert!(
+        long.contains("10 cells, but the heading has 9") && wrong.contains("not a number"),
+        "{unusable:?}"
+    );
     // Two columns have the same name.
     let refused = read(&plain.replacen("j2", "j1", 1), &map).unwrap_err();
     assert!(refused.contains("there is no column `j2`"), "{refused}");
     let refused = read(&plain.replacen(",z", ",z,z", 1), &map).unwrap_err();
-    assert!(refused.contains("two columns are called `z`"), "{refused}");
+    assert!(refused.contains("duplicate column `z`"), "{refused}");
     // Decimal commas and comma delimiters are ambiguous.
     let refused = read(&plain.replace('.', ","), &map).unwrap_err();
     assert!(
-        refused.contains("line 2: it has ") && refused.contains("one of the commas not quoted"),
+        refused.contains("line 2: the row has ") && refused.contains("quote cells that contain commas"),
         "{refused}"
     );
     // Several missing columns give one error.
     let refused = read(&plain.replace("j", "joint "), &map).unwrap_err();
     assert!(
-        refused.contains("6 columns of the map are not in") && refused.matches("error:").count() == 1,
+        refused.contains("6 columns of the map are missing in") && refused.matches("error:").count() == 1,
         "{refused}"
     );
 }

@@ -83,7 +83,7 @@ fn joints_beyond_limits_are_noted_and_a_job_can_be_stopped() {
     Jacobian { machine: machine.clone(), q }.run(&mut heard).unwrap();
     assert!(heard.notes[0].contains("is outside its limits"), "{:?}", heard.notes);
     let mut heard = RecordedNotes { stop: true, ..RecordedNotes::default() };
-    assert!(Check { machine }.run(&mut heard).unwrap_err().to_string().contains("stopped"));
+    assert!(Check { machine }.run(&mut heard).unwrap_err().to_string().contains("interrupted"));
 }
 
 /// Manipulator whose batches return a wrong value for the last configuration.

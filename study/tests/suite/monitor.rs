@@ -202,7 +202,7 @@ fn the_drifting_error_is_identified() {
         named += u64::from(
             finding.name == name
                 || finding.as_well.iter().any(|other| other == name)
-                || alike.flat_map(|chart| &chart.alike).any(|other| other == name),
+                || alike.flat_map(|chart| &chart.indistinguishable).any(|other| other == name),
         );
         assert_eq!(finding.kind, "drift");
         let [first, last] = finding.between;
@@ -258,11 +258,11 @@ fn checks_that_cannot_be_read_are_refused() {
     let plain = map("exact", &watched.machine);
     let mistake = |files: &[PathBuf], map: &Map| Checks::read(files, map).unwrap_err().to_string();
     let empty = file("empty.csv", format!("{heading}\n"));
-    assert!(mistake(&[empty], &plain).contains("there is no row in it that can be used"));
+    assert!(mistake(&[empty], &plain).contains("no row can be used"));
     let first = file("a-2026-03-02.csv", format!("{heading}\n{row}"));
     let second = file("b-2026-03-01.csv", format!("{heading}\n{row}"));
     let said = mistake(&[first.clone(), second.clone()], &plain);
-    assert!(said.contains("dates go back: 2026-03-01 comes after 2026-03-02"), "{said}");
+    assert!(said.contains("not in chronological order: 2026-03-01 comes after 2026-03-02"), "{said}");
     let other = file("c-2026-03-03.csv", format!("{}\n{row}", heading.replace('x', "east")));
     let said = mistake(&[first.clone(), other], &plain);
     assert!(said.contains("no column `x`"), "{said}");
@@ -283,7 +283,7 @@ fn checks_that_cannot_be_read_are_refused() {
     let checks = Checks::read(&[dates], &dated).unwrap();
     assert_eq!(checks.list.iter().map(|check| check.data.observations.len()).collect::<Vec<_>>(), [1, 1]);
     let wrong = file("wrong.csv", format!("date,{heading}\n1.3.2026,{row}"));
-    assert!(mistake(&[wrong], &dated).contains("line 2: `date` is `1.3.2026`, no date and no number"));
+    assert!(mistake(&[wrong], &dated).contains("line 2: `date` is `1.3.2026`, neither a date nor a number"));
     assert!(mistake(std::slice::from_ref(&first), &dated).contains("there is no column `date`"));
     let mut checks = Checks::read(&[first], &plain).unwrap();
     assert!(
@@ -291,7 +291,7 @@ fn checks_that_cannot_be_read_are_refused() {
             .since("--since", "2027-01-01")
             .unwrap_err()
             .to_string()
-            .contains("there is no check after that date")
+            .contains("there is no check after this date")
     );
 }
 

@@ -84,12 +84,12 @@ fn shards_and_draws_are_limited() {
     }
     refused(&with("/shard", json!({ "number": 1, "of": 4_294_967_295_u32 })), "content that this version");
     for draws in [json!(0), json!(10_000_001), json!(1_000_000_000_000_u64), json!(1_u64 << 63)] {
-        refused(&with("/question/monte_carlo", draws), "from 1 to 10000000 are made");
+        refused(&with("/request/monte_carlo", draws), "must be between 1 and 10000000");
     }
-    refused(&with("/question/monte_carlo", json!(-1)), "content that this version");
+    refused(&with("/request/monte_carlo", json!(-1)), "content that this version");
     let too_many = AnalysisRequest { monte_carlo: Some(10_000_001), ..question };
     let refused = Part::new(too_many, "1/1".parse().unwrap(), &mut ()).map(|_| ()).unwrap_err();
-    assert!(refused.to_string().contains("from 1 to 10000000"), "{refused}");
+    assert!(refused.to_string().contains("between 1 and 10000000"), "{refused}");
 }
 
 /// Collects the paths of all values.

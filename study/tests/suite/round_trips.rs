@@ -249,13 +249,10 @@ fn two_stations() {
     // Rows of an unknown station are refused.
     let elsewhere = Data { stations: vec!["roof".to_owned(), "wall".to_owned()], ..unseen };
     let refused = job(&guess, measured(&truth, 60, 1), Some(elsewhere.clone())).run(&mut ()).unwrap_err();
-    assert!(
-        refused.to_string().contains("rows of station `roof`, which the data does not have"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("there is no station `roof` in the fitted data"), "{refused}");
     let job = Measure { machine: ur5(), map: truth, data: elsewhere, accept: Acceptance::default() };
     let refused = job.run(&mut ()).unwrap_err().to_string();
-    for said in ["station `roof`", "the map does not say where it is", "`door`, `wall`", "--station new"] {
+    for said in ["station `roof`", "the map does not give the pose", "`door`, `wall`", "--station new"] {
         assert!(refused.contains(said), "{said}: {refused}");
     }
 }
@@ -278,7 +275,7 @@ fn stations_of_rows_are_simulated() {
     let stations: Vec<u32> = report.observations.iter().map(|row| row.station).collect();
     assert_eq!(stations, [0, 1, 0, 1, 0, 1, 0, 1]);
     let refused = simulated(way.map(column, &format!("{stated}{}", way.mounted))).unwrap_err().to_string();
-    for said in ["rows of station `wall`", "the map does not say where it is", "add a [[station]]"] {
+    for said in ["station `wall`", "the map does not give the pose", "add a [[station]]"] {
         assert!(refused.contains(said), "{said}: {refused}");
     }
 }
@@ -310,7 +307,7 @@ fn a_reflector_on_the_last_axis() {
     assert!(report.condition < 1000.0, "{}", report.condition);
     assert!(!report.not_known.is_empty());
     for weak in &report.not_known {
-        assert!(weak.told > 0.5 * weak.expected, "{weak:?}");
+        assert!(weak.standard_deviation > 0.5 * weak.expected, "{weak:?}");
     }
     for parameter in report.parameters.iter().filter(|parameter| parameter.unit == "rad") {
         assert!(parameter.standard_deviation < 0.5 * 0.01, "{parameter:?}");

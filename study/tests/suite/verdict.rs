@@ -152,10 +152,10 @@ fn orientation_has_a_tolerance_of_its_own() {
 fn an_empty_tolerance_is_a_mistake() {
     let machine = Machine::find("pps").unwrap();
     for (tolerance, said) in [
-        ("{}", "this tolerance says nothing"),
-        ("{ probability = 0.9 }", "this tolerance says nothing"),
-        ("{ position = \"0 mm\" }", "`position` must be more than zero"),
-        ("{ orientation = \"-1 mrad\" }", "`orientation` must be more than zero"),
+        ("{}", "this tolerance is empty"),
+        ("{ probability = 0.9 }", "this tolerance is empty"),
+        ("{ position = \"0 mm\" }", "`position` must be positive"),
+        ("{ orientation = \"-1 mrad\" }", "`orientation` must be positive"),
         ("{ orientation = \"1 mm\" }", "length"),
         ("{ position = \"1 mm\", probability = 95 }", "`probability` must be between 0 and 1"),
         ("{ positon = \"1 mm\" }", "positon"),
@@ -185,7 +185,7 @@ fn figures_of_the_orientation() {
     let largest = report.budget.orientation.combined.radius.value;
     assert!((norm - largest).abs() < 1e-12 * largest, "{norm} {largest}");
     let json = serde_json::to_value(&report.figures).unwrap();
-    assert_eq!(json["figures"][3]["asked"]["measurand"], "orientation");
+    assert_eq!(json["figures"][3]["request"]["measurand"], "orientation");
 }
 
 /// The value of a joint's encoder error is the angle, and its sensitivity the lever, here 100 mm.

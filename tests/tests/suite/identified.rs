@@ -178,7 +178,10 @@ fn zeros_of_joints_are_told_in_words() {
             let truth = 1e-3 * ZEROS[joint - 1];
             assert!((meaning.value - truth).abs() < 4.5 * meaning.standard_deviation, "{meaning:?}, {truth}");
             assert!(meaning.standard_deviation < 1e-4, "{meaning:?}");
-            assert!(meaning.sentence.starts_with(&format!("the zero of q{joint} is off by ")), "{meaning:?}");
+            assert!(
+                meaning.sentence.starts_with(&format!("the zero of q{joint} is offset by ")),
+                "{meaning:?}"
+            );
             said.push(joint);
         }
         assert!(told.iter().all(|joint| said.contains(joint)), "{base} {layout}: {said:?}");
@@ -305,7 +308,7 @@ fn full_compliances_are_found_and_written() {
         job.terms = vec![Family::Elastic];
         let report = job.run(&mut ()).expect("it is identified");
         let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
-        let coupled = names.iter().any(|name| name.contains("gives way under weight, e_s with e_p"));
+        let coupled = names.iter().any(|name| name.contains("elastic deflection, e_s coupled with e_p"));
         println!("{off}: {names:?}");
         assert_eq!(coupled, off != 0.0, "{off}: {names:?}");
         // Only the noise remains: √3 σ of a point.
@@ -385,7 +388,11 @@ fn time_ends_the_search_for_terms() {
     };
     let over = found(Some(Duration::ZERO));
     assert!(over.tried == 0 && over.terms.is_empty());
-    assert!(over.notes.iter().any(|note| note.contains("the time was over before")), "{:?}", over.notes);
+    assert!(
+        over.notes.iter().any(|note| note.contains("the time limit was reached before")),
+        "{:?}",
+        over.notes
+    );
     let (long, any) = (found(Some(Duration::from_secs(3600))), found(None));
     let names = |report: &Report| report.terms.iter().map(|term| term.name.clone()).collect::<Vec<_>>();
     assert!(names(&any).iter().any(|name| name.contains("once per turn of q2")), "{:?}", names(&any));

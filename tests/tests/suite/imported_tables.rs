@@ -119,7 +119,7 @@ plate, fixed, 10, 12.5, 0, 180, , , , ,
             imported.spec.description().variables.iter().map(|variable| &*variable.name).collect();
         assert_eq!(names, ["q1", "a2", "rail", "elbow"]);
         assert_eq!(imported.report.manipulator, "two_arms");
-        assert_eq!(imported.heard, ["columns that are not read: `note`"]);
+        assert_eq!(imported.heard, ["ignored columns: `note`"]);
         assert!(
             imported.report.spec.contains("limits = [\"-170 deg\", \"170 deg\"]"),
             "{}",
@@ -148,7 +148,11 @@ fn tables_of_other_countries() {
     let right = std::f64::consts::FRAC_PI_2;
     let rows = |q: &[f64]| vec![[q[0], 340.5, 0.0, -right], [q[1] + 12.5_f64.to_radians(), 0.0, 0.0, right]];
     assert_same(&imported, standard, rows, 1000.0);
-    assert!(imported.heard.iter().any(|note| note.contains("which joints slide")), "{:?}", imported.heard);
+    assert!(
+        imported.heard.iter().any(|note| note.contains("all joints were read as revolute")),
+        "{:?}",
+        imported.heard
+    );
 }
 
 /// Checks the output of the Robotics Toolbox for Python 1.1 for a chain with an offset, a prismatic
@@ -194,7 +198,7 @@ DHRobot.Panda: Panda (by Franka Emika), 7 joints (RRRRRRR), dynamics, geometry, 
     let panda = imported(table, DhConvention::Modified, IN_M, false);
     assert_eq!(panda.report.manipulator, "panda");
     assert!(
-        panda.heard.iter().any(|note| note.contains("base and tool is rounded, and not read")),
+        panda.heard.iter().any(|note| note.contains("base and tool is rounded and was ignored")),
         "{:?}",
         panda.heard
     );
@@ -295,7 +299,7 @@ TOOL,,,,,0,12,80,10,-20,135
     // position are not read without rows of base or tool.
     let table = "kind,theta,d,a,alpha,x\nrevolute,q1,340,0,-90,7\nrevolute,q2,0,260,0,7\n";
     let unread = imported(table, DhConvention::Standard, IN_MM, false);
-    assert!(unread.heard.iter().any(|note| note == "columns that are not read: `x`"), "{:?}", unread.heard);
+    assert!(unread.heard.iter().any(|note| note == "ignored columns: `x`"), "{:?}", unread.heard);
     let table = "kind,theta,d,a,alpha\nrevolute,q1,340,0,-90\ntool,30,80,5,45\n";
     let Imported { report, spec, .. } = imported(table, DhConvention::Modified, IN_MM, false);
     assert_eq!(report.frames.len(), 1);
@@ -331,7 +335,7 @@ fn empty_cells_at_the_end_are_cells() {
         std::fs::write(&file, table.replacen("q1\t400\t25\t90\t\t\r", short, 1)).unwrap();
         let format = Format::Table { convention: DhConvention::Standard, units: IN_MM };
         let refused = Import { file, format, round_angles: false }.run(&mut ()).unwrap_err().to_string();
-        assert!(refused.contains("the heading 6") && refused.contains("it ends here"), "{refused}");
+        assert!(refused.contains("the heading has 6") && refused.contains("the row ends here"), "{refused}");
     }
 }
 

@@ -92,18 +92,18 @@ impl Real {
     /// Converts C code for `double` to the type: its name, literals and functions. Comments stay
     /// unchanged.
     pub(super) fn text(self, text: &str) -> String {
-        let mut told = String::with_capacity(text.len());
+        let mut converted = String::with_capacity(text.len());
         for (k, part) in text.split("/*").enumerate() {
             let code = match part.split_once("*/") {
                 Some((comment, code)) if k > 0 => {
-                    told.extend(["/*", comment, "*/"]);
+                    converted.extend(["/*", comment, "*/"]);
                     code
                 }
                 _ => part,
             };
-            words(code).for_each(|word| told += &self.word(word));
+            words(code).for_each(|word| converted += &self.word(word));
         }
-        told
+        converted
     }
 
     fn word(self, word: &str) -> String {
@@ -178,9 +178,9 @@ mod tests {
     #[test]
     fn a_text_is_told_in_single_precision() {
         let text = "/* sqrt(2.0) */ const double x1 = sqrt(y - 1e-3) + 2.0 * a[1U]; /* double */ int k = 10;";
-        let told =
+        let converted =
             "/* sqrt(2.0) */ const float x1 = sqrtf(y - 0.001f) + 2.0f * a[1U]; /* double */ int k = 10;";
-        assert_eq!(Real::Float.text(text), told);
+        assert_eq!(Real::Float.text(text), converted);
         assert_eq!(Real::Double.text("x = 6755399441055744.0;"), "x = 6755399441055744.0;");
     }
 }

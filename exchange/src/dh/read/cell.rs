@@ -67,7 +67,7 @@ impl Cells<'_> {
         let plain =
             if self.decimal_comma && !plain.contains('.') { plain.replacen(',', ".", 1) } else { plain };
         if in_degrees && is_length {
-            let mistake = Diagnostic::new(cell, "an angle stands where a length is due");
+            let mistake = Diagnostic::new(cell, "expected a length, found an angle in degrees");
             document.mistake(mistake.help("write lengths in mm or m"));
             return None;
         }
@@ -76,7 +76,7 @@ impl Cells<'_> {
             return parse_value(document, cell, self.length, dimension, "this cell");
         };
         if number.is_nan() || number.abs() >= LARGEST {
-            let mistake = Diagnostic::new(cell, "this is no finite number");
+            let mistake = Diagnostic::new(cell, "this number is too large or not finite");
             document.mistake(mistake.help("write a decimal number: `0.5`"));
             return None;
         }
@@ -91,10 +91,11 @@ impl Cells<'_> {
             None => {
                 let (what, option) = if is_length { ("length", "mm") } else { ("angle", "deg") };
                 // Reported once, not for every cell.
-                let message = format!("the unit of this {what} is not said");
+                let message = format!("the unit of this {what} is unknown");
                 if document.found.iter().all(|mistake| mistake.message != message) {
                     let help = format!(
-                        "say it: `--units {option}`, or both as in `--units mm,deg`; or in the heading, `{} ({option})`",
+                        "give it: `--units {option}`, or both as in `--units mm,deg`; or write it \
+                         in the heading: `{} ({option})`",
                         &whole[column.span.clone()]
                     );
                     document.mistake(Diagnostic::new(cell, message).help(help));
@@ -193,6 +194,6 @@ fn identifier(name: &str) -> String {
 }
 
 fn not_understood(cell: Span) -> Diagnostic {
-    Diagnostic::new(cell, "this is no number and no variable with one added")
+    Diagnostic::new(cell, "expected a number, or a joint variable with a constant added")
         .help("write `q1`, `-q1` or `q1 + 90`; a number alone is a constant")
 }

@@ -46,15 +46,17 @@ impl Columns {
                 if quantity == Quantity::Name {
                     continue;
                 }
-                let message = format!("two columns are the same: `{name}`");
-                let mistake = Diagnostic::new(span.clone(), message).context(other.span.clone(), "the first");
-                document.mistake(mistake.label("again").help("leave one of them out"));
+                let message = format!("duplicate column `{name}`");
+                let mistake = Diagnostic::new(span.clone(), message)
+                    .context(other.span.clone(), "first column of this name");
+                document.mistake(mistake.label("again").help("remove one of them"));
                 return None;
             }
             if is_of_previous_link && convention == DhConvention::Standard {
-                let message = format!("`{name}` is a number of the modified convention");
+                let message = format!("`{name}` is a column of the modified convention");
                 document.mistake(
-                    Diagnostic::new(span.clone(), message).help("read the table so: `--dh modified`"),
+                    Diagnostic::new(span.clone(), message)
+                        .help("read the table in that convention: `--dh modified`"),
                 );
                 return None;
             }
@@ -68,9 +70,9 @@ impl Columns {
             .map(|(_, name)| *name)
             .collect();
         if !missing.is_empty() {
-            let message = format!("there is no column {}", abbe_spec::diagnostic::listed(&missing));
-            let help =
-                "a row has theta, d, a and alpha; where a number is 0 in all rows, write a column of zeros";
+            let message = format!("the column {} is missing", abbe_spec::diagnostic::listed(&missing));
+            let help = "a table needs the columns theta, d, a and alpha; if one is 0 for all joints, add \
+                 a column of zeros";
             document.mistake(Diagnostic::new(columns.span.clone(), message).help(help));
             return None;
         }

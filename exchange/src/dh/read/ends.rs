@@ -89,10 +89,11 @@ pub(super) fn read(
         if !is_there {
             let (place, name) = if end == End::Base { ("first", "base") } else { ("last", "tool") };
             let span = row.iter().find(|cell| !cell.is_empty()).cloned().unwrap_or_default();
-            let mistake = Diagnostic::new(span, format!("the row of the {name} is not the {place} one"));
-            document.mistake(
-                mistake.help("rows go from base to tool; a constant row between joints is of the kind fixed"),
-            );
+            let mistake = Diagnostic::new(span, format!("the row of the {name} is not the {place} row"));
+            document.mistake(mistake.help(
+                "order the rows from base to tool; a constant row between joints has \
+                    the kind `fixed`",
+            ));
             return None;
         }
         found[end as usize] = Some(placement(end, row, cells, convention, angles, document)?);
@@ -104,8 +105,10 @@ pub(super) fn read(
             places.find(|(_, cell)| !is_zero(cell))
         });
         if let Some((_, cell)) = placed {
-            let mistake = Diagnostic::new(cell, "the row of a joint has no place beside its four numbers");
-            document.mistake(mistake.help("leave it empty: only the rows of base and tool have a place"));
+            let mistake = Diagnostic::new(cell, "the row of a joint cannot have x, y, z, roll, pitch or yaw");
+            document.mistake(
+                mistake.help("leave this cell empty; only the rows of base and tool have these columns"),
+            );
             return None;
         }
     }
@@ -123,7 +126,8 @@ fn placement(
     document: &mut Document,
 ) -> Option<Placement> {
     if let Some((_, cell)) = JOINT_ONLY.iter().find_map(|quantity| cells.cell(row, *quantity)) {
-        let mistake = Diagnostic::new(cell, format!("the {} does not move", end.name()));
+        let mistake =
+            Diagnostic::new(cell, format!("the {} is fixed: this column is for joints only", end.name()));
         document.mistake(mistake.help("leave this cell empty"));
         return None;
     }
@@ -143,8 +147,9 @@ fn placement(
     }
     if placed != Placement::default() {
         let span = row.first()?.start..row.last()?.end;
-        let mistake = Diagnostic::new(span, format!("this row says twice where the {} is", end.name()));
-        document.mistake(mistake.help("leave the four numbers empty, or x, y, z, roll, pitch and yaw"));
+        let mistake = Diagnostic::new(span, format!("this row gives the pose of the {} twice", end.name()));
+        document
+            .mistake(mistake.help("leave either the four DH numbers or x, y, z, roll, pitch and yaw empty"));
         return None;
     }
     let [theta, alpha] = [theta, alpha].map(|angle| angles.angle(angle));

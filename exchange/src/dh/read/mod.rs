@@ -52,12 +52,13 @@ pub fn read(
         ignored.extend(columns.placement_names(&whole));
     }
     if !ignored.is_empty() {
-        notes.note(&format!("columns that are not read: {}", listed(&ignored)));
+        notes.note(&format!("ignored columns: {}", listed(&ignored)));
     }
     if text.has_ends && base.is_none() && tool.is_none() {
         notes.warn(
-            "what stands beside the table about base and tool is rounded, and not read: add rows of the kind base and tool, with columns x, y, z, roll, \
-             pitch and yaw, or a first [[frame]] and [tool] to the spec",
+            "the text beside the table about base and tool is rounded and was ignored: add rows \
+             of the kinds base and tool, with columns x, y, z, roll, pitch and yaw, or add a \
+             first [[frame]] and [tool] to the spec",
         );
     }
     let word = match convention {
@@ -92,7 +93,7 @@ fn check_convention(text: &Text, convention: DhConvention, document: &mut Docume
         return Some(());
     }
     let other = stated.name();
-    let mistake = Diagnostic::new(span.clone(), format!("this table is declared as {other}"));
-    document.mistake(mistake.help(format!("read it so: `--dh {other}`")));
+    let mistake = Diagnostic::new(span.clone(), format!("this table declares the convention {other}"));
+    document.mistake(mistake.help(format!("read it in that convention: `--dh {other}`")));
     None
 }

@@ -69,28 +69,31 @@ pub(super) fn read(
         if let (Some(Joint { motion: Some(first), .. }), Some(this)) =
             (joints.iter().find(same), &joint.motion)
         {
-            let message = format!("`{}` moves two rows", this.variable);
-            let help = "give each row a variable of its own; where one joint moves two axes, write that into the spec: \
-                        `theta = \"q3 + q2\"`";
+            let message = format!("`{}` is the variable of two rows", this.variable);
+            let help = "give each row its own variable; if one joint moves two axes, write this \
+                in the spec: `theta = \"q3 + q2\"`";
             let mistake =
-                Diagnostic::new(this.span.clone(), message).context(first.span.clone(), "the first");
+                Diagnostic::new(this.span.clone(), message).context(first.span.clone(), "first row");
             document.mistake(mistake.label("again").help(help));
         }
         if joints.iter().any(|other| other.name == joint.name) {
             let span = cells.cell(row, Quantity::Name).map_or(0..0, |(_, cell)| cell);
-            let mistake = Diagnostic::new(span, format!("two rows are called `{}`", joint.name));
-            document.mistake(mistake.label("again").help("give each row a name of its own"));
+            let mistake = Diagnostic::new(span, format!("duplicate row name `{}`", joint.name));
+            document.mistake(mistake.label("again").help("give each row its own name"));
         }
         joints.push(joint);
     }
     if document.found.is_empty() && joints.iter().all(|joint| joint.motion.is_none()) {
-        let mistake = Diagnostic::new(cells.columns.span.clone(), "nothing moves in this table");
-        document.mistake(mistake.help("`kind` says `revolute` or `prismatic` where a joint is"));
+        let mistake = Diagnostic::new(cells.columns.span.clone(), "this table has no joint variable");
+        document.mistake(mistake.help("write `revolute` or `prismatic` in the column `kind` of each joint"));
     }
     let slides = joints.iter().flat_map(|joint| &joint.motion).any(|motion| motion.prismatic);
     // After a mistake only mistakes are reported.
     if document.found.is_empty() && cells.columns.get(Quantity::Kind).is_none() && !slides {
-        notes.note("no column says which joints slide, and no `d` has a variable: all rows were read as joints that turn");
+        notes.note(
+            "the table has no column `kind` and no variable in `d`: all joints were read \
+            as revolute",
+        );
     }
     joints
 }
@@ -114,15 +117,18 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
     let kind = match (stated, &theta.variable, &d.variable) {
         (_, Some((_, first)), Some((_, second))) => {
             let mistake = Diagnostic::new(second.clone(), "this row has two variables");
-            let help = "a row moves in one way: write a joint that turns and slides as two rows";
-            document.mistake(mistake.context(first.clone(), "the first").label("the second").help(help));
+            let help = "a row has one variable: write a joint that both rotates and translates as \
+                two rows";
+            document.mistake(
+                mistake.context(first.clone(), "first variable").label("second variable").help(help),
+            );
             return None;
         }
         (Some(Kind::Revolute | Kind::Fixed), None, Some((name, span)))
         | (Some(Kind::Prismatic | Kind::Fixed), Some((name, span)), None) => {
-            let message = format!("`{name}` moves what `kind` says does not move so");
-            let help =
-                "a prismatic joint has its variable in `d`, a revolute one in `theta`, a fixed one none";
+            let message = format!("the column of the variable `{name}` does not match the `kind` of the row");
+            let help = "a prismatic joint has its variable in `d`, a revolute joint in `theta`, and a \
+                 fixed row has none";
             document.mistake(Diagnostic::new(span.clone(), message).help(help));
             return None;
         }
@@ -150,8 +156,8 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
         && offset != 0.0
         && constant != 0.0
     {
-        let message = "this row says twice what is added to its variable";
-        let help = "leave it in one of the two: in the cell of the variable, or in `offset`";
+        let message = "this row has two constants added to its variable";
+        let help = "give the constant either with the variable or in the column `offset`";
         document.mistake(Diagnostic::new(cell, message).label("and in `theta` or `d`").help(help));
         return None;
     }
@@ -161,10 +167,11 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
         _ => {
             let upper = cells.cell(row, Quantity::Upper).or_else(|| cells.cell(row, Quantity::Lower));
             let span = upper.map_or(whole_row, |(_, cell)| cell);
-            let mistake = Diagnostic::new(span, format!("the limits of `{name}` are no range"));
-            document.mistake(
-                mistake.help("`lower` is the smaller one; leave both cells empty if there are none"),
-            );
+            let mistake = Diagnostic::new(span, format!("invalid limits of `{name}`"));
+            document.mistake(mistake.help(
+                "`lower` must be less than `upper`; leave both cells empty if there \
+                    are no limits",
+            ));
             return None;
         }
     };
@@ -175,7 +182,8 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
             Ok(-1.0) => true,
             _ => {
                 document.mistake(
-                    Diagnostic::new(cell, "a sign is 1 or -1").help("1 counts about z, -1 against it"),
+                    Diagnostic::new(cell, "expected the sign 1 or -1")
+                        .help("1 is positive about or along z, -1 is negative"),
                 );
                 return None;
             }
@@ -205,9 +213,10 @@ fn kind(whole: &str, cell: Span, document: &mut Document) -> Option<Kind> {
     let word = whole[cell.clone()].to_lowercase();
     let found = KINDS.iter().find(|(name, _)| *name == word).map(|(_, kind)| *kind);
     if found.is_none() {
-        let message = format!("there is no joint of the kind `{}`", whole[cell.clone()].escape_debug());
+        let message = format!("unknown kind `{}`", whole[cell.clone()].escape_debug());
         document.mistake(Diagnostic::new(cell, message).help(
-            "the kinds are revolute, prismatic and fixed, and base and tool of the first row and the last",
+            "the kinds are revolute, prismatic and fixed; base for the first row, tool for the \
+             last",
         ));
     }
     found

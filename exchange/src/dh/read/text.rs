@@ -66,26 +66,32 @@ impl Text {
         }
         if rows.is_empty() || rows.len() > MOST_ROWS {
             let message = match rows.len() {
-                0 => "there is no row below this heading".to_owned(),
+                0 => "there are no rows below this heading".to_owned(),
                 rows => format!("this table has {rows} rows; the maximum is {MOST_ROWS}"),
             };
-            document.mistake(Diagnostic::new(line, message).help("one row for each joint, from base to tip"));
+            document.mistake(
+                Diagnostic::new(line, message).help("write one row for each joint, from base to tip"),
+            );
             return None;
         }
         let columns = heading.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
         for row in &rows {
             if let Some(last) = row.last().filter(|_| row.len() < columns) {
                 let cells = counted(row.len(), "cell", "cells");
-                let message = format!("this row has {cells}, the heading {columns}");
-                let help = "a row has a cell for every column, `0` where a number is zero, nothing where there is none";
-                document.mistake(Diagnostic::new(last.clone(), message).label("it ends here").help(help));
+                let message = format!("this row has {cells}, but the heading has {columns}");
+                let help = "write a cell for every column: 0 for zero, or an empty cell if it \
+                    does not apply";
+                document
+                    .mistake(Diagnostic::new(last.clone(), message).label("the row ends here").help(help));
                 return None;
             }
             let beyond = row.get(heading.len()..).unwrap_or_default();
             if let Some(cell) = beyond.iter().find(|cell| !cell.is_empty()) {
-                let message = format!("this row has {} cells, the heading {}", row.len(), heading.len());
-                let help = "is there a separator inside a cell, or a comma in a decimal? Write `;` between cells then";
-                document.mistake(Diagnostic::new(cell.clone(), message).label("one too many").help(help));
+                let message =
+                    format!("this row has {} cells, but the heading has {}", row.len(), heading.len());
+                let help = "if a cell contains the separator, or decimals have a comma, separate \
+                    the cells by `;`";
+                document.mistake(Diagnostic::new(cell.clone(), message).label("first extra cell").help(help));
                 return None;
             }
         }
@@ -187,7 +193,7 @@ fn trimmed(text: &str, cell: Span) -> Span {
 /// Reports a text without a table.
 fn no_table(text: &str) -> Diagnostic {
     let start = text.trim_start();
-    let help = "its first line names the columns: `theta,d,a,alpha`";
+    let help = "its first line must name the columns: `theta,d,a,alpha`";
     if start.is_empty() {
         return Diagnostic::whole_file("this file is empty").help(help);
     }

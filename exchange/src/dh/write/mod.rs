@@ -35,13 +35,14 @@ pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
         ends.iter().filter(|(_, pose)| *pose != Pose::IDENTITY).map(|(name, _)| *name).collect();
     if !ends.is_empty() {
         left_out.push(format!(
-            "The table goes from the first joint to the last: the {} of the spec comes beside it, as it is.",
+            "The table contains the joints only: apply the {} of the spec in addition, unchanged.",
             listed(&ends)
         ));
     }
     left_out.extend(parallel_axes(&nominal, machine));
     left_out.push(
-        "Of the six errors of the last frame a table holds what its own four numbers can do; the rest belongs to the tool."
+        "The DH numbers of the last frame represent four of its six errors; the other two belong \
+         to the tool."
             .to_owned(),
     );
     let format = format!("Denavit-Hartenberg numbers, {word}");
@@ -70,7 +71,8 @@ fn parallel_axes(table: &DhTable, machine: &RealMachine) -> Option<String> {
     let pairs: Vec<String> = pairs.collect();
     (!pairs.is_empty()).then(|| {
         format!(
-            "Where axes are parallel ({}) a table holds one of the two tilts between them, that by alpha.",
+            "Between parallel axes ({}) a table represents one of the two tilts: the rotation \
+             alpha about x.",
             pairs.join(", ")
         )
     })
@@ -97,8 +99,9 @@ fn sign(nominal: &DhTable, table: &DhTable, machine: &RealMachine) -> String {
         DhNumber::A | DhNumber::D => machine.spec.length.symbol(),
     };
     format!(
-        "These are the numbers of the real arm, to be used in place of the nominal ones: {} of {} is {} {unit} where the spec has \
-         {} {unit}. The real one is {} by {} {unit}, and nothing is to be subtracted from it.",
+        "The table holds the numbers of the real arm, which replace the nominal ones: {} of {} is \
+         {} {unit}; in the spec it is {} {unit}. The real value is {} by {} {unit}; do not \
+         subtract anything from it.",
         number.name(),
         table.rows[row].name,
         digits(new, 8),

@@ -43,15 +43,13 @@ pub(super) fn chain(
         None => only_tip(tree, &names, document)?,
     };
     let Some(path) = tree.path(base, tip) else {
-        let message = format!("`{}` does not hang on `{}`", names[tip], names[base]);
+        let message = format!("`{}` is not a descendant of `{}`", names[tip], names[base]);
         let mut above = tip;
         while let Some((_, parent)) = tree.above(above) {
             above = parent;
         }
-        let help = format!(
-            "the chain begins at a link that carries the tip: `--base {}`, or one between",
-            names[above]
-        );
+        let help =
+            format!("choose a base link above the tip: `--base {}`, or one between them", names[above]);
         let mistake = Diagnostic::new(tree.link(tip).span.clone(), message)
             .context(tree.link(base).span.clone(), "the base")
             .label("the tip");
@@ -65,20 +63,20 @@ pub(super) fn chain(
     }
     let Builder { variables, frames, masses, pending, branches, .. } = builder;
     if frames.is_empty() {
-        let message = format!("nothing moves between `{}` and `{}`", names[base], names[tip]);
+        let message = format!("there is no moving joint between `{}` and `{}`", names[base], names[tip]);
         let help = match path.is_empty() {
-            true => "name a tip behind a joint that moves",
-            false => "name a tip behind a joint that moves, or leave out `--fold`",
+            true => "choose a tip after a moving joint",
+            false => "choose a tip after a moving joint, or leave out `--fold`",
         };
         document.mistake(Diagnostic::new(tree.link(tip).span.clone(), message).help(help));
         return None;
     }
     if robot.meshes > 0 {
-        notes.note(&format!("the files of {} shapes are not read: a spec has no shapes", robot.meshes));
+        notes.note(&format!("{} mesh files are ignored: a spec has no shapes", robot.meshes));
     }
     if !branches.is_empty() {
         notes.note(&format!(
-            "what moves beside the chain is left out, with its masses: the joints {}",
+            "moving joints beside the chain are left out, together with their masses: {}",
             listed(&branches)
         ));
     }
@@ -117,10 +115,10 @@ fn only_tip(tree: &Tree<'_>, names: &[&str], document: &mut Document) -> Option<
         [tip] => Some(tip),
         ref several => {
             let several: Vec<&str> = several.iter().map(|&tip| names[tip]).collect();
-            document.mistake(
-                Diagnostic::whole_file("this robot has more than one last link")
-                    .help(format!("say where the tool point is: `--tip LINK`, one of {}", listed(&several))),
-            );
+            document.mistake(Diagnostic::whole_file("this robot has more than one tip link").help(format!(
+                "choose the link of the tool point: `--tip LINK`, one of {}",
+                listed(&several)
+            )));
             None
         }
     }
@@ -157,11 +155,11 @@ impl<'r> Builder<'r> {
             match joint.kind {
                 JointKind::Fixed => continue,
                 JointKind::Planar | JointKind::Floating => {
-                    let message = format!("the joint `{}` moves in several directions at once", joint.name);
-                    document.mistake(
-                        Diagnostic::new(joint.span.clone(), message)
-                            .help("write it as several joints, or begin the chain behind it: `--base LINK`"),
-                    );
+                    let message = format!("the joint `{}` moves in several directions", joint.name);
+                    document.mistake(Diagnostic::new(joint.span.clone(), message).help(
+                        "write it as several joints, or begin the chain after it: \
+                                `--base LINK`",
+                    ));
                     return None;
                 }
                 JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {}
@@ -193,11 +191,11 @@ impl<'r> Builder<'r> {
                     !matches!(leader.kind, JointKind::Fixed | JointKind::Planar | JointKind::Floating);
                 if !moves {
                     let message =
-                        format!("`{}` follows `{}`, which has no value of its own", joint.name, leader.name);
-                    document.mistake(
-                        Diagnostic::new(joint.span.clone(), message)
-                            .help("a joint follows one that turns or slides: `<mimic joint=\"…\"/>`"),
-                    );
+                        format!("`{}` mimics `{}`, which has no value of its own", joint.name, leader.name);
+                    document.mistake(Diagnostic::new(joint.span.clone(), message).help(
+                        "a joint can only mimic a revolute, continuous or prismatic \
+                                joint: `<mimic joint=\"…\"/>`",
+                    ));
                 }
                 return moves.then_some((leader, [multiplier, offset]));
             };
@@ -210,8 +208,7 @@ impl<'r> Builder<'r> {
         }
         let message = format!("`{}` mimics itself through other joints", joint.name);
         document.mistake(
-            Diagnostic::new(joint.span.clone(), message)
-                .help("one of the joints must move by itself: leave its <mimic> out"),
+            Diagnostic::new(joint.span.clone(), message).help("remove <mimic> from one of these joints"),
         );
         None
     }

@@ -45,15 +45,14 @@ impl<'r> Tree<'r> {
                         joints[j].child.span.clone(),
                         format!("`{}` is the child of two joints", links[child].name),
                     )
-                    .context(joints[first].child.span.clone(), "here it is a child already")
-                    .help("a robot of URDF is a tree: closed chains cannot be described"),
+                    .context(joints[first].child.span.clone(), "first joint with this child")
+                    .help("a URDF robot is a tree: it cannot describe closed chains"),
                 ),
             }
         }
         if joints.is_empty() {
             document.mistake(
-                Diagnostic::whole_file("this robot has no joints")
-                    .help("a chain is made of joints: is this the file of the whole robot?"),
+                Diagnostic::whole_file("this robot has no joints").help("give the file of the whole robot"),
             );
         }
         if document.found.len() > before {
@@ -75,15 +74,16 @@ impl<'r> Tree<'r> {
         let mut roots = self.roots();
         if let (Some(first), Some(second)) = (roots.next(), roots.next()) {
             let message = format!(
-                "`{}` hangs on no joint, and neither does `{}`",
+                "neither `{}` nor `{}` is the child of a joint",
                 links[second].name, links[first].name
             );
             document.mistake(
                 Diagnostic::new(links[second].span.clone(), message)
-                    .context(links[first].span.clone(), "one root")
-                    .label("another root")
+                    .context(links[first].span.clone(), "first root link")
+                    .label("second root link")
                     .help(
-                        "a robot of URDF has one root link: join the two by a fixed joint, or leave one out",
+                        "a URDF robot has one root link: connect the two by a fixed joint, or \
+                         remove one",
                     ),
             );
             return None;
@@ -97,10 +97,10 @@ impl<'r> Tree<'r> {
         }
         let lost = (0..links.len()).find(|&link| !above[link]);
         if let Some((j, _)) = lost.and_then(|link| self.carrier[link]) {
-            let message = format!("the joint `{}` is part of a circle of joints", joints[j].name);
+            let message = format!("the joint `{}` is part of a loop of joints", joints[j].name);
             document.mistake(
                 Diagnostic::new(joints[j].span.clone(), message)
-                    .help("a robot of URDF is a tree: every link hangs, over others, on one root"),
+                    .help("a URDF robot is a tree: every link descends from one root link"),
             );
             return None;
         }
@@ -158,9 +158,9 @@ fn unique_indices<'a>(
     for (number, (name, span)) in named.enumerate() {
         if let Some((_, other)) = first.get(name.as_str()) {
             document.mistake(
-                Diagnostic::new(span.clone(), format!("two {what} are called `{}`", name.escape_debug()))
-                    .context((*other).clone(), "the first of them")
-                    .help("give each a name of its own"),
+                Diagnostic::new(span.clone(), format!("two {what} are named `{}`", name.escape_debug()))
+                    .context((*other).clone(), "first one")
+                    .help("give each its own name"),
             );
         } else {
             first.insert(name, (number, span));

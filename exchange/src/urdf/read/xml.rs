@@ -44,12 +44,12 @@ fn not_xml(text: &str, error: &roxmltree::Error) -> Diagnostic {
     let (message, help) = if matches!(error, roxmltree::Error::DtdDetected) {
         (
             "this file declares entities".to_owned(),
-            "a URDF needs no <!DOCTYPE …>: write out what it stands for",
+            "remove <!DOCTYPE …> and write the text of the entities instead",
         )
     } else if !text.trim_start().starts_with('<') {
         ("this file is not XML".to_owned(), "give the path of a URDF file: it begins with <robot name=\"…\">")
     } else {
-        (format!("this is not XML: {message}"), "repair the file; `xmllint FILE` says more")
+        (format!("this is not XML: {message}"), "correct the file; `xmllint FILE` shows more details")
     };
     let start = if matches!(error, roxmltree::Error::DtdDetected) { text.find("<!DOCTYPE") } else { None };
     let start = start.unwrap_or(place);
@@ -66,8 +66,8 @@ fn not_urdf(root: Node<'_, '_>) -> Option<Diagnostic> {
     let name = root.tag_name().name();
     if let Some(node) = root.descendants().find(xacro) {
         return Some(
-            Diagnostic::new(start_of(node), "this is xacro, not yet URDF")
-                .label("a macro, or what one puts in")
+            Diagnostic::new(start_of(node), "this is a xacro file, not a URDF file")
+                .label("a xacro macro or substitution")
                 .help("expand it first: `xacro FILE.xacro > robot.urdf`"),
         );
     }
@@ -78,7 +78,7 @@ fn not_urdf(root: Node<'_, '_>) -> Option<Diagnostic> {
         "COLLADA" => "this is a mesh, not a robot: give the URDF file that refers to it",
         _ => "a URDF file begins with <robot name=\"…\">",
     };
-    let message = format!("`<{name}>` is no robot");
+    let message = format!("expected `<robot>`, found `<{name}>`");
     Some(Diagnostic::new(span, message).label("expected `<robot>`").help(help))
 }
 
@@ -107,7 +107,7 @@ impl Reader<'_> {
             && mass < 0.0
         {
             let message = format!("the mass of `{name}` is negative");
-            self.fault(start_of(node), message, "a mass is 0 or more");
+            self.fault(start_of(node), message, "a mass must be 0 or positive");
         }
         Some(Link { name, span: start_of(node), mass })
     }
@@ -144,7 +144,7 @@ impl Reader<'_> {
         let found = JointKind::ALL.iter().find(|(name, _)| *name == attribute.value().trim());
         if found.is_none() {
             let names = JointKind::ALL.map(|(name, _)| name).join(", ");
-            let message = format!("there is no joint of the type `{}`", attribute.value().escape_debug());
+            let message = format!("unknown joint type `{}`", attribute.value().escape_debug());
             self.fault(attribute.range_value(), message, &format!("the types are {names}"));
         }
         found.map(|(_, kind)| *kind)
@@ -154,7 +154,7 @@ impl Reader<'_> {
     fn end(&mut self, node: Node<'_, '_>, tag: &str) -> Option<Named> {
         let Some(end) = child(node, tag) else {
             let message = format!("this joint has no <{tag}>");
-            self.fault(start_of(node), message, &format!("say which link it is: <{tag} link=\"…\"/>"));
+            self.fault(start_of(node), message, &format!("name the link: <{tag} link=\"…\"/>"));
             return None;
         };
         let link = self.attribute(end, "link")?;
@@ -193,8 +193,8 @@ impl Reader<'_> {
         });
         let (lower, upper) = (lower?, upper?);
         if lower > upper {
-            let message = format!("the limits of `{name}` are the wrong way round");
-            self.fault(start_of(limit), message, "`lower` is the smaller one");
+            let message = format!("the limits of `{name}` are reversed");
+            self.fault(start_of(limit), message, "`lower` must not be greater than `upper`");
             return None;
         }
         Some((lower < upper).then_some([lower, upper]))
@@ -245,8 +245,8 @@ impl Reader<'_> {
         let attribute = self.attribute(node, "name")?;
         let name = attribute.value();
         if name.trim().is_empty() || name.chars().any(char::is_control) || name.len() > LONGEST {
-            let help = format!("a name is a text of at most {LONGEST} bytes in one line");
-            self.fault(attribute.range_value(), "this cannot be a name".to_owned(), &help);
+            let help = format!("a name has at most {LONGEST} bytes, in one line");
+            self.fault(attribute.range_value(), "this is not a valid name".to_owned(), &help);
             return None;
         }
         Some(name.to_owned())

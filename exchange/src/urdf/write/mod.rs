@@ -56,14 +56,14 @@ pub fn write(machine: &RealMachine, file: &Path, ends: &Ends) -> Result<ExportRe
     let mut left_out: Vec<String> = machine.held_at_mean().into_iter().collect();
     if joints.last().is_some_and(|joint| joint.axis.is_some()) {
         left_out.push(
-            "The last link hangs on a joint that moves, and has no origin behind it: of what is wrong there the file holds a turn about \
-             the axis and a shift along it. Name a tip that is fixed to it with `--tip`."
+            "The last link is the child of a moving joint, so the file has no origin after it: of \
+             the errors there it holds the rotation about the joint axis and the translation \
+             along it. To represent all, choose with `--tip` a link that is fixed to the last one."
                 .to_owned(),
         );
     }
     left_out.push(
-        "Shapes and masses move with their links as they are, and so does what hangs on the chain beside it."
-            .to_owned(),
+        "Shapes, masses and branches beside the chain stay unchanged relative to their links.".to_owned(),
     );
     let most = new_origins.iter().map(|one| (one.distance(), one)).max_by(|a, b| a.0.total_cmp(&b.0));
     let most = most.filter(|(distance, _)| *distance > UNCHANGED);
@@ -72,8 +72,9 @@ pub fn write(machine: &RealMachine, file: &Path, ends: &Ends) -> Result<ExportRe
         let axis = (0..3).max_by(|a, b| (new[*a] - old[*a]).abs().total_cmp(&(new[*b] - old[*b]).abs()));
         let axis = axis.unwrap_or_default();
         format!(
-            "These are the origins of the real robot, to be used in place of the nominal ones: the joint {} stands at {} = {} m where the \
-             file had {} m, {} mm from there in all, and nothing is to be subtracted from it.",
+            "The file holds the origins of the real robot, which replace the nominal ones: the \
+             joint {} is at {} = {} m; in the original file it was at {} m. The distance between \
+             both is {} mm; do not subtract anything from it.",
             one.name,
             ["x", "y", "z"][axis],
             digits(new[axis], 8),
@@ -108,14 +109,11 @@ impl Model {
         let names: Vec<&str> = nominal.variables().collect();
         if names.len() != spec.variables.len() {
             let message = format!(
-                "{} joints move between the links, and {} in the spec",
+                "the chain between the links has {} moving joints, but the spec has {}",
                 names.len(),
                 spec.variables.len()
             );
-            return refused(
-                message,
-                "name the links at the ends of the spec's chain: `--base LINK --tip LINK`",
-            );
+            return refused(message, "choose the ends of the chain of the spec: `--base LINK --tip LINK`");
         }
         let variable = |(i, name): (usize, &&str)| {
             let index = spec.variables.iter().position(|variable| variable.name == *name).unwrap_or(i);
@@ -144,9 +142,9 @@ impl Model {
             .collect();
         let is_missing = joints.iter().any(|joint| joint.axis.is_some() && joint.frame.is_none());
         if is_missing || moving.next().is_some() {
-            let help =
-                "export into the file from which the spec was imported: a frame for every joint that moves";
-            return refused("its joints are not the frames of the spec".to_owned(), help);
+            let help = "export to the file from which the spec was imported, in which every moving joint \
+                 has a frame";
+            return refused("the joints of the file do not match the frames of the spec".to_owned(), help);
         }
         let mut model = Self { joints, variables, tool: Pose::IDENTITY, metres };
         let zero = vec![0.0; spec.variables.len()];
@@ -160,13 +158,15 @@ impl Model {
         let reach = sampling::arm_length(&machine.manipulator, &machine.s).unwrap_or(1.0);
         if !(difference.position.largest <= SAME_ROBOT * reach && difference.angle.largest <= SAME_ROBOT) {
             let message = format!(
-                "this is not the robot of the spec: the nominal tools are up to {} and {} rad apart",
+                "the robot of this file differs from that of the spec: the nominal tool poses \
+                 differ by up to {} and {} rad",
                 length(difference.position.largest, spec.length),
                 digits(difference.angle.largest, 3)
             );
             return refused(
                 message,
-                "do `--base` and `--tip` name the ends of the spec's chain, and are the joints' zeros the same?",
+                "check that `--base` and `--tip` name the ends of the spec's chain, and that the \
+                 zeros of the joints are the same",
             );
         }
         Ok(model)

@@ -116,7 +116,7 @@ fn sources(report: &Report) -> String {
     rows.extend(all[..shown].iter().map(|entry| row(entry.name.clone(), entry.max, factor(&entry.name))));
     if shown < all.len() {
         let rest = all[shown..].iter().map(|entry| entry.max).sum();
-        rows.push(row(format!("{} others, added", all.len() - shown), rest, None));
+        rows.push(row(format!("{} others together", all.len() - shown), rest, None));
     }
     aligned(&rows, [false, true, true, true])
 }
@@ -145,7 +145,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let unreachable = &report.budget.unreachable;
     if unreachable.count > 0 {
         let reasons = unreachable_summary(unreachable, &report.spec);
-        facts.push(("Reach", format!("{} configurations not reached: {reasons}", unreachable.count)));
+        facts.push(("Reach", format!("{} configurations unreachable: {reasons}", unreachable.count)));
     }
     let (factor, unit) = error_unit(report.length);
     let largest = factor * report.first_order.largest;

@@ -68,14 +68,14 @@ fn headline(report: &Report) -> String {
 fn verdict(report: &Report, margin: &Margin, largest: &ErrorBound, unit: &str, factor: f64) -> String {
     let tolerance = format!("tolerance {} {unit}", number::digits(factor * margin.tolerance, 3));
     match margin.certified {
-        Some(left) if left >= 0.0 => format!("{tolerance} KEPT everywhere in the box, to first order"),
+        Some(left) if left >= 0.0 => format!("{tolerance} MET everywhere in the box, to first order"),
         _ if margin.found < 0.0 && report.contains_more => {
             format!("{tolerance} exceeded in the enclosing joint box, which is larger than the workspace")
         }
         _ if margin.found < 0.0 => {
             format!("{tolerance} EXCEEDED: {} {unit} found", number::digits(factor * largest.found, 3))
         }
-        _ => format!("{tolerance} UNDECIDED: no error above it was found, and none is excluded"),
+        _ => format!("{tolerance} UNDECIDED: no larger error was found, but none can be excluded"),
     }
 }
 

@@ -18,8 +18,9 @@ pub(in crate::text) fn compensation(description: &Description, report: &Report) 
         report.total_rows()
     ));
     let (factor, unit) = error_unit(report.length);
-    let mut rows =
-        vec![["tool point", &format!("mean {unit}"), "rms", "max", "max turn mrad"].map(str::to_owned)];
+    let mut rows = vec![
+        ["tool point", &format!("mean {unit}"), "rms", "max", "max orientation mrad"].map(str::to_owned),
+    ];
     for (name, size) in [("as commanded", &report.before), ("corrected", &report.after)] {
         let [mean, rms, max] =
             [size.mean, size.rms, size.max].map(|value| number::visible(factor * value, 4));
@@ -57,7 +58,10 @@ fn facts(description: &Description, report: &Report) -> Vec<(String, String)> {
         let mobility = report.mobility;
         fact(
             "Freedom",
-            format!("the joints move the tool in {mobility} of 6 ways; the tool point comes first"),
+            format!(
+                "the joints move the tool in {mobility} of 6 degrees of freedom; position has \
+                priority"
+            ),
         );
     }
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside".to_owned(), super::outside(rows))));

@@ -74,7 +74,7 @@ fn errors(report: &Report) -> String {
         return format!("None of the {count} errors of the machine differs from zero with 95 % confidence.");
     }
     let (lengths, length) = error_unit(report.length);
-    let head = ["errors beyond 95 %", "value", "± 1 σ", "", "in the chain"];
+    let head = ["significant errors", "value", "± 1 σ", "", "in the chain"];
     let mut rows = vec![head.map(str::to_owned)];
     rows.extend(all.iter().take(SHOWN).map(|parameter| {
         let (factor, unit) = match parameter.unit {
@@ -96,8 +96,8 @@ fn errors(report: &Report) -> String {
     let (more, others) = (all.len().saturating_sub(SHOWN), count - all.len());
     let rest = match (more, others) {
         (0, 0) => String::new(),
-        (0, others) => format!("  … {others} not significant\n"),
-        (more, others) => format!("  … {more} more, {others} not significant\n"),
+        (0, others) => format!("  … {others} not significant (95 %)\n"),
+        (more, others) => format!("  … {more} more, {others} not significant (95 %)\n"),
     };
     aligned(&rows, [false, true, true, false, false]) + &rest
 }
@@ -110,10 +110,10 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
         let names: Vec<&str> = report.terms.iter().map(|term| term.name.as_str()).collect();
         facts.push((
             "Terms",
-            format!("{} of {} groups chosen: {}", names.len(), report.tried, first(&names, 3)),
+            format!("{} of {} groups of terms accepted: {}", names.len(), report.tried, first(&names, 3)),
         ));
     }
-    let mut known = format!("{} of {} unknowns determined", report.rank, report.unknowns);
+    let mut known = format!("{} of {} unknowns identifiable", report.rank, report.unknowns);
     if !report.not_known.is_empty() {
         let names: Vec<&str> = report.not_known.iter().map(|one| one.name.as_str()).collect();
         known += &format!("; poorly determined and fixed at zero: {}", first(&names, 4));

@@ -41,7 +41,14 @@ fn points(report: &Report) -> String {
     if explained.repeatable > 0 {
         let [mean, rms, max] = [explained.left_mean, explained.left_rms, explained.left_max]
             .map(|value| fixed(factor * value, 4));
-        rows.push(["norm less the spec's errors".to_owned(), mean, rms, max, String::new(), unit.to_owned()]);
+        rows.push([
+            "norm after the spec's errors".to_owned(),
+            mean,
+            rms,
+            max,
+            String::new(),
+            unit.to_owned(),
+        ]);
     }
     aligned(&rows, [false, true, true, true, true, false])
 }
@@ -98,7 +105,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     facts.extend(report.drift.iter().map(|order| ("Drift", order.sentence.clone())));
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside", super::outside(rows))));
     if report.base_fitted {
-        facts.push(("Station", "fitted to these rows; what it explains is not in the errors".to_owned()));
+        facts.push(("Station", "fitted to these rows; errors that it absorbs are not included".to_owned()));
     }
     facts.extend(super::data(&report.file));
     facts

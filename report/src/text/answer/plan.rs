@@ -38,14 +38,17 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
         let unseen = names(report.unseen.iter().map(|error| &error.name[..]).collect());
         facts.push((
             "Unseen",
-            format!("{unseen}: these move the tool point in use, and the rows do not show them"),
+            format!("{unseen}: not observable in these rows, but they move the tool point in use"),
         ));
     }
     if !report.not_known.is_empty() {
         let weak = names(report.not_known.iter().map(|error| &error.name[..]).collect());
         facts.push((
             "Weak",
-            format!("{weak}: poorly determined by these rows; an identification fixes them at zero"),
+            format!(
+                "{weak}: poorly determined by these rows; an identification would fix them at \
+                zero"
+            ),
         ));
     }
     answer.facts(facts);

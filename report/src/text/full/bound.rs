@@ -23,11 +23,11 @@ pub(in crate::text) fn bound(report: &Report) -> String {
     let within = if spans.is_empty() { "nothing moves".to_owned() } else { spans.join(", ") };
     let _ = writeln!(
         text,
-        "{} ({})\n{}\n\nThe box: {}.",
+        "{} ({})\n{}\n\nBox: {}.",
         report.spec.title,
         report.manipulator,
         report.study.title,
-        wrapped(&within, 9)
+        wrapped(&within, 5)
     );
     if let Some(dexterity) = &report.dexterity {
         let _ = writeln!(text, "\nDexterity\n{}", of_joints(dexterity));
@@ -167,12 +167,12 @@ fn of_tolerance(margin: &Margin, largest: &ErrorBound, unit: &str, factor: f64) 
     let tolerance = show(margin.tolerance);
     let plain = match margin.certified {
         Some(certified) if certified >= 0.0 => {
-            format!("is kept everywhere in the box, with a margin of at least {} {unit}.", left(certified))
+            format!("is met everywhere in the box, with a margin of at least {} {unit}.", left(certified))
         }
         _ if margin.found < 0.0 => {
             format!("is exceeded in the box: {} {unit} found.", show(largest.found))
         }
-        _ => "is undecided: the bound of the largest error is not close enough.".to_owned(),
+        _ => "is undecided: the bound on the largest error is not tight enough.".to_owned(),
     };
     let compensated = match margin.after_one_step {
         Some(certified) if certified >= 0.0 => format!(

@@ -17,20 +17,20 @@ pub(in crate::text) fn exported(report: &Report) -> String {
         ),
     ];
     if !changes.is_empty() {
-        parts.push(format!("What is changed\n{}", changes.concat()));
+        parts.push(format!("Changes\n{}", changes.concat()));
     }
     if !left_out.is_empty() {
         let lines: Vec<String> = left_out.iter().map(|line| format!("  {}\n", wrapped(line, 4))).collect();
         parts.push(format!("Not represented in this format\n{}", lines.concat()));
     }
-    parts.push(format!("The sign\n  {}\n", wrapped(sign, 4)));
+    parts.push(format!("Sign convention\n  {}\n", wrapped(sign, 4)));
     parts.join("\n")
 }
 
 /// Heading of the comparison: of a model, or of corrected commands.
 fn question(report: &Report) -> &'static str {
     match report.compared {
-        ["nominal", _] => "Predicted position of the tool minus the real one",
+        ["nominal", _] => "Predicted minus real position of the tool",
         _ => "Error of the real tool",
     }
 }
@@ -41,7 +41,7 @@ fn differences(report: &Report) -> String {
     let mut table = Table::new(&["", &largest[0], &rms[0], &largest[1], &rms[1]]);
     let [before, remains] = report.compared;
     let at_nodes = report.at_nodes.as_ref().map(|difference| ("at the nodes", difference));
-    let placed = report.placed.as_ref().map(|difference| ("axes placed, too", difference));
+    let placed = report.placed.as_ref().map(|difference| ("with axes placed", difference));
     let rows = [(before, &report.before)]
         .into_iter()
         .chain(at_nodes)

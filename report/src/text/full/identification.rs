@@ -4,7 +4,7 @@ use abbe_spec::Spec;
 use abbe_study::identify::{Gain, Kind, Parameter, Report, Sizes, WeaklyDetermined, shown_lines};
 use abbe_study::number::{self, counted, digits, fixed};
 
-use super::{Table, alike, wrapped};
+use super::{Table, indistinguishable, wrapped};
 
 /// Returns what `abbe identify --full` prints, except what is written.
 pub(in crate::text) fn identification(spec: &Spec, report: &Report) -> String {
@@ -12,7 +12,7 @@ pub(in crate::text) fn identification(spec: &Spec, report: &Report) -> String {
     for line in report.files.iter().flat_map(|file| file.lines()) {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
     }
-    parts.push(known(report));
+    parts.push(identifiable(report));
     parts.push(parameters(spec, report));
     parts.push(placed(spec, report));
     parts.push(errors(spec, report));
@@ -26,16 +26,16 @@ pub(in crate::text) fn identification(spec: &Spec, report: &Report) -> String {
     parts.join("\n")
 }
 
-fn known(report: &Report) -> String {
+fn identifiable(report: &Report) -> String {
     let mut text = format!(
         "Identifiable: {} combinations of {} unknowns, {}\n",
         report.rank, report.unknowns, report.machine
     );
-    text += &alike::table(&report.groups);
+    text += &indistinguishable::table(&report.groups);
     if report.unexplained > 0 {
         let line = format!(
             "{} more combinations have no effect at these configurations; other configurations \
-             would show them.",
+             may reveal them.",
             report.unexplained
         );
         text += &format!("{}\n", wrapped(&line, 0));
@@ -70,7 +70,8 @@ fn parameters(spec: &Spec, report: &Report) -> String {
         text += &format!("Estimated magnitudes of sources of the spec\n{sentences}");
     }
     if report.parameters.iter().any(|parameter| parameter.hardly_known) {
-        let line = "Hardly known: the prior determines it more than the data do (`--prior`).";
+        let line = "Prior-dominated: the prior has more influence on these errors than the data \
+            (`--prior`).";
         text += &format!("{line}\n");
     }
     text += &not_known(spec, report);
@@ -103,7 +104,7 @@ fn table(spec: &Spec, report: &Report, wanted: impl Fn(&Parameter) -> bool) -> T
             "" => digits(value, 4),
             _ => fixed(value * factor, decimals),
         };
-        let remark = if parameter.hardly_known { "hardly known" } else { "" };
+        let remark = if parameter.hardly_known { "prior-dominated" } else { "" };
         table.row(vec![
             parameter.name.clone(),
             parameter.frame_name.clone().unwrap_or_default(),
@@ -140,9 +141,9 @@ fn not_known(spec: &Spec, report: &Report) -> String {
     }
     let one = |not_known: &WeaklyDetermined| {
         let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
-        let told = digits(not_known.told * factor, 2);
+        let deviation = digits(not_known.standard_deviation * factor, 2);
         format!(
-            "{} (± {told} {unit}, expected ± {} {unit})",
+            "{} (± {deviation} {unit}, expected ± {} {unit})",
             not_known.name,
             digits(not_known.expected * factor, 2)
         )
@@ -162,7 +163,7 @@ fn not_known(spec: &Spec, report: &Report) -> String {
 /// Tabulates errors as delivered, with base and tool fitted, and identified.
 fn sizes(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
-    let what = if report.instruments.is_empty() { "position error" } else { "error of a reading" };
+    let what = if report.instruments.is_empty() { "position error" } else { "residual of a reading" };
     let mut table = Table::new(&[what, "rows", "mean", "±", "rms", "95 %", "max"]);
     let mut row = |name: &str, rows: usize, sizes: &Sizes| {
         let sure = sizes.standard_error.map_or("?".to_owned(), |error| fixed(error, decimals));
@@ -187,7 +188,7 @@ fn errors(spec: &Spec, report: &Report) -> String {
     let mut text = sizes(spec, report);
     let line = match &report.test {
         Some(_) if report.test_rows_of_the_fit > 0 => {
-            report.train_test_overlap_warning().map_or(String::new(), |said| said + ".")
+            report.train_test_overlap_warning().map_or(String::new(), |sentence| sentence + ".")
         }
         Some(_) => "The test rows were used for validation only.".to_owned(),
         None => {
@@ -195,7 +196,7 @@ fn errors(spec: &Spec, report: &Report) -> String {
         }
     };
     text += &format!("{}\n{}\n", wrapped(&line, 0), wrapped(&behind(report), 0));
-    text += &outside(report);
+    text += &extrapolation(report);
     text += &instruments(report);
     text += &(wrapped(&residuals(report), 0)
         + "
@@ -207,12 +208,12 @@ fn errors(spec: &Spec, report: &Report) -> String {
             wrapped(&drift.sentence, 0)
         );
     }
-    text += &judged(spec, report);
+    text += &limits_and_outliers(spec, report);
     text
 }
 
 /// Test rows beyond the ranges that were fitted, if there are any.
-fn outside(report: &Report) -> String {
+fn extrapolation(report: &Report) -> String {
     let mut text = String::new();
     if let Some(outside) = &report.outside {
         let [there, here] = [outside.known_outside, outside.known_within].map(|value| digits(value, 2));
@@ -233,7 +234,8 @@ fn outside(report: &Report) -> String {
 pub(in crate::text) fn residuals(report: &Report) -> String {
     let factor = report.uncertainty_factor;
     let is_chance = report.certainty.p_of_factor > 0.001;
-    let estimated = !report.instruments.is_empty() && report.instruments.iter().all(|told| told.estimated);
+    let estimated =
+        !report.instruments.is_empty() && report.instruments.iter().all(|instrument| instrument.estimated);
     match factor {
         _ if estimated => {
             "The noise of the instruments was estimated from the residuals, so the residuals cannot \
@@ -256,7 +258,7 @@ pub(in crate::text) fn residuals(report: &Report) -> String {
 }
 
 /// Limits that were declared, and rows that were left out.
-fn judged(spec: &Spec, report: &Report) -> String {
+fn limits_and_outliers(spec: &Spec, report: &Report) -> String {
     let mut text = String::new();
     if let Some(accepted) = &report.accepted {
         text += &format!("{}\n", wrapped(&accepted.sentence(spec.length), 0));
@@ -282,8 +284,8 @@ fn behind(report: &Report) -> String {
     if let Some(test) = &report.test {
         behind += &format!(", {} of the test", configurations(test.configurations));
     }
-    let judged = report.test.as_ref().map(|test| ("on the test rows", test.gain));
-    let better = judged.map_or(String::new(), |(place, gain)| {
+    let test = report.test.as_ref().map(|test| ("on the test rows", test.gain));
+    let better = test.map_or(String::new(), |(place, gain)| {
         format!(" Compared with base and tool fitted, {place}: {}.", comparison(gain, report.length))
     });
     let factor = digits(report.certainty.factor_95, 3);
@@ -300,7 +302,9 @@ fn behind(report: &Report) -> String {
 
 /// Compares two models with the p-value of the difference.
 fn comparison(gain: Gain, unit: &str) -> String {
-    let Some(error) = gain.standard_error else { return "one configuration cannot tell".to_owned() };
+    let Some(error) = gain.standard_error else {
+        return "not comparable: there is only one configuration".to_owned();
+    };
     let by = format!("{} ± {} {unit}", digits(gain.mean.abs(), 3), digits(error, 2));
     let p = if gain.p < 1e-12 { "below 1e-12".to_owned() } else { digits(gain.p, 2) };
     match gain.p < 0.05 {
@@ -316,15 +320,15 @@ fn instruments(report: &Report) -> String {
         return String::new();
     }
     let mut table = Table::new(&["instrument", "numbers", "standard deviation", "", "residual / σ", ""]);
-    for told in &report.instruments {
-        let (unit, factor) = if told.unit == "rad" { ("mrad", 1e3) } else { (told.unit, 1.0) };
+    for instrument in &report.instruments {
+        let (unit, factor) = if instrument.unit == "rad" { ("mrad", 1e3) } else { (instrument.unit, 1.0) };
         table.row(vec![
-            told.name.clone(),
-            told.numbers.to_string(),
-            digits(told.uncertainty * factor, 2),
+            instrument.name.clone(),
+            instrument.numbers.to_string(),
+            digits(instrument.uncertainty * factor, 2),
             unit.to_owned(),
-            digits(told.factor, 3),
-            if told.estimated { "estimated" } else { "stated" }.to_owned(),
+            digits(instrument.factor, 3),
+            if instrument.estimated { "estimated" } else { "stated" }.to_owned(),
         ]);
     }
     format!("\n{}", table.right(&[1, 2, 4]))
@@ -365,7 +369,7 @@ fn terms(spec: &Spec, report: &Report) -> String {
     let lines = report.terms.iter().flat_map(|term| &term.lines);
     let lines: String = lines.map(|line| format!("  {}\n", line.replace('\n', ", "))).collect();
     let mut text =
-        format!("{}{}\n{constant}As a spec reads\n{lines}", table.right(&[1, 2, 3]), wrapped(&line, 0));
+        format!("{}{}\n{constant}As written to a spec\n{lines}", table.right(&[1, 2, 3]), wrapped(&line, 0));
     let unwritten: Vec<&str> =
         report.terms.iter().filter(|term| !term.written).map(|term| term.name.as_str()).collect();
     if !unwritten.is_empty() {

@@ -1,6 +1,5 @@
 //! Reports in full: every table and every sentence.
 
-mod alike;
 pub(super) mod analysis;
 pub(super) mod bound;
 pub(super) mod check;
@@ -8,6 +7,7 @@ mod compensation;
 mod doctor;
 mod exported;
 pub(super) mod identification;
+mod indistinguishable;
 pub(super) mod measurement;
 pub(super) mod monitoring;
 mod plan;

@@ -5,12 +5,12 @@ use abbe_study::data::Map;
 use abbe_study::number::{digits, quantity, short};
 use abbe_study::plan::{Input, Report, UndeterminedError};
 
-use super::{alike, wrapped};
+use super::{indistinguishable, wrapped};
 
 /// Returns what `abbe plan` prints, except where the configurations are written.
 pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
     let unit = report.length;
-    let mut text = format!("{}: where to measure\n\n{}\n", spec.title, wrapped(&report.title, 0));
+    let mut text = format!("{}: measurement plan\n\n{}\n", spec.title, wrapped(&report.title, 0));
     let sets: Vec<String> = report.sets.iter().map(|set| format!("{} {}", set.rows, set.name)).collect();
     if !sets.is_empty() {
         text += &format!("{} rows: {}.\n", report.rows, sets.join(", "));
@@ -46,8 +46,8 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
     );
     text += &format!("{}\n", wrapped(&sentence, 0));
     if report.model_error == 0.0 {
-        let sentence = "This covers the noise of the instrument only; errors that the model does not have come \
-         on top (`--model-error LENGTH`, from an earlier fit).";
+        let sentence = "This covers the noise of the instrument only; `--model-error LENGTH` adds \
+            the errors that the model does not have, from an earlier fit.";
         text += &format!("{}\n", wrapped(sentence, 0));
     }
     if !report.unseen.is_empty() {
@@ -63,7 +63,7 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }
-    text + &format!("\n{}\n", alike::table(&report.groups))
+    text + &format!("\n{}\n", indistinguishable::table(&report.groups))
 }
 
 /// `payload goes from 0 kg to 5 kg`, or `payload stays at 0 kg`.
@@ -88,8 +88,8 @@ fn unseen(unseen: &[UndeterminedError], unit: &str) -> String {
         more => format!(" and {more} more"),
     };
     format!(
-        "These errors move the tool point in use but have no effect on these rows, and are not in \
-         the figures above: {}{more}.",
+        "These errors move the tool point in use but have no effect on these rows; the figures \
+         above do not include them: {}{more}.",
         each.collect::<Vec<_>>().join(", ")
     )
 }

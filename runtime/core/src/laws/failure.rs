@@ -95,7 +95,7 @@ impl fmt::Display for Failure {
         match self {
             Self::Evaluation { q, error } => write!(f, "at q = {q:?}: {error}"),
             Self::NotFinite { method, q } => {
-                write!(f, "{method} gives a value that is not finite at q = {q:?}")
+                write!(f, "{method} returns a value that is not finite at q = {q:?}")
             }
             Self::Unguarded { method, input } => write!(f, "{method} accepts {input}"),
             Self::Skipped { skipped, samples } => write!(

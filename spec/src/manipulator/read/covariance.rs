@@ -23,7 +23,7 @@ pub(super) fn read_covariance(
     let (of, rows) = (section.required("of", document), section.required("rows", document));
     let (of, rows_item) = (of?, rows?);
     let mut all = Vec::new();
-    for item in document.array(&of, "tables, each `{ source = \"…\" }`")? {
+    for item in document.array(&of, "an array of tables `{ source = \"…\" }`")? {
         all.push(identified(&item, sources, document)?);
     }
     let mut rows = Vec::new();

@@ -23,7 +23,7 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut 
     let mut sources: Vec<Source> = Vec::new();
     let Some(item) = root.get("source") else { return sources };
     let Some(items) = document.array_of_tables(&item, "source") else { return sources };
-    let help = "combine similar random sources to one with the root sum of squares of their values";
+    let help = "combine similar random sources into one with the root sum of squares of their values";
     if document.at_most(&item, items.len(), MOST_SOURCES, "sources", help).is_none() {
         return sources;
     }
@@ -172,7 +172,8 @@ fn read_degrees_of_freedom(
         ),
         Some(Class::Random(_)) => (
             "a half-width has no degrees of freedom",
-            "they say from how many measurements a standard deviation was estimated: write distribution = \"normal\", or leave them out",
+            "degrees of freedom belong to a standard deviation that was estimated from \
+             measurements: write distribution = \"normal\", or leave them out",
         ),
     };
     document.mistake(Diagnostic::new(item.key_span, message).help(help));
@@ -265,7 +266,7 @@ fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -
         (true, None) => {
             document.mistake(
                 Diagnostic::new(item.span(), "a random error needs its distribution")
-                    .label("distributed how?")
+                    .label("no `distribution` here")
                     .help(
                         "add distribution = \"uniform\" or \"triangular\" (values are half-widths), \"normal\" (values are σ) or \
                          \"arcsine\" (values are amplitudes)",

@@ -7,7 +7,7 @@ use super::keys;
 use super::points::{Columns, Points};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Interpolation, Outside, Scope, Table, Unit, parse_unit};
+use crate::expr::{Allowed, Dimension, Entry, Extrapolation, Interpolation, Scope, Table, Unit, parse_unit};
 use crate::manipulator::names::check_identifier;
 
 /// Maximum number of tables.
@@ -43,8 +43,8 @@ impl Declarations {
             document.choice(&item, &[("linear", Interpolation::Linear), ("cubic", Interpolation::Cubic)])
         });
         let outside = match section.get("outside") {
-            None => Some(Outside::Nothing),
-            Some(item) => document.choice(&item, &[("hold", Outside::Hold)]),
+            None => Some(Extrapolation::Nothing),
+            Some(item) => document.choice(&item, &[("hold", Extrapolation::Hold)]),
         };
         let file = section.get("file");
         let columns = match &file {

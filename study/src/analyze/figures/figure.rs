@@ -21,7 +21,6 @@ pub struct Figures {
 #[derive(Clone, Debug, Serialize)]
 pub struct Figure {
     /// Request in the study.
-    #[serde(rename = "asked")]
     pub request: study_file::Figure,
     /// Shows error bounds instead of signed errors: every source that contributes is random.
     pub bounds: bool,

@@ -8,7 +8,6 @@ use serde::Serialize;
 #[derive(Clone, Debug, Serialize)]
 pub struct Stick {
     /// Distinct origins; several frames may share one.
-    #[serde(rename = "places")]
     pub origins: Vec<FrameOrigin>,
     /// Longest side of the bounding box, in the length unit; 1 if all origins coincide.
     pub size: f64,

@@ -21,7 +21,7 @@ impl Part {
     /// of both.
     pub fn to_bytes(&self) -> Vec<u8> {
         // Infallible: numbers are finite, and map keys are integers.
-        let json = serde_json::to_string(self).expect("a part is JSON");
+        let json = serde_json::to_string(self).expect("expected a part, which is a JSON file");
         let content = format!("{BEGINNING}{VERSION}\n{json}\n");
         let checksum = hash::text(&content);
         format!("{content}{checksum}\n").into_bytes()
@@ -32,7 +32,7 @@ impl Part {
         let wrong = |message: &str, help: &str| mistake::with_help(name, message, help);
         let Some(rest) = bytes.strip_prefix(BEGINNING.as_bytes()) else {
             return Err(wrong(
-                "this is no part of an analysis",
+                "this is not a part of an analysis",
                 "`abbe analyze SPEC --shard I/N --out FILE` writes one",
             ));
         };
@@ -42,7 +42,7 @@ impl Part {
         if &rest[..end] != VERSION.as_bytes() {
             let version = String::from_utf8_lossy(&rest[..end]);
             let message =
-                format!("this part is of format {version}, and this version of abbe reads {VERSION}");
+                format!("this part has the format {version}, but this version of abbe reads {VERSION}");
             return Err(wrong(&message, "use one version of abbe for all parts and for the merge"));
         }
         let text = std::str::from_utf8(bytes).map_err(|_| damaged())?;

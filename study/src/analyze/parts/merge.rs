@@ -17,21 +17,21 @@ pub fn merge(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<(Analy
         let here = Build::current();
         if (version, machine) != (&here.version, &here.machine) {
             let message = format!(
-                "this part was made by abbe {version} on {machine}; this is abbe {} on {}",
+                "this part was created by abbe {version} on {machine}; this is abbe {} on {}",
                 here.version, here.machine
             );
-            let help = "merge with that version of abbe, on a machine of that kind";
+            let help = "merge with the same version of abbe on the same kind of machine";
             return Err(mistake::with_help(name, message, help));
         }
     }
     let Some((name, first)) = parts.first() else {
-        return Err(mistake::with_help("merge", "there is no part", "give all parts of one analysis"));
+        return Err(mistake::with_help("merge", "no part is given", "give all parts of one analysis"));
     };
     let (name, request) = (name.clone(), first.request.clone());
     let job = request.job(notes)?;
     if request.identity(&job)? != first.identity {
         let message = "a file that the spec or the study reads has changed since this part was created";
-        return Err(mistake::with_help(&name, message, "make all parts again"));
+        return Err(mistake::with_help(&name, message, "create all parts again"));
     }
     let named = parts.into_iter().map(|(name, part)| (name, part.shard, part.gathered));
     let report = job.report_on_parts(named.collect(), notes)?;
@@ -47,12 +47,15 @@ fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Pa
     for (name, part) in &parts {
         let Build { version: other, machine: another } = &part.made_by;
         let (message, help) = if other != version {
-            let message = format!("this part was made by abbe {other}, {first_name} by abbe {version}");
+            let message =
+                format!("this part was created by abbe {other}, but {first_name} by abbe {version}");
             (message, "use one version of abbe for all parts and for the merge".to_owned())
         } else if another != machine {
-            let message =
-                format!("this part was made on {another}, {first_name} on {machine}: the last digits differ");
-            (message, "make all parts on machines of one kind".to_owned())
+            let message = format!(
+                "this part was created on {another}, but {first_name} on {machine}: the \
+                    last digits differ"
+            );
+            (message, "create all parts on machines of one kind".to_owned())
         } else if part.identity != first.identity {
             let message = format!(
                 "this part and {first_name} belong to different analyses: {}",
@@ -61,8 +64,8 @@ fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Pa
             (message, "merge the parts of one spec, one study and the same options".to_owned())
         } else if part.shard.count() != first.shard.count() {
             let [one, other] = [first.shard.count(), part.shard.count()];
-            let message = format!("this is one of {other} parts, {first_name} one of {one}");
-            (message, "merge parts of one division: `--shard I/N` with the same N".to_owned())
+            let message = format!("this is one of {other} parts, but {first_name} is one of {one}");
+            (message, "merge the parts of one division: use the same N in `--shard I/N`".to_owned())
         } else {
             continue;
         };
@@ -70,7 +73,7 @@ fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Pa
     }
     for ((one, a), (other, b)) in parts.iter().zip(parts.iter().skip(1)) {
         if a.shard == b.shard {
-            let message = format!("this is part {}, as {one} is", b.shard);
+            let message = format!("this is part {}, and so is {one}", b.shard);
             return Err(mistake::with_help(other, message, "give every part once"));
         }
     }
@@ -84,7 +87,7 @@ fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Pa
         let is = if missing.len() == 1 { "part" } else { "parts" };
         let message = format!("missing: {is} {shown}{more}");
         let help = format!(
-            "make it: `abbe analyze {} --shard {shard} --out FILE`, with the same options",
+            "create it: `abbe analyze {} --shard {shard} --out FILE`, with the same options",
             first.request.spec
         );
         return Err(mistake::with_help("merge", message, help));
@@ -103,16 +106,16 @@ fn difference(one: &Part, other: &Part) -> &'static str {
     } else if text(&a.study) != text(&b.study) {
         "the studies differ"
     } else if a.changes != b.changes {
-        "what was set, enabled or disabled differs"
+        "the changes by --set, --enable or --disable differ"
     } else if a.seed != b.seed {
         "the seeds differ"
     } else if a.monte_carlo != b.monte_carlo {
         "the numbers of draws differ"
     } else if a.figures != b.figures {
-        "one was made with figures, the other without"
+        "one was created with figures, the other without"
     } else if a.interpret != b.interpret {
-        "one was interpreted"
+        "one was computed by the interpreter, the other by generated code"
     } else {
-        "files that they read besides differ"
+        "other input files differ"
     }
 }

@@ -19,7 +19,6 @@ use crate::notes::Notes;
 pub struct Part {
     pub(super) made_by: Build,
     pub(super) identity: String,
-    #[serde(rename = "question")]
     pub(super) request: AnalysisRequest,
     pub(super) shard: Shard,
     pub(super) gathered: SweepData,
@@ -49,7 +48,7 @@ impl Part {
     /// Sweeps a share of the workspace.
     pub fn new(request: AnalysisRequest, shard: Shard, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
         let job = request.job(&mut ())?;
-        let refused = |message| mistake::with_help(&request.spec, message, "ask for fewer draws");
+        let refused = |message| mistake::with_help(&request.spec, message, "choose fewer draws");
         request.check_draws().map_err(refused)?;
         let identity = request.identity(&job)?;
         let gathered = job.sweep_chunks(|count| shard.chunks(count), notes)?;

@@ -113,7 +113,9 @@ impl AnalysisRequest {
         match self.monte_carlo {
             None => Ok(()),
             Some(draws) if DRAWS.contains(&draws) => Ok(()),
-            Some(draws) => Err(format!("it asks for {draws} draws: from 1 to {} are made", DRAWS.end())),
+            Some(draws) => {
+                Err(format!("it has {draws} draws; the number must be between 1 and {}", DRAWS.end()))
+            }
         }
     }
 

@@ -22,8 +22,10 @@ impl Shard {
     pub fn new(number: u32, count: u32) -> Result<Self, String> {
         match (number, count) {
             (_, 1..=Self::MAX) if (1..=count).contains(&number) => Ok(Self { number, count }),
-            (_, 1..=Self::MAX) => Err(format!("shards are counted from 1: 1/{count} to {count}/{count}")),
-            _ => Err(format!("from 1 to {} shards", Self::MAX)),
+            (_, 1..=Self::MAX) => {
+                Err(format!("the index of a shard counts from 1: 1/{count} to {count}/{count}"))
+            }
+            _ => Err(format!("the number of shards must be between 1 and {}", Self::MAX)),
         }
     }
 
@@ -71,7 +73,7 @@ impl FromStr for Shard {
         let numbers = text
             .split_once('/')
             .and_then(|(number, count)| Some((number.parse().ok()?, count.parse().ok()?)));
-        let (number, count) = numbers.ok_or("write I/N: 3/7 is the third of seven shards")?;
+        let (number, count) = numbers.ok_or("write I/N, such as 3/7 for the third of seven shards")?;
         Self::new(number, count)
     }
 }

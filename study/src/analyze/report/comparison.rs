@@ -44,7 +44,7 @@ pub enum Agreement {
 }
 
 impl Agreement {
-    /// Compares those of x, y, z and norm that are published.
+    /// Compares the published figures among x, y, z and norm.
     fn new(found: [f64; 4], published: &Published) -> Self {
         let pairs = found.into_iter().zip(published.figures);
         let misses =

@@ -15,7 +15,7 @@ pub struct Verdicts {
     /// Worst of the verdicts.
     pub verdict: Verdict,
     /// Required probability of meeting each tolerance.
-    pub probability_asked: f64,
+    pub probability_required: f64,
     /// Verdict on the position error; `None` without a position tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<ToleranceVerdict>,
@@ -27,12 +27,12 @@ pub struct Verdicts {
 impl Verdicts {
     /// Combines the verdicts; returns `None` if there is no tolerance.
     pub(in crate::analyze) fn new(
-        probability_asked: f64,
+        probability_required: f64,
         [position, orientation]: [Option<ToleranceVerdict>; 2],
     ) -> Option<Self> {
         let verdict =
             position.iter().chain(&orientation).map(|one| one.verdict).max_by_key(|one| *one as u8)?;
-        Some(Self { verdict, probability_asked, position, orientation })
+        Some(Self { verdict, probability_required, position, orientation })
     }
 
     /// Iterates over the verdicts, position first.

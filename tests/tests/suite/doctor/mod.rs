@@ -298,7 +298,9 @@ fn equal_rows_are_refused() {
     let machine = Machine::find(folder.path().join("robot.toml")).unwrap();
     let rows = folder.path().join("rows.csv");
     let refused = Doctor { machine, data: (&rows).into(), within: None }.run(&mut ());
-    assert!(refused.unwrap_err().to_string().contains("the 10 rows of this file are of one configuration"));
+    assert!(
+        refused.unwrap_err().to_string().contains("the 10 rows of this file have one configuration only")
+    );
 }
 
 #[test]
@@ -325,7 +327,7 @@ fn another_robot_is_said_to_be_another() {
             let report = run(&text(other), &case.data, folder.path());
             println!("{robot} as {other}: {}", report.sentence);
             assert!(!report.fits, "{robot} as {other}: {}", report.sentence);
-            assert!(report.sentence.starts_with("None fits"));
+            assert!(report.sentence.starts_with("No interpretation fits"));
         }
     }
 }

@@ -56,7 +56,7 @@ fn numbers_that_are_off_are_in_the_table() {
         let tool = Matrix4::new_translation(&Vector3::new(0.0, 0.0, tool));
         let [shift, turn] = difference(&machine, |q| by_table(&report.files[0].text, q, is_standard) * tool);
         assert!(shift * unit < 1e-9 && turn < 1e-9, "{shift:e} {turn:e}");
-        assert!(report.left_out.iter().all(|line| !line.contains("held at its mean")));
+        assert!(report.left_out.iter().all(|line| !line.contains("holds their means")));
 
         // Read by `abbe import`, as any other table.
         let folder = tempfile::tempdir().unwrap();
@@ -124,7 +124,7 @@ fn what_changes_is_held_at_its_mean() {
     );
     let report = exported(&machine, Format::Dh);
     let said: Vec<&String> =
-        report.left_out.iter().filter(|line| line.contains("held at its mean")).collect();
+        report.left_out.iter().filter(|line| line.contains("holds their means")).collect();
     assert!(matches!(said[..], [line] if line.ends_with(": \"windup\".")), "{:?}", report.left_out);
     assert!(report.remains.position.largest > 0.01);
 }

@@ -99,7 +99,7 @@ fn what_tables_leave_is_said() {
     for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5 }] {
         let job = Export { machine: machine("pps", ""), format, samples: 5, seed: 0 };
         let message = job.run(&mut ()).unwrap_err().list[0].message.clone();
-        assert!(message.contains("turns") || message.contains("slide"), "{message}");
+        assert!(message.contains("rotary axis") || message.contains("slide"), "{message}");
     }
     let job = Export { machine: mill(), format: Format::LinuxCnc { nodes: 257 }, samples: 5, seed: 0 };
     assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("256"));
@@ -191,7 +191,7 @@ fn a_table_that_makes_it_worse_is_said_to() {
         (report.remains.position.rms > report.before.position.rms, heard.0)
     };
     let (worse, warned) = heard(Format::Table { nodes: Some(3) });
-    assert!(worse && warned.iter().any(|warning| warning.contains("do not load it")), "{warned:?}");
+    assert!(worse && warned.iter().any(|warning| warning.contains("do not use it")), "{warned:?}");
     let (worse, warned) = heard(Format::Dh);
     assert!(!worse && warned.is_empty(), "{warned:?}");
 }

@@ -184,6 +184,6 @@ fn a_head_is_refused() {
     for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5 }] {
         let mistake =
             Export { machine: machine.clone(), format, samples: 5, seed: 0 }.run(&mut ()).unwrap_err();
-        assert!(mistake.list[0].message.contains("`b` turns the tool, which a slide carries"), "{mistake:?}");
+        assert!(mistake.list[0].message.contains("`b` is a rotary axis of the tool"), "{mistake:?}");
     }
 }

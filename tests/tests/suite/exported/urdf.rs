@@ -128,8 +128,8 @@ fn the_file_of_another_robot_is_refused() {
     let text = urdf(&file, false);
     let machine = Machine::of_spec(Spec::parse("arm.toml", &text).unwrap(), "arm.toml");
     for (old, new, tip, message) in [
-        ("0.4 0 0.05", "0.5 0 0.05", "tool", "this is not the robot of the spec"),
-        ("name", "name", "mount", "joints move between the links"),
+        ("0.4 0 0.05", "0.5 0 0.05", "tool", "the robot of this file differs from that of the spec"),
+        ("name", "name", "mount", "the chain between the links has"),
     ] {
         std::fs::write(&file, ROBOT.replace(old, new)).unwrap();
         let format = Format::Urdf { file: file.clone(), base: None, tip: Some(tip.to_owned()) };
@@ -182,5 +182,5 @@ fn a_calibration_has_the_joints_where_they_are() {
     });
     assert!(shift < 1e-8 && turn < 1e-10, "{shift:e} {turn:e}");
     let job = Export { machine: machine("panda", ""), format: Format::UrCalibration, samples: 5, seed: 0 };
-    assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("7 joints turn here, and six"));
+    assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("7 revolute joints, not the six"));
 }

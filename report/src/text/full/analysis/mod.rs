@@ -64,21 +64,21 @@ fn answer(report: &Report) -> String {
 
 /// The budgets of the GUM; what holds for several is said once.
 fn budgets(report: &Report) -> Vec<String> {
-    let mut said: Vec<String> = Vec::new();
+    let mut printed: Vec<String> = Vec::new();
     let budget = |budget: &UncertaintyBudget| {
         let (_, unit) = analyze::unit::display_unit(report, budget.measurand);
         let sources = listed(&analyze::uncertainty_contributions(report, budget));
         let totals = listed(&analyze::uncertainty_totals(report, budget));
         let mut sentences = analyze::uncertainty_sentences(report, budget);
-        sentences.retain(|sentence| !said.contains(sentence));
-        said.extend_from_slice(&sentences);
+        sentences.retain(|sentence| !printed.contains(sentence));
+        printed.extend_from_slice(&sentences);
         format!("Uncertainty budget ({unit})\n{sources}\n{totals}\n{}", paragraphs(&sentences))
     };
     report.uncertainty_budgets().map(budget).collect()
 }
 
 fn paragraphs(sentences: &[String]) -> String {
-    sentences.iter().map(|said| format!("{}\n", wrapped(said, 0))).collect()
+    sentences.iter().map(|sentence| format!("{}\n", wrapped(sentence, 0))).collect()
 }
 
 fn heading(report: &Report) -> String {

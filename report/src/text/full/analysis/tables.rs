@@ -28,9 +28,9 @@ pub(super) fn sources(report: &Report) -> String {
 pub(super) fn combined(report: &Report) -> String {
     let mut table = Table::new(&["", "x", "y", "z", "norm", ""]);
     let names = [
-        (CombinedFigure::Repeatable, "repeatable: sum, with signs"),
+        (CombinedFigure::Repeatable, "repeatable: signed sum"),
         (CombinedFigure::Random, "random: root sum of squares"),
-        (CombinedFigure::Both, "radius: both norms, added"),
+        (CombinedFigure::Both, "total: repeatable + random"),
     ];
     for (figure, name) in names {
         let ([x, y, z], norm) = report.combined_figure(figure);
@@ -42,7 +42,7 @@ pub(super) fn combined(report: &Report) -> String {
     let all = &report.combined;
     for (name, axes, norm) in [
         ("random: standard deviation", all.standard_deviation, all.standard_radius),
-        ("worst case: absolute values, added", all.worst_case, all.worst_case_radius),
+        ("worst case: sum of absolute values", all.worst_case, all.worst_case_radius),
     ] {
         let mut lines = Lines::default();
         let [x, y, z] = axes.map(Some);

@@ -52,7 +52,7 @@ pub(in crate::text) fn check(report: &Report) -> String {
         parts.push(format!("Notes\n{notes}"));
     }
     parts.push(format!(
-        "What measurements can tell\n{}",
+        "Identifiability\n{}",
         identifiable(&report.identifiable, report.identifiability_configurations)
     ));
     parts.push(format!("Laws, at {} configurations\n{}", report.configurations, laws(&report.laws)));

@@ -20,7 +20,7 @@ pub(crate) fn sentences(report: &Report) -> Vec<String> {
 
 fn behind(report: &Report) -> String {
     let configurations = match report.configurations {
-        1 => "one configuration: the scatter between configurations is unknown".to_owned(),
+        1 => "one configuration, so the scatter between configurations is unknown".to_owned(),
         count => format!(
             "{count} independent configurations; the standard error of the mean norm is {}",
             report.standard_error.map_or("not known".to_owned(), |error| show(report, error))
@@ -153,11 +153,10 @@ pub(in crate::text) fn region(report: &Report) -> Option<String> {
     let explained = &report.explained;
     let (inside, [low, high]) = (explained.inside?, explained.likely?);
     let chance = match explained.random {
-        0 => "the noise of the instrument fills".to_owned(),
-        random => format!(
-            "its {random} random sources, drawn independently for each row, and the noise of the \
-             instrument fill"
-        ),
+        0 => "the noise of the instrument".to_owned(),
+        random => {
+            format!("{random} random sources, independent in each row, and the noise of the instrument")
+        }
     };
     let verdict = match inside {
         inside if inside < low => {
@@ -169,9 +168,8 @@ pub(in crate::text) fn region(report: &Report) -> Option<String> {
     };
     let [low, high] = [low, high].map(|share| percent(share.min(1.0), 1.0));
     Some(format!(
-        "Around the prediction, {chance} a region that contains 95 % of the rows of a machine that follows \
-         the spec; {} of these rows are within it: {verdict} (99 % of such machines have {low} to \
-         {high}).",
+        "{} of the rows are within the predicted 95 % region, which covers {chance}: {verdict}. For 99 % of \
+         the machines that match the spec, this share is {low} to {high}.",
         percent(inside, 1.0)
     ))
 }

@@ -12,7 +12,7 @@ pub(crate) use sentences::{findings, watched};
 /// Number of charts shown.
 const SHOWN: usize = 12;
 /// Number of indistinguishable errors named.
-const ALIKE: usize = 4;
+const NAMED: usize = 4;
 
 /// Returns what `abbe monitor` prints.
 pub(in crate::text) fn monitoring(spec: &Spec, report: &Report) -> String {
@@ -22,8 +22,9 @@ pub(in crate::text) fn monitoring(spec: &Spec, report: &Report) -> String {
             parts[0] += &format!("{}\n", wrapped(&line, 2));
         }
     }
-    let paragraphs =
-        |sentences: &[String]| sentences.iter().map(|said| wrapped(said, 0) + "\n").collect::<String>();
+    let paragraphs = |sentences: &[String]| {
+        sentences.iter().map(|sentence| wrapped(sentence, 0) + "\n").collect::<String>()
+    };
     parts[0] += &paragraphs(&findings(report));
     parts.push(paragraphs(&watched(report)));
     parts.push(charts(report));
@@ -33,17 +34,24 @@ pub(in crate::text) fn monitoring(spec: &Spec, report: &Report) -> String {
 fn charts(report: &Report) -> String {
     let all = report.nearest_first();
     let now = |chart: &Chart| chart.average.last().copied().unwrap_or_default();
-    let mut table =
-        Table::new(&["error", "acts alike", "last value", "", "average, share of the limit", "alarm"]);
+    let mut table = Table::new(&[
+        "error",
+        "indistinguishable from",
+        "last value",
+        "",
+        "average as share of the limit",
+        "alarm",
+    ]);
     let hidden = all.len().saturating_sub(SHOWN);
     for chart in all.into_iter().take(SHOWN).chain([&report.left]) {
         let (factor, unit) = if chart.unit == "rad" { (1e3, "mrad") } else { (1.0, chart.unit) };
-        let more = chart.alike.len().saturating_sub(ALIKE);
+        let more = chart.indistinguishable.len().saturating_sub(NAMED);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        let alike = chart.alike.iter().take(ALIKE).map(String::as_str).collect::<Vec<_>>().join(", ");
+        let names =
+            chart.indistinguishable.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
         table.row(vec![
             chart.name.clone(),
-            alike + &more,
+            names + &more,
             fixed(chart.values.last().copied().unwrap_or_default() * factor, 4),
             unit.to_owned(),
             percent(now(chart), 1.0),

@@ -73,7 +73,7 @@ fn changed(report: &Report, finding: &Finding) -> Vec<String> {
     let between = match between_dates {
         [Some(first), Some(last)] => format!("95 %: {first} to {last}"),
         [_, Some(last)] => format!("95 %: {last} or before"),
-        _ => "no more is known".to_owned(),
+        _ => "the date is unknown".to_owned(),
     };
     let micrometres = if report.length == "m" { 1e6 } else { 1e3 };
     let show = |value: f64| digits(value * micrometres, 2);
@@ -99,8 +99,8 @@ fn changed(report: &Report, finding: &Finding) -> Vec<String> {
         all.push(format!("Equally good explanations: {}{more}.", names.join(", ")));
     }
     if finding.may_be_outside {
-        let line = "So the cause may be outside the machine: check the placement of the instrument and its \
-         target first.";
+        let line = "The cause may therefore be outside the machine: check the placement of the \
+            instrument and its target first.";
         all.push(line.to_owned());
     }
     all.extend(report.tolerance.map(|tolerance| leaving(report, finding, tolerance)));
@@ -113,7 +113,7 @@ fn leaving(report: &Report, finding: &Finding, tolerance: f64) -> String {
     match &finding.leaves {
         _ if finding.moved > tolerance => format!("That exceeds the tolerance of {limit}."),
         Some(leaving) => format!(
-            "At this rate the tolerance of {limit} is used up by {} ± {} {per}s.",
+            "At this rate the tolerance of {limit} is exceeded at {} ± {} {per}s.",
             leaving.date,
             digits(leaving.standard_deviation, 2)
         ),
