@@ -67,7 +67,14 @@ class Machine:
         """Name of the manipulator."""
     @property
     def text(self) -> str:
-        """Text of the spec without changes, as `abbe.load(text=…)` reads it."""
+        """Text of the spec with the changes of `with_parameters`, `enable` and `disable`, as
+        `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change.
+
+        >>> import abbe
+        >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")
+        >>> abbe.load(text=changed.text).parameters["x"]
+        250.0
+        """
     @property
     def title(self) -> str:
         """Title of the manipulator."""
@@ -107,7 +114,7 @@ class Machine:
         """Nominal inputs by name, in coherent units (`units`)."""
     @property
     def units(self) -> dict[str, str]:
-        """Units of `parameters` and `inputs` by name: "mm", "kg", "kg·mm/s²" …; "" for pure numbers
+        """Units of `parameters` and `inputs` by name: "mm", "kg", "mm*kg/s^2" …; "" for pure numbers
         and for angles, which are in rad.
 
         >>> import abbe

@@ -7,9 +7,9 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::Changes;
 use abbe_study::analyze::parts;
-use pyo3::exceptions::PyTypeError;
+use abbe_study::{Changes, changed_text};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
 
@@ -176,10 +176,22 @@ impl Machine {
         &self.machine.spec.name
     }
 
-    /// Text of the spec without changes, as `abbe.load(text=…)` reads it.
+    /// Text of the spec with the changes of `with_parameters`, `enable` and `disable`, as
+    /// `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change.
+    ///
+    /// >>> import abbe
+    /// >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")
+    /// >>> abbe.load(text=changed.text).parameters["x"]
+    /// 250.0
     #[getter(text)]
     fn spec_text(&self, py: Python<'_>) -> PyResult<String> {
-        guarded(|| py.detach(|| self.text()).map_err(|mistakes| spec_error(py, &mistakes)))
+        let text = guarded(|| py.detach(|| self.text()).map_err(|mistakes| spec_error(py, &mistakes)))?;
+        if self.changes.is_empty() {
+            return Ok(text);
+        }
+        changed_text(&text, &self.unchanged.spec, &self.machine.spec).ok_or_else(|| {
+            PyValueError::new_err("the text of this spec has no place for the changes of this machine")
+        })
     }
 
     /// Title of the manipulator.
@@ -247,7 +259,7 @@ impl Machine {
         Ok(values)
     }
 
-    /// Units of `parameters` and `inputs` by name: "mm", "kg", "kg·mm/s²" …; "" for pure numbers
+    /// Units of `parameters` and `inputs` by name: "mm", "kg", "mm*kg/s^2" …; "" for pure numbers
     /// and for angles, which are in rad.
     ///
     /// >>> import abbe

@@ -309,6 +309,20 @@ def test_signals_end_an_evaluation():
         signal.signal(signal.SIGALRM, before)
 
 
+def test_text_has_the_changes():
+    for name in abbe.shipped():
+        machine = abbe.load(name)
+        changed = machine.with_parameters(**{one: 1.25 * value + 0.5 for one, value in machine.parameters.items()})
+        changed = changed.disable(*machine.sources[:2])
+        restored = abbe.load(text=changed.text)
+        assert restored.parameters == changed.parameters and restored.sources == changed.sources != machine.sources, name
+        assert restored.enable(*machine.sources[:2]).sources == machine.sources and machine.text == abbe.load(name).text
+    warm = abbe.load("machine3").with_parameters(temperature_rise="3 K", tool_length="0.2 m")
+    restored = abbe.load(text=warm.text)
+    assert restored.inputs == warm.inputs == {"temperature_rise": 3.0} and restored.parameters["tool_length"] == 200
+    assert np.array_equal(restored.predict(restored.home), warm.predict(warm.home))
+
+
 def test_errors_name_values():
     machine = abbe.load("machine3")
     for call, says in [

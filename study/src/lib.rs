@@ -69,6 +69,7 @@ pub mod workspace;
 
 mod acceptance;
 mod archive;
+mod changed_text;
 mod changes;
 mod extrapolation;
 mod finite;
@@ -85,6 +86,7 @@ pub use abbe_spec::mistake;
 pub use abbe_spec::notes::Notes;
 use abbe_spec::{notes, toml_text};
 pub use acceptance::{Acceptance, AcceptanceVerdict, LimitCheck};
+pub use changed_text::changed_text;
 pub use changes::{Changes, find_symbol};
 pub use extrapolation::{Extrapolation, ToolPointDeviation};
 pub use finite::finite;

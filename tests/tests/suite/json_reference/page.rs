@@ -9,18 +9,21 @@ use super::shape::{Field, Group, Shape, Shapes};
 const INTRODUCTION: &str = "\
 # JSON of reports
 
-<!-- Generated from the types of the reports and their comments: `UPDATE_EXPECT=1 cargo test -p abbe-tests json_reference`. -->
+<!-- Generated from the types of the reports: `UPDATE_EXPECT=1 cargo test -p abbe-tests json_reference`. -->
 
-`abbe COMMAND … --json` prints its report as one line of JSON on stdout; messages go to stderr. The keys are a contract: a new
-version may add keys, and CHANGELOG.md names every key that it changes. In [Python](../python.md) the same names are fields:
-`report.combined.radius`, `report.ledger.sources[0].max`; the class of each group is in `abbe.reports`, by the name of its section.
+`abbe COMMAND … --json` prints its report as one line of JSON on stdout; messages go to stderr. The keys are a
+contract: a new version may add keys, and CHANGELOG.md names every key that it changes. In [Python](../python.md) the
+same names are fields: `report.combined.radius`, `report.ledger.sources[0].max`; the class of each group is in
+`abbe.reports`, by the name of its section.
 
-- Objects with fixed keys are groups, with a section each. In other objects the keys are names of the machine, such as those of
-  its joint variables: `{\"q1\": 0.5, \"q2\": 0.0}`.
-- `optional` keys are left out where they do not apply; `or null` values are null there. A number that is infinite is null.
-- The unit `length unit` is that of the spec, which most reports name as `length`: `\"mm\"`. `coherent` is the length unit for
-  lengths, rad for angles, and the unit that the spec names for parameters and inputs. `1` is a number without a unit. Names in
-  code, such as `` `unit` ``, are keys of the same group that hold the unit. Vectors are along the axes of `F_0`.
+- Objects with fixed keys are groups, with a section each. In other objects the keys are names of the machine, such as
+  those of its joint variables: `{\"q1\": 0.5, \"q2\": 0.0}`.
+- `optional` keys are left out where they do not apply; `or null` values are null there. A number that is infinite is
+  null.
+- The unit `length unit` is that of the spec, which most reports name as `length`: `\"mm\"`. `coherent` is the length
+  unit for lengths, rad for angles, and the unit that the spec names for parameters and inputs. `1` is a number
+  without a unit. Names in code, such as `` `unit` ``, are keys of the same group that hold the unit. Vectors are
+  along the axes of `F_0`.
 ";
 
 /// Formats the page.

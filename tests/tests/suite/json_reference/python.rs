@@ -10,8 +10,9 @@ use super::unit;
 const HEAD: &str = "\
 \"\"\"Reports and their groups of fields, for editors and type checkers.
 
-Units are those of docs/reference/json.md: `length unit` is that of the spec, `coherent` the length unit for lengths, rad for
-angles and the unit of the spec for parameters and inputs, and `1` none. Optional fields are None where they do not apply.
+Units are those of docs/reference/json.md: `length unit` is that of the spec, `coherent` the length unit for lengths, rad
+for angles and the unit of the spec for parameters and inputs, and `1` none. Optional fields are None where they do not
+apply.
 \"\"\"
 
 # Generated from the types of the reports and their comments: `UPDATE_EXPECT=1 cargo test -p abbe-tests json_reference`.
