@@ -38,7 +38,7 @@ pub fn compensation(
         section("Position error of the tool point", &sizes(spec, report)),
         failed(report),
         folded("Rows", &format!("<p>{lines}</p>\n")),
-        provenance.sections(&report.record),
+        provenance.sections(&report.record, false),
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings =

@@ -69,5 +69,5 @@ pub(super) fn values(report: &Report) -> String {
 pub(super) fn inputs(report: &Report) -> String {
     let spec = Some(("spec", &report.spec.file, &report.spec.hash));
     let study = report.study.file.as_ref().map(|(name, hash)| ("study", name, hash));
-    sections(&report.record, spec.into_iter().chain(study))
+    sections(&report.record, false, spec.into_iter().chain(study))
 }

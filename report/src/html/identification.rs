@@ -7,7 +7,7 @@ use abbe_study::identify::{Indistinguishable, Kind, Parameter, Report, Sizes, We
 use abbe_study::number::{self, digits, fixed};
 
 use super::figure::figures;
-use super::provenance::{Provenance, instrument, signature};
+use super::provenance::{Provenance, instrument};
 use super::table::{facts, ledger, row_header};
 use super::{Card, cards, document, escaped, findings, folded, heading, section, verdict};
 use crate::figures::residuals::{ErrorNames, Residual, scenes};
@@ -32,8 +32,7 @@ pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Prov
         section("Instrument", &instrument(spec, map)),
         folded("Fitted ranges", &ranges(spec, report)),
         folded("Rows", &format!("<p>{lines}</p>\n")),
-        provenance.sections(&report.record),
-        report.accepted.as_ref().map_or("", |_| signature()).to_owned(),
+        provenance.sections(&report.record, report.accepted.is_some()),
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::identification(spec, report, Detail::Full), &format!("{before}{after}"));

@@ -7,7 +7,7 @@ use abbe_study::number::{digits, fixed};
 
 use super::figure::figures;
 use super::identification::accepted;
-use super::provenance::{Provenance, instrument, signature};
+use super::provenance::{Provenance, instrument};
 use super::table::{ledger, row_header};
 use super::{Card, cards, document, escaped, findings, folded, heading, section};
 use crate::figures::measured;
@@ -33,8 +33,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provena
         errors,
         section("Instrument", &instrument(spec, map)),
         folded("Rows", &format!("<p>{lines}</p>\n")),
-        provenance.sections(&report.record),
-        report.accepted.as_ref().map_or("", |_| signature()).to_owned(),
+        provenance.sections(&report.record, report.accepted.is_some()),
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::measurement(spec, report, Detail::Full), &format!("{before}{after}"));

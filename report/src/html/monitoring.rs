@@ -33,7 +33,7 @@ pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenan
             "" => String::new(),
             lines => folded("Rows that cannot be used", &format!("<p>{lines}</p>\n")),
         },
-        provenance.sections(&report.record),
+        provenance.sections(&report.record, false),
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::monitoring(spec, report, Detail::Full), &format!("{before}{after}"));

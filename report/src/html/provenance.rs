@@ -40,24 +40,32 @@ impl Provenance {
         Ok(Self { files: all })
     }
 
-    /// Formats the sections of record, options and files.
-    pub(super) fn sections(&self, record: &RunRecord) -> String {
-        sections(record, self.files.iter().map(|(kind, name, hash)| (*kind, name, hash)))
+    /// Formats the sections of record, options and files. A page with a verdict is signed.
+    pub(super) fn sections(&self, record: &RunRecord, is_signed: bool) -> String {
+        sections(record, is_signed, self.files.iter().map(|(kind, name, hash)| (*kind, name, hash)))
     }
 }
 
-/// Formats the stated entries of a record, and the input files and options of its run.
+/// Formats the stated entries of a record, with lines to sign below them, and the input files and
+/// options of its run.
 pub(super) fn sections<'f>(
     record: &RunRecord,
+    is_signed: bool,
     files: impl Iterator<Item = (&'static str, &'f String, &'f String)>,
 ) -> String {
     let stated = record.stated().map(|(title, text)| (title, escaped(text)));
+    let signature = if is_signed { SIGNATURE } else { "" };
     let stated = match record.is_empty() {
+        true if is_signed => format!("<section>\n{signature}</section>\n"),
         true => String::new(),
-        false => section("Record", &facts("Stated by the user", stated)),
+        false => section("Record", &(facts("Stated by the user", stated) + signature)),
     };
     stated + &section("Input files and options", &(table(files) + &options(record)))
 }
+
+/// Lines for name, date and signature, which are on paper alone.
+const SIGNATURE: &str =
+    "<div class=\"signature\" aria-hidden=\"true\">\n<p>Name</p>\n<p>Date</p>\n<p>Signature</p>\n</div>\n";
 
 /// Formats the options that the figures were computed with.
 fn options(record: &RunRecord) -> String {
@@ -66,11 +74,6 @@ fn options(record: &RunRecord) -> String {
         [] => "<p>No options were given.</p>\n".to_owned(),
         options => facts("Options of the run, defaults included", options.iter().map(named)),
     }
-}
-
-/// Formats lines for name, date and signature, which are on paper alone.
-pub(super) fn signature() -> &'static str {
-    "<section class=\"signature\" aria-hidden=\"true\">\n<p>Name</p>\n<p>Date</p>\n<p>Signature</p>\n</section>\n"
 }
 
 /// Formats the kind, the name and the SHA-256 of input files, and the version of abbe.

@@ -3,7 +3,7 @@
 use abbe::{Class, Description, VariableKind};
 
 use abbe_study::compensate::{NormStatistics, Report, RowSummary};
-use abbe_study::number::{counted, error_decimals, fixed, length, short, visible};
+use abbe_study::number::{NO_BREAK, counted, error_decimals, fixed, length, short, visible};
 
 use super::{Table, wrapped};
 
@@ -80,7 +80,7 @@ fn commands(description: &Description, report: &Report) -> String {
 fn done(description: &Description, report: &Report) -> String {
     let turn = match report.mobility {
         0..6 => String::new(),
-        _ => format!(" and {} mrad", short(1e3 * report.tolerance * description.length.in_metres())),
+        _ => format!(" and {}{NO_BREAK}mrad", short(1e3 * report.tolerance * description.length.in_metres())),
     };
     let tolerance = length(report.tolerance, description.length);
     let mut text = format!(

@@ -60,7 +60,7 @@ fn charts(report: &Report) -> String {
     }
     let mut text = table.right(&[2, 4]).to_string();
     if hidden > 0 {
-        text += &format!("… and {hidden} more, which never exceeded their limits and are nearer to zero\n");
+        text += &format!("… and {hidden} more, nearer to zero\n");
     }
     if !report.unseen.is_empty() {
         text += &(wrapped(&not_observable(report), 0) + "\n");
