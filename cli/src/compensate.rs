@@ -17,7 +17,8 @@ use crate::output::{Outcome, Outputs, cannot_write, json};
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
-    let map = map(arguments, &machine.spec)?;
+    let mut map = map(arguments, &machine.spec)?;
+    arguments.page.dated.date(&mut map.record);
     let tolerance = length("--tolerance", &arguments.tolerance, &machine.spec)?;
     let data = match arguments.poses {
         true => Data::read_wanted(&arguments.data, &map)?,
@@ -48,7 +49,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);
         let files = [("commands", &arguments.data)];
-        let provenance = Provenance::new(spec, map, files, arguments.page.date.as_ref())?;
+        let provenance = Provenance::new(spec, map, files)?;
         let evaluator = job.machine.evaluator(true);
         let machine = evaluator.description();
         file.fill(&abbe_report::compensation(spec, machine, &job.map, &report, &provenance))

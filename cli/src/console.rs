@@ -1,15 +1,23 @@
 //! Messages of running jobs on stderr: notes and, on a terminal, a progress line for jobs that take
 //! longer than a second. Work without a count shows the elapsed time instead.
 
-use std::io::{IsTerminal, stderr};
+use std::io::{IsTerminal, stderr, stdout};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use abbe_report::text::WIDTH;
 use abbe_study::Notes;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use terminal_size::{Width, terminal_size_of};
 
 use crate::output::note;
+
+/// Returns the number of columns of the terminal; [`WIDTH`] if stdout is none, so that files do not
+/// depend on it.
+pub(crate) fn width() -> usize {
+    terminal_size_of(stdout()).map_or(WIDTH, |(Width(columns), _)| columns.into())
+}
 
 /// Time before progress is shown.
 const PATIENCE: Duration = Duration::from_secs(1);

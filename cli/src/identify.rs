@@ -28,7 +28,8 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         .help("make them in a copy of the spec, then identify that"));
     }
     machine.change(&changes);
-    let map = Map::find(&arguments.measured.map, &machine.spec)?;
+    let mut map = Map::find(&arguments.measured.map, &machine.spec)?;
+    arguments.page.dated.date(&mut map.record);
     let data = Data::read(&arguments.measured.data, &map)?;
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
     let settings = Settings {
@@ -58,7 +59,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         let test = arguments.test.iter().map(|file| ("test", file));
         let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
         let spec = &job.machine.spec;
-        let provenance = Provenance::new(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
+        let provenance = Provenance::new(spec, Some(&job.map), files)?;
         file.fill(&abbe_report::identification(spec, &job.map, &report, &provenance))
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;

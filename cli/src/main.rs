@@ -32,6 +32,7 @@ mod simulate;
 
 use std::process::ExitCode;
 
+use abbe_report::text::at_width;
 use clap::{CommandFactory, Parser};
 
 use arguments::{Arguments, Command};
@@ -42,7 +43,7 @@ fn main() -> ExitCode {
     interrupt::clean_up_on_signals();
     let arguments = Arguments::parse();
     console::watch();
-    let result = run(&arguments);
+    let result = at_width(console::width(), || run(&arguments));
     console::done();
     match result.and_then(|outcome| outcome.print()) {
         Ok(status) => status,

@@ -15,7 +15,8 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.measured.map, &machine.spec)?;
-    let map = if arguments.station.is_some() { map.newly_stationed() } else { map };
+    let mut map = if arguments.station.is_some() { map.newly_stationed() } else { map };
+    arguments.dated.date(&mut map.record);
     let data = Data::read(&arguments.measured.data, &map)?;
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let job = Measure { machine, map, data, accept };
@@ -32,12 +33,8 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
         return outcome(arguments, &spec, &job.figures(&mut Console::default())?);
     };
     let report = job.run(&mut Console::default())?;
-    let provenance = Provenance::new(
-        &spec,
-        Some(&job.map),
-        [("measurements", &arguments.measured.data)],
-        arguments.date.as_ref(),
-    )?;
+    let files = [("measurements", &arguments.measured.data)];
+    let provenance = Provenance::new(&spec, Some(&job.map), files)?;
     let text = abbe_report::measurement(&spec, &job.map, &report, &provenance);
     outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
     outcome(arguments, &spec, &report)

@@ -31,7 +31,8 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
         }
         _ => None,
     };
-    let (_, report) = parts::merge(parts, &mut console)?;
+    let (_, mut report) = parts::merge(parts, &mut console)?;
+    arguments.dated.date(&mut report.record);
     if let Some((folder, files, outputs)) = begun {
         analyze::write(folder, files, outputs, &report)?;
         note("note: configurations.csv is not written: parts hold no single configurations");

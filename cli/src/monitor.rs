@@ -13,7 +13,8 @@ use crate::output::{Outcome, Outputs, json};
 pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.machine()?;
-    let map = Map::find(&arguments.map, &machine.spec)?;
+    let mut map = Map::find(&arguments.map, &machine.spec)?;
+    arguments.page.dated.date(&mut map.record);
     let mut checks = Checks::read(&arguments.data, &map)?;
     if let Some(date) = &arguments.since {
         checks.since("--since", date)?;
@@ -28,7 +29,7 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let page = page.map(|file| {
         let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
-        let provenance = Provenance::new(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
+        let provenance = Provenance::new(spec, Some(&job.map), files)?;
         file.fill(&abbe_report::monitoring(spec, &job.map, &report, &provenance))
     });
     let printed = outputs.finish(page.transpose()?)?;

@@ -85,7 +85,7 @@ impl Machine {
             let Identify { machine, map, .. } = &job;
             let test = unseen.iter().map(|test| ("test", test.source()));
             let files = [("measurements", measured.source())].into_iter().chain(test);
-            let provenance = Provenance::new(&machine.spec, Some(map), files, None)?;
+            let provenance = Provenance::new(&machine.spec, Some(map), files)?;
             let page = abbe_report::identification(&machine.spec, map, &report, &provenance);
             let mut pages: Pages = vec![("report.html".into(), page)];
             if nominal {

@@ -53,7 +53,7 @@ impl Machine {
         Ok(found.with_pages(move || {
             let spec = &job.machine.spec;
             let provenance =
-                Provenance::new(spec, Some(&job.map), [("measurements", measured.source())], None)?;
+                Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;
             let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
             Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
         }))

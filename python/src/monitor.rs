@@ -54,7 +54,7 @@ impl Machine {
         let text = move |report: &_, detail| text::monitoring(&spec, report, detail);
         Ok(Report::new("monitor", &report, notes, text)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
-            let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files, None)?;
+            let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files)?;
             let page = abbe_report::monitoring(&job.machine.spec, &job.map, &report, &provenance);
             Ok(vec![("report.html".into(), page)])
         }))

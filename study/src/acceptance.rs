@@ -95,6 +95,15 @@ impl Acceptance {
     }
 }
 
+impl Acceptance {
+    /// Formats the limits as [`read`](Self::read) parses them; empty without any.
+    pub(crate) fn text(&self, length: LengthUnit) -> String {
+        let limits =
+            self.limits.iter().map(|(figure, limit)| format!("{figure} {}", number::length(*limit, length)));
+        limits.collect::<Vec<_>>().join(", ")
+    }
+}
+
 impl AcceptanceVerdict {
     /// Returns the verdict in a sentence.
     pub fn sentence(&self, length: LengthUnit) -> String {

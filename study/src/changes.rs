@@ -14,6 +14,8 @@ pub struct Changes {
     values: Vec<(Symbol, f64)>,
     /// Indices of sources, with `true` for those switched on.
     switches: Vec<(usize, bool)>,
+    /// Each change of a command line or of Python, as it was written.
+    stated: Vec<(&'static str, String)>,
 }
 
 impl Changes {
@@ -25,7 +27,9 @@ impl Changes {
         disable: &[String],
         spec: &Spec,
     ) -> Result<Self, Diagnostics> {
-        let mut changes = Self::default();
+        let named = [("set", set), ("enable", enable), ("disable", disable)];
+        let stated = named.iter().flat_map(|(name, texts)| texts.iter().map(|text| (*name, text.clone())));
+        let mut changes = Self { stated: stated.collect(), ..Self::default() };
         each_line("--set", set, |document, span| {
             let line = document.text[span.clone()].to_owned();
             let Some((name, _)) = line.split_once('=') else {
@@ -51,7 +55,9 @@ impl Changes {
 
     /// Parses `NAME=VALUE` with a number in coherent units.
     pub fn parse_number(change: &str, spec: &Spec) -> Result<Self, Diagnostics> {
-        let (mut changes, mut document) = (Self::default(), Document::new("--set", change));
+        let stated = vec![("set", change.to_owned())];
+        let mut changes = Self { stated, ..Self::default() };
+        let mut document = Document::new("--set", change);
         let Some((name, value)) = change.split_once('=') else {
             document.mistake(Diagnostic::new(0..change.len(), "expected NAME=VALUE"));
             return document.finish(None);
@@ -66,6 +72,12 @@ impl Changes {
             (None, _) => {}
         }
         document.finish(Some(changes))
+    }
+
+    /// Returns the changes of a command line or of Python as they were written, each with the name
+    /// of its option.
+    pub(crate) fn stated(&self) -> &[(&'static str, String)] {
+        &self.stated
     }
 
     /// Returns true if there are no changes.

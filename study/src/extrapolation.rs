@@ -14,7 +14,7 @@ use crate::{Notes, number};
 const SAMPLES: usize = 500;
 
 /// Configurations outside the ranges on which the errors of a spec were fitted.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Extrapolation {
     /// Number of configurations outside the ranges.
     pub outside: usize,
@@ -22,6 +22,9 @@ pub struct Extrapolation {
     pub all: usize,
     /// Standard deviation of the tool point; `None` if the spec states no covariance.
     pub known: Option<ToolPointDeviation>,
+    /// Warning in a sentence, for texts and pages.
+    #[serde(skip)]
+    pub sentence: String,
 }
 
 /// Standard deviation of the tool point (√trace of its covariance) caused by the covariance of the
@@ -81,11 +84,12 @@ pub(crate) fn warn_of_extrapolation<'r>(
     let named = named.collect::<Vec<_>>().join(", ");
     let deviation_there = known.map_or(String::new(), |known| known.sentence(spec));
     let count = outside.len();
-    notes.warn(&format!(
-        "{count} of {all} {what} are outside the ranges on which the errors of this spec were fitted ({named}): what is said of \
-         them is extrapolated{deviation_there}"
-    ));
-    Some(Extrapolation { outside: count, all, known })
+    let warning = format!(
+        "{count} of {all} {what} are outside the ranges on which the errors of this spec were \
+         fitted ({named}); there, predictions are extrapolations{deviation_there}"
+    );
+    notes.warn(&warning);
+    Some(Extrapolation { outside: count, all, known, sentence: format!("{warning}.") })
 }
 
 impl ToolPointDeviation {
@@ -94,8 +98,9 @@ impl ToolPointDeviation {
             [self.within, self.outside, self.outside_max].map(|value| number::length(value, spec.length));
         let times = number::digits(self.outside / self.within, 2);
         format!(
-            ". By what is not known of these errors the tool point has a standard deviation of {outside} there, {most} at most: \
-             {times} times the {within} that it has within the ranges. Another shape of the errors there is not in these figures"
+            ". The covariance of these errors gives the tool point a standard deviation of \
+             {outside} there (at most {most}), {times} times the {within} within the ranges. \
+             Errors that the model does not have are not included"
         )
     }
 }

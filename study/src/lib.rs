@@ -78,6 +78,7 @@ mod listing;
 mod machine;
 mod named;
 mod reads;
+mod run_record;
 mod sizes;
 
 pub use abbe_spec::mistake;
@@ -90,4 +91,5 @@ pub use finite::finite;
 pub use listing::Listing;
 pub use machine::{Evaluator, Machine};
 pub use reads::Reads;
+pub use run_record::{RunRecord, check_date};
 pub use study_file::Study;

@@ -31,6 +31,8 @@ pub struct Machine {
     changed: bool,
     /// Indices of the inputs that changes fix.
     fixed_inputs: Vec<usize>,
+    /// Changes as they were written, each with the name of its option.
+    stated_changes: Vec<(&'static str, String)>,
 }
 
 impl Machine {
@@ -72,6 +74,7 @@ impl Machine {
             shipped,
             changed: false,
             fixed_inputs: Vec::new(),
+            stated_changes: Vec::new(),
         }
     }
 
@@ -80,6 +83,7 @@ impl Machine {
         changes.apply(Arc::make_mut(&mut self.spec));
         self.changed |= !changes.is_empty();
         self.fixed_inputs.extend(changes.inputs());
+        self.stated_changes.extend_from_slice(changes.stated());
     }
 
     /// Adds the uncertainty of magnitudes: for each repeatable source with a standard deviation σ
@@ -97,6 +101,15 @@ impl Machine {
     /// Returns the indices of the inputs that changes fix: no workspace varies them.
     pub fn fixed_inputs(&self) -> &[usize] {
         &self.fixed_inputs
+    }
+
+    /// Returns the changes, followed by other options of a run, for its record.
+    pub(crate) fn options_with(
+        &self,
+        others: impl IntoIterator<Item = (&'static str, String)>,
+    ) -> Vec<(&'static str, String)> {
+        let others = others.into_iter().filter(|(_, value)| !value.is_empty());
+        self.stated_changes.iter().cloned().chain(others).collect()
     }
 
     /// Returns the functions of the manipulator: generated code if it is shipped, unchanged and

@@ -28,15 +28,19 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
         return part(arguments, (shard, file), &mut console);
     }
     let job = job(arguments, &mut console)?;
+    let dated = |mut report: Report| {
+        arguments.dated.date(&mut report.record);
+        report
+    };
     let report = match &arguments.out {
-        None => job.run(&mut console)?,
+        None => dated(job.run(&mut console)?),
         Some(folder) => {
             let mut outputs = Outputs::new(&job, arguments.writing.force);
             let drawn = job.monte_carlo.is_some();
             let mut files =
                 Files::create(folder, &mut outputs, &job.machine().spec, VaryingColumns::new(&job), drawn)?;
             let mut show = |row: &Row| files.configuration(row);
-            let report = job.run_with_rows(Some(&mut show), &mut console)?;
+            let report = dated(job.run_with_rows(Some(&mut show), &mut console)?);
             write(folder, files, outputs, &report)?;
             report
         }

@@ -4,7 +4,7 @@ use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::Shard;
 use clap::Args;
 
-use super::shared::{Running, Showing, Subject, Writing};
+use super::shared::{Dated, Running, Showing, Subject, Writing};
 use super::values::whole;
 
 #[derive(Args, Debug)]
@@ -44,12 +44,14 @@ pub(crate) struct Analyze {
     #[arg(long, value_name = "PATH")]
     pub(crate) out: Option<PathBuf>,
     /// Sweep part I of N of the workspace (I from 1 to N) and write a part file for `abbe merge`
-    #[arg(long, value_name = "I/N", requires = "out", conflicts_with_all = ["json", "check"])]
+    #[arg(long, value_name = "I/N", requires = "out", conflicts_with_all = ["json", "check", "date"])]
     pub(crate) shard: Option<Shard>,
     /// Do not collect data for figures in this part, which is faster; the merged text and --json
     /// stay complete
     #[arg(long, requires = "shard")]
     pub(crate) no_figures: bool,
+    #[command(flatten)]
+    pub(crate) dated: Dated,
     #[command(flatten)]
     pub(crate) writing: Writing,
     #[command(flatten)]

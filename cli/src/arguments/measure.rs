@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::shared::{Measured, Running, Showing, Subject, Writing};
+use super::shared::{Dated, Measured, Running, Showing, Subject, Writing};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -25,9 +25,8 @@ pub(crate) struct Measure {
     /// Write report.html, and errors.csv with ΔX of every row, into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Date to print on the page. [default: none]
-    #[arg(long, value_name = "DATE", requires = "out")]
-    pub(crate) date: Option<String>,
+    #[command(flatten)]
+    pub(crate) dated: Dated,
     #[command(flatten)]
     pub(crate) writing: Writing,
     #[command(flatten)]

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use super::shared::{Running, Showing, Writing};
+use super::shared::{Dated, Running, Showing, Writing};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -22,6 +22,8 @@ pub(crate) struct Merge {
     /// do not store single configurations
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) dated: Dated,
     #[command(flatten)]
     pub(crate) writing: Writing,
     #[command(flatten)]

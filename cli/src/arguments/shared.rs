@@ -10,7 +10,7 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::parts::Change;
 use abbe_study::options::THREADS;
-use abbe_study::{Machine, Study};
+use abbe_study::{Machine, RunRecord, Study, check_date};
 use clap::{Args, ValueHint};
 
 use super::values::whole;
@@ -86,9 +86,24 @@ pub(crate) struct Page {
     /// Write an HTML page with figures to this file; it needs no network
     #[arg(long, value_name = "FILE", display_order = 90)]
     pub(crate) report: Option<PathBuf>,
-    /// Date to print on the page. [default: none]
-    #[arg(long, value_name = "DATE", requires = "report", display_order = 91)]
-    pub(crate) date: Option<String>,
+    #[command(flatten)]
+    pub(crate) dated: Dated,
+}
+
+// Date of a report.
+#[derive(Args, Debug)]
+pub(crate) struct Dated {
+    /// Date of the report, such as 2026-03-14, instead of the date in the map's [record]. The clock
+    /// is never read. [default: none]
+    #[arg(long, value_name = "DATE", value_parser = check_date, display_order = 91)]
+    date: Option<String>,
+}
+
+impl Dated {
+    /// Replaces the date of a record, if one is given.
+    pub(crate) fn date(&self, record: &mut RunRecord) {
+        *record = std::mem::take(record).dated(self.date.as_ref());
+    }
 }
 
 // Overwriting of files.

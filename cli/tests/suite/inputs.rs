@@ -295,13 +295,20 @@ fn an_identified_spec_remembers_where_it_was_fitted() {
             "measure" => &["measure", &found, &data, "--map", &map],
             _ => &["compensate", &found, &data, "--map", &map],
         };
-        let run = abbe(arguments);
+        let out = path(command);
+        let page = if command == "measure" { format!("{out}/report.html") } else { out.clone() };
+        let option = if command == "measure" { "--out" } else { "--report" };
+        let run = abbe(&[arguments, &["--full", option, &out]].concat());
         let expected = format!("{count} of 60 rows are outside the ranges");
         assert!(run.stderr.contains(&expected), "{command}: {expected}\n{}", run.stderr);
-        assert!(run.stderr.contains("what is said of them is extrapolated"), "{}", run.stderr);
+        assert!(run.stdout.contains(&expected), "{command}: {expected}\n{}", run.stdout);
+        assert!(fs::read_to_string(page).unwrap().contains(&expected), "{command}: {expected}");
+        assert!(run.stderr.contains("there, predictions are extrapolations"), "{}", run.stderr);
     }
-    let run = abbe(&["analyze", &found]);
+    let run = abbe(&["analyze", &found, "--out", &path("analysis")]);
     assert!(run.stderr.contains("of 2000 configurations are outside the ranges"), "{}", run.stderr);
+    let page = fs::read_to_string(path("analysis/report.html")).unwrap();
+    assert!(page.contains("of 2000 configurations are outside the ranges"));
     assert!(run.stderr.contains("payload beyond "), "{}", run.stderr);
 
     // Identified again, the spec records the range of the new rows.

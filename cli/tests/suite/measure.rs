@@ -202,7 +202,7 @@ fn instruments_are_measured_each_in_its_unit() {
     }
     narrow(&text);
     let csv = fs::read_to_string(out.join("errors.csv")).unwrap();
-    assert!(csv.starts_with("line,wire,tracker_x,tracker_y,tracker_z\n"), "{csv}");
+    assert!(csv.starts_with("line,wire (um),tracker_x (mm),tracker_y (mm),tracker_z (mm)\n"), "{csv}");
     assert_eq!(csv.lines().count(), 41);
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains("tracker_z (mm)"));
 }

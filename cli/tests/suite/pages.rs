@@ -3,10 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use serde_json::Value;
 use tempfile::tempdir;
 
 use crate::report::is_alone;
-use crate::running::{abbe, full, prints};
+use crate::running::{abbe, full, json, prints};
 
 fn path(path: &Path) -> &str {
     path.to_str().expect("a path is text")
@@ -25,17 +26,17 @@ fn pages_say_what_they_rest_on_and_are_the_same_every_time() {
         let data = simulated(folder.path(), samples);
         let page = folder.path().join("page.html");
         let identify =
-            ["identify", "pps", &data, "--map", "pps", "--report", path(&page), "--date", "21 November"];
+            ["identify", "pps", &data, "--map", "pps", "--report", path(&page), "--date", "2026-11-21"];
         let compensate = ["compensate", "pps", &data, "--map", "pps", "--report", path(&page)];
         for (arguments, expected) in [
             (
                 &identify[..],
                 &[
-                    "Date as given: 21 November",
+                    "<th scope=\"row\">Date</th><td>2026-11-21</td>",
                     "Residuals in space",
                     "Over each joint",
-                    "Ranges",
-                    "cannot be told apart",
+                    "Fitted ranges",
+                    "Indistinguishable errors",
                 ][..],
             ),
             (&compensate[..], &["Distance over each joint", "Corrections of the joints", "commands"][..]),
@@ -67,7 +68,7 @@ fn a_measuring_report_has_its_instrument_and_files() {
     let text = fs::read_to_string(out.join("report.html")).unwrap();
     is_alone(&text);
     for expected in
-        ["Instrument", "Over each joint", "Accuracy: errors in space", "SHA-256", "Date as given: 2026-11-21"]
+        ["Instrument", "Over each joint", "Accuracy: errors in space", "SHA-256", "<td>2026-11-21</td>"]
     {
         assert!(text.contains(expected), "{expected}");
     }
@@ -107,7 +108,9 @@ fn every_sentence_of_a_report_is_on_its_page() {
     let folder = tempdir().unwrap();
     let data = simulated(folder.path(), "40");
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let page = at("page.html");
+    let (page, again, moved) = (at("page.html"), at("again.csv"), at("moved.csv"));
+    prints(&["simulate", "pps", &data, "--map", "pps", "--seed", "4", "--out", &again]);
+    prints(&["simulate", "pps", &data, "--map", "pps", "--disable", "assembly", "--out", &moved]);
     for arguments in [
         &["analyze", "pps", "--monte-carlo", "100", "--out", &at("analysis")][..],
         &["analyze", "scara", "--out", &at("arm")],
@@ -115,6 +118,8 @@ fn every_sentence_of_a_report_is_on_its_page() {
         &["identify", "pps", &data, "--map", "pps", "--report", &page],
         &["identify", "pps", &data, "--map", "pps", "--terms", "joint", "--report", &page],
         &["compensate", "pps", &data, "--map", "pps", "--report", &page],
+        &["monitor", "pps", &data, &again, &data, "--map", "pps", "--report", &page],
+        &["monitor", "pps", &data, &again, &moved, "--map", "pps", "--tolerance", "9mm", "--report", &page],
     ] {
         let text = abbe(&[arguments, &["--full"]].concat()).stdout;
         let out = Path::new(arguments[arguments.len() - 1]);
@@ -126,4 +131,164 @@ fn every_sentence_of_a_report_is_on_its_page() {
             assert!(shown.contains(&sentence), "{arguments:?}: {sentence}");
         }
     }
+}
+
+/// Entries of a record, and their titles on a page.
+const RECORD: [(&str, &str, &str); 6] = [
+    ("date", "Date", "2026-11-21"),
+    ("operator", "Operator", "A. Operator"),
+    ("machine", "Machine", "Cell 3, left arm"),
+    ("serial", "Serial number", "4711 <b>"),
+    ("instrument", "Instrument", "Laser tracker T1"),
+    ("certificate", "Calibration certificate", "K-2026-0815"),
+];
+
+#[test]
+fn a_record_is_in_each_view_of_a_report() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (data, map, page) = (simulated(folder.path(), "40"), at("map.toml"), at("page.html"));
+    let entries = RECORD.map(|(key, _, text)| format!("{key} = \"{text}\"\n")).concat();
+    let shipped = include_str!("../../../manipulators/maps/pps.toml");
+    fs::write(&map, format!("{shipped}\n[record]\n{entries}")).unwrap();
+    let out = at("out");
+    for arguments in [
+        &["measure", "pps", &data, "--map", &map, "--accept", "mean 9 mm", "--out", &out][..],
+        &["identify", "pps", &data, "--map", &map, "--accept", "mean 9 mm", "--report", &page],
+        &["compensate", "pps", &data, "--map", &map, "--report", &page],
+        &["monitor", "pps", &data, &data, &data, "--map", &map, "--report", &page],
+    ] {
+        let text = abbe(&[arguments, &["--full"]].concat()).stdout;
+        let report: Value = serde_json::from_str(&abbe(&[arguments, &["--json"]].concat()).stdout).unwrap();
+        let page = if arguments[0] == "measure" { at("out/report.html") } else { page.clone() };
+        let html = fs::read_to_string(page).unwrap();
+        for (key, title, entry) in RECORD {
+            assert_eq!(report["record"][key], entry);
+            assert!(text.contains(&format!("{title:<25}{entry}\n")), "{key}: {text}");
+            let cell = entry.replace('<', "&lt;").replace('>', "&gt;");
+            assert!(html.contains(&format!("<th scope=\"row\">{title}</th><td>{cell}</td>")), "{key}");
+        }
+        assert_eq!(html.contains("<p>Signature</p>"), arguments.contains(&"--accept"), "{arguments:?}");
+        let later = abbe(&[arguments, &["--date", "2026-11-22 08:30", "--json"]].concat());
+        assert!(later.stdout.contains("\"date\":\"2026-11-22 08:30\""), "{}", later.stdout);
+    }
+}
+
+#[test]
+fn dates_are_checked() {
+    let data = ["nothing.csv", "--map", "pps"];
+    for arguments in [
+        &["analyze", "pps"][..],
+        &["merge", "1.part"],
+        &[&["measure", "pps"], &data[..]].concat(),
+        &[&["identify", "pps"], &data[..]].concat(),
+        &[&["compensate", "pps"], &data[..]].concat(),
+        &[&["monitor", "pps"], &data[..]].concat(),
+    ] {
+        let refused = abbe(&[arguments, &["--date", "banana"]].concat());
+        assert_eq!(refused.status, 2, "{arguments:?}");
+        let expected = "expected a date such as 2026-03-14";
+        assert!(refused.stderr.contains(expected), "{}", refused.stderr);
+    }
+    let dated = json(&["analyze", "pps", "--date", "2026-11-21", "--json"]);
+    assert_eq!(dated["record"]["date"], "2026-11-21");
+}
+
+#[test]
+fn pages_name_the_options_of_their_figures() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (data, page, out) = (simulated(folder.path(), "40"), at("page.html"), at("out"));
+    let changes = ["--set", "x=10mm", "--disable", "assembly"];
+    let named = [("set", "x=10mm"), ("disable", "assembly")];
+    for (arguments, options) in [
+        (
+            &["analyze", "pps", "--monte-carlo", "50", "--seed", "7", "--out", &out][..],
+            &[("monte-carlo", "50"), ("seed", "7")][..],
+        ),
+        (
+            &[
+                "measure",
+                "pps",
+                &data,
+                "--map",
+                "pps",
+                "--station",
+                "new",
+                "--accept",
+                "mean 9 mm",
+                "--out",
+                &out,
+            ],
+            &[("station", "new"), ("accept", "mean 9 mm")],
+        ),
+        (
+            &[
+                "identify",
+                "pps",
+                &data,
+                "--map",
+                "pps",
+                "--robust",
+                "huber",
+                "--terms",
+                "joint",
+                "--harmonics",
+                "q4=1,2",
+                "--folds",
+                "5",
+                "--report",
+                &page,
+            ],
+            &[
+                ("robust", "huber"),
+                ("terms", "joint"),
+                ("harmonics", "q4=1,2"),
+                ("folds", "5"),
+                ("prior", "0.01"),
+            ],
+        ),
+        (
+            &["compensate", "pps", &data, "--map", "pps", "--tolerance", "0.01mm", "--report", &page],
+            &[("tolerance", "0.01 mm")],
+        ),
+        (
+            &[
+                "monitor",
+                "pps",
+                &data,
+                &data,
+                &data,
+                "--map",
+                "pps",
+                "--since",
+                "1",
+                "--false-alarm",
+                "500",
+                "--report",
+                &page,
+            ],
+            &[("since", "1"), ("false-alarm", "500")],
+        ),
+    ] {
+        // Status 1: some commands are at a limit and not corrected.
+        let run = abbe(&[arguments, &changes].concat());
+        assert!(run.status <= 1, "{}", run.stderr);
+        let page = if arguments.contains(&"--out") { at("out/report.html") } else { page.clone() };
+        let html = fs::read_to_string(page).unwrap();
+        for (name, value) in named.iter().chain(options) {
+            let row = format!("<th scope=\"row\">{name}</th><td>{value}</td>");
+            assert!(html.contains(&row), "{arguments:?}: {row}");
+        }
+    }
+}
+
+#[test]
+fn the_errors_of_rows_have_their_units() {
+    let folder = tempdir().unwrap();
+    let data = simulated(folder.path(), "40");
+    let out = folder.path().join("out");
+    prints(&["measure", "pps", &data, "--map", "pps", "--out", path(&out)]);
+    let errors = fs::read_to_string(out.join("errors.csv")).unwrap();
+    assert!(errors.starts_with("line,x (mm),y (mm),z (mm)"), "{errors}");
 }

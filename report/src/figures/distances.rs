@@ -57,7 +57,7 @@ pub(crate) fn scenes(report: &Report, spec: &Spec) -> Vec<Scene> {
     let scenes = [
         over_rows.captioned(&caption),
         Scene::new("Distance over each joint", 3, over_joints).captioned(caption),
-        Scene::new("How often which distance occurs", 1, vec![histogram]),
+        Scene::new("Distribution of the distance", 1, vec![histogram]),
         Scene::new("Corrections of the joints", 3, changes.collect())
             .captioned("Corrected minus what the row has, all rows."),
     ];

@@ -63,7 +63,7 @@ impl<'a> NamedFigure<'a> {
                 Vec::new(),
                 format!("{} in space: {kept}", if *bounds { "Bounds" } else { "Errors" }),
             ),
-            Content::Histogram => ("histogram", Vec::new(), format!("How often which error occurs: {kept}")),
+            Content::Histogram => ("histogram", Vec::new(), format!("Distribution of the error: {kept}")),
             Content::Pareto => ("pareto", Vec::new(), "Share of each source".to_owned()),
             Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
         };

@@ -70,16 +70,20 @@ impl Residuals<'_> {
         let ErrorNames { before, after } = self.names;
         let own = scale(&|residual| residual.after);
         let title = |name: &str, scale: f64| format!("{name}, × {}", short(scale));
-        let mut panels = Vec::new();
+        let (mut panels, mut last_scale) = (Vec::new(), None);
         if shown.iter().any(|residual| residual.before.is_some()) {
             let same = scale(&|residual| residual.before.unwrap_or(residual.after));
             let first = self.arrows(&shown, |residual| residual.before, same, BEFORE);
             panels.push(first.titled(title(before, same)));
             let second = self.arrows(&shown, |residual| Some(residual.after), same, AFTER);
             panels.push(second.titled(title(after, same)));
+            last_scale = Some(same);
         }
-        let last = self.arrows(&shown, |residual| Some(residual.after), own, AFTER);
-        panels.push(last.titled(title(after, own)));
+        // Where one scale fits both errors, a second panel would repeat the one before.
+        if last_scale != Some(own) {
+            let last = self.arrows(&shown, |residual| Some(residual.after), own, AFTER);
+            panels.push(last.titled(title(after, own)));
+        }
         let caption = format!(
             "Lines begin at the tool point, a dot, and are as many times longer than the errors as stands above.{}",
             thinned(self.residuals.len(), every)
@@ -140,8 +144,13 @@ impl Residuals<'_> {
         };
         let panels = (0..self.spec.variables.len()).filter_map(panel).collect::<Vec<_>>();
         let few = thinned(self.residuals.len(), every);
-        let caption = format!("A joint that does not move has no picture.{few}");
-        (!panels.is_empty()).then(|| Scene::new("Over each joint", 3, panels).captioned(caption))
+        let still = if panels.len() < self.spec.variables.len() {
+            "A joint that does not move has no picture."
+        } else {
+            ""
+        };
+        let caption = format!("{still}{few}");
+        (!panels.is_empty()).then(|| Scene::new("Over each joint", 3, panels).captioned(caption.trim()))
     }
 
     /// Shows norms as dots: before in grey, after in blue on top.
@@ -188,7 +197,7 @@ impl Residuals<'_> {
         let lists = lists.into_iter().filter(|list| !list.values.is_empty()).collect::<Vec<_>>();
         let panels = [along(0), along(1), along(2), panel("norm of the error", "mm", &lists)];
         let caption = format!("x, y and z: {after}.");
-        Scene::new("How often which error occurs", 2, panels.to_vec()).captioned(caption)
+        Scene::new("Distribution of the error", 2, panels.to_vec()).captioned(caption)
     }
 }
 

@@ -36,12 +36,13 @@ pub fn compensation(
     let after = [
         section("Figures", &format!("<p>Distances are in mm.</p>\n{drawn}")),
         section("Position error of the tool point", &sizes(spec, report)),
-        section("Rows that are not compensated", &failed(report)),
+        failed(report),
         folded("Rows", &format!("<p>{lines}</p>\n")),
-        section("Input files", &provenance.table()),
+        provenance.sections(&report.record, false),
     ];
     let (before, after) = (before.concat(), after.concat());
-    let findings = findings(&text::compensation(machine, report, Detail::Full), &format!("{before}{after}"));
+    let findings =
+        findings(|| text::compensation(machine, report, Detail::Full), &format!("{before}{after}"));
     document(&format!("{}: corrected commands", spec.title), &[before, findings, after].concat())
 }
 
@@ -79,7 +80,7 @@ fn failed(report: &Report) -> String {
     let failed: Vec<(u64, &String)> =
         report.rows.iter().filter_map(|row| Some((row.line, row.reason.as_ref()?))).collect();
     if failed.is_empty() {
-        return "<p>None.</p>\n".to_owned();
+        return String::new();
     }
     let items = failed
         .iter()
@@ -87,5 +88,6 @@ fn failed(report: &Report) -> String {
         .map(|(line, reason)| format!("<li>line {line}: {}</li>\n", escaped(reason)));
     let more = failed.len().saturating_sub(LISTED);
     let more = if more > 0 { format!("<li>… and {more} more</li>\n") } else { String::new() };
-    format!("<ul>\n{}{more}</ul>\n", items.collect::<String>())
+    let list = format!("<ul>\n{}{more}</ul>\n", items.collect::<String>());
+    section("Rows that are not corrected", &list)
 }

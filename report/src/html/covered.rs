@@ -8,6 +8,7 @@ use abbe_study::number;
 use super::ledger::listed;
 use super::table::{ledger, row_header};
 use super::{folded, paragraphs};
+use crate::text::draws_explained;
 
 /// Formats the verdict and the largest error. Without a tolerance there is no verdict.
 pub(super) fn verdict(report: &Report) -> String {
@@ -56,23 +57,21 @@ pub(super) fn monte_carlo(report: &Report) -> String {
             format!("<td>{} ± {spread}</td>", error(quantile.value))
         });
         let sigma = [0, 1, 2].map(|i| format!("<td>{}</td>", error(found.covariance[i][i].sqrt())));
+        let inside = found.inside_ellipsoid.map(|share| format!("{:.2} %", 100.0 * share));
         format!(
-            "<tr>{}{}<td>{}</td>{}</tr>\n",
+            "<tr>{}{}<td>{}</td><td>{}</td>{}</tr>\n",
             row_header(place),
             quantiles.concat(),
             error(found.largest),
+            inside.unwrap_or_default(),
             sigma.concat()
         )
     };
     let rows = drawn.results().map(row).concat();
     let unit = report.spec.length.symbol();
-    let caption = format!(
-        "{} draws at each configuration, seed {}: quantiles of the norm of the error with their standard errors, the largest \
-         norm, and standard deviations",
-        number::short(drawn.draws as f64),
-        drawn.seed
-    );
-    let columns = ["at", "50 %", "95 %", "99 %", "largest", "σ x", "σ y", "σ z"];
-    let table = ledger(&caption, &columns, &[0], &format!("<tbody>{rows}</tbody>\n"));
-    folded(&format!("Monte Carlo on the exact chain ({unit})"), &table)
+    let caption = "Quantiles of the norm of the error with their standard errors, and standard deviations";
+    let columns = ["at", "50 %", "95 %", "99 %", "largest", "in ellipsoid", "σ x", "σ y", "σ z"];
+    let table = ledger(caption, &columns, &[0], &format!("<tbody>{rows}</tbody>\n"));
+    let explained = paragraphs(&[draws_explained(drawn)]);
+    folded(&format!("Monte Carlo on the exact chain ({unit})"), &(table + &explained))
 }

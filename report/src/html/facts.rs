@@ -3,7 +3,7 @@
 use abbe::{Orientation, VariableKind};
 
 use super::escaped;
-use super::provenance::files;
+use super::provenance::sections;
 use super::table;
 use abbe_study::analyze::Report;
 use abbe_study::number::{self, quantity};
@@ -65,9 +65,9 @@ pub(super) fn values(report: &Report) -> String {
     table::facts("Frames, parameters and inputs", frames.chain(others))
 }
 
-/// Formats the names and SHA-256 of the input files.
+/// Formats the record, and the names and SHA-256 of the input files.
 pub(super) fn inputs(report: &Report) -> String {
     let spec = Some(("spec", &report.spec.file, &report.spec.hash));
     let study = report.study.file.as_ref().map(|(name, hash)| ("study", name, hash));
-    files(spec.into_iter().chain(study))
+    sections(&report.record, false, spec.into_iter().chain(study))
 }

@@ -1,10 +1,11 @@
 //! Sentences of the printed report, so that the page has every sentence that the terminal shows.
 
 use super::{escaped, section};
-use crate::text::WIDTH;
+use crate::text::{WIDTH, at_width};
 
-/// Formats the sentences of a printed report that `page` does not contain.
-pub(super) fn findings(text: &str, page: &str) -> String {
+/// Formats the sentences that `print` returns and `page` does not contain.
+pub(super) fn findings(print: impl FnOnce() -> String, page: &str) -> String {
+    let text = &at_width(WIDTH, print);
     let page = page.replace('\u{a0}', " ");
     let is_missing = |sentence: &&str| !page.contains(&escaped(sentence.trim()));
     let missing = paragraphs(text).into_iter().map(|paragraph| {
@@ -75,11 +76,11 @@ A title of more than half of the width, which has no full stop, and the name of 
     #[test]
     fn sentences_of_the_page_are_not_repeated() {
         let page = "<p>The error is within 0.5 mm with a probability of 95 %, which is asked for.</p>";
-        let found = findings(TEXT, page);
+        let found = findings(|| TEXT.to_owned(), page);
         assert!(
             !found.contains("The error is within") && found.contains("<p>This is the least of all 4"),
             "{found}"
         );
-        assert_eq!(findings("Nothing.\n", "<p>Nothing.</p>"), "");
+        assert_eq!(findings(|| "Nothing.\n".to_owned(), "<p>Nothing.</p>"), "");
     }
 }

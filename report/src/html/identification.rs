@@ -24,18 +24,18 @@ pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Prov
     ];
     let after = [
         section("Figures", &pictures(spec, report)),
-        section("How good it is", &sizes(spec, report)),
+        section("Accuracy", &sizes(spec, report)),
         folded("Errors of the machine", &machine(spec, report)),
         placed(spec, report),
-        folded("What cannot be told apart", &groups(report)),
+        folded("Indistinguishable errors", &groups(report)),
         terms(spec, report),
         section("Instrument", &instrument(spec, map)),
-        folded("Ranges", &ranges(spec, report)),
+        folded("Fitted ranges", &ranges(spec, report)),
         folded("Rows", &format!("<p>{lines}</p>\n")),
-        section("Input files", &provenance.table()),
+        provenance.sections(&report.record, report.accepted.is_some()),
     ];
     let (before, after) = (before.concat(), after.concat());
-    let findings = findings(&text::identification(spec, report, Detail::Full), &format!("{before}{after}"));
+    let findings = findings(|| text::identification(spec, report, Detail::Full), &format!("{before}{after}"));
     document(&format!("{}: errors from measurements", spec.title), &[before, findings, after].concat())
 }
 
@@ -105,7 +105,7 @@ fn machine(spec: &Spec, report: &Report) -> String {
     let meanings = match meanings.collect::<String>() {
         list if list.is_empty() => list,
         list => format!(
-            "<p>In numbers of the chain, each in place of the error in brackets:</p>\n<ul>\n{list}</ul>\n"
+            "<p>Equivalent joint offsets and DH errors, each in place of the error in brackets:</p>\n<ul>\n{list}</ul>\n"
         ),
     };
     let table = parameters("Errors of the machine", spec, report, |kind| kind == Kind::Machine);
@@ -130,8 +130,9 @@ fn placed(spec: &Spec, report: &Report) -> String {
         return String::new();
     }
     let table = parameters("Station and targets", spec, report, is_placed);
-    let words = "<p>No errors of the machine: they do not go into the spec and are not compensated.</p>\n";
-    folded("Where the machine stands, and what is mounted on its tool", &format!("{table}{words}"))
+    let words =
+        "<p>A placement is no error of the machine: it is not written to the spec and not compensated.</p>\n";
+    folded("Placement of the machine and of its tool", &format!("{table}{words}"))
 }
 
 fn not_known(report: &Report) -> String {
@@ -188,7 +189,7 @@ fn groups(report: &Report) -> String {
         }
     }
     if reasons.is_empty() {
-        return "<p>Everything that is unknown can be told apart.</p>\n".to_owned();
+        return "<p>All unknowns are identifiable.</p>\n".to_owned();
     }
     let rows = reasons.into_iter().map(|(reason, sentences)| (escaped(reason), sentences.join("<br>")));
     facts("Indistinguishable errors, by the reason", rows)
@@ -230,7 +231,7 @@ fn pictures(spec: &Spec, report: &Report) -> String {
     };
     let names = ErrorNames { before: "base and tool fitted", after: "identified" };
     let (used, test) = (scenes(&list(false), &names, spec), list(true));
-    let mut text = format!("<p>Rows that were used; gross errors are left out.</p>\n{}", figures(&used, 0));
+    let mut text = format!("<p>Rows of the fit, without outliers.</p>\n{}", figures(&used, 0));
     if !test.is_empty() {
         let drawn = figures(&scenes(&test, &names, spec), used.len());
         text += &format!("<h3>Test rows</h3>\n{drawn}");

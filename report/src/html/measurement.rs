@@ -33,10 +33,10 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provena
         errors,
         section("Instrument", &instrument(spec, map)),
         folded("Rows", &format!("<p>{lines}</p>\n")),
-        section("Input files", &provenance.table()),
+        provenance.sections(&report.record, report.accepted.is_some()),
     ];
     let (before, after) = (before.concat(), after.concat());
-    let findings = findings(&text::measurement(spec, report, Detail::Full), &format!("{before}{after}"));
+    let findings = findings(|| text::measurement(spec, report, Detail::Full), &format!("{before}{after}"));
     document(&format!("{}: measured", spec.title), &[before, findings, after].concat())
 }
 

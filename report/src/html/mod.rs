@@ -5,8 +5,9 @@
 //! `monitoring` are the pages of the other jobs. All begin with the verdict, the most important
 //! numbers and the figures; long tables are folded, and the input files come last. `document` has
 //! the parts of every page, `findings` the sentences of the printed report, `figure` numbered
-//! figures, `table` tables, and `provenance` instrument, files and date. Of an analysis, `ledger`
-//! has the tables of errors, `covered` verdict and uncertainty, and `facts` conventions and values.
+//! figures, `table` tables, and `provenance` record, options, files and instrument. Of an analysis,
+//! `ledger` has the tables of errors, `covered` verdict and uncertainty, and `facts` conventions
+//! and values.
 
 mod compensation;
 mod covered;

@@ -8,9 +8,9 @@ use abbe_study::number::{fixed, percent};
 use super::figure::figures;
 use super::provenance::{Provenance, instrument};
 use super::table::ledger;
-use super::{document, escaped, findings, folded, heading, section, verdict};
+use super::{Card, cards, document, escaped, findings, folded, heading, paragraphs, section, verdict};
 use crate::figures::charts;
-use crate::text::{self, Detail};
+use crate::text::{self, Detail, changes, not_observable};
 
 /// Builds the page of a monitored machine; `spec` and `map` are those of the job.
 pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
@@ -20,8 +20,11 @@ pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenan
         Some(_) => "Alarm: the machine has changed",
         None => "No alarm",
     };
-    let before =
-        [heading("Monitored", &spec.title, &report.title), verdict(report.alarm.is_none(), line, &[])];
+    let before = [
+        heading("Monitored", &spec.title, &report.title),
+        verdict(report.alarm.is_none(), line, &changes(report)),
+        summary(report),
+    ];
     let after = [
         section("Figures", &figures(&charts::scenes(report), 0)),
         section("Charts", &table(report)),
@@ -30,11 +33,31 @@ pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenan
             "" => String::new(),
             lines => folded("Rows that cannot be used", &format!("<p>{lines}</p>\n")),
         },
-        section("Input files", &provenance.table()),
+        provenance.sections(&report.record, false),
     ];
     let (before, after) = (before.concat(), after.concat());
-    let findings = findings(&text::monitoring(spec, report, Detail::Full), &format!("{before}{after}"));
+    let findings = findings(|| text::monitoring(spec, report, Detail::Full), &format!("{before}{after}"));
     document(&format!("{}: monitored", spec.title), &[before, findings, after].concat())
+}
+
+/// Formats the most important figures as cards.
+fn summary(report: &Report) -> String {
+    let span = match &report.dates[..] {
+        [first, .., last] => format!("{first} to {last}"),
+        dates => dates.concat(),
+    };
+    let checks = Card { name: "Checks", value: report.dates.len().to_string(), note: span };
+    let configurations = Card {
+        name: "Configurations",
+        value: report.configurations.to_string(),
+        note: "in each check".to_owned(),
+    };
+    let nearest = report.nearest_first().first().map(|chart| Card {
+        name: "Nearest to its limit",
+        value: percent(last(&chart.average).abs(), 1.0),
+        note: format!("of the limit: {}", chart.name),
+    });
+    cards([checks, configurations].into_iter().chain(nearest))
 }
 
 fn last(values: &[f64]) -> f64 {
@@ -57,10 +80,7 @@ fn table(report: &Report) -> String {
     let rows = report.nearest_first().into_iter().chain([&report.left]).map(row).collect::<String>();
     let unseen = match report.unseen.len() {
         0 => String::new(),
-        _ => format!(
-            "<p>These cannot be told from where the instrument stands, or do not move what is measured: {}.</p>\n",
-            escaped(&report.unseen.join(", "))
-        ),
+        _ => paragraphs(&[not_observable(report)]),
     };
     let columns = ["error", "last value", "unit", "average, share of the limit", "alarm"];
     let caption =

@@ -34,11 +34,11 @@ pub(crate) fn page(
     ];
     let after = [
         drawn("Figures", first, 0),
-        section("All together", &(ledger::combined(report) + &paragraphs(&report.conclusions()))),
+        section("All sources together", &(ledger::combined(report) + &paragraphs(&report.conclusions()))),
         certified(sampled, report),
         allowed(report),
         drawn("More figures", others, first.len()) + &not_drawn(left_out),
-        folded("Every source alone", &format!("{METRICS}\n{}", ledger::sources(report))),
+        folded("Each source alone", &format!("{METRICS}\n{}", ledger::sources(report))),
         folded("Ledger", &ledger::listed(LEDGER, &analyze::ledger(report))),
         covered::turns(report),
         covered::uncertainty(report),
@@ -46,10 +46,10 @@ pub(crate) fn page(
         notes(report),
         folded("Conventions", &facts::conventions(report)),
         folded("Values", &facts::values(report)),
-        section("Input files", &facts::inputs(report)),
+        facts::inputs(report),
     ];
     let (before, after) = (before.concat(), after.concat());
-    let findings = findings(&text::analysis(report, Detail::Full), &format!("{before}{after}"));
+    let findings = findings(|| text::analysis(report, Detail::Full), &format!("{before}{after}"));
     document(&format!("{}: error analysis", report.spec.title), &[before, findings, after].concat())
 }
 
@@ -103,7 +103,7 @@ fn certified(sampled: Option<&Scene>, report: &Report) -> String {
     let unit = report.spec.length.symbol();
     let figure = figure::unnumbered("", scene, "");
     let caption = format!("Largest norms, sampled and certified ({unit})");
-    section("At most", &(figure + &ledger::listed(&caption, &listing)))
+    section("Certified bounds", &(figure + &ledger::listed(&caption, &listing)))
 }
 
 /// Formats the allowed sizes of the sources.
@@ -117,7 +117,7 @@ fn allowed(report: &Report) -> String {
         Some(ledger::listed(&caption, &analyze::allowance_table(report, measurand)?))
     });
     let tables = tables.collect::<String>();
-    if tables.is_empty() { tables } else { section("What the tolerance allows", &format!("{about}{tables}")) }
+    if tables.is_empty() { tables } else { section("Error allowance", &format!("{about}{tables}")) }
 }
 
 /// Formats figures, numbered after `before` others.

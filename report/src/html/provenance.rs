@@ -1,20 +1,19 @@
-//! Provenance of a page about measurements: instrument, files and date.
+//! Provenance of a page: record, options, files, instrument, and the place to sign.
 
 use std::path::Path;
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_study::RunRecord;
 use abbe_study::data::{Base, Layout, Map, Source};
 use abbe_study::number::{self, short};
 
-use super::escaped;
 use super::table::{facts, ledger, row_header};
+use super::{escaped, section};
 
-/// Input files and date of a report, which the report itself does not contain.
+/// Input files of a report, which the report itself does not contain.
 #[derive(Clone, Debug, Default)]
 pub struct Provenance {
-    /// Date given by the user; pages do not read the clock.
-    pub date: Option<String>,
     /// Kind, name and SHA-256 of each file or table.
     pub files: Vec<(&'static str, String, String)>,
 }
@@ -29,7 +28,6 @@ impl Provenance {
         spec: &Spec,
         map: Option<&Map>,
         files: impl IntoIterator<Item = (&'static str, impl Into<Source<'f>>)>,
-        date: Option<&String>,
     ) -> Result<Self, Diagnostics> {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let mut all = vec![("spec", spec.file.clone(), spec.hash.clone())];
@@ -39,18 +37,47 @@ impl Provenance {
             let name = source.file().map_or_else(|| format!("{}, a table", source.name()), name);
             all.push((kind, name, source.hash()?));
         }
-        Ok(Self { date: date.cloned(), files: all })
+        Ok(Self { files: all })
     }
 
-    /// Formats the files and the date.
-    pub(super) fn table(&self) -> String {
-        let date = self.date.as_ref().map(|date| format!("<p>Date as given: {}.</p>\n", escaped(date)));
-        files(self.files.iter().map(|(kind, name, hash)| (*kind, name, hash))) + &date.unwrap_or_default()
+    /// Formats the sections of record, options and files. A page with a verdict is signed.
+    pub(super) fn sections(&self, record: &RunRecord, is_signed: bool) -> String {
+        sections(record, is_signed, self.files.iter().map(|(kind, name, hash)| (*kind, name, hash)))
+    }
+}
+
+/// Formats the stated entries of a record, with lines to sign below them, and the input files and
+/// options of its run.
+pub(super) fn sections<'f>(
+    record: &RunRecord,
+    is_signed: bool,
+    files: impl Iterator<Item = (&'static str, &'f String, &'f String)>,
+) -> String {
+    let stated = record.stated().map(|(title, text)| (title, escaped(text)));
+    let signature = if is_signed { SIGNATURE } else { "" };
+    let stated = match record.is_empty() {
+        true if is_signed => format!("<section>\n{signature}</section>\n"),
+        true => String::new(),
+        false => section("Record", &(facts("Stated by the user", stated) + signature)),
+    };
+    stated + &section("Input files and options", &(table(files) + &options(record)))
+}
+
+/// Lines for name, date and signature, which are on paper alone.
+const SIGNATURE: &str =
+    "<div class=\"signature\" aria-hidden=\"true\">\n<p>Name</p>\n<p>Date</p>\n<p>Signature</p>\n</div>\n";
+
+/// Formats the options that the figures were computed with.
+fn options(record: &RunRecord) -> String {
+    let named = |(name, value): &(&'static str, String)| (*name, escaped(value));
+    match &record.options[..] {
+        [] => "<p>No options were given.</p>\n".to_owned(),
+        options => facts("Options of the run, defaults included", options.iter().map(named)),
     }
 }
 
 /// Formats the kind, the name and the SHA-256 of input files, and the version of abbe.
-pub(super) fn files<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>) -> String {
+fn table<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>) -> String {
     let rows = files.map(|(kind, name, hash)| {
         let name = escaped(name);
         format!(

@@ -1,4 +1,5 @@
-//! Reports as plain text of at most [`WIDTH`] columns, for terminals and for `print` in Python.
+//! Reports as plain text of [`WIDTH`] columns, or as many as [`at_width`] sets, for terminals and
+//! for `print` in Python.
 //!
 //! `answer` has the first screen of each job, at most 25 lines; `full` has every table.
 
@@ -11,14 +12,17 @@ mod table;
 
 use abbe::Description;
 use abbe_spec::Spec;
+use abbe_study::RunRecord;
 use abbe_study::data::Map;
 use abbe_study::{analyze, bound, check, compensate, doctor, export, identify, measure, monitor, plan};
 
 pub use answer::next;
+pub(crate) use full::analysis::explained as draws_explained;
+pub(crate) use full::monitoring::{findings as changes, not_observable};
 pub use imported::imported;
 pub use jacobian::jacobian;
 pub use list::list;
-pub use table::{Table, WIDTH, listed, wrapped};
+pub use table::{Table, WIDTH, at_width, listed, wrapped};
 
 /// Amount of a report to print.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,6 +40,15 @@ impl Detail {
         if full { Self::Full } else { Self::Answer }
     }
 
+    /// Formats the stated entries of a record, which stand below a full report.
+    fn record(self, record: &RunRecord) -> String {
+        let lines = record.stated().map(|(title, text)| format!("{title:<25}{}\n", wrapped(text, 25)));
+        match lines.collect::<String>() {
+            lines if lines.is_empty() || self == Self::Answer => String::new(),
+            lines => format!("\n{lines}"),
+        }
+    }
+
     fn choose<T>(self, answer: T, full: T) -> T {
         match self {
             Self::Answer => answer,
@@ -46,7 +59,8 @@ impl Detail {
 
 /// Prints an error budget over a workspace.
 pub fn analysis(report: &analyze::Report, detail: Detail) -> String {
-    detail.choose::<fn(&_) -> _>(answer::analysis, full::analysis)(report)
+    detail.choose::<fn(&_) -> String>(answer::analysis, full::analysis)(report)
+        + &detail.record(&report.record)
 }
 
 /// Prints the check of a spec.
@@ -61,17 +75,20 @@ pub fn bound(report: &bound::Report, detail: Detail) -> String {
 
 /// Prints an identification, without the files that it wrote.
 pub fn identification(spec: &Spec, report: &identify::Report, detail: Detail) -> String {
-    detail.choose::<fn(&_, &_) -> _>(answer::identification, full::identification)(spec, report)
+    detail.choose::<fn(&_, &_) -> String>(answer::identification, full::identification)(spec, report)
+        + &detail.record(&report.record)
 }
 
 /// Prints the errors of a measured machine.
 pub fn measurement(spec: &Spec, report: &measure::Report, detail: Detail) -> String {
-    detail.choose::<fn(&_, &_) -> _>(answer::measurement, full::measurement)(spec, report)
+    detail.choose::<fn(&_, &_) -> String>(answer::measurement, full::measurement)(spec, report)
+        + &detail.record(&report.record)
 }
 
 /// Prints what compensation reaches.
 pub fn compensation(machine: &Description, report: &compensate::Report, detail: Detail) -> String {
-    detail.choose::<fn(&_, &_) -> _>(answer::compensation, full::compensation)(machine, report)
+    detail.choose::<fn(&_, &_) -> String>(answer::compensation, full::compensation)(machine, report)
+        + &detail.record(&report.record)
 }
 
 /// Prints a plan of measurements, without the file that it wrote.
@@ -81,7 +98,8 @@ pub fn plan(spec: &Spec, map: &Map, report: &plan::Report, detail: Detail) -> St
 
 /// Prints control charts and the alarm they raise.
 pub fn monitoring(spec: &Spec, report: &monitor::Report, detail: Detail) -> String {
-    detail.choose::<fn(&_, &_) -> _>(answer::monitoring, full::monitoring)(spec, report)
+    detail.choose::<fn(&_, &_) -> String>(answer::monitoring, full::monitoring)(spec, report)
+        + &detail.record(&report.record)
 }
 
 /// Prints the conventions in which rows of joints and poses fit the manipulator.

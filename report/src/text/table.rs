@@ -1,14 +1,31 @@
-//! Tables for people: columns under a ruled heading, at most 100 wide.
+//! Tables for people: columns under a ruled heading, and wrapped sentences.
 
+use std::cell::Cell;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 use abbe_study::Listing;
 use abbe_study::number::NO_BREAK;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle};
 
-/// Width of all text in columns. It is fixed, so that the same input gives the same text on every
+/// Width of text in columns, except within [`at_width`]: files and pages do not depend on a
 /// terminal.
 pub const WIDTH: usize = 100;
+
+/// Widths that text can have: in fewer columns tables are unreadable, in more sentences are.
+const WIDTHS: RangeInclusive<usize> = 60..=160;
+
+thread_local! {
+    static COLUMNS: Cell<usize> = const { Cell::new(WIDTH) };
+}
+
+/// Formats text for a width of 60 to 160 columns; narrower and wider ones count as these.
+pub fn at_width<T>(columns: usize, format: impl FnOnce() -> T) -> T {
+    let before = COLUMNS.replace(columns.clamp(*WIDTHS.start(), *WIDTHS.end()));
+    let formatted = format();
+    COLUMNS.set(before);
+    formatted
+}
 
 /// Number of characters of a word that a table shows.
 const LONGEST: usize = 2 * WIDTH;
@@ -31,7 +48,10 @@ impl Table {
     /// An empty table.
     pub fn new(header: &[&str]) -> Self {
         let mut table = comfy_table::Table::new();
-        table.load_style(STYLE).set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH as u16);
+        table
+            .load_style(STYLE)
+            .set_content_arrangement(ContentArrangement::Dynamic)
+            .set_width(COLUMNS.get() as u16);
         table.set_header(header.to_vec());
         Self(table)
     }
@@ -92,7 +112,7 @@ pub fn wrapped(text: &str, indent: usize) -> String {
     let (mut lines, mut width) = (String::new(), indent);
     for word in text.split([' ', '\n']).filter(|word| !word.is_empty()) {
         let length = word.chars().count();
-        if width > indent && width + 1 + length > WIDTH {
+        if width > indent && width + 1 + length > COLUMNS.get() {
             lines.push_str(&format!("\n{:indent$}", ""));
             width = indent;
         } else if width > indent {
@@ -108,6 +128,26 @@ pub fn wrapped(text: &str, indent: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn text_takes_the_width_within_limits() {
+        let longest = |text: &str| text.lines().map(|line| line.chars().count()).max();
+        let cells = ["a word ".repeat(60), "12.5".to_owned()];
+        for (columns, width) in [(20, 60), (80, 80), (100, 100), (500, 160)] {
+            let text = at_width(columns, || wrapped(&"ab ".repeat(200), 4));
+            assert!(longest(&text).is_some_and(|longest| longest <= width && longest > width - 4), "{text}");
+            let table = at_width(columns, || {
+                let mut table = Table::new(&["name", "value"]);
+                table.row(cells.clone());
+                table.right(&[1]).to_string()
+            });
+            assert!(
+                longest(&table).is_some_and(|longest| longest <= width && longest > width - 10),
+                "{table}"
+            );
+        }
+        assert_eq!(COLUMNS.get(), WIDTH);
+    }
 
     #[test]
     fn of_long_words_stands_the_beginning() {

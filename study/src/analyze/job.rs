@@ -82,6 +82,15 @@ impl Analyze {
         self.study.region.moving_inputs()
     }
 
+    /// Returns the options that the figures depend on.
+    fn options(&self) -> Vec<(&'static str, String)> {
+        let Self { machine, study: _, monte_carlo, seed, interpret: _, figures: _ } = self;
+        machine.options_with([
+            ("monte-carlo", monte_carlo.map_or_else(String::new, |draws| draws.to_string())),
+            ("seed", seed.map_or_else(String::new, |seed| seed.to_string())),
+        ])
+    }
+
     /// Sweeps the workspace and returns the report.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         self.run_with_rows(None, notes)
@@ -161,6 +170,7 @@ impl Analyze {
             study,
             monte_carlo: *monte_carlo,
             seed: seed.unwrap_or(0),
+            options: self.options(),
             figures: *figures,
             manipulator,
             workspace,

@@ -19,12 +19,12 @@ use super::report::{
 };
 use super::unreachable;
 use crate::bound::CertifiedNorms;
-use crate::extrapolation::warn_of_extrapolation;
+use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::study_file::Study;
-use crate::{mistake, number};
+use crate::{RunRecord, mistake, number};
 
 /// Largest number of configurations that are checked for extrapolation.
 const EXTRAPOLATED: usize = 2000;
@@ -44,6 +44,8 @@ pub(super) struct Sweep<'a> {
     pub(super) study: &'a Study,
     pub(super) monte_carlo: Option<usize>,
     pub(super) seed: u64,
+    /// Options that the figures depend on.
+    pub(super) options: Vec<(&'static str, String)>,
     /// Gathers the data of the study's figures.
     pub(super) figures: bool,
     pub(super) manipulator: &'a dyn Sweepable,
@@ -132,6 +134,8 @@ impl Sweep<'_> {
                 .map(|tolerance| ErrorAllowance::new(&budget, spec, Measurand::Position, tolerance)),
             compensation: budget.compensation,
             monte_carlo,
+            extrapolated: None,
+            record: RunRecord::default().with_options(self.options.clone()),
             sources,
             spec: spec.clone(),
             study: study.clone(),
@@ -142,7 +146,7 @@ impl Sweep<'_> {
             sites,
         };
         self.warn_of_first_order(first_order, notes);
-        self.warn_of_extrapolation(notes);
+        let report = Report { extrapolated: self.warn_of_extrapolation(notes), ..report };
         finite(&machine.origin, report)
     }
 
@@ -247,10 +251,10 @@ impl Sweep<'_> {
     }
 
     /// Warns of extrapolation, checked at some configurations of a large workspace.
-    fn warn_of_extrapolation(&self, notes: &mut dyn Notes) {
+    fn warn_of_extrapolation(&self, notes: &mut dyn Notes) -> Option<Extrapolation> {
         let Self { machine, workspace, .. } = *self;
         if machine.spec.fitted.is_empty() {
-            return;
+            return None;
         }
         let reached = Subset { workspace, count: EXTRAPOLATED }.reached();
         let configurations = reached.iter().map(|reached| (&reached.q[..], &reached.u[..]));
@@ -260,7 +264,7 @@ impl Sweep<'_> {
             "configurations",
             configurations,
             notes,
-        );
+        )
     }
 
     fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {

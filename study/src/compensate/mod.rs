@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::data::{Base, Data, Heading, Map, Summary, Table, Unusable};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
-use crate::{Machine, Notes, finite, mistake};
+use crate::{Machine, Notes, RunRecord, finite, mistake, number};
 
 use base_frame::BaseFramePoses;
 pub use commands::{CommandCorrector, CorrectedCommand};
@@ -61,6 +61,9 @@ pub struct Report {
     pub row_summary: RowSummary,
     /// Rows that cannot be used, in file order.
     pub unusable: Vec<Unusable>,
+    /// Date, persons and instruments as stated, and the options of the run.
+    #[serde(skip_serializing_if = "RunRecord::is_empty")]
+    pub record: RunRecord,
     /// Summary of the data file.
     #[serde(skip)]
     pub file: Summary,
@@ -152,6 +155,14 @@ impl NormSums {
 }
 
 impl Compensate {
+    /// Returns the options that the figures depend on.
+    fn options(&self) -> Vec<(&'static str, String)> {
+        let Self { machine, map: _, data: _, poses, tolerance } = self;
+        let poses = if *poses { "yes" } else { "" };
+        let tolerance = number::length(*tolerance, machine.spec.length);
+        machine.options_with([("poses", poses.to_owned()), ("tolerance", tolerance)])
+    }
+
     /// Corrects all rows and returns them in the report.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let mut rows = Vec::new();
@@ -210,6 +221,7 @@ impl Compensate {
             after: after.statistics(),
             file: Summary { rows: row_summary.rows, unusable: unusable.clone(), ..data.summary() },
             unusable,
+            record: map.record.with_options(self.options()),
             stations: data.stations.clone(),
             rows: Vec::new(),
             row_summary,
@@ -244,7 +256,7 @@ impl Report {
     pub fn table(&self, map: &Map) -> Table {
         let rows = self.rows.iter().map(|row| row.numbers(map)).collect();
         let labels = map.labels(self.rows.iter().map(|row| &row.corrected), &self.stations);
-        Table { heading: heading(map), rows, labels }
+        Table { heading: heading(map), rows, labels, ..Table::default() }
     }
 }
 

@@ -59,6 +59,12 @@ impl Instruments {
         self.list.iter().flat_map(of).collect()
     }
 
+    /// Returns the unit of each of the [`names`](Self::names).
+    pub(crate) fn units(&self) -> Vec<String> {
+        let own = |instrument: &Instrument| vec![instrument.unit.clone(); instrument.observables.len()];
+        self.list.iter().flat_map(own).collect()
+    }
+
     /// Returns the index of the fixture of an instrument, if it has one.
     pub fn fixture_of(&self, instrument: usize) -> Option<usize> {
         self.observables[self.list[instrument].observables.start].fixture

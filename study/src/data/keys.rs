@@ -3,7 +3,7 @@
 abbe_spec::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
     FORMS: ["the file"], ["point", "difference", "target", "pose", "instrument"];
-    STANDS: ["the file"], ["station", "placement", "place", "accept"];
+    STANDS: ["the file"], ["station", "placement", "place", "accept", "record"];
     DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement", "setup"];
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "zero", "value"];
     FROM_ROWS: ["[inputs.NAME]"], ["approach", "gravity_moment", "frame"];
@@ -23,5 +23,6 @@ abbe_spec::tables! {
     STATION: ["[[station]]"], ["name", "position", "quaternion", "covariance"];
     PLACE: ["[[place]]"], ["name", "position", "direction", "zero", "covariance"];
     ACCEPT: ["[accept]"], ["mean", "rms", "p95", "max"];
+    RECORD: ["[record]"], ["date", "operator", "machine", "serial", "instrument", "certificate"];
     PLACEMENT: ["[placement]"], ["targets", "position", "quaternion", "covariance"];
 }

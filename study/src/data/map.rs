@@ -14,7 +14,7 @@ use super::instrument::Instruments;
 use super::station::{Placement, Stations};
 use super::turn::Turn;
 use crate::workspace::has_range;
-use crate::{Acceptance, Machine};
+use crate::{Acceptance, Machine, RunRecord};
 
 /// A target on the end effector.
 #[derive(Clone, Debug)]
@@ -68,6 +68,10 @@ pub struct Map {
     pub placement: Placement,
     /// Limits for rows that were not used in a fit.
     pub accept: Acceptance,
+    /// Date, operator, machine and instrument as stated for the page.
+    pub record: RunRecord,
+    /// Indicates that the stated stations and fixtures are ignored.
+    pub is_newly_stationed: bool,
     /// Channel of each variable of the spec.
     pub joints: Vec<Channel>,
     /// Channel of each input of the spec.
@@ -106,6 +110,8 @@ impl Map {
             stations: Stations::default(),
             placement: Placement::default(),
             accept: Acceptance::default(),
+            record: RunRecord::default(),
+            is_newly_stationed: false,
             joints: joints.collect(),
             inputs: inputs.collect(),
             layout: Layout::Point([(); 3].map(|()| column("")), 1.0),
@@ -174,7 +180,7 @@ impl Map {
             other => other,
         };
         let base = if sees_the_base(&layout) { Base::Unknown } else { self.base };
-        Self { base, stations, layout, ..self }
+        Self { base, stations, layout, is_newly_stationed: true, ..self }
     }
 
     /// Returns the text of its file.

@@ -19,7 +19,7 @@ use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
 use super::turn::{EULER_ORDERS, Order, Turn};
 use crate::acceptance::{Acceptance, FIGURE_NAMES};
-use crate::named;
+use crate::{RunRecord, check_date, named};
 
 impl Map {
     /// Reads the map in a file, or the shipped map of that name.
@@ -118,6 +118,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     let stations = stations(root, &head, document, spec);
     let placement = placement(root, &head, document, spec, layout.as_ref());
     let accept = accept(root, document, spec);
+    let record = record(root, document);
     let base = match &layout {
         // The pose of `F_0` is absorbed by the fixtures of the instruments.
         Some(Layout::Instruments(all)) if !all.see_the_base() => Base::Exact,
@@ -130,6 +131,8 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         stations: stations?,
         placement: placement?,
         accept: accept?,
+        record: record?,
+        is_newly_stationed: false,
         joints: joints?,
         inputs: inputs?,
         layout: layout?,
@@ -256,4 +259,23 @@ fn accept(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Ac
     let limits =
         figures.map(|(figure, item)| Some((figure, constant(&item, document, spec, Dimension::LENGTH)?)));
     Some(Acceptance { limits: limits.collect::<Option<_>>()? })
+}
+
+/// Reads `[record]`: texts for a page that can be signed.
+fn record(root: &Section<'_>, document: &mut Document) -> Option<RunRecord> {
+    let mut record = RunRecord::default();
+    let Some(item) = root.get("record") else { return Some(record) };
+    let mut section = document.section(&item)?;
+    section.name = "[record]".to_owned();
+    section.check_keys(&[&keys::RECORD], document);
+    for key in keys::RECORD.keys {
+        let text = section.optional_text(key, document);
+        let wrong = check_date(&text).err().filter(|_| *key == "date" && !text.is_empty());
+        if let (Some(form), Some(item)) = (wrong, section.get(key)) {
+            let message = format!("`{}` is no date", text.escape_debug());
+            document.mistake(Diagnostic::new(item.span(), message).help(form));
+        }
+        record.state(key, text);
+    }
+    Some(record)
 }

@@ -26,7 +26,7 @@ use super::indistinguishable::indistinguishable;
 use super::instruments::{estimate, instrument_fits};
 use super::interpretation_check::check_interpretation;
 use super::magnitude::{OwnMagnitude, own_magnitudes};
-use super::options::Settings;
+use super::options::{LOSSES, Settings, TERMS};
 use super::plausibility::check_plausibility;
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::report::{
@@ -65,6 +65,28 @@ pub struct Identify {
 }
 
 impl Identify {
+    /// Returns the options that the figures depend on.
+    fn options(&self) -> Vec<(&'static str, String)> {
+        let Self { machine, map: _, data: _, test: _, terms, harmonics, settings, accept } = self;
+        let Settings { loss, prior, folds, time, points: _ } = settings;
+        let spec = &machine.spec;
+        let named = |family: &Family| TERMS.0.iter().find(|(families, ..)| *families == [*family]);
+        let terms = terms.iter().filter_map(named).map(|(_, name, _)| *name);
+        let harmonics = harmonics.iter().map(|Harmonics { variable, times }| {
+            let times = times.iter().map(u16::to_string).collect::<Vec<_>>().join(",");
+            format!("{}={times}", spec.variables[*variable].name)
+        });
+        machine.options_with([
+            ("terms", terms.collect::<Vec<_>>().join(", ")),
+            ("harmonics", harmonics.collect::<Vec<_>>().join(", ")),
+            ("robust", LOSSES.name(*loss).to_owned()),
+            ("prior", prior.to_string()),
+            ("folds", folds.to_string()),
+            ("time", time.map_or_else(String::new, |time| format!("{} s", time.as_secs_f64()))),
+            ("accept", accept.text(spec.length)),
+        ])
+    }
+
     /// Fits the data and selects terms on them alone, then assesses the result on the test data, if
     /// there are any.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
@@ -281,6 +303,7 @@ fn report(
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).collect(),
+        record: map.record.with_options(job.options()),
         points,
         files,
         placed: found.placed.clone(),

@@ -13,9 +13,9 @@ use super::indistinguishable::Indistinguishable;
 use super::instruments::InstrumentFit;
 use super::point_residuals::PointResidual;
 use super::weakly_determined::WeaklyDetermined;
-use crate::AcceptanceVerdict;
 use crate::data::{Summary, Unusable};
 use crate::sizes::Sizes;
+use crate::{AcceptanceVerdict, RunRecord};
 
 /// Identified errors, their uncertainty, and the accuracy of the identified machine.
 #[derive(Clone, Debug, Serialize)]
@@ -93,6 +93,9 @@ pub struct Report {
     pub rejected: Vec<u64>,
     /// Notes for the user.
     pub notes: Vec<String>,
+    /// Date, persons and instruments as stated, and the options of the run.
+    #[serde(skip_serializing_if = "RunRecord::is_empty")]
+    pub record: RunRecord,
     /// Files of the data and of the test data.
     #[serde(skip)]
     pub files: Vec<Summary>,

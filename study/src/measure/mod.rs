@@ -20,7 +20,7 @@ use serde::Serialize;
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
-use crate::{Acceptance, AcceptanceVerdict, Machine, Notes, finite, mistake};
+use crate::{Acceptance, AcceptanceVerdict, Machine, Notes, RunRecord, finite, mistake};
 
 pub use errors::RowError;
 use errors::{Errors, Visit};
@@ -75,6 +75,9 @@ pub struct Report {
     pub drift: Option<ResidualDrift>,
     /// Number of unusable rows.
     pub unusable: usize,
+    /// Date, persons and instruments as stated, and the options of the run.
+    #[serde(skip_serializing_if = "RunRecord::is_empty")]
+    pub record: RunRecord,
     /// Length unit as a value.
     #[serde(skip)]
     pub unit: LengthUnit,
@@ -93,6 +96,9 @@ pub struct Report {
     /// Names of the readings: those of the instruments, with the axis where there are three.
     #[serde(skip)]
     pub numbers: Vec<String>,
+    /// Unit of each of these numbers.
+    #[serde(skip)]
+    pub number_units: Vec<String>,
     /// Points of repeated visits relative to their barycentre, for figures.
     #[serde(skip)]
     pub about_barycentres: Vec<[f64; 3]>,
@@ -163,6 +169,13 @@ fn visited_again(rows: &[Observation]) -> Vec<bool> {
 }
 
 impl Measure {
+    /// Returns the options that the figures depend on.
+    fn options(&self) -> Vec<(&'static str, String)> {
+        let Self { machine, map, data: _, accept } = self;
+        let station = if map.is_newly_stationed { "new" } else { "" };
+        machine.options_with([("station", station.to_owned()), ("accept", accept.text(machine.spec.length))])
+    }
+
     /// Compares each row with the ideal machine and with the predicted one.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         self.evaluate(self.data.clone(), true, notes)
@@ -219,12 +232,14 @@ impl Measure {
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
             drift: residual_drift.map(|drift| ResidualDrift::new(drift, setup.description.length)),
             unusable: evaluated.data.unusable.len(),
+            record: map.record.with_options(self.options()),
             file: evaluated.data.summary(),
             base_fitted,
             about_barycentres: if keep { iso9283::about_barycentres(&evaluated.visits) } else { Vec::new() },
             row_errors: evaluated.rows,
             row_readings: evaluated.row_readings,
             numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
+            number_units: map.instruments().map(Instruments::units).unwrap_or_default(),
         };
         finite(file, report)
     }
@@ -328,13 +343,16 @@ impl Report {
             std::iter::once(Some(row.observation.line as f64)).chain(values).collect()
         });
         let heading = names.iter().map(|name| (*name).to_owned()).collect();
-        Table { heading, rows: rows.collect(), ..Table::default() }
+        let units = ["", self.length, self.length, self.length, "rad", "rad", "rad"];
+        let units = units.map(str::to_owned).to_vec();
+        Table { heading, units, rows: rows.collect(), ..Table::default() }
     }
 
     fn readings_table(&self) -> Table {
         let line = std::iter::once("line".to_owned());
         let rows = self.row_readings.iter();
         Table {
+            units: std::iter::once(String::new()).chain(self.number_units.iter().cloned()).collect(),
             heading: line.chain(self.numbers.iter().cloned()).collect(),
             rows: rows
                 .map(|row| std::iter::once(Some(row.line as f64)).chain(row.left.iter().copied()).collect())

@@ -27,6 +27,8 @@ pub struct Checks {
     pub calendar: Calendar,
     /// Checks, the earliest first.
     pub list: Vec<Check>,
+    /// First date, if earlier checks were removed.
+    pub since: Option<String>,
 }
 
 const DATES: &str =
@@ -84,7 +86,7 @@ impl Checks {
             }
         }
         let calendar = checks.first().map_or(Calendar::Checks, |(calendar, _)| *calendar);
-        Ok(Self { calendar, list: checks.into_iter().map(|(_, check)| check).collect() })
+        Ok(Self { calendar, list: checks.into_iter().map(|(_, check)| check).collect(), since: None })
     }
 
     /// Returns the checks with the inputs derived from their rows. `manipulator` is the interpreter
@@ -97,7 +99,8 @@ impl Checks {
             data: check.data.completed(map, manipulator, spec).into_owned(),
             time: check.time,
         };
-        Cow::Owned(Self { calendar: self.calendar, list: self.list.iter().map(one).collect() })
+        let list = self.list.iter().map(one).collect();
+        Cow::Owned(Self { calendar: self.calendar, list, since: self.since.clone() })
     }
 
     /// Removes the checks before a date. `option` is the name of the command-line option for error
@@ -118,6 +121,7 @@ impl Checks {
             return Err(wrong(message, "use the same kind of dates as in the checks"));
         }
         self.list.retain(|check| check.time >= since);
+        self.since = Some(date.to_owned());
         match self.list.is_empty() {
             true => Err(wrong("there is no check after that date".to_owned(), "give an earlier date")),
             false => Ok(()),

@@ -11,7 +11,7 @@ use super::options::Settings;
 use super::report::{Alarm, Report};
 use super::single_errors::SingleErrors;
 use crate::data::Map;
-use crate::{Machine, Notes, finite};
+use crate::{Machine, Notes, finite, number};
 
 /// Monitoring of a machine by repeated checks.
 pub struct Monitor {
@@ -26,6 +26,18 @@ pub struct Monitor {
 }
 
 impl Monitor {
+    /// Returns the options that the figures depend on.
+    fn options(&self) -> Vec<(&'static str, String)> {
+        let Self { machine, map: _, checks, settings } = self;
+        let Settings { checks_per_false_alarm, lambda: _, tolerance } = settings;
+        let tolerance = tolerance.map(|tolerance| number::length(tolerance, machine.spec.length));
+        machine.options_with([
+            ("since", checks.since.clone().unwrap_or_default()),
+            ("false-alarm", number::short(*checks_per_false_alarm)),
+            ("tolerance", tolerance.unwrap_or_default()),
+        ])
+    }
+
     /// Evaluates all checks in chronological order.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, checks, settings } = self;
@@ -58,6 +70,7 @@ impl Monitor {
             finding: found,
             alarm,
             tolerance,
+            record: map.record.with_options(self.options()),
             files: checks.list.iter().map(|check| check.data.summary()).collect(),
         };
         finite("abbe monitor", report)

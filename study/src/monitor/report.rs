@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::charts::{Chart, Limit};
 use super::finding::Finding;
+use crate::RunRecord;
 use crate::data::{Calendar, Summary};
 
 /// Result of monitoring: charts, alarm and the change found.
@@ -44,6 +45,9 @@ pub struct Report {
     pub finding: Option<Finding>,
     /// Permitted displacement of the tool point, in the length unit; none if not given.
     pub tolerance: Option<f64>,
+    /// Date, persons and instruments as stated, and the options of the run.
+    #[serde(skip_serializing_if = "RunRecord::is_empty")]
+    pub record: RunRecord,
     /// Files of the checks.
     #[serde(skip)]
     pub files: Vec<Summary>,

@@ -111,6 +111,6 @@ impl Report {
     pub fn table(&self, map: &Map) -> Table {
         let rows = self.observations.iter().map(|row| map.numbers(row, [0.0; 3], false));
         let labels = map.labels(&self.observations, &map.station_names());
-        Table { heading: map.heading(false), rows: rows.collect(), labels }
+        Table { heading: map.heading(false), rows: rows.collect(), labels, ..Table::default() }
     }
 }

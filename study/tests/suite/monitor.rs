@@ -95,7 +95,7 @@ impl Watched {
             let data = Data { file: format!("check-{day}.csv"), observations: rows, ..Data::default() };
             Check { time, data }
         });
-        Checks { calendar: Calendar::Dates, list: list.collect() }
+        Checks { calendar: Calendar::Dates, list: list.collect(), since: None }
     }
 
     fn report(&self, base: &str, checks: Checks, tolerance: Option<f64>) -> Report {

@@ -165,7 +165,7 @@ fn checks_of_another_machine_raise_a_warning() {
             data.observations.truncate(12);
             Check { time: day as f64, data }
         };
-        let checks = Checks { calendar: Calendar::Dates, list: (0..5).map(check).collect() };
+        let checks = Checks { calendar: Calendar::Dates, list: (0..5).map(check).collect(), since: None };
         let mut recorded = RecordedNotes::default();
         let settings = monitor::Settings::default();
         Monitor { machine: machine.clone(), map: map.clone(), checks, settings }.run(&mut recorded).unwrap();

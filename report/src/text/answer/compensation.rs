@@ -60,6 +60,7 @@ fn facts(description: &Description, report: &Report) -> Vec<(String, String)> {
             format!("the joints move the tool in {mobility} of 6 ways; the tool point comes first"),
         );
     }
+    facts.extend(report.extrapolated.iter().map(|rows| ("Outside".to_owned(), super::outside(rows))));
     facts.extend(super::data(&report.file).into_iter().map(|(name, text)| (name.to_owned(), text)));
     facts
 }

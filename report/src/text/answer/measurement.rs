@@ -96,15 +96,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     ));
     facts.extend(region(report).map(|sentence| ("Region", sentence)));
     facts.extend(report.drift.iter().map(|order| ("Drift", order.sentence.clone())));
-    if let Some(extrapolated) = &report.extrapolated {
-        facts.push((
-            "Outside",
-            format!(
-                "{} of {} rows are outside the identified ranges",
-                extrapolated.outside, extrapolated.all
-            ),
-        ));
-    }
+    facts.extend(report.extrapolated.iter().map(|rows| ("Outside", super::outside(rows))));
     if report.base_fitted {
         facts.push(("Station", "fitted to these rows; what it explains is not in the errors".to_owned()));
     }

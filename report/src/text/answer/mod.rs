@@ -13,6 +13,7 @@ mod measurement;
 mod monitoring;
 mod plan;
 
+use abbe_study::Extrapolation;
 use abbe_study::data::Summary;
 use abbe_study::number::unbroken;
 
@@ -66,6 +67,11 @@ fn data(file: &Summary) -> Vec<(&'static str, String)> {
     let lines = file.lines();
     let names = std::iter::once("Data").chain(std::iter::repeat(""));
     names.zip(lines.iter().take(3)).map(|(name, line)| (name, line.trim().to_owned())).collect()
+}
+
+/// Returns the number of rows outside the fitted ranges.
+fn outside(rows: &Extrapolation) -> String {
+    format!("{} of {} rows are outside the identified ranges", rows.outside, rows.all)
 }
 
 /// Returns the first texts under one name, and the number of the others.

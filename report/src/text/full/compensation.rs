@@ -3,7 +3,7 @@
 use abbe::{Class, Description, VariableKind};
 
 use abbe_study::compensate::{NormStatistics, Report, RowSummary};
-use abbe_study::number::{counted, error_decimals, fixed, length, short, visible};
+use abbe_study::number::{NO_BREAK, counted, error_decimals, fixed, length, short, visible};
 
 use super::{Table, wrapped};
 
@@ -32,6 +32,7 @@ pub(in crate::text) fn compensation(description: &Description, report: &Report) 
     if !description.sources.iter().any(|source| source.class == Class::Repeatable) {
         parts.push("The spec has no repeatable source: there is nothing to compensate.\n".to_owned());
     }
+    parts.extend(report.extrapolated.iter().map(|extrapolated| wrapped(&extrapolated.sentence, 0) + "\n"));
     let from = "Corrections cover the errors of the machine in its frame F_0, not the placement of the \
      instrument or of targets.";
     parts.push(wrapped(from, 0) + "\n");
@@ -79,7 +80,7 @@ fn commands(description: &Description, report: &Report) -> String {
 fn done(description: &Description, report: &Report) -> String {
     let turn = match report.mobility {
         0..6 => String::new(),
-        _ => format!(" and {} rad", short(report.tolerance * description.length.in_metres())),
+        _ => format!(" and {}{NO_BREAK}mrad", short(1e3 * report.tolerance * description.length.in_metres())),
     };
     let tolerance = length(report.tolerance, description.length);
     let mut text = format!(

@@ -1,7 +1,7 @@
 //! Reports in full: every table and every sentence.
 
 mod alike;
-mod analysis;
+pub(super) mod analysis;
 pub(super) mod bound;
 pub(super) mod check;
 mod compensation;

@@ -41,8 +41,8 @@ use super::figures::Figures;
 use super::first_order::FirstOrder;
 use super::unreachable::UnreachableReason;
 use crate::bound::CertifiedNorms;
-use crate::number;
 use crate::study_file::{CombinedFigure, PublishedResidual, Study, Subject};
+use crate::{Extrapolation, RunRecord, number};
 
 /// Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`;
 /// angles are in rad.
@@ -106,6 +106,13 @@ pub struct Report {
     /// Monte Carlo draws; `None` if they were not requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub monte_carlo: Option<MonteCarloReport>,
+    /// Configurations outside the fitted ranges, and the uncertainty there; `None` if there are
+    /// none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extrapolated: Option<Extrapolation>,
+    /// Date as stated, and the options of the run.
+    #[serde(skip_serializing_if = "RunRecord::is_empty")]
+    pub record: RunRecord,
 
     /// Spec of the manipulator, with all changes.
     #[serde(skip)]

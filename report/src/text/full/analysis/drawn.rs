@@ -5,14 +5,18 @@ use abbe_study::analyze::{MonteCarloReport, Report};
 use abbe_study::number::{self, fixed};
 
 pub(super) fn table(report: &Report, drawn: &MonteCarloReport) -> String {
-    let text = format!(
-        "{} draws per configuration, seed {}. Above: quantiles and maximum of the norm of the \
-         total error, and the share of draws inside the first-order 95 % ellipsoid, which is 95 % \
-         if all random sources are normal. Below: standard deviations.",
+    format!("{}\n{}{}\n", norms(report, drawn), deviations(report, drawn), wrapped(&explained(drawn), 0))
+}
+
+/// States the number of draws, and what the tables have of them.
+pub(crate) fn explained(drawn: &MonteCarloReport) -> String {
+    format!(
+        "{} draws per configuration, seed {}: quantiles and maximum of the norm of the total error, \
+         the share of draws inside the first-order 95 % ellipsoid, which is 95 % if all random \
+         sources are normal, and standard deviations.",
         number::short(drawn.draws as f64),
         drawn.seed,
-    );
-    format!("{}\n{}{}\n", norms(report, drawn), deviations(report, drawn), wrapped(&text, 0))
+    )
 }
 
 fn norms(report: &Report, drawn: &MonteCarloReport) -> Table {

@@ -8,6 +8,7 @@ use abbe_study::analyze::{self, Report, UncertaintyBudget};
 use abbe_study::number::{self, unbroken};
 
 use super::{listed, wrapped};
+pub(crate) use drawn::explained;
 
 /// Prints verdict, ledgers, each source alone, all sources together, uncertainty budgets and
 /// conclusions.
@@ -43,6 +44,7 @@ pub(in crate::text) fn analysis(report: &Report) -> String {
         }
         parts.push(paragraphs(&report.conclusions()));
     }
+    parts.extend(report.extrapolated.iter().map(|extrapolated| wrapped(&extrapolated.sentence, 0) + "\n"));
     if !report.study.not_reproducible.is_empty() {
         let notes = report.study.not_reproducible.iter().map(|note| format!("- {}\n", wrapped(note, 2)));
         parts.push(format!("Not reproducible from {}\n{}", report.publisher(), notes.collect::<String>()));

@@ -52,17 +52,19 @@ fn charts(report: &Report) -> String {
     }
     let mut text = table.right(&[2, 4]).to_string();
     if hidden > 0 {
-        text += &format!("{hidden} more charts never exceeded their limits and are nearer to zero.\n");
+        text += &format!("… and {hidden} more, nearer to zero\n");
     }
     if !report.unseen.is_empty() {
-        let count = report.unseen.len();
-        let names = report.unseen.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
-        let more = if count > SHOWN { format!(" and {} more", count - SHOWN) } else { String::new() };
-        let line = format!(
-            "Not observable, because indistinguishable from the station or without effect on the \
-             measurements: {names}{more}."
-        );
-        text += &(wrapped(&line, 0) + "\n");
+        text += &(wrapped(&not_observable(report), 0) + "\n");
     }
     text
+}
+
+/// Names the errors that the checks cannot show.
+pub(crate) fn not_observable(report: &Report) -> String {
+    format!(
+        "Not observable, because indistinguishable from the station or without effect on the \
+         measurements: {}.",
+        report.unseen.join(", ")
+    )
 }
