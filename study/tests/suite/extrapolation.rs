@@ -132,7 +132,7 @@ fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
     assert!((0.75..1.33).contains(&(known.outside / outside)), "{known:?} {outside}");
     assert!(known.outside > 1.5 * known.within && known.outside_max > known.outside, "{known:?}");
     assert!(
-        heard.0[0].contains("times the") && heard.0[0].contains("extrapolated"),
+        heard.0[0].contains("times the") && heard.0[0].contains("extrapolations"),
         "{heard:?}",
         heard = heard.0
     );
