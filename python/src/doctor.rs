@@ -39,7 +39,8 @@ impl Machine {
     /// >>> ur5 = abbe.load("ur5")
     /// >>> q = np.random.default_rng(0).uniform(-2, 2, (10, 6))
     /// >>> report = ur5.doctor(np.degrees(q), ur5.pose(q)[:, :3, 3] / 1000)
-    /// >>> report.found[0].interpretation.joints_in_degrees, report.found[0].interpretation.lengths_in
+    /// >>> found = report.found[0].interpretation
+    /// >>> found.joints_in_degrees, found.lengths_in
     /// (True, 'm')
     #[pyo3(signature = (data, seen=None, *, within=None))]
     fn doctor(
