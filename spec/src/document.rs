@@ -435,18 +435,23 @@ impl<'d> Section<'d> {
     /// Records every unknown key with the most similar known one, and every `description` or
     /// `reference` that is no string.
     pub fn check_keys(&self, known: &[&Keys], document: &mut Document) {
-        for item in self.items().filter(|item| TEXTS.contains(&item.key.as_str())) {
-            if known.iter().any(|keys| keys.contain(&item.key)) {
-                document.string(&item);
-            }
+        let names: Vec<&str> = known.iter().flat_map(|keys| keys.names()).collect();
+        self.check_names(&names, document);
+    }
+
+    /// Records the mistakes of [`check_keys`](Self::check_keys), for keys with these names.
+    pub fn check_names(&self, names: &[&str], document: &mut Document) {
+        let (known, unknown): (Vec<_>, Vec<_>) =
+            self.items().partition(|item| names.contains(&item.key.as_str()));
+        for item in known.iter().filter(|item| TEXTS.contains(&item.key.as_str())) {
+            document.string(item);
         }
-        for item in self.items().filter(|item| !known.iter().any(|keys| keys.contain(&item.key))) {
+        for item in unknown {
             let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
-            let names = known.iter().flat_map(|keys| keys.keys).copied().collect::<Vec<_>>();
-            let help = suggestion(document.found.len(), &item.key, &names, "known keys");
+            let help = suggestion(document.found.len(), &item.key, names, "known keys");
             document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(help));
             // A misspelled key is not reported as missing as well.
-            let near = nearest_after(document.found.len() - 1, &item.key, names);
+            let near = nearest_after(document.found.len() - 1, &item.key, names.iter().copied());
             if let Some(meant) = near.filter(|meant| self.get(meant).is_none()) {
                 document.meant.insert((self.span.clone(), self.missing(meant)));
             }

@@ -79,7 +79,7 @@ pub enum Over {
 }
 
 #[derive(Clone, Copy)]
-enum Kind {
+pub(super) enum Kind {
     Travel,
     Surface,
     Cloud,
@@ -88,7 +88,7 @@ enum Kind {
     Manipulator,
 }
 
-const KINDS: [(&str, Kind); 6] = [
+pub(super) const KINDS: [(&str, Kind); 6] = [
     ("travel", Kind::Travel),
     ("surface", Kind::Surface),
     ("cloud", Kind::Cloud),
@@ -96,6 +96,11 @@ const KINDS: [(&str, Kind); 6] = [
     ("pareto", Kind::Pareto),
     ("manipulator", Kind::Manipulator),
 ];
+
+pub(super) const UP_AXES: [(&str, usize); 3] = [("x", 0), ("y", 1), ("z", 2)];
+
+pub(super) const MEASURANDS: [(&str, Measurand); 2] =
+    [("position", Measurand::Position), ("orientation", Measurand::Orientation)];
 
 /// Index of the upward axis of most machines, z.
 const UP: usize = 2;
@@ -166,15 +171,19 @@ pub(super) fn read_figures(
     figures
 }
 
-fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
-    let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
-    let known: &[&Keys] = match kind {
+/// Returns the keys of a kind of figure.
+pub(super) fn accepted(kind: Kind) -> &'static [&'static Keys] {
+    match kind {
         Kind::Travel | Kind::Surface => &[&keys::GATHERED, &keys::OVER, &keys::ROWS, &keys::FIGURE],
         Kind::Cloud | Kind::Histogram => &[&keys::GATHERED, &keys::ROWS, &keys::FIGURE],
         Kind::Manipulator => &[&keys::UP, &keys::FIGURE],
         Kind::Pareto => &[&keys::ROWS, &keys::FIGURE],
-    };
-    section.check_keys(known, document);
+    }
+}
+
+fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
+    let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
+    section.check_keys(accepted(kind), document);
     let content = match kind {
         Kind::Travel => {
             let item = section.required("over", document)?;
@@ -192,7 +201,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         Kind::Pareto => Content::Pareto,
         Kind::Manipulator => {
             let up = section.get("up");
-            let up = up.map(|item| document.choice(&item, &[("x", 0), ("y", 1), ("z", 2)]));
+            let up = up.map(|item| document.choice(&item, &UP_AXES));
             Content::Manipulator(up.unwrap_or(Some(UP))?)
         }
     };
@@ -204,7 +213,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         figure.source = Some(name);
     }
     if let Some(item) = section.get("rows") {
-        figure.measurand = document.choice(&item, &Measurand::ALL.map(|rows| (name(rows), rows)))?;
+        figure.measurand = document.choice(&item, &MEASURANDS)?;
     }
     if let Some(item) = section.get("workspace") {
         let mut region = read_region(&item, document, spec)?;
@@ -216,15 +225,9 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     Some(figure)
 }
 
-fn name(measurand: Measurand) -> &'static str {
-    match measurand {
-        Measurand::Position => "position",
-        Measurand::Orientation => "orientation",
-    }
-}
-
 fn rows<S: Serializer>(measurand: &Measurand, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(name(*measurand))
+    let name = MEASURANDS.iter().find(|(_, known)| known == measurand).map(|(name, _)| *name);
+    serializer.serialize_str(name.unwrap_or_default())
 }
 
 fn over(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Over> {

@@ -17,6 +17,6 @@ mod tolerance;
 
 pub use compensation::Compensated;
 pub use figure::{Content, Figure, Over};
-pub use keys::TABLES;
+pub use keys::{TABLES, rules};
 pub use published::{CombinedFigure, Metric, Published, PublishedResidual, Subject};
 pub use study::Study;

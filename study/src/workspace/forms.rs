@@ -12,6 +12,9 @@ use super::keys::{self, BESIDE, WORKSPACE};
 use super::path;
 use super::region::{Form, LARGEST, Region, has_range};
 
+pub(super) const ORIENTATIONS: [(&str, ToolOrientation); 2] =
+    [("free", ToolOrientation::Free), ("home", ToolOrientation::Home)];
+
 /// Reads `[workspace]`: one of the forms, and `inputs` with their own values. Inputs without a name
 /// there stay nominal.
 pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
@@ -20,7 +23,7 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     section.check_keys(&[&WORKSPACE, &BESIDE], document);
     let mut forms = section.items().filter(|item| WORKSPACE.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
-        let forms = WORKSPACE.keys.iter().map(|form| format!("`{form}`")).collect::<Vec<_>>();
+        let forms = WORKSPACE.names().map(|form| format!("`{form}`")).collect::<Vec<_>>();
         let help = format!("give one of {}", forms.join(", "));
         document.mistake(
             Diagnostic::new(section.span.clone(), "a workspace has one form")
@@ -113,9 +116,8 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         let item = section.required(axis, document)?;
         values(&item, document, spec, Dimension::LENGTH)
     });
-    let orientations = [("free", ToolOrientation::Free), ("home", ToolOrientation::Home)];
     let orientation = match section.get("orientation") {
-        Some(item) => document.choice(&item, &orientations),
+        Some(item) => document.choice(&item, &ORIENTATIONS),
         None => Some(ToolOrientation::Free),
     };
     let solved = match section.get("solve") {

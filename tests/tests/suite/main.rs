@@ -37,5 +37,6 @@ mod reach;
 mod recipes;
 mod reference;
 mod reference_pages;
+mod schemas;
 mod tables;
 mod voice;

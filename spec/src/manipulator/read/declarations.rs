@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use abbe_core::{LengthUnit, VariableKind};
 
+use super::choices::JOINT_KINDS;
 use super::keys;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
@@ -95,10 +96,7 @@ impl Declarations {
         table.name = "`variable`".to_owned();
         table.check_keys(&[&keys::VARIABLE], document);
         let name_item = table.required("name", document);
-        let kind = table.required("kind", document).and_then(|kind| {
-            let kinds = [("revolute", VariableKind::Revolute), ("prismatic", VariableKind::Prismatic)];
-            document.choice(&kind, &kinds)
-        });
+        let kind = table.required("kind", document).and_then(|kind| document.choice(&kind, &JOINT_KINDS));
         let dimension = kind.map(|kind| match kind {
             VariableKind::Revolute => Dimension::NONE,
             VariableKind::Prismatic => Dimension::LENGTH,

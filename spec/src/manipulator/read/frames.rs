@@ -22,7 +22,7 @@ pub(super) fn read_factors(
     document: &mut Document,
 ) -> Option<Vec<Factor>> {
     // The forms exclude each other; `axis` belongs to `origin`.
-    let forms = keys::TRANSFORM.keys.iter().filter(|key| **key != "axis");
+    let forms = keys::TRANSFORM.names().filter(|key| *key != "axis");
     let forms: Vec<Item<'_>> = forms.filter_map(|form| section.get(form)).collect();
     let axis = section.get("axis");
     if let [first, second, ..] = &forms[..] {
