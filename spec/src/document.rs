@@ -84,7 +84,7 @@ impl Document {
     /// Parses `text`, the document's own, or records all syntax errors.
     pub fn tables<'t>(&mut self, text: &'t str) -> Option<Spanned<DeTable<'t>>> {
         let (table, errors) = DeTable::parse_recoverable(text);
-        let mut last_line = None;
+        let (mut last_line, mut repeated): (_, Option<usize>) = (None, None);
         for error in &errors {
             let end = text.len();
             // Further errors on the same line are mostly consequences of the first.
@@ -97,8 +97,17 @@ impl Document {
             let message = error.message().lines().collect::<Vec<_>>().join(", ");
             let span = error.span().unwrap_or(end..end);
             let is_table = text.get(..span.start).is_some_and(|before| before.ends_with('['));
+            let is_duplicate = message == "duplicate key";
+            // The keys of a repeated table are duplicates, too.
+            let keys = repeated.and_then(|header| text.get(header..span.start));
+            if is_duplicate && !is_table && keys.is_some_and(|keys| !keys.contains("\n[")) {
+                continue;
+            }
+            if is_duplicate && is_table {
+                repeated = Some(span.end);
+            }
             let help = match text.get(span.clone()) {
-                Some(name) if is_table && message == "duplicate key" => {
+                Some(name) if is_table && is_duplicate => {
                     format!("write `[[{name}]]` for an array of tables, or merge the two tables")
                 }
                 _ => "the file is TOML: `key = value`, `[table]`".to_owned(),
@@ -350,6 +359,22 @@ impl<'d> Item<'d> {
     pub(crate) fn key_of_table(&self, key: &str) -> Option<Self> {
         let (key, value) = self.value.get_ref().as_table()?.get_key_value(key)?;
         Some(Self { key: key.get_ref().to_string(), key_span: key.span(), value })
+    }
+
+    /// Returns the number if the value is a number, or a string with nothing else.
+    pub(crate) fn number(&self) -> Option<f64> {
+        match self.value.get_ref() {
+            DeValue::Integer(number) => number.to_string().parse().ok(),
+            DeValue::Float(number) => number.to_string().parse().ok(),
+            DeValue::String(text) => text.trim().parse().ok(),
+            _ => None,
+        }
+    }
+
+    /// Returns the entries if the value is an array; none otherwise.
+    pub(crate) fn list(&self) -> Vec<Self> {
+        let entries = self.value.get_ref().as_array().into_iter().flat_map(|array| array.iter());
+        entries.map(|value| Self { value, ..self.clone() }).collect()
     }
 
     /// Returns `true` if the value is a string.

@@ -26,6 +26,7 @@
 pub mod bounded;
 pub mod cell;
 pub mod csv_writer;
+pub mod degrees;
 pub mod diagnostic;
 pub mod document;
 pub mod expr;

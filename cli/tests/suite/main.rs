@@ -23,6 +23,7 @@ mod measure;
 mod memory;
 mod merge;
 mod monitor;
+mod new;
 mod outputs;
 mod pages;
 mod paths;

@@ -4,6 +4,7 @@ use abbe_core::VariableKind;
 
 use super::keys;
 use super::rigid;
+use crate::degrees::check_angle;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{
@@ -14,8 +15,23 @@ use crate::manipulator::{DhConvention, Factor, Matrix};
 /// Index and kind of the frame's own variable, for `origin` and `axis`.
 pub(super) type OwnVariable = Option<(usize, VariableKind)>;
 
-/// Reads the transform of a frame or tool.
+/// Reads the transform of a frame or tool, and records angles that are probably in degrees.
 pub(super) fn read_factors(
+    section: &Section<'_>,
+    own: OwnVariable,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
+    let factors = read_form(section, own, scope, document)?;
+    for factor in &factors {
+        if let Factor::Elementary(Elementary { motion: R, amount, .. }) = factor {
+            check_angle(amount, document);
+        }
+    }
+    Some(factors)
+}
+
+fn read_form(
     section: &Section<'_>,
     own: OwnVariable,
     scope: &Scope,
