@@ -43,14 +43,19 @@ pub(crate) fn check_angle(angle: &Expression, document: &mut Document) {
         let term = &terms[index];
         match (term.kind, term.value) {
             (_, Some(value)) if term.bare => {
-                // An angle that is a TOML number has no quotes yet.
-                let is_number = document.text[..term.span.start].trim_end().ends_with(['=', ',', '[']);
-                let quote = if is_number { "\"" } else { "" };
-                document.found.extend(in_degrees(value, "an angle", term.span.clone(), quote));
+                document.found.extend(in_degrees(value, "an angle", term.span.clone(), ""));
+            }
+            // A TOML number has no quotes yet.
+            (Kind::Number(value), _) if is_number(document.text.get(term.span.clone())) => {
+                document.found.extend(in_degrees(value, "an angle", term.span.clone(), "\""));
             }
             (Kind::Binary(Binary::Add | Binary::Sub, left, right), _) => summands.extend([left, right]),
             (Kind::Neg(operand), _) => summands.push(operand),
             _ => {}
         }
     }
+}
+
+fn is_number(text: Option<&str>) -> bool {
+    text.is_some_and(|text| text.parse::<f64>().is_ok())
 }

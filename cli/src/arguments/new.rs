@@ -8,9 +8,9 @@ use super::values::named;
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
-    "  abbe new arm
+    "  abbe new my_arm
   abbe new mill --template five-axis-mill
-  abbe new cell --template gantry --out specs/cell.toml
+  abbe new hall --template gantry --out hall-1.toml
 "))]
 pub(crate) struct New {
     /// Name of the manipulator, in lower case

@@ -5,8 +5,8 @@ use super::values::named;
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
-    "  abbe schema spec > spec.schema.json
-  abbe schema study > study.schema.json
+    "  abbe schema spec
+  abbe schema study
 "))]
 pub(crate) struct Schema {
     /// Kind of input file

@@ -87,8 +87,9 @@ fn instrument(
 ) -> Option<Instrument> {
     let kind = section.required("kind", document)?;
     let kind = document.choice(&kind, &INSTRUMENTS.map(|kind| (kind.name, kind)))?;
-    let every = keys::ANY_INSTRUMENT.names().chain(keys::EVERY_INSTRUMENT.names());
-    section.check_names(&every.chain(kind.keys.iter().copied()).collect::<Vec<_>>(), document);
+    let known = keys::ANY_INSTRUMENT.names().chain(kind.keys.iter().copied());
+    let known: Vec<&str> = known.chain(keys::EVERY_INSTRUMENT.names()).collect();
+    section.check_names(&known, document);
     let name = section.required("name", document).and_then(|item| document.string(&item));
     let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
     let columns = match kind.has("columns") {

@@ -22,10 +22,10 @@ use abbe::analysis::Measurand;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
-use abbe_spec::keys::Keys;
 use abbe_spec::value::find_name;
 use serde::{Serialize, Serializer};
 
+use super::choices::{KINDS, Kind, MEASURANDS, UP_AXES};
 use super::keys;
 use crate::workspace::{Form, Region, read_region};
 
@@ -77,30 +77,6 @@ pub enum Over {
     /// Input, by its index.
     Input(usize),
 }
-
-#[derive(Clone, Copy)]
-pub(super) enum Kind {
-    Travel,
-    Surface,
-    Cloud,
-    Histogram,
-    Pareto,
-    Manipulator,
-}
-
-pub(super) const KINDS: [(&str, Kind); 6] = [
-    ("travel", Kind::Travel),
-    ("surface", Kind::Surface),
-    ("cloud", Kind::Cloud),
-    ("histogram", Kind::Histogram),
-    ("pareto", Kind::Pareto),
-    ("manipulator", Kind::Manipulator),
-];
-
-pub(super) const UP_AXES: [(&str, usize); 3] = [("x", 0), ("y", 1), ("z", 2)];
-
-pub(super) const MEASURANDS: [(&str, Measurand); 2] =
-    [("position", Measurand::Position), ("orientation", Measurand::Orientation)];
 
 /// Index of the upward axis of most machines, z.
 const UP: usize = 2;
@@ -171,19 +147,9 @@ pub(super) fn read_figures(
     figures
 }
 
-/// Returns the keys of a kind of figure.
-pub(super) fn accepted(kind: Kind) -> &'static [&'static Keys] {
-    match kind {
-        Kind::Travel | Kind::Surface => &[&keys::GATHERED, &keys::OVER, &keys::ROWS, &keys::FIGURE],
-        Kind::Cloud | Kind::Histogram => &[&keys::GATHERED, &keys::ROWS, &keys::FIGURE],
-        Kind::Manipulator => &[&keys::UP, &keys::FIGURE],
-        Kind::Pareto => &[&keys::ROWS, &keys::FIGURE],
-    }
-}
-
 fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
     let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
-    section.check_keys(accepted(kind), document);
+    section.check_keys(keys::accepted(kind), document);
     let content = match kind {
         Kind::Travel => {
             let item = section.required("over", document)?;

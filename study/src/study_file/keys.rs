@@ -1,10 +1,9 @@
 //! Keys of a study file, except those of its workspaces.
 
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Open, Table, Tables, Text};
-use abbe_spec::keys::{Rule, Then, When, words};
+use abbe_spec::keys::{Keys, Rule, Then, When, words};
 
-use super::figure::{KINDS, MEASURANDS, UP_AXES, accepted};
-use super::published::{CombinedFigure, Metric};
+use super::choices::{CombinedFigure, KINDS, Kind, MEASURANDS, Metric, UP_AXES};
 
 const TEXT: Value = Text("text");
 const NUMBER: Value = Number("number");
@@ -86,6 +85,16 @@ abbe_spec::tables! {
         "total": POSITIVE, "length unit", "required", "Sum of both";
         "reference": TEXT, "-", "empty", "Page or table of the figures";
     ]
+}
+
+/// Returns the keys of a kind of figure.
+pub(super) fn accepted(kind: Kind) -> &'static [&'static Keys] {
+    match kind {
+        Kind::Travel | Kind::Surface => &[&GATHERED, &OVER, &ROWS, &FIGURE],
+        Kind::Cloud | Kind::Histogram => &[&GATHERED, &ROWS, &FIGURE],
+        Kind::Manipulator => &[&UP, &FIGURE],
+        Kind::Pareto => &[&ROWS, &FIGURE],
+    }
 }
 
 /// Returns the relations between the keys of a study.

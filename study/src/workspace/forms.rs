@@ -7,13 +7,11 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 
 use super::axis::{Candidates, values};
+use super::choices::ORIENTATIONS;
 use super::constant::{constant, count, whole};
 use super::keys::{self, BESIDE, WORKSPACE};
 use super::path;
 use super::region::{Form, LARGEST, Region, has_range};
-
-pub(super) const ORIENTATIONS: [(&str, ToolOrientation); 2] =
-    [("free", ToolOrientation::Free), ("home", ToolOrientation::Home)];
 
 /// Reads `[workspace]`: one of the forms, and `inputs` with their own values. Inputs without a name
 /// there stay nominal.

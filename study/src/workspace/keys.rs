@@ -3,7 +3,7 @@
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, Text, Whole};
 use abbe_spec::keys::{Rule, Then, When, words};
 
-use super::forms::ORIENTATIONS;
+use super::choices::ORIENTATIONS;
 
 const NUMBER: Value = Number("number");
 const VARIABLES: Value = List("names of variables", None, &Text("name"));

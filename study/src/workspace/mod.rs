@@ -5,6 +5,7 @@
 //! computes the enclosing box.
 
 mod axis;
+mod choices;
 mod constant;
 mod forms;
 mod keys;

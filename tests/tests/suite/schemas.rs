@@ -77,8 +77,10 @@ fn shipped_files_are_accepted() {
     }
 }
 
+type Recognize = fn(&str) -> bool;
+
 /// Mistakes that a schema must find, and how their messages are recognized.
-const CLASSES: [(&str, fn(&str) -> bool); 4] = [
+const CLASSES: [(&str, Recognize); 4] = [
     ("unknown key", |message| message.starts_with("there is no key `")),
     ("missing key", |message| message.contains("` is missing in ")),
     ("wrong type", |message| {
