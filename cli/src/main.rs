@@ -25,9 +25,11 @@ mod man;
 mod measure;
 mod merge;
 mod monitor;
+mod new;
 mod number;
 mod output;
 mod plan;
+mod schema;
 mod simulate;
 
 use std::process::ExitCode;
@@ -60,6 +62,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
         Some(Command::Bound(arguments)) => bound::run(arguments),
         Some(Command::Merge(arguments)) => merge::run(arguments),
+        Some(Command::New(arguments)) => new::run(arguments),
         Some(Command::Import(arguments)) => import::run(arguments),
         Some(Command::Doctor(arguments)) => doctor::run(arguments),
         Some(Command::Generate(arguments)) => generate::run(arguments),
@@ -70,6 +73,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Compensate(arguments)) => compensate::run(arguments),
         Some(Command::Export(arguments)) => export::run(arguments),
         Some(Command::Monitor(arguments)) => monitor::run(arguments),
+        Some(Command::Schema(arguments)) => schema::run(arguments),
         Some(Command::Completions(arguments)) => completions::run(arguments),
         Some(Command::Man(arguments)) => man::run(arguments),
     }

@@ -84,7 +84,7 @@ impl Document {
     /// Parses `text`, the document's own, or records all syntax errors.
     pub fn tables<'t>(&mut self, text: &'t str) -> Option<Spanned<DeTable<'t>>> {
         let (table, errors) = DeTable::parse_recoverable(text);
-        let mut last_line = None;
+        let (mut last_line, mut repeated): (_, Option<usize>) = (None, None);
         for error in &errors {
             let end = text.len();
             // Further errors on the same line are mostly consequences of the first.
@@ -97,8 +97,17 @@ impl Document {
             let message = error.message().lines().collect::<Vec<_>>().join(", ");
             let span = error.span().unwrap_or(end..end);
             let is_table = text.get(..span.start).is_some_and(|before| before.ends_with('['));
+            let is_duplicate = message == "duplicate key";
+            // The keys of a repeated table are duplicates, too.
+            let keys = repeated.and_then(|header| text.get(header..span.start));
+            if is_duplicate && !is_table && keys.is_some_and(|keys| !keys.contains("\n[")) {
+                continue;
+            }
+            if is_duplicate && is_table {
+                repeated = Some(span.end);
+            }
             let help = match text.get(span.clone()) {
-                Some(name) if is_table && message == "duplicate key" => {
+                Some(name) if is_table && is_duplicate => {
                     format!("write `[[{name}]]` for an array of tables, or merge the two tables")
                 }
                 _ => "expected TOML: `key = value`, `[table]`".to_owned(),
@@ -352,6 +361,22 @@ impl<'d> Item<'d> {
         Some(Self { key: key.get_ref().to_string(), key_span: key.span(), value })
     }
 
+    /// Returns the number if the value is a number, or a string with nothing else.
+    pub(crate) fn number(&self) -> Option<f64> {
+        match self.value.get_ref() {
+            DeValue::Integer(number) => number.to_string().parse().ok(),
+            DeValue::Float(number) => number.to_string().parse().ok(),
+            DeValue::String(text) => text.trim().parse().ok(),
+            _ => None,
+        }
+    }
+
+    /// Returns the entries if the value is an array; none otherwise.
+    pub(crate) fn list(&self) -> Vec<Self> {
+        let entries = self.value.get_ref().as_array().into_iter().flat_map(|array| array.iter());
+        entries.map(|value| Self { value, ..self.clone() }).collect()
+    }
+
     /// Returns `true` if the value is a string.
     pub fn is_text(&self) -> bool {
         self.value.get_ref().is_str()
@@ -435,18 +460,23 @@ impl<'d> Section<'d> {
     /// Records every unknown key with the most similar known one, and every `description` or
     /// `reference` that is no string.
     pub fn check_keys(&self, known: &[&Keys], document: &mut Document) {
-        for item in self.items().filter(|item| TEXTS.contains(&item.key.as_str())) {
-            if known.iter().any(|keys| keys.contain(&item.key)) {
-                document.string(&item);
-            }
+        let names: Vec<&str> = known.iter().flat_map(|keys| keys.names()).collect();
+        self.check_names(&names, document);
+    }
+
+    /// Records the mistakes of [`check_keys`](Self::check_keys), for keys with these names.
+    pub fn check_names(&self, names: &[&str], document: &mut Document) {
+        let (known, unknown): (Vec<_>, Vec<_>) =
+            self.items().partition(|item| names.contains(&item.key.as_str()));
+        for item in known.iter().filter(|item| TEXTS.contains(&item.key.as_str())) {
+            document.string(item);
         }
-        for item in self.items().filter(|item| !known.iter().any(|keys| keys.contain(&item.key))) {
+        for item in unknown {
             let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
-            let names = known.iter().flat_map(|keys| keys.keys).copied().collect::<Vec<_>>();
-            let help = suggestion(document.found.len(), &item.key, &names, "known keys");
+            let help = suggestion(document.found.len(), &item.key, names, "known keys");
             document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(help));
             // A misspelled key is not reported as missing as well.
-            let near = nearest_after(document.found.len() - 1, &item.key, names);
+            let near = nearest_after(document.found.len() - 1, &item.key, names.iter().copied());
             if let Some(meant) = near.filter(|meant| self.get(meant).is_none()) {
                 document.meant.insert((self.span.clone(), self.missing(meant)));
             }

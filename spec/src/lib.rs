@@ -26,6 +26,7 @@
 pub mod bounded;
 pub mod cell;
 pub mod csv_writer;
+pub mod degrees;
 pub mod diagnostic;
 pub mod document;
 pub mod expr;
@@ -43,5 +44,5 @@ mod not_toml;
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Compliance, Covariance, Deviation, DhConvention, DhNumber, Effect,
     Factor, Fitted, Frame, Identified, Input, Load, MAGNITUDE, Magnitude, Matrix, Parameter, Point, Source,
-    Spec, TABLES, Variable, as_identifier,
+    Spec, TABLES, Variable, as_identifier, check_name, rules,
 };

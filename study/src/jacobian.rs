@@ -5,6 +5,7 @@ use std::sync::Arc;
 use abbe::analysis::sampling;
 use abbe::{Class, Component, Description, Error, Manipulator, Pose, Quantity, VariableKind};
 use abbe_interpreter::Interpreter;
+use abbe_spec::degrees::check_angle_text;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
 use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
@@ -169,6 +170,11 @@ pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnos
             VariableKind::Prismatic => Dimension::LENGTH,
         };
         let what = format!("the value of `{}`", variable.name);
+        if variable.kind == VariableKind::Revolute
+            && check_angle_text(&text[span.clone()], &what, span.clone(), &mut document)
+        {
+            continue;
+        }
         q.extend(parse_value(&mut document, span, spec.length, dimension, &what));
     }
     document.finish(Some(q))

@@ -64,7 +64,9 @@ pub mod data;
 pub mod hash;
 pub mod number;
 pub mod options;
+pub mod schema;
 pub mod study_file;
+pub mod template;
 pub mod workspace;
 
 mod acceptance;

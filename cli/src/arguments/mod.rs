@@ -19,7 +19,9 @@ mod man;
 mod measure;
 mod merge;
 mod monitor;
+mod new;
 mod plan;
+mod schema;
 mod shared;
 mod simulate;
 mod values;
@@ -40,7 +42,9 @@ pub(crate) use man::Man;
 pub(crate) use measure::Measure;
 pub(crate) use merge::Merge;
 pub(crate) use monitor::Monitor;
+pub(crate) use new::New;
 pub(crate) use plan::Plan;
+pub(crate) use schema::Schema;
 pub(crate) use shared::{Showing, study};
 pub(crate) use simulate::Simulate;
 
@@ -73,6 +77,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// List the shipped manipulators
     List(List),
+    /// Write a first spec from a template
+    New(New),
     /// Convert a URDF robot or a table of Denavit-Hartenberg parameters to a spec
     Import(Import),
     /// Check a spec; show its frames, variables, sources, operation counts and identifiable errors
@@ -110,6 +116,8 @@ pub(crate) enum Command {
     Export(Export),
     /// Monitor a machine by repeated checks: detect drift and jumps with control charts
     Monitor(Monitor),
+    /// Print the JSON Schema of an input file, for completion and checks in editors
+    Schema(Schema),
     /// Print the completion script of a shell
     Completions(Completions),
     /// Write the manual pages, for packagers

@@ -20,6 +20,7 @@ use crate::failure::Failure;
 
 pub(crate) use outputs::Outputs;
 pub(crate) use pending::Pending;
+pub(crate) use target::is_stdout;
 
 /// Results of a command.
 #[derive(Debug)]

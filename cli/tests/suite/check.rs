@@ -3,7 +3,7 @@
 use abbe_manipulators::SHIPPED;
 use tempfile::tempdir;
 
-use crate::running::{abbe, full, json, narrow, write};
+use crate::running::{abbe, full, json, narrow, prints, write};
 
 #[test]
 fn every_shipped_manipulator_passes() {
@@ -153,6 +153,51 @@ fn the_nominal_chain_at_home_is_shown() {
     assert!(slide["home"]["frames"].as_array().unwrap().iter().any(|link| link.get("dh").is_none()));
 }
 
+/// Whole numbers beyond a revolution are never rad: `bad-specs` has those of a spec.
+#[test]
+fn joint_variables_in_degrees_are_refused() {
+    let run = abbe(&["jacobian", "puma560", "--q", "0,-90,90deg,0,0,0"]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("the value of `q2` is -90 rad, more than one revolution"), "{}", run.stderr);
+    assert!(run.stderr.contains("write `-90 deg` for degrees, or `-90 rad`"), "{}", run.stderr);
+    assert_eq!(abbe(&["jacobian", "puma560", "--q", "0,-90deg,7 rad,0,0,0"]).status, 0);
+}
+
+#[test]
+fn inputs_and_loads_without_effect_are_noted() {
+    let spec = |error: &str, more: &str| {
+        format!(
+            "[manipulator]\nname = \"arm\"\nlength = \"mm\"\ngravity = [0, 0, \"-9.81 m/s^2\"]\n\
+             [inputs]\nwarming = \"0 K\"\npayload = \"2 kg\"\n\
+             [[frame]]\nname = \"elbow\"\nvariable = {{ name = \"q1\", kind = \"revolute\" }}\ntransform = \"Rz(q1) Tx(400)\"\n\
+             [[load]]\nmass = \"payload\"\nframe = \"elbow\"\n\
+             [[source]]\nname = \"heat\"\nclass = \"repeatable\"\nframe = \"elbow\"\ne_x = \"{error}\"\n{more}"
+        )
+    };
+    let folder = tempdir().unwrap();
+    let notes = |text: &str| {
+        let path = write(folder.path(), "arm.toml", text);
+        let report = json(&["check", path.to_str().unwrap(), "--json"]);
+        let printed = prints(&["check", path.to_str().unwrap()]);
+        assert!(printed.lines().count() <= 25);
+        let notes = report["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned());
+        let notes: Vec<String> = notes.collect();
+        let printed = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(notes.iter().all(|note| printed.contains(note)), "{printed}");
+        notes
+    };
+    let elastic = "[[source]]\nname = \"gear\"\nclass = \"repeatable\"\nframe = \"elbow\"\n\
+                   compliance = { diagonal = [0, 0, 0, 0, 0, \"1e-10/(N*mm)\"] }\n";
+    assert_eq!(
+        notes(&spec("1 um", "")),
+        [
+            "The input `warming` is not used: no source or load depends on it.",
+            "1 load has no effect: no `beam` or `compliance` at its frame or before it carries it."
+        ]
+    );
+    assert_eq!(notes(&spec("1 um/K * warming", elastic)), Vec::<String>::new());
+}
+
 #[test]
 fn angles_beyond_a_turn_are_doubted() {
     let spec = |alpha: &str, more: &str| {
@@ -175,17 +220,17 @@ fn angles_beyond_a_turn_are_doubted() {
         }
         warnings.clone()
     };
-    let found = warned(&spec("90", ""));
+    let found = warned(&spec("90.5", ""));
     assert_eq!(found.len(), 2);
     let expected =
-        "an angle of the frame \"elbow\" is 90 rad, more than one revolution; write `90deg` for degrees";
+        "an angle of the frame \"elbow\" is 90.5 rad, more than one revolution; write `90.5deg` for degrees";
     assert_eq!((found[0]["message"].as_str().unwrap(), &found[0]["line"]), (expected, &9.into()));
     assert!(found[1]["message"].as_str().unwrap().starts_with("an angle of the tool is 90 rad"));
     // No warning for an angle with a unit, or for one of less than a turn.
     let without = |text: &str| warned(&text.replace("Rx(twist)", "Rx(twist/90)"));
     assert!(without(&spec("\"720 deg\"", "")).is_empty());
     assert!(without(&spec("\"2*pi\"", "")).is_empty());
-    assert_eq!(without(&spec("0", ", limits = [-180, 180]")).len(), 2);
+    assert!(without(&spec("\"90 rad\"", "")).is_empty());
     assert!(without(&spec("0", ", limits = [\"-720 deg\", \"720 deg\"]")).is_empty());
     for shipped in SHIPPED {
         assert_eq!(

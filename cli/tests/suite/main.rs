@@ -24,6 +24,7 @@ mod measure;
 mod memory;
 mod merge;
 mod monitor;
+mod new;
 mod outputs;
 mod pages;
 mod paths;

@@ -67,7 +67,8 @@ fn a_measuring_report_has_its_instrument_and_files() {
     full(&["measure", "pps", &data, "--map", "pps", "--out", path(&out), "--date", "2026-11-21"]);
     let text = fs::read_to_string(out.join("report.html")).unwrap();
     is_alone(&text);
-    for expected in ["Instrument", "By joint", "Accuracy: errors in space", "SHA-256", "<td>2026-11-21</td>"] {
+    for expected in ["Instrument", "By joint", "Accuracy: errors in space", "SHA-256", "<td>2026-11-21</td>"]
+    {
         assert!(text.contains(expected), "{expected}");
     }
 }

@@ -305,6 +305,11 @@ impl<'b> Builder<'b> {
 fn unknown(name: &str, span: Span, scope: &Scope, found: usize) -> Diagnostic {
     let names: Vec<&str> = scope.names.keys().map(String::as_str).collect();
     let mistake = Diagnostic::new(span, format!("unknown name `{name}`"));
+    for (superscript, power) in [('²', 2), ('³', 3)] {
+        if let Some(base) = name.strip_suffix(superscript) {
+            return mistake.help(format!("write powers with `^`: `{base}^{power}`"));
+        }
+    }
     let tables = scope.tables.iter().map(|table| table.name.as_str());
     let candidates = names.iter().copied().chain(tables).chain(FUNCTION_NAMES).chain(UNIT_NAMES);
     match nearest_after(found, name, candidates) {

@@ -1,6 +1,6 @@
 //! Rules for names.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, Item};
 use crate::expr::{FUNCTION_NAMES, UNIT_NAMES};
 
@@ -22,6 +22,24 @@ pub(super) fn check_identifier(name: &str, at: crate::diagnostic::Span, document
     let Some((message, help)) = fault(name) else { return true };
     document.mistake(Diagnostic::new(at, message).label("not a valid name").help(help));
     false
+}
+
+/// Checks the name of a manipulator, which becomes the name of a module.
+pub(super) fn check_manipulator_name(name: &str, at: crate::diagnostic::Span, document: &mut Document) {
+    if check_identifier(name, at.clone(), document) && name.contains(|c: char| c.is_ascii_uppercase()) {
+        document.mistake(
+            Diagnostic::new(at, "the name of a manipulator must be in lower case")
+                .label("this becomes the name of a module")
+                .help(format!("write `{}`", name.to_ascii_lowercase())),
+        );
+    }
+}
+
+/// Checks the name of a manipulator that is not in a file; diagnostics name `path`.
+pub fn check_name(path: &str, name: &str) -> Result<(), Diagnostics> {
+    let mut document = Document::new(path, name);
+    check_manipulator_name(name, 0..name.len(), &mut document);
+    document.finish(Some(()))
 }
 
 /// Converts a text of another format to a valid name: lower case, with `_` for invalid characters.

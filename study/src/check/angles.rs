@@ -37,11 +37,6 @@ pub(super) fn warnings(spec: &Spec, text: Option<&str>) -> Vec<Warning> {
             warnings.push(Warning { line, message });
         }
     };
-    for variable in spec.variables.iter().filter(|variable| variable.kind == VariableKind::Revolute) {
-        for limit in variable.limits.iter().filter(|limit| limit.is_finite() && limit.fract() == 0.0) {
-            check(format!("a limit of `{}`", variable.name), *limit, None);
-        }
-    }
     let links =
         spec.frames.iter().map(|frame| (format!("an angle of the frame \"{}\"", frame.name), &frame.factors));
     for (what, factors) in links.chain([("an angle of the tool".to_owned(), &spec.tool)]) {

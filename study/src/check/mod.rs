@@ -1,8 +1,9 @@
 //! Checks a spec, and reports what follows from it.
 //!
 //! `facts` holds the content of the spec, `chain` its matrices at home, `angles` suspicious angles,
-//! `axes` unexpected axes of rotation, `identifiable` the number of identifiable errors, and `laws`
-//! the self-checks of the closed form against the exact chain.
+//! `axes` unexpected axes of rotation, `unused` inputs and loads without effect, `identifiable` the
+//! number of identifiable errors, and `laws` the self-checks of the closed form against the exact
+//! chain.
 
 mod angles;
 mod axes;
@@ -10,6 +11,7 @@ mod chain;
 mod facts;
 mod identifiable;
 mod laws;
+mod unused;
 
 use std::sync::Arc;
 
@@ -76,7 +78,7 @@ impl Check {
             facts,
             home: Chain::at_home(spec, &interpreter),
             warnings: angles::warnings(spec, self.machine.text().ok().as_deref()),
-            notes: axes::notes(spec),
+            notes: [unused::notes(spec), axes::notes(spec)].concat(),
             identifiable,
             configurations,
             laws: laws(&interpreter, configurations, notes)?,

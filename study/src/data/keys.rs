@@ -1,28 +1,241 @@
 //! Keys of a map.
 
+use abbe::identify::INSTRUMENTS;
+use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, Tables, Text};
+use abbe_spec::keys::{Rule, Then, When, words};
+
+use super::choices::{BASES, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
+use super::turn::EULER_ORDERS;
+
+const TEXT: Value = Text("text");
+const NUMBER: Value = Number("number");
+const COLUMN: Value = Text("name of a column");
+const COLUMNS: Value = List("three names of columns", Some(3), &COLUMN);
+const LENGTH_UNIT: Value = Text("unit of length");
+const VECTOR: Value = List("three numbers", Some(3), &NUMBER);
+const QUATERNION_VALUE: Value = List("four numbers, w x y z", Some(4), &NUMBER);
+const MATRIX: Value = List("rows of numbers", None, &List("", None, &NUMBER));
+const MAYBE: Value = Either("number, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]);
+
+/// Keys of an instrument that can be left out.
+pub const OPTIONAL: [&str; 4] = ["target", "zero", "nominal_radius", "range"];
+
 abbe_spec::tables! {
-    FILE: ["the file"], ["data", "joints", "inputs"];
-    FORMS: ["the file"], ["point", "difference", "target", "pose", "instrument"];
-    STANDS: ["the file"], ["station", "placement", "place", "accept", "record"];
-    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement", "setup"];
-    CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "zero", "value"];
-    FROM_ROWS: ["[inputs.NAME]"], ["approach", "gravity_moment", "frame"];
+    FILE: ["the file"], [
+        "data": Table("[data]"), "-", "required", "Name of the data and uncertainty of the instrument";
+        "joints": Names("table of `VARIABLE = …`", &Table("[joints.NAME]")), "-", "required",
+            "Columns of the joint variables, or their constant values; every variable needs one";
+        "inputs": Names("table of `INPUT = …`", &Table("[inputs.NAME]")), "-", "the nominal values",
+            "Columns of the inputs, or their constant values";
+    ]
+    FORMS: ["the file"], [
+        "point": Table("[point]"), "-", "one of these", "Columns of the measured tool point";
+        "difference": Table("[difference]"), "-", "one of these",
+            "Columns of the commanded tool point, and of commanded minus actual";
+        "target": Tables("[[target]]"), "-", "one of these",
+            "Three or more measured targets on the end effector; beside `[[instrument]]`, the targets that it observes";
+        "pose": Table("[pose]"), "-", "one of these", "Columns of the measured position and orientation of the tool";
+        "instrument": Tables("[[instrument]]"), "-", "one of these",
+            "Instruments with readings of their own, such as ballbars and indicators; several in one file";
+    ]
+    STANDS: ["the file"], [
+        "station": Tables("[[station]]"), "-", "as `base` says",
+            "Identified pose of the machine in the frame of the instrument";
+        "placement": Table("[placement]"), "-", "as designed",
+            "Identified position of the targets, or of the measured frame, on the tool";
+        "place": Tables("[[place]]"), "-", "about where `[[instrument]]` says",
+            "Identified position, direction and zero of an instrument";
+        "accept": Table("[accept]"), "-", "no limits",
+            "Limits for the errors of rows that were not used in a fit; without any, there is no verdict";
+        "record": Table("[record]"), "-", "nothing stated",
+            "Statements about the run for the pages of `measure`, `identify`, `monitor` and `compensate`";
+    ]
+    DATA: ["[data]"], [
+        "title": TEXT, "-", "empty", "Name of the data in reports";
+        "description": TEXT, "-", "empty", "Description of the data, for people";
+        "reference": TEXT, "-", "empty", "Origin of the data";
+        "uncertainty": Number("number, positive"), "length unit", "required without `[[instrument]]`",
+            "Standard deviation of one measured coordinate, as the data sheet of the instrument states it";
+        "angle_uncertainty": Number("number, positive"), "rad", "required for `[pose]`",
+            "Standard deviation of a measured rotation";
+        "base": Choice(|| words(&BASES)), "-", "`\"known\"`",
+            "Pose of the instrument: in `F_0` but for small errors, anywhere, or exactly in `F_0`";
+        "group": COLUMN, "-", "rows with the same joints and inputs",
+            "Column that identifies the visits of one configuration. Folds, degrees of freedom and uncertainties count configurations, not rows. Without it, rows belong together whose angles differ by at most 0.1 mrad, travels by 0.01 mm, and inputs by 1 % of their range";
+        "direction": COLUMN, "-", "not known",
+            "Column of the direction or path of approach, any text: `measure` then states the multi-directional variation of ISO 9283";
+        "time": COLUMN, "-", "the order of the rows",
+            "Column of the time of a row: a number in any unit, or a date such as `2026-03-14` with or without a time. Residuals are checked for drift in this order; `monitor` makes a check of every day";
+        "station": COLUMN, "-", "all rows at one station",
+            "Column of the name of the station: each station has its own pose, and all share the machine";
+        "placement": Choice(|| words(&PLACEMENTS)), "-", "`\"unknown\"`",
+            "Position of the targets, or of the measured frame, on the tool: near the nominal one, or exactly there. If unknown, errors that act as a displacement of the targets are attributed to it, never to the machine";
+        "setup": COLUMN, "-", "none", "Column of the number of the setup, which decides which instruments were read in a row";
+    ]
+    CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], [
+        "column": COLUMN, "-", "required without `value`", "Heading of the column";
+        "unit": Text("unit"), "-", "required without `value`", "Unit of the column's numbers; `1` is a pure number";
+        "sign": Number("`1` or `-1`"), "1", "`1`", "`-1` if the file counts the joint in the opposite direction";
+        "zero": NUMBER, "length unit or rad; of inputs as the spec's", "`0`",
+            "Value of the joint or input at which the column is 0; it is added after unit and sign";
+        "value": NUMBER, "length unit or rad; of inputs as the spec's", "one of the two", "Constant value in every row";
+    ]
+    FROM_ROWS: ["[inputs.NAME]"], [
+        "approach": Text("name of a variable"), "-", "one of the two",
+            "Joint whose last move gives the input: 1 if it was forward, -1 if it was back, 0 before the first move";
+        "gravity_moment": Text("name of a variable"), "-", "one of the two",
+            "Revolute joint whose moment of gravity gives the input: 1 if it acts forward, -1 if it acts back, 0 if there is none";
+        "frame": Text("name of a frame"), "-", "the tool point",
+            "Frame with the weight of `gravity_moment` at its origin; that of the joint or one behind it";
+    ]
 
-    POINT: ["[point]"], ["columns", "unit"];
-    DIFFERENCE: ["[difference]"], ["target", "difference", "unit"];
-    TARGET: ["[[target]]"], ["name", "columns", "unit", "position"];
-    ANY_INSTRUMENT: ["[[instrument]]"], ["name", "kind"];
-    INSTRUMENT: ["[[instrument]]"], ["column", "columns", "unit", "target", "targets", "at", "direction", "mirror", "zero", "radius", "nominal_radius", "range"];
-    EVERY_INSTRUMENT: ["[[instrument]]"], ["setup", "uncertainty"];
-    POSE: ["[pose]"], ["position", "unit"];
-    TURN: ["[pose]"], ["quaternion", "matrix", "euler", "rotation_vector"];
-    QUATERNION: ["[pose.quaternion]"], ["columns", "order"];
-    EULER: ["[pose.euler]"], ["columns", "order", "unit"];
-    ROTATION_VECTOR: ["[pose.rotation_vector]"], ["columns", "unit"];
+    POINT: ["[point]"], [
+        "columns": COLUMNS, "-", "required", "Headings of the columns of x, y and z";
+        "unit": LENGTH_UNIT, "-", "required", "Unit of their numbers";
+    ]
+    DIFFERENCE: ["[difference]"], [
+        "target": COLUMNS, "-", "required", "Columns of the commanded tool point";
+        "difference": COLUMNS, "-", "required", "Columns of commanded minus actual";
+        "unit": LENGTH_UNIT, "-", "required", "Unit of all six columns";
+    ]
+    TARGET: ["[[target]]"], [
+        "name": TEXT, "-", "required beside `[[instrument]]`", "Name of the target, by which instruments refer to it";
+        "columns": COLUMNS, "-", "required without `[[instrument]]`", "Headings of the columns of x, y and z";
+        "unit": LENGTH_UNIT, "-", "required without `[[instrument]]`", "Unit of their numbers";
+        "position": Either("three numbers, or `\"unknown\"` beside `[[instrument]]`", &[VECTOR, Choice(|| words(&UNKNOWN))]), "length unit", "required",
+            "Nominal position in the frame of the tool";
+    ]
+    ANY_INSTRUMENT: ["[[instrument]]"], [
+        "name": TEXT, "-", "required", "Name of the instrument in reports, and of its unknowns: `bar_x`";
+        "kind": Choice(|| INSTRUMENTS.map(|kind| kind.name).to_vec()), "-", "required", "Quantity that it measures";
+    ]
+    INSTRUMENT: ["[[instrument]]"], [
+        "column": COLUMN, "-", "required where one number is read", "Heading of the column of its readings";
+        "columns": COLUMNS, "-", "required for `\"point\"`", "Headings of the columns of x, y and z";
+        "unit": Text("unit"), "-", "required where anything is read", "Unit of its readings";
+        "target": Text("name of a target"), "-", "the first target; the tool point, if there is none", "Target that it observes";
+        "targets": List("two names of targets", Some(2), &TEXT), "-", "required for `\"between\"`", "The two targets whose distance it measures";
+        "at": VECTOR, "length unit", "required where the table says so", "Approximate position of the instrument in `F_0`";
+        "direction": VECTOR, "1", "required where the table says so",
+            "Approximate direction in `F_0`: along an indicator, or normal to a plane";
+        "mirror": VECTOR, "1", "required for `\"angle\"`", "Normal of the mirror in the frame of the tool";
+        "zero": MAYBE, "length unit", "`0`", "Reading minus true value of a `\"distance\"` or `\"between\"`";
+        "radius": MAYBE, "length unit", "required for `\"sphere\"`", "Distance of the target from the centre of the sphere when it touches";
+        "nominal_radius": NUMBER, "length unit", "`0`",
+            "Approximate radius of a sphere with `radius = \"unknown\"`: start value of the fit, and target of `plan` and `simulate`";
+        "range": List("two numbers", Some(2), &NUMBER), "unit of its readings", "none: it can be read anywhere",
+            "Least and largest reading for which `plan` and `simulate` use it";
+    ]
+    EVERY_INSTRUMENT: ["[[instrument]]"], [
+        "setup": NUMBER, "1", "none: it is read in all rows", "Number in the column `setup` of the rows in which it is read";
+        "uncertainty": Either("number, positive, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]), "length unit or rad", "required without that of `[data]`",
+            "Standard deviation of a reading, or of the distance when it touches; `\"unknown\"`: estimated from the data";
+    ]
+    POSE: ["[pose]"], [
+        "position": COLUMNS, "-", "required", "Columns of the tool point";
+        "unit": LENGTH_UNIT, "-", "required", "Unit of their numbers";
+    ]
+    TURN: ["[pose]"], [
+        "quaternion": Table("[pose.quaternion]"), "-", "one of these", "Columns of a unit quaternion";
+        "matrix": List("nine names of columns", Some(9), &COLUMN), "-", "one of these", "Columns of the rotation matrix, row by row";
+        "euler": Table("[pose.euler]"), "-", "one of these", "Columns of three angles";
+        "rotation_vector": Table("[pose.rotation_vector]"), "-", "one of these",
+            "Columns of the axis times the angle, as the pendant of a UR shows it";
+    ]
+    QUATERNION: ["[pose.quaternion]"], [
+        "columns": List("four names of columns", Some(4), &COLUMN), "-", "required", "Headings of its columns, in the order of `order`";
+        "order": Choice(|| words(&QUATERNION_ORDERS)), "-", "required", "Order of the columns: the scalar w first or last";
+    ]
+    EULER: ["[pose.euler]"], [
+        "columns": COLUMNS, "-", "required", "Columns of the three angles, in the order of the product";
+        "order": Choice(|| words(&EULER_ORDERS)), "-", "required",
+            "Axes of the product: `\"zyx\"` is `Rz(first) Ry(second) Rx(third)`. Angles about fixed axes are the same product from the last to the first";
+        "unit": Text("unit of angle"), "-", "required", "Unit of the angles";
+    ]
+    ROTATION_VECTOR: ["[pose.rotation_vector]"], [
+        "columns": COLUMNS, "-", "required", "Columns of x, y and z";
+        "unit": Text("unit of angle"), "-", "required", "Unit of its length";
+    ]
 
-    STATION: ["[[station]]"], ["name", "position", "quaternion", "covariance"];
-    PLACE: ["[[place]]"], ["name", "position", "direction", "zero", "covariance"];
-    ACCEPT: ["[accept]"], ["mean", "rms", "p95", "max"];
-    RECORD: ["[record]"], ["date", "operator", "machine", "serial", "instrument", "certificate"];
-    PLACEMENT: ["[placement]"], ["targets", "position", "quaternion", "covariance"];
+    STATION: ["[[station]]"], [
+        "name": TEXT, "-", "empty", "Text in the column of stations; empty if there is only one";
+        "position": VECTOR, "length unit", "required", "Position of the origin of `F_0` in the frame of the instrument";
+        "quaternion": QUATERNION_VALUE, "1", "required", "Orientation of `F_0` in the frame of the instrument";
+        "covariance": List("six rows of six numbers", Some(6), &List("", Some(6), &NUMBER)), "length unit and rad", "none",
+            "Covariance of `e_x e_y e_z e_s e_r e_p` at `F_0`; not used by any command";
+    ]
+    PLACE: ["[[place]]"], [
+        "name": TEXT, "-", "required", "Name of the instrument";
+        "position": VECTOR, "length unit", "required of an instrument that observes a point", "Position of that point in `F_0`";
+        "direction": VECTOR, "1", "required of an instrument that observes a direction", "Direction in `F_0`";
+        "zero": NUMBER, "length unit or rad", "required where the zero is not known", "Reading minus true value; minus the radius of a sphere";
+        "covariance": MATRIX, "length unit and rad", "none",
+            "Covariance of x, y, z of the position or of the two tilts of the direction, and of the zero; not used by any command";
+    ]
+    ACCEPT: ["[accept]"], [
+        "mean": NUMBER, "length unit", "no limit", "Limit of the mean position error";
+        "rms": NUMBER, "length unit", "no limit", "Limit of the root mean square of the position error";
+        "p95": NUMBER, "length unit", "no limit", "Limit of the 95th percentile of the position error";
+        "max": NUMBER, "length unit", "no limit", "Limit of the largest position error";
+    ]
+    RECORD: ["[record]"], [
+        "date": TEXT, "-", "not stated", "Date of the measurement, optionally with a time: `2026-03-14`";
+        "operator": TEXT, "-", "not stated", "Person who measured";
+        "machine": TEXT, "-", "not stated", "Machine that was measured";
+        "serial": TEXT, "-", "not stated", "Serial number of the machine";
+        "instrument": TEXT, "-", "not stated", "Instrument, with its own serial number";
+        "certificate": TEXT, "-", "not stated", "Number and date of the calibration certificate of the instrument";
+    ]
+    PLACEMENT: ["[placement]"], [
+        "targets": List("three numbers for each target", None, &VECTOR), "length unit", "required for points",
+            "Positions of the targets in the frame of the tool, instead of the nominal ones";
+        "position": VECTOR, "length unit", "required for poses", "Position of the measured frame in the frame of the tool";
+        "quaternion": QUATERNION_VALUE, "1", "required for poses", "Orientation of the measured frame in the frame of the tool";
+        "covariance": MATRIX, "length unit and rad", "none",
+            "Covariance of all coordinates of the targets, or of the six errors of the frame; not used by any command";
+    ]
+}
+
+/// Returns the relations between the keys of a map.
+pub fn rules() -> Vec<Rule> {
+    let rule = |table, when, then| Rule { table, when, then };
+    let mut rules = vec![
+        rule("the file", When::Always, Then::NeedsOne(FORMS.names().collect())),
+        rule(
+            "the file",
+            When::Lacks(vec!["instrument"]),
+            Then::Needs(vec!["data.uncertainty", "target[].columns", "target[].unit"]),
+        ),
+        rule("the file", When::Has("instrument"), Then::Needs(vec!["target[].name"])),
+        rule("the file", When::Has("instrument"), Then::Refuses(vec!["target[].columns", "target[].unit"])),
+        rule(
+            "the file",
+            When::Lacks(vec!["data.uncertainty"]),
+            Then::Needs(vec!["instrument[].uncertainty"]),
+        ),
+        rule(
+            "the file",
+            When::Has("pose"),
+            Then::Needs(vec!["data.angle_uncertainty", "placement.position", "placement.quaternion"]),
+        ),
+        rule("the file", When::Lacks(vec!["pose"]), Then::Needs(vec!["placement.targets"])),
+        rule("[joints.NAME]", When::Lacks(vec!["value"]), Then::Needs(vec!["column", "unit"])),
+        rule(
+            "[inputs.NAME]",
+            When::Lacks(vec!["value", "approach", "gravity_moment"]),
+            Then::Needs(vec!["column", "unit"]),
+        ),
+        rule("[pose]", When::Always, Then::NeedsOne(TURN.names().collect())),
+    ];
+    for key in FROM_ROWS.names() {
+        rules.push(rule("[inputs.NAME]", When::Has(key), Then::Refuses(CHANNEL.names().collect())));
+    }
+    for kind in INSTRUMENTS {
+        let of_kind = || When::Is("kind", kind.name);
+        let required = kind.keys.iter().copied().filter(|key| !OPTIONAL.contains(key)).collect();
+        let others = INSTRUMENT.names().filter(|key| !kind.has(key)).collect();
+        rules.push(rule("[[instrument]]", of_kind(), Then::Needs(required)));
+        rules.push(rule("[[instrument]]", of_kind(), Then::Refuses(others)));
+    }
+    rules
 }

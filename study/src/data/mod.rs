@@ -4,6 +4,7 @@
 
 mod above;
 mod cells;
+mod choices;
 mod column;
 mod completed;
 mod configurations;
@@ -40,7 +41,7 @@ pub use dated::Dated;
 pub use from_rows::FromRows;
 pub(crate) use from_rows::in_order;
 pub use instrument::{Instrument, Instruments};
-pub use keys::TABLES;
+pub use keys::{OPTIONAL, TABLES, rules};
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use raw_table::{RawTable, raw_table};
 pub use rows::{Data, Summary, Unusable};

@@ -9,6 +9,7 @@ use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 
+use super::choices::{BASES, QUATERNION_ORDERS};
 use super::column::Column;
 use super::configurations::resolution;
 use super::keys;
@@ -17,7 +18,7 @@ use super::read_channels::{inputs, joints};
 use super::read_instruments::instruments;
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
-use super::turn::{EULER_ORDERS, Order, Turn};
+use super::turn::{EULER_ORDERS, Turn};
 use crate::acceptance::{Acceptance, FIGURE_NAMES};
 use crate::{RunRecord, check_date, named};
 
@@ -110,9 +111,8 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         }
         None => Some(1.0),
     };
-    let bases = [("known", Base::Known), ("unknown", Base::Unknown), ("exact", Base::Exact)];
     let base = match head.get("base") {
-        Some(item) => document.choice(&item, &bases)?,
+        Some(item) => document.choice(&item, &BASES)?,
         None => Base::Known,
     };
     let stations = stations(root, &head, document, spec);
@@ -200,7 +200,7 @@ fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<T
         let section = document.section(&item)?;
         section.check_keys(&[&keys::QUATERNION], document);
         let order = section.required("order", document)?;
-        let order = document.choice(&order, &[("wxyz", Order::Wxyz), ("xyzw", Order::Xyzw)]);
+        let order = document.choice(&order, &QUATERNION_ORDERS);
         return Some(Turn::Quaternion(Box::new(columns(&section, "columns", document)?), order?));
     }
     if let Some(item) = section.get("rotation_vector") {
@@ -229,6 +229,7 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layo
         section.span = item.span();
         section.name = "this [[target]]".to_owned();
         section.check_keys(&[&keys::TARGET], document);
+        section.optional_text("name", document);
         let columns = columns(&section, "columns", document);
         let factor = unit(&section, document, spec, Dimension::LENGTH);
         let position = section.required("position", document)?;
@@ -269,9 +270,9 @@ fn record(root: &Section<'_>, document: &mut Document) -> Option<RunRecord> {
     let mut section = document.section(&item)?;
     section.name = "[record]".to_owned();
     section.check_keys(&[&keys::RECORD], document);
-    for key in keys::RECORD.keys {
+    for key in keys::RECORD.names() {
         let text = section.optional_text(key, document);
-        let wrong = check_date(&text).err().filter(|_| *key == "date" && !text.is_empty());
+        let wrong = check_date(&text).err().filter(|_| key == "date" && !text.is_empty());
         if let (Some(form), Some(item)) = (wrong, section.get(key)) {
             let message = format!("`{}` is no date", text.escape_debug());
             document.mistake(Diagnostic::new(item.span(), message).help(form));

@@ -63,7 +63,7 @@ pub(super) fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -
 /// Returns the table of an input that is computed from the rows, if it is one.
 fn from_rows<'d>(item: &Item<'d>, document: &mut Document) -> Option<Section<'d>> {
     let section = item.is_table().then(|| document.section(item)).flatten()?;
-    keys::FROM_ROWS.keys.iter().any(|key| section.get(key).is_some()).then_some(section)
+    keys::FROM_ROWS.names().any(|key| section.get(key).is_some()).then_some(section)
 }
 
 /// Reads `{ approach = "q1" }` or `{ gravity_moment = "q2", frame = "wrist 1" }`.

@@ -7,9 +7,9 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
-use abbe_spec::keys::Keys;
 use abbe_spec::value::find_name;
 
+use super::choices::UNKNOWN;
 use super::column::Column;
 use super::instrument::{Instrument, Instruments, norm};
 use super::keys;
@@ -65,7 +65,7 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<
         let mut section = document.section(item)?;
         section.span = item.span();
         section.name = "this [[target]]".to_owned();
-        section.check_keys(&[&Keys { tables: &["[[target]]"], keys: &["name", "position"] }], document);
+        section.check_names(&["name", "position"], document);
         let name = section.required("name", document).and_then(|item| document.string(&item));
         let position = match section.get("position") {
             Some(item) if is_unknown(&item, document) => [0.0; 3],
@@ -87,8 +87,9 @@ fn instrument(
 ) -> Option<Instrument> {
     let kind = section.required("kind", document)?;
     let kind = document.choice(&kind, &INSTRUMENTS.map(|kind| (kind.name, kind)))?;
-    let own = Keys { tables: &["[[instrument]]"], keys: kind.keys };
-    section.check_keys(&[&keys::ANY_INSTRUMENT, &own, &keys::EVERY_INSTRUMENT], document);
+    let known = keys::ANY_INSTRUMENT.names().chain(kind.keys.iter().copied());
+    let known: Vec<&str> = known.chain(keys::EVERY_INSTRUMENT.names()).collect();
+    section.check_names(&known, document);
     let name = section.required("name", document).and_then(|item| document.string(&item));
     let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
     let columns = match kind.has("columns") {
@@ -168,7 +169,7 @@ fn instrument(
 
 /// Returns whether a number is to be estimated from the data.
 fn is_unknown(item: &Item<'_>, document: &mut Document) -> bool {
-    item.is_text() && document.string(item).as_deref() == Some("unknown")
+    item.is_text() && document.string(item).as_deref() == Some(UNKNOWN[0].0)
 }
 
 /// Reads the indices of the targets of an instrument; the first target if it names none.

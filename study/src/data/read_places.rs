@@ -8,6 +8,7 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
 
+use super::choices::PLACEMENTS;
 use super::instrument::norm;
 use super::keys;
 use super::map::Layout;
@@ -62,7 +63,7 @@ pub(super) fn placement(
     layout: Option<&Layout>,
 ) -> Option<Placement> {
     let exact = match head.get("placement") {
-        Some(item) => document.choice(&item, &[("unknown", false), ("exact", true)])?,
+        Some(item) => document.choice(&item, &PLACEMENTS)?,
         None => false,
     };
     let mut placement = Placement { exact, ..Placement::default() };

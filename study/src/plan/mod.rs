@@ -23,7 +23,7 @@ use crate::identify::{
 use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, finite, mistake};
 
-pub use keys::TABLES;
+pub use keys::{TABLES, rules};
 pub use report::{Input, Predicted, Report, UndeterminedError};
 pub use sets::{SetSize, Sets};
 

@@ -140,7 +140,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
     head.name = "[plan]".to_owned();
     head.check_keys(&[&keys::PLAN], document);
     let repeat = match head.get("repeat") {
-        Some(item) => count(&item, 1000, document, spec),
+        Some(item) => count(&item, keys::MOST_REPEATS as usize, document, spec),
         None => Some(1),
     };
     let inputs = match root.get("inputs") {

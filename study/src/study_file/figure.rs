@@ -22,10 +22,10 @@ use abbe::analysis::Measurand;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
-use abbe_spec::keys::Keys;
 use abbe_spec::value::find_name;
 use serde::{Serialize, Serializer};
 
+use super::choices::{KINDS, Kind, MEASURANDS, UP_AXES};
 use super::keys;
 use crate::workspace::{Form, Region, read_region};
 
@@ -77,25 +77,6 @@ pub enum Over {
     /// Input, by its index.
     Input(usize),
 }
-
-#[derive(Clone, Copy)]
-enum Kind {
-    Travel,
-    Surface,
-    Cloud,
-    Histogram,
-    Pareto,
-    Manipulator,
-}
-
-const KINDS: [(&str, Kind); 6] = [
-    ("travel", Kind::Travel),
-    ("surface", Kind::Surface),
-    ("cloud", Kind::Cloud),
-    ("histogram", Kind::Histogram),
-    ("pareto", Kind::Pareto),
-    ("manipulator", Kind::Manipulator),
-];
 
 /// Index of the upward axis of most machines, z.
 const UP: usize = 2;
@@ -168,13 +149,7 @@ pub(super) fn read_figures(
 
 fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
     let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
-    let known: &[&Keys] = match kind {
-        Kind::Travel | Kind::Surface => &[&keys::GATHERED, &keys::OVER, &keys::ROWS, &keys::FIGURE],
-        Kind::Cloud | Kind::Histogram => &[&keys::GATHERED, &keys::ROWS, &keys::FIGURE],
-        Kind::Manipulator => &[&keys::UP, &keys::FIGURE],
-        Kind::Pareto => &[&keys::ROWS, &keys::FIGURE],
-    };
-    section.check_keys(known, document);
+    section.check_keys(keys::accepted(kind), document);
     let content = match kind {
         Kind::Travel => {
             let item = section.required("over", document)?;
@@ -192,7 +167,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         Kind::Pareto => Content::Pareto,
         Kind::Manipulator => {
             let up = section.get("up");
-            let up = up.map(|item| document.choice(&item, &[("x", 0), ("y", 1), ("z", 2)]));
+            let up = up.map(|item| document.choice(&item, &UP_AXES));
             Content::Manipulator(up.unwrap_or(Some(UP))?)
         }
     };
@@ -204,7 +179,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         figure.source = Some(name);
     }
     if let Some(item) = section.get("rows") {
-        figure.measurand = document.choice(&item, &Measurand::ALL.map(|rows| (name(rows), rows)))?;
+        figure.measurand = document.choice(&item, &MEASURANDS)?;
     }
     if let Some(item) = section.get("workspace") {
         let mut region = read_region(&item, document, spec)?;
@@ -216,15 +191,9 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     Some(figure)
 }
 
-fn name(measurand: Measurand) -> &'static str {
-    match measurand {
-        Measurand::Position => "position",
-        Measurand::Orientation => "orientation",
-    }
-}
-
 fn rows<S: Serializer>(measurand: &Measurand, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(name(*measurand))
+    let name = MEASURANDS.iter().find(|(_, known)| known == measurand).map(|(name, _)| *name);
+    serializer.serialize_str(name.unwrap_or_default())
 }
 
 fn over(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Over> {

@@ -7,6 +7,7 @@
 //! compensation, and `tolerance` the permitted errors. Everything is checked against the spec, and
 //! mistakes are reported like those of a spec.
 
+mod choices;
 mod compensation;
 mod figure;
 mod keys;
@@ -15,8 +16,9 @@ mod read;
 mod study;
 mod tolerance;
 
+pub use choices::{CombinedFigure, Metric};
 pub use compensation::Compensated;
 pub use figure::{Content, Figure, Over};
-pub use keys::TABLES;
-pub use published::{CombinedFigure, Metric, Published, PublishedResidual, Subject};
+pub use keys::{TABLES, rules};
+pub use published::{Published, PublishedResidual, Subject};
 pub use study::Study;

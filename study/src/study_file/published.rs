@@ -7,45 +7,9 @@ use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
 use serde::Serialize;
 
+use super::choices::{CombinedFigure, Metric};
 use super::keys;
 use crate::workspace::{constant, positive_length};
-
-/// Metric of a published figure of a single source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Metric {
-    /// Largest error.
-    PlainMaximum,
-    /// Half of the range of the error.
-    HalfPeakToPeak,
-    /// Largest difference from the error at home.
-    RelativeToHome,
-}
-
-impl Metric {
-    /// Metrics with their names in a study file.
-    pub const ALL: [(&'static str, Self); 3] = [
-        ("plain maximum", Self::PlainMaximum),
-        ("half peak-to-peak", Self::HalfPeakToPeak),
-        ("relative to home", Self::RelativeToHome),
-    ];
-}
-
-/// Published figure of all sources together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CombinedFigure {
-    /// Sum of the repeatable sources with their signs.
-    Repeatable,
-    /// Root sum of squares of the random sources.
-    Random,
-    /// Sum of the repeatable and the random norm.
-    Both,
-}
-
-impl CombinedFigure {
-    /// Figures with their names in a study file.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("repeatable radius", Self::Repeatable), ("random radius", Self::Random), ("radius", Self::Both)];
-}
 
 /// Quantity that a published figure states.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,6 +7,7 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 
 use super::axis::{Candidates, values};
+use super::choices::ORIENTATIONS;
 use super::constant::{constant, count, whole};
 use super::keys::{self, BESIDE, WORKSPACE};
 use super::path;
@@ -20,7 +21,7 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     section.check_keys(&[&WORKSPACE, &BESIDE], document);
     let mut forms = section.items().filter(|item| WORKSPACE.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
-        let forms = WORKSPACE.keys.iter().map(|form| format!("`{form}`")).collect::<Vec<_>>();
+        let forms = WORKSPACE.names().map(|form| format!("`{form}`")).collect::<Vec<_>>();
         let help = format!("give one of {}", forms.join(", "));
         document.mistake(
             Diagnostic::new(section.span.clone(), "a workspace needs exactly one form")
@@ -112,9 +113,8 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         let item = section.required(axis, document)?;
         values(&item, document, spec, Dimension::LENGTH)
     });
-    let orientations = [("free", ToolOrientation::Free), ("home", ToolOrientation::Home)];
     let orientation = match section.get("orientation") {
-        Some(item) => document.choice(&item, &orientations),
+        Some(item) => document.choice(&item, &ORIENTATIONS),
         None => Some(ToolOrientation::Free),
     };
     let solved = match section.get("solve") {

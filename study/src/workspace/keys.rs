@@ -1,12 +1,71 @@
 //! Keys of a workspace.
 
+use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, Text, Whole};
+use abbe_spec::keys::{Rule, Then, When, words};
+
+use super::choices::ORIENTATIONS;
+
+const NUMBER: Value = Number("number");
+const VARIABLES: Value = List("names of variables", None, &Text("name"));
+/// Values of an axis of a grid.
+pub(crate) const AXIS: Value =
+    Either("values, as in a grid", &[List("numbers", None, &NUMBER), Table("[workspace.grid.NAME]")]);
+
 abbe_spec::tables! {
-    WORKSPACE: ["[workspace]"], ["presented", "grid", "joints", "random", "box", "path"];
-    BESIDE: ["[workspace]"], ["inputs"];
-    PRESENTED: ["[workspace.presented]"], ["point", "tool_points", "approaches", "solve"];
-    SAMPLES: ["[workspace.joints]", "[workspace.random]"], ["samples", "moved"];
-    RANDOM: ["[workspace.random]"], ["seed"];
-    BOX: ["[workspace.box]"], ["x", "y", "z", "orientation", "solve"];
-    PATH: ["[workspace.path]"], ["file"];
-    VALUES: ["[workspace.grid.NAME]"], ["from", "to", "count", "step"];
+    WORKSPACE: ["[workspace]"], [
+        "presented": Table("[workspace.presented]"), "-", "one of the forms",
+            "Tool points, each brought to one point in space by inverse kinematics";
+        "grid": Names("table of `NAME = values`", &AXIS), "length unit or rad; of inputs as the spec's", "one of the forms",
+            "Every combination of values of variables and inputs; other variables stay at home";
+        "joints": Table("[workspace.joints]"), "-", "one of the forms", "Samples that fill the joint limits evenly, the same in each run";
+        "random": Table("[workspace.random]"), "-", "one of the forms", "Random samples within the joint limits";
+        "box": Table("[workspace.box]"), "-", "one of the forms", "Grid of points in `F_0`, reached by inverse kinematics from home";
+        "path": Table("[workspace.path]"), "-", "one of the forms", "Configurations from a CSV file";
+    ]
+    BESIDE: ["[workspace]"], [
+        "inputs": Names("table of `INPUT = values`", &AXIS), "as the spec's", "both ends of each range",
+            "Values of inputs; every configuration is combined with each of them";
+    ]
+    PRESENTED: ["[workspace.presented]"], [
+        "point": List("three numbers", Some(3), &NUMBER), "length unit", "required", "Point in space, in `F_0`";
+        "tool_points": Names("table of `PARAMETER = values`", &AXIS), "length unit or rad", "the nominal tool point",
+            "Tool points: values of parameters of the tool's transform";
+        "approaches": Names("table of `VARIABLE = values`", &AXIS), "length unit or rad", "home", "Values of the variables that are held";
+        "solve": VARIABLES, "-", "required", "Variables that bring the tool point there";
+    ]
+    SAMPLES: ["[workspace.joints]", "[workspace.random]"], [
+        "samples": Whole(1, None), "1", "required", "Number of configurations";
+        "moved": List("names of variables and inputs", None, &Text("name")), "-", "all variables, and inputs with a range",
+            "Variables and inputs to move; other variables stay at home";
+    ]
+    RANDOM: ["[workspace.random]"], [
+        "seed": Whole(0, None), "1", "`0`", "Seed of the samples: the same seed gives the same samples; `--seed` replaces it";
+    ]
+    BOX: ["[workspace.box]"], [
+        "x": AXIS, "length unit", "required", "Coordinates of the points along x of `F_0`";
+        "y": AXIS, "length unit", "required", "Coordinates of the points along y of `F_0`";
+        "z": AXIS, "length unit", "required", "Coordinates of the points along z of `F_0`";
+        "orientation": Choice(|| words(&ORIENTATIONS)), "-", "`\"free\"`", "Orientation of the tool: any, or that at home";
+        "solve": VARIABLES, "-", "all", "Variables that bring the tool there; the others stay at home";
+    ]
+    PATH: ["[workspace.path]"], [
+        "file": Text("path, from the folder of the study"), "-", "required",
+            "CSV file: a heading such as `d1 (mm),q3 (deg)`, then one configuration in each line. Columns are variables, parameters and inputs; one without a unit is in the length unit or rad; what has no column stays at home";
+    ]
+    VALUES: ["[workspace.grid.NAME]"], [
+        "from": NUMBER, "length unit or rad", "required", "First value";
+        "to": NUMBER, "length unit or rad", "required", "Last value";
+        "count": Whole(1, None), "1", "one of the two", "Number of values, both ends included";
+        "step": Number("number, positive"), "length unit or rad", "one of the two", "Distance of two values; it must lead to `to` exactly";
+    ]
+}
+
+/// Returns the relations between the keys of a workspace.
+pub fn rules() -> Vec<Rule> {
+    let one_of =
+        |table, keys: Vec<&'static str>| Rule { table, when: When::Always, then: Then::NeedsOne(keys) };
+    vec![
+        one_of("[workspace]", WORKSPACE.names().collect()),
+        one_of("[workspace.grid.NAME]", vec!["count", "step"]),
+    ]
 }

@@ -5,6 +5,7 @@
 //! computes the enclosing box.
 
 mod axis;
+mod choices;
 mod constant;
 mod forms;
 mod keys;
@@ -15,7 +16,8 @@ mod span;
 pub use axis::Candidates;
 pub use constant::{constant, count, positive_length, whole};
 pub use forms::read_region;
-pub use keys::TABLES;
+pub(crate) use keys::AXIS;
+pub use keys::{TABLES, rules};
 pub use path::Path;
 pub use region::{Form, Region, has_range};
 pub use span::Span;

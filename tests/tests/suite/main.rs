@@ -39,5 +39,6 @@ mod reach;
 mod recipes;
 mod reference;
 mod reference_pages;
+mod schemas;
 mod tables;
 mod voice;

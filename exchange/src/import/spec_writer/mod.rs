@@ -5,6 +5,7 @@
 mod number;
 mod transform;
 
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use abbe_spec::as_identifier;
@@ -74,6 +75,8 @@ fn variable(variable: &Variable, degrees: bool) -> String {
         Some([lower, upper]) => {
             let value = |value: f64| match degrees && !prismatic {
                 true => quoted_if_expression(&angle(value, true)),
+                // Without its unit, a whole number of more than one revolution is a mistake.
+                false if !prismatic && value.abs() > TAU => quoted(&format!("{} rad", number(value))),
                 false => number(value),
             };
             let home = match *lower > 0.0 || *upper < 0.0 {

@@ -1,10 +1,10 @@
 //! Parameters, inputs and variables: the names that expressions may use.
 
-use std::f64::consts::TAU;
-
 use abbe_core::{LengthUnit, VariableKind};
 
+use super::choices::JOINT_KINDS;
 use super::keys;
+use crate::degrees::check_angle_item;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Name, Scope, Symbol};
@@ -95,10 +95,7 @@ impl Declarations {
         table.name = "`variable`".to_owned();
         table.check_keys(&[&keys::VARIABLE], document);
         let name_item = table.required("name", document);
-        let kind = table.required("kind", document).and_then(|kind| {
-            let kinds = [("revolute", VariableKind::Revolute), ("prismatic", VariableKind::Prismatic)];
-            document.choice(&kind, &kinds)
-        });
+        let kind = table.required("kind", document).and_then(|kind| document.choice(&kind, &JOINT_KINDS));
         let dimension = kind.map(|kind| match kind {
             VariableKind::Revolute => Dimension::NONE,
             VariableKind::Prismatic => Dimension::LENGTH,
@@ -111,6 +108,10 @@ impl Declarations {
         let mut home = 0.0;
         if let Some(dimension) = dimension {
             let entry = table.get("limits");
+            let mut is_meant = true;
+            if kind == Some(VariableKind::Revolute) {
+                is_meant = Self::check_angles(&name, &table, document);
+            }
             if let Some(read) = entry.as_ref().and_then(|entry| self.interval(entry, dimension, document)) {
                 limits = read;
             }
@@ -120,8 +121,7 @@ impl Declarations {
                     Entry { dimension: Some(dimension), what: "the home value", names: Allowed::Nothing };
                 home = document.constant(item, &self.scope, expected).map_or(home, |read| read.0);
             }
-            if !(limits[0]..=limits[1]).contains(&home) {
-                let is_bare = home_item.as_ref().is_some_and(|item| !item.is_text());
+            if is_meant && !(limits[0]..=limits[1]).contains(&home) {
                 let span = home_item.map(|item| item.span()).or(entry.map(|entry| entry.span()));
                 document.mistake(
                     Diagnostic::new(
@@ -129,12 +129,7 @@ impl Declarations {
                         format!("home of `{name}` is outside its limits"),
                     )
                     .label(format!("home is {home}, the limits are {} to {}", limits[0], limits[1]))
-                    .help(
-                        match dimension == Dimension::NONE && is_bare && home.abs() > TAU {
-                            true => format!("is this in degrees? write `\"{home} deg\"`"),
-                            false => "give a `home` within the limits; it is 0 if not given".to_owned(),
-                        },
-                    ),
+                    .help("give a `home` within the limits; it is 0 if not given"),
                 );
             }
         }
@@ -143,6 +138,19 @@ impl Declarations {
         let description = table.optional_text("description", document);
         self.variables.push(Variable { name, kind, limits, home, description, frame });
         Some(index)
+    }
+
+    /// Records limits and a home of a revolute joint that are probably in degrees, and returns
+    /// `true` if there are none.
+    fn check_angles(name: &str, table: &Section<'_>, document: &mut Document) -> bool {
+        let before = document.found.len();
+        if let Some(home) = table.get("home") {
+            check_angle_item(&home, &format!("home of `{name}`"), document);
+        }
+        for limit in table.get("limits").map_or_else(Vec::new, |limits| limits.list()) {
+            check_angle_item(&limit, &format!("a limit of `{name}`"), document);
+        }
+        document.found.len() == before
     }
 
     /// Reads the value of a parameter or input: `x = 5`, `x = "5 mm"` or `x = { value = "5 mm", …

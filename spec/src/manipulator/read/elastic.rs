@@ -2,6 +2,7 @@
 
 use abbe_core::Component;
 
+use super::choices::BEAM_AXES;
 use super::keys;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item};
@@ -28,7 +29,7 @@ pub(super) fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document)
     let (torsion, extension) = (quantity("GJ", stiffness, false), quantity("EA", Dimension::FORCE, false));
     let mass_per_length = quantity("mass_per_length", Dimension::MASS_PER_LENGTH, false);
     let axis = match table.get("axis") {
-        Some(item) => document.choice(&item, &[("x", 0), ("y", 1), ("z", 2)]),
+        Some(item) => document.choice(&item, &BEAM_AXES),
         None => Some(0),
     };
     Some(Beam {

@@ -4,6 +4,7 @@ use abbe_core::VariableKind;
 
 use super::keys;
 use super::rigid;
+use crate::degrees::check_angle;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{
@@ -14,15 +15,30 @@ use crate::manipulator::{DhConvention, Factor, Matrix};
 /// Index and kind of the frame's own variable, for `origin` and `axis`.
 pub(super) type OwnVariable = Option<(usize, VariableKind)>;
 
-/// Reads the transform of a frame or tool.
+/// Reads the transform of a frame or tool, and records angles that are probably in degrees.
 pub(super) fn read_factors(
     section: &Section<'_>,
     own: OwnVariable,
     scope: &Scope,
     document: &mut Document,
 ) -> Option<Vec<Factor>> {
+    let factors = read_form(section, own, scope, document)?;
+    for factor in &factors {
+        if let Factor::Elementary(Elementary { motion: R, amount, .. }) = factor {
+            check_angle(amount, document);
+        }
+    }
+    Some(factors)
+}
+
+fn read_form(
+    section: &Section<'_>,
+    own: OwnVariable,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
     // The forms exclude each other; `axis` belongs to `origin`.
-    let forms = keys::TRANSFORM.keys.iter().filter(|key| **key != "axis");
+    let forms = keys::TRANSFORM.names().filter(|key| *key != "axis");
     let forms: Vec<Item<'_>> = forms.filter_map(|form| section.get(form)).collect();
     let axis = section.get("axis");
     if let [first, second, ..] = &forms[..] {

@@ -1,5 +1,6 @@
 //! `[[load]]` and `gravity`: loads on beams and compliances.
 
+use super::choices::{LOAD_AXES, TOOL};
 use super::effects::find_frame;
 use super::keys;
 use crate::diagnostic::Diagnostic;
@@ -67,7 +68,7 @@ fn read_load(
         vector(item, Dimension::MOMENT, "a component of a load's moment", scope, document)
     });
     let axes = match section.get("axes") {
-        Some(item) => document.choice(&item, &[("frame", Axes::Frame), ("base", Axes::Base)]),
+        Some(item) => document.choice(&item, &LOAD_AXES),
         None => Some(Axes::Frame),
     };
     let frame = section.required("frame", document).and_then(|item| find_frame(&item, frames, document));
@@ -99,7 +100,7 @@ fn read_tool_point(
     frames: &[Frame],
     document: &mut Document,
 ) -> Option<Point> {
-    document.choice(item, &[("tool", ())])?;
+    document.choice(item, &TOOL)?;
     if let Some(last) = frames.last()
         && frame.is_some_and(|frame| frame + 1 < frames.len())
     {

@@ -6,6 +6,7 @@
 //! identification. `positive` checks the signs of masses and stiffnesses, and `rigid` that every
 //! matrix is a rigid motion, at `samples`.
 
+mod choices;
 mod covariance;
 mod declarations;
 mod deviations;

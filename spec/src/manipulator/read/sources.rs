@@ -2,6 +2,7 @@
 
 use abbe_core::{Class, Distribution};
 
+use super::choices::CLASSES;
 use super::deviations::{Chain, read_deviations};
 use super::effects::read_effect;
 use super::keys;
@@ -251,7 +252,7 @@ fn read_magnitude(
 }
 
 fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -> Option<Class> {
-    let random = document.choice(item, &[("repeatable", false), ("random", true)])?;
+    let random = document.choice(item, &CLASSES)?;
     let distribution = section.get("distribution");
     match (random, distribution) {
         (false, None) => Some(Class::Repeatable),

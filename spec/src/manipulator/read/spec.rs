@@ -6,6 +6,7 @@ use std::sync::Arc;
 use abbe_core::{LengthUnit, Orientation};
 use sha2::{Digest, Sha256};
 
+use super::choices::{LENGTHS, ORIENTATIONS};
 use super::covariance::read_covariance;
 use super::declarations::Declarations;
 use super::deviations::Chain;
@@ -20,7 +21,7 @@ use super::sources::read_sources;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
-use crate::manipulator::names::{check_identifier, title_of};
+use crate::manipulator::names::{check_manipulator_name, title_of};
 use crate::manipulator::{Factor, Frame, Spec};
 
 impl Spec {
@@ -164,25 +165,13 @@ fn read_head(item: &Item<'_>, document: &mut Document) -> Option<Head> {
     section.check_keys(&[&keys::MANIPULATOR], document);
     let name = section.required("name", document).and_then(|item| {
         let name = document.string(&item)?;
-        let valid = check_identifier(&name, item.span(), document);
-        if valid && name.contains(|c: char| c.is_ascii_uppercase()) {
-            document.mistake(
-                Diagnostic::new(item.span(), "the name of a manipulator must be in lower case")
-                    .label("this becomes the name of a module")
-                    .help(format!("write `{}`", name.to_ascii_lowercase())),
-            );
-        }
+        check_manipulator_name(&name, item.span(), document);
         Some(name)
     });
-    let length = section
-        .required("length", document)
-        .and_then(|item| document.choice(&item, &[("mm", LengthUnit::Millimetre), ("m", LengthUnit::Metre)]));
+    let length = section.required("length", document).and_then(|item| document.choice(&item, &LENGTHS));
     let orientation = match section.get("orientation") {
         None => Some(Orientation::RotationVector),
-        Some(item) => document.choice(
-            &item,
-            &[("rotation-vector", Orientation::RotationVector), ("euler-yzx", Orientation::EulerYzx)],
-        ),
+        Some(item) => document.choice(&item, &ORIENTATIONS),
     };
     let title = section.optional_text("title", document);
     let description = section.optional_text("description", document);

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use super::choices::{INTERPOLATIONS, OUTSIDE};
 use super::declarations::Declarations;
 use super::keys;
 use super::points::{Columns, Points};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Extrapolation, Interpolation, Scope, Table, Unit, parse_unit};
+use crate::expr::{Allowed, Dimension, Entry, Extrapolation, Scope, Table, Unit, parse_unit};
 use crate::manipulator::names::check_identifier;
 
 /// Maximum number of tables.
@@ -39,12 +40,12 @@ impl Declarations {
         section.check_keys(&[&keys::LOOKUP], document);
         let description = section.optional_text("description", document);
         section.optional_text("reference", document);
-        let interpolation = section.required("interpolation", document).and_then(|item| {
-            document.choice(&item, &[("linear", Interpolation::Linear), ("cubic", Interpolation::Cubic)])
-        });
+        let interpolation = section
+            .required("interpolation", document)
+            .and_then(|item| document.choice(&item, &INTERPOLATIONS));
         let outside = match section.get("outside") {
             None => Some(Extrapolation::Nothing),
-            Some(item) => document.choice(&item, &[("hold", Extrapolation::Hold)]),
+            Some(item) => document.choice(&item, &OUTSIDE),
         };
         let file = section.get("file");
         let columns = match &file {

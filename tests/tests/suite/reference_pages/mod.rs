@@ -21,14 +21,14 @@ use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
 use abbe_study::data::Map;
 use abbe_study::plan::{Choice, Plan, Sets};
+use abbe_study::schema::FileKind;
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Machine, Study, data, plan, study_file, workspace};
 use example::{Use, uses};
 use page::Page;
 use tempfile::TempDir;
 
-/// Keys of an instrument that can be left out.
-const OPTIONAL: [&str; 4] = ["target", "zero", "nominal_radius", "range"];
+use crate::schemas::Validator;
 
 /// Reader of a file, given its name and text.
 type Reader = fn(&Path, &str) -> Result<(), Diagnostics>;
@@ -86,7 +86,7 @@ fn every_key_has_a_row_and_every_row_a_key() {
     for (page, keys, _) in pages() {
         let known: BTreeSet<(&str, &str)> = keys
             .iter()
-            .flat_map(|keys| keys.tables.iter().flat_map(|table| keys.keys.iter().map(|key| (*table, *key))))
+            .flat_map(|keys| keys.tables.iter().flat_map(|table| keys.names().map(|key| (*table, key))))
             .collect();
         let rows = page.rows();
         let explained: BTreeSet<(&str, &str)> = rows
@@ -135,9 +135,9 @@ fn every_key_stands_in_an_example_as_its_row_says() {
                 Err(mistakes) => mistakes.to_string().contains(&format!("`{}` is missing in", row.key)),
             });
             let told = told.collect::<Vec<_>>();
-            if !told.is_empty() && told.contains(&true) != row.default.starts_with("required") {
+            if !told.is_empty() && told.contains(&true) != row.facts[2].starts_with("required") {
                 let truth = if told.contains(&true) { "is required" } else { "is not required" };
-                problems.push(format!("{name} {truth}, but its default is \"{}\".", row.default));
+                problems.push(format!("{name} {truth}, but its default is \"{}\".", row.facts[2]));
             }
             let value = row.example.strip_prefix('`').and_then(|value| value.strip_suffix('`'));
             if value.is_some_and(|value| !here.iter().any(|(_, _, key)| key.value == value)) {
@@ -188,15 +188,18 @@ fn every_choice_is_that_of_the_reader() {
 }
 
 #[test]
-fn every_key_says_what_is_said_of_a_mistake() {
+fn every_row_has_the_facts_of_its_key_and_the_message_of_its_mistake() {
     let mut problems = Vec::new();
-    for (page, ..) in pages() {
+    for (page, keys, _) in pages() {
         if std::env::var_os("UPDATE_EXPECT").is_some() {
-            page.write_mistakes();
+            page.write(&keys);
             continue;
         }
         for row in page.rows() {
             let name = format!("docs/reference/{}, `{}`", page.name, row.key);
+            if let Some(expected) = row.expected(&keys).filter(|expected| *expected != row.facts) {
+                problems.push(format!("{name}: keys.rs has {expected:?}, the page has {:?}: run this test with UPDATE_EXPECT=1.", row.facts));
+            }
             match row.said() {
                 Some(said) if said == row.mistake => {}
                 Some(said) => problems.push(format!(
@@ -219,20 +222,68 @@ fn every_instrument_has_its_row() {
     let page = std::fs::read_to_string("../docs/reference/map.md").unwrap();
     let mut problems = Vec::new();
     for kind in INSTRUMENTS {
-        let keys = kind.keys.iter().filter(|key| !OPTIONAL.contains(key));
+        let keys = kind.keys.iter().filter(|key| !data::OPTIONAL.contains(key));
         let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
         let row = format!("| `\"{}\"` | {} | {} |", kind.name, kind.reads, keys.join(", "));
         if !page.lines().any(|line| line == row) {
             problems.push(format!("docs/reference/map.md has no row\n{row}"));
         }
         let known = data::TABLES.iter().filter(|table| table.tables == ["[[instrument]]"]);
-        let known: Vec<&str> = known.flat_map(|table| table.keys).copied().collect();
+        let known: Vec<&str> = known.flat_map(|table| table.names()).collect();
         let unknown = kind.keys.iter().filter(|key| !known.contains(key));
         problems.extend(
             unknown.map(|key| format!("study/src/data/keys.rs has no key `{key}` of `{}`", kind.name)),
         );
     }
     nothing(&problems);
+}
+
+/// Checks that the schema of a file accepts every example, and every change of one that the reader
+/// accepts.
+#[test]
+fn the_schema_accepts_what_the_reader_accepts() {
+    let kinds = [FileKind::Spec, FileKind::Study, FileKind::Map, FileKind::Plan];
+    let values = [
+        "1",
+        "2.5",
+        "true",
+        "\"a\"",
+        "\"1 mm\"",
+        "\"1 deg\"",
+        "[]",
+        "[1, 2]",
+        "[1, 2, 3]",
+        "[\"a\"]",
+        "{}",
+        "{ value = 1 }",
+    ];
+    let (mut problems, mut accepted, mut rejected) = (Vec::new(), 0, 0);
+    for ((page, _, read), kind) in pages().into_iter().zip(kinds) {
+        let (folder, validator) = (written(&page), Validator::new(kind));
+        let mut compare = |name: &str, change: &str, text: &str| match (
+            read(&folder.path().join(name), text),
+            validator.validate(text),
+        ) {
+            (Ok(()), Err(reason)) => problems.push(format!("{name}, {change}: {reason}")),
+            (Ok(()), Ok(())) => accepted += 1,
+            (Err(_), Err(_)) => rejected += 1,
+            (Err(_), Ok(())) => {}
+        };
+        for (name, text) in page.files().into_iter().filter(|(name, _)| name.ends_with(".toml")) {
+            compare(name, "unchanged", text);
+            for key in uses(text) {
+                for (change, text) in values
+                    .iter()
+                    .filter_map(|value| Some((format!("{} = {value}", key.key), key.replaced(text, value)?)))
+                    .chain(key.removed(text).map(|text| (format!("without {}", key.key), text)))
+                {
+                    compare(name, &change, &text);
+                }
+            }
+        }
+    }
+    nothing(&problems);
+    assert!(accepted > 500 && rejected > 1000, "{accepted} changes are accepted, {rejected} rejected");
 }
 
 #[test]

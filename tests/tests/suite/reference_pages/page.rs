@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::PathBuf;
 
+use abbe_spec::keys::Keys;
+
 use super::example::Use;
 
 /// Page of the reference.
@@ -19,7 +21,8 @@ pub(crate) struct Row {
     pub(crate) key: String,
     /// Valid words, if the value is one of a few.
     pub(crate) choices: Vec<String>,
-    pub(crate) default: String,
+    /// Value, unit, default and description, as a page has them.
+    pub(crate) facts: [String; 4],
     /// Value between backticks, or a reference to one.
     pub(crate) example: String,
     /// Message of a mistake, and its file.
@@ -50,7 +53,7 @@ impl Page {
             if !in_table || !cells[0].starts_with('`') {
                 continue;
             }
-            let [key, value, _, default, example, _, mistake] = cells[..] else {
+            let [key, value, unit, default, example, what, mistake] = cells[..] else {
                 panic!("{}:{}: a row of keys has seven cells, not {}", self.name, line + 1, cells.len());
             };
             let (mistake, golden) = mistake.rsplit_once("](").unwrap_or_default();
@@ -58,7 +61,7 @@ impl Page {
                 tables: tables.clone(),
                 key: key.trim_matches('`').to_owned(),
                 choices: if value.starts_with("`\"") { spans(value) } else { Vec::new() },
-                default: default.to_owned(),
+                facts: [value, unit, default, what].map(str::to_owned),
                 example: example.to_owned(),
                 mistake: mistake.trim_start_matches('[').to_owned(),
                 golden: golden.trim_end_matches(')').to_owned(),
@@ -82,19 +85,30 @@ impl Page {
         blocks.filter_map(|block| Some((block.lines().next()?.strip_prefix("# ")?, block))).collect()
     }
 
-    /// Writes the messages of mistakes beside their keys.
-    pub(crate) fn write_mistakes(&self) {
+    /// Writes the facts of the keys into their rows, and the messages of mistakes beside them.
+    pub(crate) fn write(&self, tables: &[&Keys]) {
         let mut lines: Vec<String> = self.text.lines().map(str::to_owned).collect();
         for row in self.rows() {
-            let link = lines[row.line].rfind("| [").expect("a link");
+            let [value, unit, default, what] = row.expected(tables).unwrap_or_else(|| row.facts.clone());
             let said = row.said().unwrap_or_else(|| "?".to_owned());
-            lines[row.line].replace_range(link.., &format!("| [{said}]({}) |", row.golden));
+            let Row { key, example, golden, .. } = &row;
+            lines[row.line] = format!(
+                "| `{key}` | {value} | {unit} | {default} | {example} | {what} | [{said}]({golden}) |"
+            );
         }
         fs::write(&self.path, lines.join("\n") + "\n").unwrap();
     }
 }
 
 impl Row {
+    /// Returns the value, unit, default and description of the row's key.
+    pub(crate) fn expected(&self, tables: &[&Keys]) -> Option<[String; 4]> {
+        let table = self.tables.first()?;
+        let own = tables.iter().filter(|keys| keys.tables.contains(&table.as_str()));
+        let key = own.flat_map(|keys| keys.keys).find(|key| key.name == self.key)?;
+        Some([key.value.phrase(), key.unit.into(), key.default.into(), key.what.into()])
+    }
+
     /// Returns whether the row describes that key.
     pub(crate) fn describes(&self, key: &Use) -> bool {
         key.key == self.key && self.tables.iter().any(|table| key.is_in(table))

@@ -1,0 +1,29 @@
+//! Words of a spec file that stand for one of a few values.
+
+use abbe_core::{LengthUnit, Orientation, VariableKind};
+
+use crate::expr::{Extrapolation, Interpolation};
+use crate::manipulator::Axes;
+
+pub(super) const LENGTHS: [(&str, LengthUnit); 2] =
+    [("mm", LengthUnit::Millimetre), ("m", LengthUnit::Metre)];
+
+pub(super) const ORIENTATIONS: [(&str, Orientation); 2] =
+    [("rotation-vector", Orientation::RotationVector), ("euler-yzx", Orientation::EulerYzx)];
+
+pub(super) const JOINT_KINDS: [(&str, VariableKind); 2] =
+    [("revolute", VariableKind::Revolute), ("prismatic", VariableKind::Prismatic)];
+
+pub(super) const INTERPOLATIONS: [(&str, Interpolation); 2] =
+    [("linear", Interpolation::Linear), ("cubic", Interpolation::Cubic)];
+
+pub(super) const OUTSIDE: [(&str, Extrapolation); 1] = [("hold", Extrapolation::Hold)];
+
+/// Classes of a source, each with `true` if it is random.
+pub(super) const CLASSES: [(&str, bool); 2] = [("repeatable", false), ("random", true)];
+
+pub(super) const BEAM_AXES: [(&str, usize); 3] = [("x", 0), ("y", 1), ("z", 2)];
+
+pub(super) const LOAD_AXES: [(&str, Axes); 2] = [("frame", Axes::Frame), ("base", Axes::Base)];
+
+pub(super) const TOOL: [(&str, ()); 1] = [("tool", ())];

@@ -1,0 +1,65 @@
+//! Words of a study file that stand for one of a few values.
+
+use abbe::analysis::Measurand;
+
+/// Kind of a figure.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Travel,
+    Surface,
+    Cloud,
+    Histogram,
+    Pareto,
+    Manipulator,
+}
+
+pub(super) const KINDS: [(&str, Kind); 6] = [
+    ("travel", Kind::Travel),
+    ("surface", Kind::Surface),
+    ("cloud", Kind::Cloud),
+    ("histogram", Kind::Histogram),
+    ("pareto", Kind::Pareto),
+    ("manipulator", Kind::Manipulator),
+];
+
+pub(super) const UP_AXES: [(&str, usize); 3] = [("x", 0), ("y", 1), ("z", 2)];
+
+pub(super) const MEASURANDS: [(&str, Measurand); 2] =
+    [("position", Measurand::Position), ("orientation", Measurand::Orientation)];
+
+/// Metric of a published figure of a single source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Metric {
+    /// Largest error.
+    PlainMaximum,
+    /// Half of the range of the error.
+    HalfPeakToPeak,
+    /// Largest difference from the error at home.
+    RelativeToHome,
+}
+
+impl Metric {
+    /// Metrics with their names in a study file.
+    pub const ALL: [(&'static str, Self); 3] = [
+        ("plain maximum", Self::PlainMaximum),
+        ("half peak-to-peak", Self::HalfPeakToPeak),
+        ("relative to home", Self::RelativeToHome),
+    ];
+}
+
+/// Published figure of all sources together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CombinedFigure {
+    /// Sum of the repeatable sources with their signs.
+    Repeatable,
+    /// Root sum of squares of the random sources.
+    Random,
+    /// Sum of the repeatable and the random norm.
+    Both,
+}
+
+impl CombinedFigure {
+    /// Figures with their names in a study file.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("repeatable radius", Self::Repeatable), ("random radius", Self::Random), ("radius", Self::Both)];
+}

@@ -1,0 +1,51 @@
+//! Templates of specs: commented first files of common kinds of machines.
+
+use abbe_spec::check_name;
+use abbe_spec::diagnostic::Diagnostics;
+
+use crate::options::Choices;
+
+/// Kind of machine with a template.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Template {
+    /// Arm with six revolute joints, by Denavit-Hartenberg numbers.
+    SixAxis,
+    /// Two arms, a stroke and a turning shaft.
+    Scara,
+    /// Three linear axes.
+    Gantry,
+    /// Three linear axes with a swivel head.
+    FiveAxisMill,
+}
+
+impl Template {
+    /// Templates, with their names.
+    pub const CHOICES: Choices<Self> = Choices(&[
+        (Self::SixAxis, "six-axis", "arm with six revolute joints, by Denavit-Hartenberg numbers"),
+        (Self::Scara, "scara", "two arms, a stroke, and a shaft that turns"),
+        (Self::Gantry, "gantry", "three linear axes"),
+        (Self::FiveAxisMill, "five-axis-mill", "three linear axes that carry a swivel head"),
+    ]);
+
+    /// Returns the text of the template.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::SixAxis => include_str!("../templates/six-axis.toml"),
+            Self::Scara => include_str!("../templates/scara.toml"),
+            Self::Gantry => include_str!("../templates/gantry.toml"),
+            Self::FiveAxisMill => include_str!("../templates/five-axis-mill.toml"),
+        }
+    }
+
+    /// Returns the spec of a manipulator with this name.
+    ///
+    /// # Errors
+    ///
+    /// The name is not valid for a manipulator.
+    pub fn spec(self, name: &str) -> Result<String, Diagnostics> {
+        check_name("NAME", name)?;
+        let own = |line: &&str| line.starts_with("name = ");
+        let first = self.text().lines().find(own).unwrap_or_default();
+        Ok(self.text().replacen(first, &format!("name = \"{name}\""), 1))
+    }
+}
