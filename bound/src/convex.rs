@@ -267,8 +267,8 @@ impl Draft {
         degrees
     }
 
-    /// Returns the operations that compute the norm from its parts; `None` if it depends on names in
-    /// another way.
+    /// Returns the operations that compute the norm from its parts; `None` if it depends on names
+    /// in another way.
     fn outer(&self, norm: At, parts: &[At]) -> Option<Vec<At>> {
         let mut is_needed = vec![false; self.operations.len()];
         is_needed[norm] = true;

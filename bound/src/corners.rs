@@ -2,8 +2,9 @@
 //!
 //! The value of each part at any point of the box is a weighted mean of its control points, which
 //! are combinations of those of each name (`controls`). A norm is convex in its parts, so it is
-//! nowhere larger than at one of them. Control points of affine parts are the values at the vertices
-//! of polygons; those of quadratic parts follow from the values at all samples, name by name.
+//! nowhere larger than at one of them. Control points of affine parts are the values at the
+//! vertices of polygons; those of quadratic parts follow from the values at all samples, name by
+//! name.
 //!
 //! The samples of two names are evaluated in lanes. The other names step through their samples one
 //! after the other, and operations that do not depend on the changed names are not repeated.
@@ -98,8 +99,8 @@ impl Corners {
         self.shapes[name].is_too_long(ends)
     }
 
-    /// Returns the control point with the largest norm in a box whose arcs are short enough. Returns
-    /// `None` if the rounding error is unbounded.
+    /// Returns the control point with the largest norm in a box whose arcs are short enough.
+    /// Returns `None` if the rounding error is unbounded.
     pub(crate) fn largest(&self, numbers: &mut Buffers, low: &[f64], high: &[f64]) -> Option<Corner> {
         let ends = low.iter().zip(high).map(|(low, high)| [*low, *high]);
         let controls = self.shapes.iter().zip(ends).map(|(shape, ends)| Controls::new(*shape, ends));

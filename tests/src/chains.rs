@@ -11,7 +11,7 @@ pub fn general_chain(frames: usize) -> String {
         } else {
             ("prismatic", "0.3".to_owned(), format!("q{i} + 0.1 m"))
         };
-        let twist = 0.4 + 0.01 * i as f64;
+        let twist = 0.4 + 0.01 * (i % 500) as f64;
         let _ = write!(
             text,
             "[[frame]]\nname = \"{i}\"\nvariable = {{ name = \"q{i}\", kind = \"{kind}\" }}\n\

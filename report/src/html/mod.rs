@@ -6,8 +6,8 @@
 //! numbers and the figures; long tables are folded, and the input files come last. `document` has
 //! the parts of every page, `findings` the sentences of the printed report, `figure` numbered
 //! figures, `table` tables, and `provenance` record, options, files and instrument. Of an analysis,
-//! `ledger` has the tables of errors, `covered` verdict and uncertainty, and `facts` conventions and
-//! values. `notebook` shows a text in a notebook.
+//! `ledger` has the tables of errors, `covered` verdict and uncertainty, and `facts` conventions
+//! and values. `notebook` shows a text in a notebook.
 
 mod compensation;
 mod covered;

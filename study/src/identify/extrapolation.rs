@@ -8,7 +8,7 @@ use super::solve::Solved;
 
 /// Test rows outside the fitted ranges of joints and inputs.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Extrapolation {
+pub struct TestExtrapolation {
     /// Number of such rows.
     pub rows: usize,
     /// Standard deviation of the tool position there, mean over these rows, in the length unit.
@@ -18,7 +18,7 @@ pub struct Extrapolation {
     pub known_within: f64,
 }
 
-impl Extrapolation {
+impl TestExtrapolation {
     /// Returns none if there are no such rows.
     ///
     /// The deviations follow from the covariance of the fit. Errors that the model lacks are not

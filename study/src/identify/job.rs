@@ -19,7 +19,7 @@ use super::counts::Counts;
 use super::derived::{Derived, derived, with_columns, with_inputs};
 use super::drift::ResidualDrift;
 use super::extended::extended;
-use super::extrapolation::Extrapolation;
+use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
 use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
@@ -242,7 +242,7 @@ fn report(
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let drift_test = drift_test.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let extrapolation = |test: &Data| {
-        let extrapolation = Extrapolation::new(solved, &found.fitted, rows, &test.observations);
+        let extrapolation = TestExtrapolation::new(solved, &found.fitted, rows, &test.observations);
         extrapolation.map_err(|failure| mistake::whole(&test.file, &failure))
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();

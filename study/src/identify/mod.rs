@@ -58,7 +58,7 @@ pub use counts::Counts;
 pub use derived::{Derived, DerivedKind};
 pub use drift::ResidualDrift;
 pub use extended::extended;
-pub use extrapolation::Extrapolation;
+pub use extrapolation::TestExtrapolation;
 pub use families::{Family, Harmonics};
 pub use found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use found_placement::{FoundInstrument, FoundPlacement, FoundStation};

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::as_joint_errors::JointError;
 use super::counts::Counts;
 use super::drift::ResidualDrift;
-use super::extrapolation::Extrapolation;
+use super::extrapolation::TestExtrapolation;
 use super::found_model::FoundModel;
 use super::found_placement::FoundPlacement;
 use super::indistinguishable::Indistinguishable;
@@ -75,7 +75,7 @@ pub struct Report {
     /// Number of test rows that are identical to fitted rows. They cannot assess the fit.
     pub test_rows_of_the_fit: usize,
     /// Test rows outside the fitted ranges of joints and inputs; none if there are no such rows.
-    pub outside: Option<Extrapolation>,
+    pub outside: Option<TestExtrapolation>,
     /// Position errors of cross-validation.
     pub cross_validation: CrossValidation,
     /// Verdict on the declared limits, if there are any.

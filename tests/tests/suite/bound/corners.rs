@@ -15,8 +15,8 @@ use abbe_tests::thorough;
 
 use super::{ROUNDING, bounded, given, kinds, moving, part, place, sizes};
 
-/// Returns a chain without sources. Angles have offsets and signs, axes are parallel or not, and one
-/// joint in five is prismatic.
+/// Returns a chain without sources. Angles have offsets and signs, axes are parallel or not, and
+/// one joint in five is prismatic.
 fn joints(frames: usize, random: &mut Xoshiro256PlusPlus) -> String {
     let mut text = "[manipulator]\nname = \"chain\"\nlength = \"m\"\n".to_owned();
     for name in 1..=frames {
