@@ -75,7 +75,7 @@ def main():
         if options.only is None and options.half != "first":
             comparison.attempt(shipped.paper)
             comparison.attempt(shipped.some_configurations, folder)
-            comparison.attempt(textbook.readme, folder)
+            comparison.attempt(textbook.arm, folder)
             textbook.beams(comparison, folder)
     if options.only is None:
         unused = sorted(random_specs.FORMS - used)

@@ -48,15 +48,15 @@ def beam(comparison, folder, name, weight, load, expected):
     comparison.numbers(f"beam, {name}", expected, errors, F / EI)
 
 
-def readme(comparison, folder):
-    """The README's own arm, stretched out: 400 mm and 450 mm from the shoulder to the tool point."""
-    text = (PROJECT / "README.md").read_text()
+def arm(comparison, folder):
+    """The arm of the chapter "In your program", stretched out: 400 mm and 450 mm from the shoulder to the tool point."""
+    text = (PROJECT / "docs/in-your-program.md").read_text()
     [spec] = [block for block in re.findall(r"```toml\n(.*?)```", text, re.S) if 'name = "arm"' in block]
     file, study = folder / "arm.toml", folder / "home.toml"
     file.write_text(spec)
     study.write_text('[study]\ntitle = "at home"\nset = { payload = "5 kg" }\n[workspace.grid]\nq2 = [0]\n')
     report = comparison.abbe("analyze", str(file), "--study", str(study))
     norms = {source["name"]: source["plain_max"]["norm"] for source in report["sources"]}
-    comparison.numbers("README, encoder", 20e-6 * (400 + 450), norms["shoulder encoder"])
-    comparison.numbers("README, sag", 3e-5 * 5 * 450, norms["arm sags under its load"])
+    comparison.numbers("In your program, encoder", 20e-6 * (400 + 450), norms["shoulder encoder"])
+    comparison.numbers("In your program, sag", 3e-5 * 5 * 450, norms["arm sags under its load"])
 
