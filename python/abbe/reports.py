@@ -140,6 +140,12 @@ class AnalyzeReport(Report):
     monte_carlo: MonteCarloReport | None
     """Monte Carlo draws; None if they were not requested."""
 
+    extrapolated: Extrapolation | None
+    """Configurations outside the fitted ranges, and the uncertainty there; None if there are none."""
+
+    record: Named[str] | None
+    """Stated date; absent if there is none."""
+
 
 class BoundReport(Report):
     """Bounds on the errors over a box of configurations. Lengths are in the spec's unit, angles in rad. To first
@@ -306,7 +312,7 @@ class Chart(Fields):
     unit: str
     """Unit of the values; empty for the residual."""
 
-    alike: list[str]
+    indistinguishable: list[str]
     """Errors that are indistinguishable from this one at the monitored configurations."""
 
     values: list[float]
@@ -944,7 +950,7 @@ class Figures(Fields):
 class Finding(Fields):
     """An interpretation and its residual."""
 
-    reading: Interpretation
+    interpretation: Interpretation
     """The interpretation."""
 
     words: str
@@ -1117,19 +1123,6 @@ class Identifiable(Fields):
     """Number of unknown errors."""
 
 
-class IdentifyExtrapolation(Fields):
-    """Test rows outside the fitted ranges of joints and inputs."""
-
-    rows: int
-    """Number of such rows."""
-
-    known_outside: float
-    """Standard deviation of the tool position there, mean over these rows, in the length unit."""
-
-    known_within: float
-    """Standard deviation of the tool position at the fitted rows, mean over them, in the length unit."""
-
-
 class IdentifyReport(Report):
     """Identified errors, their uncertainty, and the accuracy of the identified machine."""
 
@@ -1212,7 +1205,7 @@ class IdentifyReport(Report):
     test_rows_of_the_fit: int
     """Number of test rows that are identical to fitted rows. They cannot assess the fit."""
 
-    outside: IdentifyExtrapolation | None
+    outside: TestExtrapolation | None
     """Test rows outside the fitted ranges of joints and inputs; none if there are no such rows."""
 
     cross_validation: CrossValidation
@@ -1227,7 +1220,7 @@ class IdentifyReport(Report):
     tried: int
     """Number of groups of terms that were tried."""
 
-    order: ResidualDrift | None
+    drift: ResidualDrift | None
     """Drift of the residuals with the row order; none if there are too few rows for the test."""
 
     unusable: list[LeftOut]
@@ -1238,6 +1231,9 @@ class IdentifyReport(Report):
 
     notes: list[str]
     """Notes for the user."""
+
+    record: Named[str] | None
+    """Stated date, persons and instruments; absent if nothing is stated."""
 
 
 class ImportReport(Report):
@@ -1686,11 +1682,14 @@ class MeasureReport(Report):
     standard_error: float | None
     """Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single configuration."""
 
-    order: ResidualDrift | None
+    drift: ResidualDrift | None
     """Drift test of the errors minus the repeatable sources; none for too few rows."""
 
     unusable: int
     """Number of unusable rows."""
+
+    record: Named[str] | None
+    """Stated date, persons and instruments; absent if nothing is stated."""
 
 
 class MonitorFinding(Fields):
@@ -1798,6 +1797,9 @@ class MonitorReport(Report):
 
     tolerance: float | None
     """Permitted displacement of the tool point, in the length unit; none if not given."""
+
+    record: Named[str] | None
+    """Stated date, persons and instruments; absent if nothing is stated."""
 
 
 class MonteCarloErrors(Fields):
@@ -2621,6 +2623,19 @@ class TermGain(Fields):
     """Probability of an F at least as large by chance."""
 
 
+class TestExtrapolation(Fields):
+    """Test rows outside the fitted ranges of joints and inputs."""
+
+    rows: int
+    """Number of such rows."""
+
+    known_outside: float
+    """Standard deviation of the tool position there, mean over these rows, in the length unit."""
+
+    known_within: float
+    """Standard deviation of the tool position at the fitted rows, mean over them, in the length unit."""
+
+
 class ToleranceVerdict(Fields):
     """Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 
@@ -2785,7 +2800,7 @@ class Verdicts(Fields):
     verdict: Literal["met", "met-with-probability", "not-met"]
     """Worst of the verdicts."""
 
-    probability_asked: float
+    probability_required: float
     """Required probability of meeting each tolerance."""
 
     position: ToleranceVerdict | None = None
@@ -2811,7 +2826,7 @@ class WeaklyDetermined(Fields):
     name: str
     """Name of the error."""
 
-    told: float
+    standard_deviation: float
     """Standard deviation from the data alone, beside all kept unknowns, in `unit`."""
 
     expected: float

@@ -63,7 +63,7 @@ fn names_are_checked_as_in_a_spec() {
         ("my arm", "`my arm` is not a valid name"),
         ("a\"b", "is not a valid name"),
         ("fn", "`fn` is a keyword of Rust"),
-        ("", "a name is empty"),
+        ("", "this name is empty"),
     ] {
         let run = abbe(&["new", name]);
         assert!(run.status == 2 && run.stderr.contains(message), "{name}: {}", run.stderr);

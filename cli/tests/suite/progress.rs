@@ -37,13 +37,18 @@ const UNCOUNTED: [&str; 3] = [
     "simulate s.toml --map m.toml --samples 2000000",
 ];
 
-/// Returns the workshop with long measurements and a long chain.
+/// Returns the workshop with long measurements and a long chain. The measurements have errors that
+/// many terms explain.
 fn workshop() -> Workshop {
     let workshop = Workshop::new();
     let row = |i: usize| {
         let (d1, degrees) = ((i % 801) as f64, (i % 299) as f64 - 149.0);
         let (sin, cos) = degrees.to_radians().sin_cos();
-        format!("{d1},{degrees},{},{},{}\n", 850.0 * cos, 850.0 * sin, d1 + 200.0)
+        let turns = |times: f64| (times * degrees.to_radians()).sin_cos();
+        let x = 850.0 * cos + 0.03 * turns(2.0).1 + 0.02 * turns(3.0).0;
+        let y = 850.0 * sin + 0.02 * turns(2.0).0 + 0.01 * turns(5.0).1;
+        let z = d1 + 200.0 + 0.02 * sin + 0.01 * turns(3.0).1 + 1e-7 * d1 * d1;
+        format!("{d1},{degrees},{x},{y},{z}\n")
     };
     let rows: String = (0..ROWS).map(row).collect();
     fs::write(workshop.at("long.csv"), format!("d1,q2 (deg),x,y,z\n{rows}")).unwrap();

@@ -62,7 +62,7 @@ pub struct Report {
     pub row_summary: RowSummary,
     /// Rows that cannot be used, in file order.
     pub unusable: Vec<Unusable>,
-    /// Date, persons and instruments as stated, and the options of the run.
+    /// Stated date, persons and instruments; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Summary of the data file.

@@ -92,7 +92,7 @@ pub struct Report {
     pub rejected: Vec<u64>,
     /// Notes for the user.
     pub notes: Vec<String>,
-    /// Date, persons and instruments as stated, and the options of the run.
+    /// Stated date, persons and instruments; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Files of the data and of the test data.

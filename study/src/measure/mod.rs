@@ -75,7 +75,7 @@ pub struct Report {
     pub drift: Option<ResidualDrift>,
     /// Number of unusable rows.
     pub unusable: usize,
-    /// Date, persons and instruments as stated, and the options of the run.
+    /// Stated date, persons and instruments; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Length unit as a value.

@@ -45,7 +45,7 @@ pub struct Report {
     pub finding: Option<Finding>,
     /// Permitted displacement of the tool point, in the length unit; none if not given.
     pub tolerance: Option<f64>,
-    /// Date, persons and instruments as stated, and the options of the run.
+    /// Stated date, persons and instruments; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Files of the checks.

@@ -110,7 +110,7 @@ pub struct Report {
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub extrapolated: Option<Extrapolation>,
-    /// Date as stated, and the options of the run.
+    /// Stated date; absent if there is none.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
 

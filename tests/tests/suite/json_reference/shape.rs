@@ -187,6 +187,7 @@ impl<'s> Shapes<'s> {
                     }
                     "str" | "String" | "PathBuf" => Shape::Text,
                     "Named" => Shape::Map(Box::new(Shape::Number)),
+                    "RunRecord" => Shape::Map(Box::new(Shape::Text)),
                     "Cow" => Shape::Text,
                     "Arc" | "Rc" | "Box" => *inner(self, 0),
                     "Option" => Shape::Optional(inner(self, 0)),
