@@ -483,7 +483,8 @@ class Machine:
         >>> ur5 = abbe.load("ur5")
         >>> q = np.random.default_rng(0).uniform(-2, 2, (10, 6))
         >>> report = ur5.doctor(np.degrees(q), ur5.pose(q)[:, :3, 3] / 1000)
-        >>> report.found[0].reading.joints_in_degrees, report.found[0].reading.lengths_in
+        >>> found = report.found[0].interpretation
+        >>> found.joints_in_degrees, found.lengths_in
         (True, 'm')
         """
     def export(

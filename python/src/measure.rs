@@ -51,8 +51,7 @@ impl Machine {
         let found = Report::new("measure", &report, notes, text)?.with_rows(report.table());
         let found = found.with_pages(move || {
             let spec = &job.machine.spec;
-            let provenance =
-                Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;
+            let provenance = Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;
             let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
             Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
         });

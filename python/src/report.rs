@@ -31,8 +31,8 @@ type Make<T> = Box<dyn Fn() -> Result<T, Diagnostics> + Send + Sync>;
 /// Figure: name, title, picture, and content as JSON.
 type Figure = (String, String, String, String);
 
-/// Heading, rows and labels of a table.
-type Rows = (Vec<String>, Vec<Vec<Option<f64>>>, Vec<String>);
+/// Heading, units, rows and labels of a table.
+type Rows = (Vec<String>, Vec<String>, Vec<Vec<Option<f64>>>, Vec<String>);
 
 /// Content of a pickled report.
 type Saved =
@@ -289,7 +289,9 @@ impl Report {
             self.pages.as_ref().and_then(|_| self.pages(py).ok()),
             self.spec.clone(),
             figures,
-            rows.map(|rows| (rows.heading.clone(), rows.rows.clone(), rows.labels.clone())),
+            rows.map(|rows| {
+                (rows.heading.clone(), rows.units.clone(), rows.rows.clone(), rows.labels.clone())
+            }),
         );
         Ok((py.import("abbe._abbe")?.getattr("_report")?, (saved,)))
     }
@@ -316,7 +318,7 @@ pub(crate) fn restore(py: Python<'_>, saved: Saved) -> PyResult<Py<Report>> {
         messages,
         pages: pages.map(|pages| Box::new(move || Ok(pages.clone())) as Make<Pages>),
         figures: Some(Box::new(move || figures.clone())),
-        rows: rows.map(|(heading, rows, labels)| data::Table { heading, rows, labels }),
+        rows: rows.map(|(heading, units, rows, labels)| data::Table { heading, units, rows, labels }),
         spec,
         fields: PyOnceLock::new(),
     };

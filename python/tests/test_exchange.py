@@ -168,7 +168,7 @@ def test_the_doctor_corrects_a_spec(tmp_path):
     # The third column is the angle of the forearm to the horizontal.
     shown = q + q[:, [1]] * [0, 0, 1]
     report = arm.doctor(shown, arm.pose(q)[:, :3, 3])
-    assert report.of_spec == ["q3 is coupled: q3 − q2 is meant"]
+    assert report.of_spec == ["q3 is coupled: it means q3 − q2"]
     assert np.abs(report.load().pose(shown) - arm.pose(q)).max() < 1e-9
     assert report.report(tmp_path) == ["doctor.map.toml", "doctor.spec.toml"]
     # No corrected spec if the map describes everything.
@@ -190,7 +190,7 @@ def test_what_is_exported(tmp_path):
         report = machine.export(to)
         assert len(report.files) == files and sorted(report.report(tmp_path / to)) == sorted(os.listdir(tmp_path / to))
         assert all((tmp_path / to / file.name).read_text() == file.text for file in report.files)
-        assert report.remains.position.largest < report.before.position.largest and "The sign" in report.full()
+        assert report.remains.position.largest < report.before.position.largest and "Sign convention" in report.full()
     cell = tmp_path / "cell.urdf"
     cell.write_text(CELL)
     nominal = abbe.import_urdf(cell, tip="tool").load()

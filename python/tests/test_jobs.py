@@ -29,7 +29,7 @@ def test_analyze():
     assert "Each source alone (mm)" in report.full() and "sources" in dir(report)
     assert len(report.figures()) > 0 and all(figure.svg.startswith("<svg") for figure in report.figures().values())
     assert report.figure(next(iter(report.figures()))).svg.startswith("<svg")
-    with pytest.raises(ValueError, match="unknown figure"):
+    with pytest.raises(ValueError, match="there is no figure"):
         report.figure("nothing")
     with pytest.raises(AttributeError, match="no field `nothing`"):
         report.nothing

@@ -51,7 +51,7 @@ def test_the_defaults_are_those_of_the_command(job):
     [
         (lambda: ur5.analyze(monte_carlo=10_000_001), "`monte_carlo` is from 1 to 10000000"),
         (lambda: ur5.analyze(threads=1025), "`threads` is from 1 to 1024"),
-        (lambda: ur5.bound(gap=0), "`gap`: a gap is more than 0"),
+        (lambda: ur5.bound(gap=0), "`gap`: a gap must be positive"),
         (lambda: ur5.bound(boxes=0), "`boxes` is from 1 to 100000000"),
         (lambda: ur5.export("table", nodes=1), "`nodes` is from 2 to 1000000"),
         (lambda: ur5.export("dh", samples=0), "`samples` is from 1 to 1000000"),

@@ -134,7 +134,7 @@ def test_rows_that_cannot_be_used(tmp_path):
     columns["joint_2"][9] = float("inf")
     columns["y_t"][11] = 1e200
     said = [(row.line, row.reason) for row in ur5.identify(columns, "ur5").unusable]
-    assert said == [(7, "`x_t` is missing"), (9, "`joint_2` is `inf`"), (11, "`y_t` is `1e200`: the maximum is 1e150")]
+    assert said == [(7, "`x_t` is missing"), (9, "`joint_2` is `inf`"), (11, "`y_t` is `1e200`; the maximum is 1e150")]
     # Lines of a file count from 1 and include the header.
     of_file = [(row.line - 2, row.reason) for row in ur5.identify(written(columns, tmp_path / "data.csv"), "ur5").unusable]
     assert of_file == said
