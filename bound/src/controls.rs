@@ -30,7 +30,7 @@ const PIECES: usize = 2;
 pub(crate) const AFFINE: usize = 2 + PIECES;
 /// Maximum number of points at which quadratic parts are evaluated along a name.
 pub(crate) const QUADRATIC: usize = 6;
-/// Maximum number of control points of a name.
+/// Maximum number of control points along a name.
 const MOST: usize = 5;
 /// Maximum of half of the arc between two tangents, rad: those of longer ones meet too far away.
 const LONGEST: f64 = 1.2;

@@ -404,7 +404,9 @@ mod tests {
 
     #[test]
     fn nothing_is_larger_than_at_the_control_points_of_quadratic_parts() {
-        nothing_is_larger(quadratic_parts, 2.3, 1e-10);
+        // The bound of the rounding grows threefold with each of three quadratic names, and the
+        // norm is a square.
+        nothing_is_larger(quadratic_parts, 2.3, 1e-8);
     }
 
     fn nothing_is_larger(parts: fn(&mut Graph) -> [Node; 2], longest: f64, rounding: f64) {

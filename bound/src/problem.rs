@@ -8,7 +8,7 @@ use crate::tape::Tape;
 pub(crate) struct Problem {
     /// The value.
     pub(crate) value: Tape,
-    /// Evaluation at corners, if the value is convex in the names.
+    /// Evaluation at control points, if the value is a norm of polynomials in the names.
     pub(crate) corners: Option<Corners>,
     /// The value and its slope along each name.
     pub(crate) all: Tape,

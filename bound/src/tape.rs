@@ -1,4 +1,4 @@
-//! Tapes: the operations of nodes on affine forms, in order of evaluation.
+//! A tape: the operations of an expression graph in order of evaluation, with affine arithmetic.
 
 use std::collections::HashMap;
 use std::sync::Arc;

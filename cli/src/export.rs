@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
     } else {
         {
             text::exported(&report, showing.detail())
-                + &showing.next("--full for all differences and what the format lacks")
+                + &showing.next("--full lists all differences and what the format cannot store")
         }
     };
     if out.is_some() && !*is_json {

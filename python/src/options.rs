@@ -80,6 +80,6 @@ pub(crate) fn length(name: &str, value: &Bound<'_, PyAny>, spec: &Spec) -> PyRes
     };
     match number.is_finite() && number >= 0.0 {
         true => Ok(number),
-        false => Err(PyValueError::new_err(format!("`{name}` is a length that is not negative"))),
+        false => Err(PyValueError::new_err(format!("`{name}` must be a length of zero or more"))),
     }
 }

@@ -1,4 +1,4 @@
-//! Templates of specs: commented first files of common kinds of machines.
+//! Spec templates: starter files with comments for common kinds of machines.
 
 use abbe_spec::check_name;
 use abbe_spec::diagnostic::Diagnostics;

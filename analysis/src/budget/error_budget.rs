@@ -14,7 +14,7 @@ pub struct Budget {
     /// Decrease of the radius for a source reduced by one percent, in the length unit. Negative for
     /// a source that counteracts the others.
     pub gains: Vec<f64>,
-    /// Figures of the orientation, rows 4–6.
+    /// Orientation errors, rows 4–6 of ΔX.
     pub orientation: OrientationErrors,
     /// Indices of the configurations at which the tolerances of position and orientation are least
     /// likely to be met, by an approximation, the least likely first. At most 32, none without a

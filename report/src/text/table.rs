@@ -27,7 +27,7 @@ pub fn at_width<T>(columns: usize, format: impl FnOnce() -> T) -> T {
     formatted
 }
 
-/// Number of characters of a word that a table shows.
+/// Maximum number of characters of a word in a table; the rest is cut off.
 const LONGEST: usize = 2 * WIDTH;
 
 const STYLE: TableStyle =
@@ -107,7 +107,7 @@ impl fmt::Display for Table {
     }
 }
 
-/// A text wrapped at the width of the tables, its lines after the first indented.
+/// Wraps a text at the width of the tables and indents every line except the first.
 pub fn wrapped(text: &str, indent: usize) -> String {
     let (mut lines, mut width) = (String::new(), indent);
     for word in text.split([' ', '\n']).filter(|word| !word.is_empty()) {

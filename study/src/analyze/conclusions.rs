@@ -50,10 +50,11 @@ fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
         1.0 => "for certain".to_owned(),
         probability => format!("with a probability of at least {}", number::at_least(probability)),
     };
+    let together = allowance.together?;
     Some(format!(
         "With all sources × {}, the largest error equals the tolerance of {}; with an equal share \
          of {} for each source, the tolerance is met {how}.",
-        number::digits(allowance.together?, 3),
+        number::rounded_down(together, number::decimals(together, 3)),
         unit::with_symbol(report, measurand, report.tolerance(measurand)?),
         unit::with_symbol(report, measurand, allowance.equal_share?)
     ))

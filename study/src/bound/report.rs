@@ -55,7 +55,7 @@ pub struct Report {
     pub contains_more: bool,
     /// Number of evaluated boxes, all searches together.
     pub boxes: usize,
-    /// Indicates that every search reached the gap.
+    /// Indicates that every search reached the requested gap between its bounds.
     pub complete: bool,
     /// Spec of the manipulator, for names and units.
     #[serde(skip)]

@@ -65,7 +65,7 @@ abbe_spec::tables! {
         "direction": COLUMN, "-", "not known",
             "Column of the direction or path of approach, any text: `measure` then states the multi-directional variation of ISO 9283";
         "time": COLUMN, "-", "the order of the rows",
-            "Column of the time of a row: a number in any unit, or a date such as `2026-03-14` with or without a time. Residuals are checked for drift in this order; `monitor` makes a check of every day";
+            "Column of the time of a row: a number in any unit, or a date such as `2026-03-14` with or without a time. The drift test sorts residuals by this time; `monitor` takes the rows of a day as one check";
         "station": COLUMN, "-", "all rows at one station",
             "Column of the name of the station: each station has its own pose, and all share the machine";
         "placement": Choice(|| words(&PLACEMENTS)), "-", "`\"unknown\"`",
@@ -86,7 +86,7 @@ abbe_spec::tables! {
         "gravity_moment": Text("name of a variable"), "-", "one of the two",
             "Revolute joint whose moment of gravity gives the input: 1 if it acts forward, -1 if it acts back, 0 if there is none";
         "frame": Text("name of a frame"), "-", "the tool point",
-            "Frame with the weight of `gravity_moment` at its origin; that of the joint or one behind it";
+            "Frame whose origin carries the weight of `gravity_moment`: the frame of the joint or a later one";
     ]
 
     POINT: ["[point]"], [

@@ -30,7 +30,7 @@ pub struct Unusable {
 /// Rows of a file, or of columns in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
-    /// Name of the file or of the columns.
+    /// Name of the data in messages: the path of the file, or the name of the table.
     pub file: String,
     /// The file; empty if the rows come from elsewhere.
     pub files: Vec<PathBuf>,

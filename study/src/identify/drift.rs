@@ -33,6 +33,9 @@ pub struct ResidualDrift {
     pub ends: [f64; 2],
     /// Statement of the result in words.
     pub sentence: String,
+    /// First clause of the statement.
+    #[serde(skip)]
+    pub summary: String,
 }
 
 impl ResidualDrift {
@@ -49,30 +52,35 @@ impl ResidualDrift {
             "distance" => "their distance".to_owned(),
             axis => format!("along {axis}"),
         };
-        let sentence = match (is_drift, settling) {
-            (true, Some(share)) => format!(
-                "The residuals may settle with time, {what} by {} with a time constant of {} of \
-                 the run; the machine may be warming up, or a mounting settling. Mean error of \
-                 the first tenth of the rows {}, of the last {}. Measure when the machine is \
-                 warm, or leave the first rows out.",
-                length(change.abs()),
-                percent(share, 1.0),
-                length(ends[0]),
-                length(ends[1]),
+        let by = length(change.abs());
+        let of_ends = format!(
+            "Mean error of the first tenth of the rows {}, of the last {}.",
+            length(ends[0]),
+            length(ends[1])
+        );
+        let (summary, rest) = match (is_drift, settling) {
+            (true, Some(share)) => (
+                format!(
+                    "The residuals may settle with time, {what} by {by} with a time constant of \
+                     {} of the run",
+                    percent(share, 1.0)
+                ),
+                format!(
+                    "; the machine may be warming up, or a mounting settling. {of_ends} Measure \
+                     when the machine is warm, or leave the first rows out."
+                ),
             ),
-            (true, None) => format!(
-                "The residuals may drift with time, {what} by {} from the first row to the last. \
-                 Mean error of the first tenth of the rows {}, of the last {}.",
-                length(change.abs()),
-                length(ends[0]),
-                length(ends[1]),
+            (true, None) => (
+                format!("The residuals may drift with time, {what} by {by} from the first row to the last"),
+                format!(". {of_ends}"),
             ),
-            (false, _) if p_of_lag_1 <= FALSE_ALARMS => format!(
-                "The residuals show no drift, but successive rows are correlated ({lag}): the \
-                 machine may have errors that the model does not have and that change slowly \
-                 along the measured path. Standard deviations may be too small.",
+            (false, _) if p_of_lag_1 <= FALSE_ALARMS => (
+                format!("The residuals show no drift, but successive rows are correlated ({lag})"),
+                ": the machine may have errors that the model does not have and that change \
+                 slowly along the measured path. Standard deviations may be too small."
+                    .to_owned(),
             ),
-            _ => "The residuals show no drift with the order of the rows.".to_owned(),
+            _ => ("The residuals show no drift with the order of the rows".to_owned(), ".".to_owned()),
         };
         let sure = match is_drift || p_of_lag_1 <= FALSE_ALARMS {
             true => format!(
@@ -82,7 +90,7 @@ impl ResidualDrift {
             ),
             false => String::new(),
         };
-        let sentence = sentence + &sure;
+        let sentence = summary.clone() + &rest + &sure;
         Self {
             lag_1,
             p_of_lag_1,
@@ -94,6 +102,7 @@ impl ResidualDrift {
             false_alarms: FALSE_ALARMS,
             ends,
             sentence,
+            summary,
         }
     }
 }

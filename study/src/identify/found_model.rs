@@ -30,8 +30,8 @@ pub struct FoundModel {
     pub terms: Vec<FoundTerm>,
     /// Derived inputs; terms index them after those of the spec.
     pub derived: Vec<Derived>,
-    /// Covariance of all these values, in the order of the kept unknowns: `row` is their index in
-    /// it.
+    /// Covariance of the identified values, in the order of the kept unknowns; the `row` of a value
+    /// is its index in this matrix.
     pub covariance: Vec<Vec<f64>>,
     /// Ranges of joints and inputs covered by the fitted rows.
     pub fitted: Vec<Fitted>,

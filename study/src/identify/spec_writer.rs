@@ -149,7 +149,7 @@ impl FoundModel {
         let (size, reversed, remark) = match is_reversed {
             true => {
                 let fitted = magnitude_table(*magnitude, *standard_deviation);
-                let remark = ". Negative, so it is not only elasticity";
+                let remark = ". The value is negative: elasticity alone does not explain it";
                 (1.0, format!("magnitude = {fitted}\n"), remark)
             }
             false => (*magnitude, String::new(), ""),

@@ -1,4 +1,4 @@
-//! Formats of a position or a pose in the numbers of a row.
+//! Formats in which the numbers of a row can give a position or a pose.
 
 use abbe::Pose;
 use serde::Serialize;

@@ -35,7 +35,7 @@ pub struct Report {
     pub limit: Limit,
     /// Charts of the errors, one per group of indistinguishable errors.
     pub charts: Vec<Chart>,
-    /// Chart of the deviation from the preceding checks, from any cause.
+    /// Chart of the distance of each check from the checks before it, whatever the cause.
     pub left: Chart,
     /// Errors that are indistinguishable from a displacement of the instrument.
     pub unseen: Vec<String>,

@@ -54,7 +54,7 @@ abbe_spec::tables! {
         "workspace": Table("[workspace]"), "-", "that of the study", "Workspace of this figure; not for pareto and manipulator";
     ]
     ROWS: ["[[figure]]"], [
-        "rows": Choice(|| words(&MEASURANDS)), "-", "`\"position\"`", "Rows 1 to 3, in mm, or rows 4 to 6, in mrad; not for manipulator";
+        "rows": Choice(|| words(&MEASURANDS)), "-", "`\"position\"`", "Position error (rows 1 to 3, in mm) or orientation error (rows 4 to 6, in mrad); figures of kind `manipulator` have none";
     ]
     OVER: ["[[figure]]"], [
         "over": Either("name of a variable, parameter or input; two of them for a surface", &[TEXT, List("", Some(2), &TEXT)]), "-", "required for travel and surface",

@@ -46,7 +46,7 @@ abbe_spec::tables! {
         "y": AXIS, "length unit", "required", "Coordinates of the points along y of `F_0`";
         "z": AXIS, "length unit", "required", "Coordinates of the points along z of `F_0`";
         "orientation": Choice(|| words(&ORIENTATIONS)), "-", "`\"free\"`", "Orientation of the tool: any, or that at home";
-        "solve": VARIABLES, "-", "all", "Variables that bring the tool there; the others stay at home";
+        "solve": VARIABLES, "-", "all", "Variables that are solved so that the tool reaches the points; the others stay at their home values";
     ]
     PATH: ["[workspace.path]"], [
         "file": Text("path, from the folder of the study"), "-", "required",

@@ -95,7 +95,7 @@ fn figures(report: &Report) -> String {
 }
 
 /// Lists the largest sources with their shares of the sum of all norms, and the factor at which
-/// each alone would use up the tolerance.
+/// each alone would use up the tolerance; the last row has the factor for all of them together.
 fn sources(report: &Report) -> String {
     let decimals = decimals(report);
     let all = &report.ledger.sources;
@@ -104,7 +104,7 @@ fn sources(report: &Report) -> String {
     let factor = |name: &str| {
         let sources = &report.allowance.as_ref()?.sources;
         let alone = sources.iter().find(|source| source.name == name)?.alone?;
-        Some(format!("× {}", number::digits(alone, 2)))
+        Some(times(alone))
     };
     let row = |name: String, max: f64, factor: Option<String>| {
         [name, fixed(scale * max, decimals), percent(max, sum), factor.unwrap_or_default()]
@@ -118,7 +118,19 @@ fn sources(report: &Report) -> String {
         let rest = all[shown..].iter().map(|entry| entry.max).sum();
         rows.push(row(format!("{} others together", all.len() - shown), rest, None));
     }
+    // The factor of a source holds for it alone.
+    if let Some(together) = report.allowance.as_ref().and_then(|allowance| allowance.together)
+        && all.len() > 1
+    {
+        let radius = fixed(scale * report.combined.radii.radius, decimals);
+        rows.push(["all, as built".to_owned(), radius, String::new(), times(together)]);
+    }
     aligned(&rows, [false, true, true, true])
+}
+
+/// Formats a factor, rounded down.
+fn times(factor: f64) -> String {
+    format!("× {}", number::rounded_down(factor, number::decimals(factor, 2)))
 }
 
 fn facts(report: &Report) -> Vec<(&'static str, String)> {

@@ -139,7 +139,9 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
         ));
     }
     let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.p_of_lag_1 <= drift.false_alarms;
-    facts.extend(report.drift.iter().filter(is_found).map(|drift| ("Drift", drift.sentence.clone())));
+    facts.extend(
+        report.drift.iter().filter(is_found).map(|drift| ("Drift", format!("{}; see --full", drift.summary))),
+    );
     facts.extend(report.files.iter().flat_map(super::data));
     facts.extend(super::some("Note", &report.notes, 2));
     facts

@@ -13,7 +13,7 @@ pub trait Named {
 /// Manipulator whose function `F` is compiled for any scalar type, including lanes. Generated
 /// manipulators implement it for all functions.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no code for lanes",
+    message = "`{Self}` has no code for several configurations at once",
     note = "a manipulator that is not generated is evaluated as `abbe::lanes::OneByOne(manipulator)`"
 )]
 pub trait Evaluate<F: Named>: Manipulator {

@@ -11,7 +11,7 @@ use crate::{Error, Function, Manipulator};
 /// Rows of arguments and results follow the [`Signature`](crate::function::Signature) of the
 /// function. Errors as for [`run`].
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no code for lanes",
+    message = "`{Self}` has no code for several configurations at once",
     note = "a manipulator that is not generated is swept as `abbe::lanes::OneByOne(manipulator)`"
 )]
 pub trait Sweepable: Manipulator {

@@ -152,7 +152,7 @@ crate::tables! {
         "compliance": Table("[source.compliance]"), "-", "none", "Elastic joint or bearing at the frame, which yields to the loads at it or beyond it";
     ]
     DEVIATION: ["[[source]]", "[[source.effect]]"], [
-        "joint": Text("name of a variable"), "-", "none", "Joint with the `error`: that of an encoder, a gearbox or a zero offset";
+        "joint": Text("name of a variable"), "-", "none", "Joint that has the `error`, for example of its encoder, gearbox or zero offset";
         "parameter": Text("name of a parameter"), "-", "none", "Parameter with the `error`, wherever it occurs in the chain";
         "error": EXPRESSION, "as the joint or the parameter", "required with `joint` and `parameter`", "Actual minus nominal value";
         "dh": Table("[source.dh]"), "-", "none", "Errors of the Denavit-Hartenberg numbers of the `frame`";

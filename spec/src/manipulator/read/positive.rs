@@ -1,4 +1,4 @@
-//! Checks signs: lengths and stiffnesses of beams, masses, compliances.
+//! Checks the signs of masses, of compliances, and of the lengths and stiffnesses of beams.
 
 use abbe_core::Component;
 

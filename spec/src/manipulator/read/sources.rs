@@ -46,9 +46,7 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut 
                     Diagnostic::new(name_item.span(), format!("duplicate source name \"{name}\""))
                         .label("second use")
                         .context(first.clone(), "first use")
-                        .help(
-                            "rename one; a source that acts at several frames lists [[source.effect]] tables",
-                        ),
+                        .help("rename one, or give one source several [[source.effect]] tables"),
                 );
             }
             spans.push((name.clone(), name_item.span()));
