@@ -204,7 +204,7 @@ class BoundReport(Report):
     """Number of evaluated boxes, all searches together."""
 
     complete: bool
-    """Indicates that every search reached the gap."""
+    """Indicates that every search reached the requested gap between its bounds."""
 
 
 class Certainty(Fields):
@@ -1784,7 +1784,7 @@ class MonitorReport(Report):
     """Charts of the errors, one per group of indistinguishable errors."""
 
     left: Chart
-    """Chart of the deviation from the preceding checks, from any cause."""
+    """Chart of the distance of each check from the checks before it, whatever the cause."""
 
     unseen: list[str]
     """Errors that are indistinguishable from a displacement of the instrument."""
