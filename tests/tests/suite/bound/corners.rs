@@ -99,7 +99,7 @@ fn nothing_exceeds_the_control_points_of_constant_errors() {
 
 #[test]
 fn nothing_exceeds_the_control_points_of_deflections() {
-    nothing_exceeds(elastic_chain, 2..=if thorough() { 5 } else { 3 }, 4000);
+    nothing_exceeds(elastic_chain, 2..=if thorough() { 4 } else { 3 }, 2000);
 }
 
 fn nothing_exceeds(
