@@ -44,5 +44,5 @@ mod not_toml;
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Compliance, Covariance, Deviation, DhConvention, DhNumber, Effect,
     Factor, Fitted, Frame, Identified, Input, Load, MAGNITUDE, Magnitude, Matrix, Parameter, Point, Source,
-    Spec, TABLES, Variable, as_identifier, check_name, rules,
+    Spec, TABLES, Uncertain, Variable, as_identifier, check_name, rules,
 };

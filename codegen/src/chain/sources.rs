@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use abbe_core::{Class, Component};
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Cause, ChainNumber, Effect, Source, Spec};
+use abbe_spec::{Cause, ChainNumber, Effect, Identified, Source, Spec, Uncertain};
 
 use super::deviation::frame_twists;
 use super::elastic::{Element, Loads};
@@ -120,7 +120,7 @@ pub(super) fn effects_in<'a>(
     loads: impl Fn(usize) -> &'a Loads<'a>,
 ) -> (Vec<EffectNode>, Causes) {
     let zero = graph.zero();
-    let mut nodes = Vec::new();
+    let mut all: Vec<Vec<[Node; 6]>> = Vec::new();
     let mut causes = Causes::default();
     for (source, declared) in spec.enabled_sources().enumerate() {
         // Several effects of one source on one error of one frame are added to one effect.
@@ -145,7 +145,21 @@ pub(super) fn effects_in<'a>(
             }
         }
         sums.as_flattened_mut().iter_mut().for_each(|sum| *sum = graph.mul(times, *sum));
-        for (frame, sums) in sums.into_iter().enumerate() {
+        all.push(sums);
+    }
+    for (source, declared) in spec.enabled_sources().enumerate() {
+        if declared.propagated.is_empty() {
+            continue;
+        }
+        let propagated = propagated(graph, spec, declared, &all);
+        for (frame, errors) in propagated.into_iter().enumerate().filter(|(_, errors)| *errors != [zero; 6]) {
+            causes.errors.push(PlacedErrors { source, frame, place: None, errors });
+            add(graph, &mut all[source][frame], errors);
+        }
+    }
+    let mut nodes = Vec::new();
+    for (source, frames) in all.into_iter().enumerate() {
+        for (frame, sums) in frames.into_iter().enumerate() {
             for (component, value) in Component::ALL.into_iter().zip(sums) {
                 if value != zero {
                     nodes.push(EffectNode { source, frame, component, value });
@@ -154,6 +168,52 @@ pub(super) fn effects_in<'a>(
         }
     }
     (nodes, causes)
+}
+
+/// Returns the errors of each frame by the uncertain quantities x of a source with their factors σ,
+/// where `all` has the errors of each enabled source:
+///
+/// ```text
+/// Σ_x σ ∂ε/∂x        ε: sum of the repeatable sources
+/// ```
+fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node; 6]>]) -> Vec<[Node; 6]> {
+    let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
+    for (uncertain, factor) in &source.propagated {
+        let factor = graph.constant(*factor);
+        let mut add_scaled = |graph: &mut Graph, errors: &[[Node; 6]]| {
+            for (sum, errors) in sums.iter_mut().zip(errors) {
+                let scaled = errors.map(|error| graph.mul(factor, error));
+                add(graph, sum, scaled);
+            }
+        };
+        match uncertain {
+            Uncertain::Input(input) => {
+                let mut whole = vec![[graph.zero(); 6]; spec.frames.len()];
+                let sources = spec.enabled_sources().zip(all);
+                for (_, errors) in sources.filter(|(source, _)| source.class == Class::Repeatable) {
+                    for (sum, errors) in whole.iter_mut().zip(errors) {
+                        add(graph, sum, *errors);
+                    }
+                }
+                let slopes = graph.diff_all(whole.as_flattened(), Symbol::Input(*input));
+                let slopes: Vec<[Node; 6]> =
+                    slopes.chunks_exact(6).map(|six| std::array::from_fn(|i| six[i])).collect();
+                add_scaled(graph, &slopes);
+            }
+            // The errors of a source are proportional to its magnitude.
+            Uncertain::Identified(Identified::Magnitude(of)) => {
+                if let Some(of) = spec.enabled_index(*of) {
+                    add_scaled(graph, &all[of]);
+                }
+            }
+            Uncertain::Identified(Identified::Error(frame, component)) => {
+                let mut unit = vec![[graph.zero(); 6]; spec.frames.len()];
+                unit[*frame][*component as usize] = graph.constant(1.0);
+                add_scaled(graph, &unit);
+            }
+        }
+    }
+    sums
 }
 
 /// Returns the factor of all errors of a source.

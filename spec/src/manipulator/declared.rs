@@ -32,6 +32,8 @@ pub struct Input {
     pub unit: String,
     /// Lower and upper end of the range; infinite without one.
     pub range: [f64; 2],
+    /// Standard uncertainty of its value in use, in coherent units; 0 if it is exact.
+    pub uncertainty: f64,
     /// Description.
     pub description: String,
 }

@@ -1,8 +1,9 @@
 //! Sources: physical errors and their effects on the chain.
 
-use abbe_core::{Class, Component};
+use abbe_core::{Class, Component, Distribution};
 
 use super::chain_number::ChainNumber;
+use super::covariance::Identified;
 use super::frame::Factor;
 use crate::diagnostic::Span;
 use crate::expr::Expression;
@@ -32,6 +33,39 @@ pub struct Source {
     /// Deviations of numbers of the chain, in the order of the file; not empty if there are no
     /// effects.
     pub deviations: Vec<Deviation>,
+    /// Uncertain quantities with their factors. The source adds the derivatives of the repeatable
+    /// errors by each, times its factor, to its other effects. Empty for a source of a file.
+    pub propagated: Vec<(Uncertain, f64)>,
+}
+
+/// Uncertain quantity on which the repeatable errors depend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uncertain {
+    /// An input, by index. The factor is in its unit.
+    Input(usize),
+    /// An identified error, in the length unit or rad; or the magnitude of a source, relative to
+    /// its value.
+    Identified(Identified),
+}
+
+impl Source {
+    /// Returns the normal random source that adds the effects of uncertain quantities, each times
+    /// its factor, to no others.
+    pub fn propagating(name: String, description: String, propagated: Vec<(Uncertain, f64)>) -> Self {
+        Self {
+            name,
+            class: Class::Random(Distribution::Normal),
+            degrees_of_freedom: f64::INFINITY,
+            enabled: true,
+            description,
+            reference: String::new(),
+            magnitude: None,
+            tuned_by: None,
+            effects: Vec::new(),
+            deviations: Vec::new(),
+            propagated,
+        }
+    }
 }
 
 /// Effect of a source on a frame, or on a place on its link.

@@ -12,7 +12,7 @@ use super::declared::{Input, Parameter, Variable};
 use super::fitted::Fitted;
 use super::frame::{Factor, Frame};
 use super::load::Load;
-use super::source::{Deviation, Source};
+use super::source::{Deviation, Source, Uncertain};
 use crate::expr::{Expression, Symbol, Table};
 
 /// A manipulator as described by its file.
@@ -103,7 +103,7 @@ impl Spec {
     }
 
     /// Returns the location of a source's errors: `joint q2`, `parameter a2`, `dh of elbow`, `frame
-    /// elbow`, or several of these.
+    /// elbow`, `input payload`, or several of these.
     pub fn place(&self, source: &Source) -> String {
         let frame = |frame: usize| self.frames[frame].name.clone();
         let of_chain = |deviation: &Deviation| match deviation.number {
@@ -112,7 +112,12 @@ impl Spec {
             ChainNumber::DenavitHartenberg { frame: of, .. } => ("dh of", frame(of)),
         };
         let frames = source.effects.iter().map(|effect| ("frame", frame(effect.frame)));
-        let places: IndexSet<(&str, String)> = source.deviations.iter().map(of_chain).chain(frames).collect();
+        let inputs = source.propagated.iter().filter_map(|(uncertain, _)| match uncertain {
+            Uncertain::Input(input) => Some(("input", self.inputs[*input].name.clone())),
+            Uncertain::Identified(_) => None,
+        });
+        let places: IndexSet<(&str, String)> =
+            source.deviations.iter().map(of_chain).chain(frames).chain(inputs).collect();
         let kinds: IndexSet<&str> = places.iter().map(|(kind, _)| *kind).collect();
         let listed = kinds.into_iter().map(|kind| {
             let names: Vec<&str> =

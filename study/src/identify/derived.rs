@@ -87,6 +87,7 @@ pub(super) fn with_inputs(spec: &Spec, derived: &[Derived]) -> Spec {
         dimension: Dimension::NONE,
         unit: String::new(),
         range: [-1.0, 1.0],
+        uncertainty: 0.0,
         description: one.description(spec),
     };
     Spec { inputs: spec.inputs.iter().cloned().chain(derived.iter().map(input)).collect(), ..spec.clone() }

@@ -102,6 +102,7 @@ impl Term {
             tuned_by: None,
             effects,
             deviations,
+            propagated: Vec::new(),
         }
     }
 }

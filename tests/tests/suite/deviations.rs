@@ -65,6 +65,7 @@ fn repeatable(name: String, number: ChainNumber, error: f64) -> Source {
         tuned_by: None,
         effects: Vec::new(),
         deviations: vec![Deviation { number, error, span: 0..0 }],
+        propagated: Vec::new(),
     }
 }
 

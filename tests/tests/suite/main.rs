@@ -26,6 +26,7 @@ mod identifiability;
 mod identified;
 mod imported;
 mod imported_tables;
+mod input_uncertainty;
 mod interpreter;
 mod json_reference;
 mod laws;

@@ -76,12 +76,33 @@ impl Declarations {
                     );
                 }
             }
+            let uncertainty = match (value, &table) {
+                (Some((_, dimension)), Some(table)) => self.uncertainty(table, dimension, document),
+                _ => 0.0,
+            };
             let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
             self.set_range(&item.key, range);
             let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
             let unit = dimension.unit(self.scope.length.symbol());
-            self.inputs.push(Input { name: item.key, value, dimension, unit, range, description });
+            let name = item.key;
+            self.inputs.push(Input { name, value, dimension, unit, range, uncertainty, description });
         }
+    }
+
+    /// Reads the `uncertainty` of an input; 0 without it.
+    fn uncertainty(&self, table: &Section<'_>, dimension: Dimension, document: &mut Document) -> f64 {
+        let Some(item) = table.get("uncertainty") else { return 0.0 };
+        let what = "the uncertainty of an input";
+        let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
+        let Some((value, _)) = document.constant(&item, &self.scope, entry) else { return 0.0 };
+        if value <= 0.0 {
+            document.mistake(
+                Diagnostic::new(item.span(), "`uncertainty` must be positive")
+                    .label(format!("this is {value}"))
+                    .help("write the standard uncertainty of the input, or leave it out if the value is exact"),
+            );
+        }
+        value
     }
 
     /// Reads the `variable` of a frame and returns its index.

@@ -54,6 +54,8 @@ crate::tables! {
     INPUT: ["[inputs.NAME]"], [
         "value": NUMBER, "length unit, rad or 1; others must be written", "required", "Nominal value";
         "range": List("two numbers", Some(2), &NUMBER), "as `value`", "no limits", "Lower and upper limit";
+        "uncertainty": Number("number, positive"), "as `value`", "none: the value is exact",
+            "Standard uncertainty of the value in use, such as that of a load cell: a normal random source named `uncertainty of NAME`";
         "description": Text("text"), "-", "empty", "Description of the input, for people";
         "reference": Text("text"), "-", "empty", "Origin of the value and the range";
     ]

@@ -3,6 +3,7 @@
 use abbe_core::{Class, Distribution};
 
 use super::choices::CLASSES;
+use super::declarations::Declarations;
 use super::deviations::{Chain, read_deviations};
 use super::effects::read_effect;
 use super::keys;
@@ -11,7 +12,7 @@ use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression};
 use crate::keys::Keys;
 use crate::manipulator::names::title_of;
-use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source};
+use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source, Uncertain};
 
 /// Keys of a source: its own, and those of its effects.
 const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION];
@@ -56,6 +57,32 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut 
         }
     }
     sources
+}
+
+/// Returns a random source for each input with an uncertainty, which adds the derivatives of the
+/// repeatable errors by the input times this uncertainty.
+pub(super) fn input_uncertainties(
+    declarations: &Declarations,
+    sources: &[Source],
+    document: &mut Document,
+) -> Vec<Source> {
+    let mut uncertainties = Vec::new();
+    for (i, input) in declarations.inputs.iter().enumerate().filter(|(_, input)| input.uncertainty > 0.0) {
+        let name = format!("uncertainty of {}", input.name);
+        if sources.iter().any(|source| source.name == name) {
+            let span = declarations.scope.names.get(&input.name).map_or(0..0, |name| name.span.clone());
+            let message = format!("`uncertainty` of `{}` is a source named \"{name}\"", input.name);
+            document.mistake(
+                Diagnostic::new(span, message)
+                    .label("there is a source with this name")
+                    .help("rename that source; remove it if it is the same uncertainty"),
+            );
+        }
+        let description = format!("Standard uncertainty of the input `{}`", input.name);
+        let propagated = vec![(Uncertain::Input(i), input.uncertainty)];
+        uncertainties.push(Source::propagating(name, description, propagated));
+    }
+    uncertainties
 }
 
 fn read_source(
@@ -107,6 +134,7 @@ fn read_source(
         tuned_by: None,
         effects,
         deviations,
+        propagated: Vec::new(),
     })
 }
 

@@ -17,7 +17,7 @@ use super::loads::{check_loaded, read_gravity, read_loads};
 use super::positive::check_signs;
 use super::rigid::check_rigid;
 use super::samples::depends;
-use super::sources::read_sources;
+use super::sources::{input_uncertainties, read_sources};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
@@ -102,7 +102,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         None => Some(Vec::new()),
     };
     let chain = Chain { frames: &frames, tool: tool.as_deref(), scope: &declarations.scope };
-    let sources = read_sources(root, chain, document);
+    let mut sources = read_sources(root, chain, document);
     let loads = read_loads(root, &frames, &declarations.scope, document);
     let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
     let gravity = match &gravity_item {
@@ -113,6 +113,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     check_signs(&sources, &loads, &declarations, document);
     let fitted = read_fitted(root, &declarations, document);
     let covariance = read_covariance(root, &sources, &declarations.scope, document);
+    sources.extend(input_uncertainties(&declarations, &sources, document));
     raw_frames?;
     complete.then_some(())?;
     let Declarations { scope, parameters, inputs, variables } = declarations;

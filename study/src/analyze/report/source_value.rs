@@ -2,7 +2,7 @@
 
 use abbe::analysis::Contribution;
 use abbe::{Component, VariableKind};
-use abbe_spec::{ChainNumber, DhNumber, Source, Spec};
+use abbe_spec::{ChainNumber, DhNumber, Source, Spec, Uncertain};
 
 /// Value of a source in the spec's coherent units, and its quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,17 +21,20 @@ pub enum Quantity {
     Length,
     /// Angle, in rad.
     Angle,
-    /// Parameter in this unit, or a plain number if the unit is empty.
+    /// Parameter or input in this unit, or a plain number if the unit is empty.
     Parameter(String),
 }
 
 impl SourceValue {
-    /// Determines the value of a source: the standard deviation of a magnitude; or the deviation of
-    /// a joint or parameter, if it is the only one and constant; or the only generalized error at
-    /// the configuration.
+    /// Determines the value of a source: the standard deviation of a magnitude; or the uncertainty
+    /// of an input; or the deviation of a joint or parameter, if it is the only one and constant; or
+    /// the only generalized error at the configuration.
     pub(super) fn new(spec: &Spec, source: &Source, one: &Contribution) -> Self {
         if let Some(magnitude) = source.magnitude {
             return Self { value: magnitude.value, quantity: Quantity::Parameter(String::new()) };
+        }
+        if let [(Uncertain::Input(input), uncertainty)] = source.propagated[..] {
+            return Self { value: uncertainty, quantity: Quantity::Parameter(spec.inputs[input].unit.clone()) };
         }
         if let ([], [deviation]) = (&source.effects[..], &source.deviations[..])
             && let Some(value) = deviation.error.constant().filter(|value| *value != 0.0)
