@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
     let corrected = match spec {
         Some(file) => {
             let spec = &job.machine.spec;
-            report.corrected(spec, &job.machine.text()?, &file.display().to_string())?
+            report.corrected(spec, &job.machine.text_for(file)?, &file.display().to_string())?
         }
         None => None,
     };

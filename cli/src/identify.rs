@@ -144,7 +144,8 @@ impl IdentifiedFiles {
 /// Builds the identified spec and map.
 fn identified_files(file: &Path, job: &Identify, report: &Report) -> Result<IdentifiedFiles, Failure> {
     let machine = &job.machine;
-    let spec = report.found.identified_spec(&machine.spec, &machine.text()?, &file.display().to_string())?;
+    let spec =
+        report.found.identified_spec(&machine.spec, &machine.text_for(file)?, &file.display().to_string())?;
     let name = map_file(file).display().to_string();
     let map = report.found.identified_map(&job.map, &machine.spec, &name)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned());

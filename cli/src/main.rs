@@ -43,11 +43,16 @@ use output::Outcome;
 
 fn main() -> ExitCode {
     interrupt::clean_up_on_signals();
-    let arguments = Arguments::parse();
-    console::watch();
-    let result = at_width(console::width(), || run(&arguments));
-    console::done();
-    match result.and_then(|outcome| outcome.print()) {
+    let result = Arguments::try_parse().map_or_else(
+        |usage| output::print_usage(&usage),
+        |arguments| {
+            console::watch();
+            let result = at_width(console::width(), || run(&arguments));
+            console::done();
+            result.and_then(|outcome| outcome.print())
+        },
+    );
+    match result {
         Ok(status) => status,
         Err(failure) => failure.report(),
     }

@@ -1,7 +1,8 @@
 //! Cells of CSV files that a spreadsheet would execute.
 //!
-//! A spreadsheet takes text that starts with `=`, `+`, `-`, `@` or a control character as a formula
-//! unless it is a number. A leading apostrophe makes it text; the reader removes it again.
+//! A spreadsheet takes text that starts with `=`, `+`, `-`, `@`, one of their full-width forms, `|`
+//! or a control character as a formula unless it is a number, some even after blanks. A leading
+//! apostrophe makes it text; the reader removes it again.
 
 use std::borrow::Cow;
 
@@ -25,10 +26,14 @@ pub fn meant(cell: &str) -> &str {
     cell.strip_prefix('\'').filter(|text| begins_a_formula(text)).unwrap_or(cell)
 }
 
-/// Returns `true` for a formula, possibly after apostrophes: text that starts with apostrophes is
-/// escaped by one more.
+/// Characters with which a formula starts.
+const STARTS: [char; 12] = ['=', '+', '-', '@', '|', '＝', '＋', '－', '＠', '\t', '\r', '\n'];
+
+/// Returns `true` for a formula, possibly after apostrophes and blanks: text that starts with
+/// apostrophes is escaped by one more.
 fn begins_a_formula(text: &str) -> bool {
-    text.trim_start_matches('\'').starts_with(['=', '+', '-', '@', '\t', '\r', '\n'])
+    let is_blank = |c: char| c.is_whitespace() && !STARTS.contains(&c);
+    text.trim_start_matches(|c| c == '\'' || is_blank(c)).starts_with(STARTS)
 }
 
 #[cfg(test)]
@@ -37,7 +42,7 @@ mod tests {
 
     #[test]
     fn every_text_comes_back_and_none_is_run() {
-        let letters = ["'", "=", "+", "-", "@", "\t", "\r", "1", ".", "e", ",", "\""];
+        let letters = ["'", "=", "+", "-", "@", "|", "＝", "＠", "\t", "\r", " ", "1", ".", "e", ",", "\""];
         let mut texts = vec![String::new()];
         for _ in 0..4 {
             let longer = texts.iter().flat_map(|text| letters.map(|letter| text.clone() + letter));
@@ -46,7 +51,7 @@ mod tests {
         for text in texts {
             let cell = harmless(&text);
             assert_eq!(meant(&cell), text);
-            let runs = cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
+            let runs = cell.trim_start_matches(' ').starts_with(STARTS);
             assert!(!runs || text.parse::<f64>().is_ok(), "{text:?}");
         }
     }

@@ -10,6 +10,8 @@ use std::sync::Arc;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
+use crate::visible::{visible, with_placeholders};
+
 /// A range of bytes of the input file.
 pub type Span = Range<usize>;
 
@@ -119,22 +121,22 @@ impl Diagnostics {
     }
 
     fn report<'a>(&'a self, diagnostic: &'a Diagnostic) -> Vec<Group<'a>> {
-        let mut group = Group::with_title(Level::ERROR.primary_title(&*diagnostic.message));
+        let mut group = Group::with_title(Level::ERROR.primary_title(visible(&diagnostic.message)));
         group = match &diagnostic.span {
-            None => group.element(Origin::path(&*self.path)),
+            None => group.element(Origin::path(visible(&self.path))),
             Some(span) => {
-                let primary = AnnotationKind::Primary.span(self.clip(span)).label(&*diagnostic.label);
+                let primary = AnnotationKind::Primary.span(self.clip(span)).label(visible(&diagnostic.label));
                 let context = diagnostic
                     .context
                     .iter()
-                    .map(|(span, label)| AnnotationKind::Context.span(self.clip(span)).label(&**label));
-                let snippet =
-                    Snippet::source(&*self.text).path(&*self.path).annotation(primary).annotations(context);
+                    .map(|(span, label)| AnnotationKind::Context.span(self.clip(span)).label(visible(label)));
+                let snippet = Snippet::source(with_placeholders(&self.text)).path(visible(&self.path));
+                let snippet = snippet.annotation(primary).annotations(context);
                 group.element(snippet)
             }
         };
         if let Some(help) = &diagnostic.help {
-            group = group.element(Level::HELP.message(&**help));
+            group = group.element(Level::HELP.message(visible(help)));
         }
         vec![group]
     }

@@ -31,11 +31,12 @@ pub mod diagnostic;
 pub mod document;
 pub mod expr;
 pub mod keys;
+pub mod literal;
 pub mod mistake;
 pub mod notes;
 pub mod number;
-pub mod toml_text;
 pub mod value;
+pub mod visible;
 
 mod kind;
 mod manipulator;

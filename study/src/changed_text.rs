@@ -3,7 +3,7 @@
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Span;
 use abbe_spec::document::{Document, Section};
-use abbe_spec::toml_text::quoted;
+use abbe_spec::literal::quoted;
 
 /// Returns the text of a spec with the values of parameters and inputs, and the enabled sources, of
 /// a changed one. Everything else stays as it is. `None` if the text has no place for a change.

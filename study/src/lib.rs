@@ -83,10 +83,11 @@ mod named;
 mod reads;
 mod run_record;
 mod sizes;
+mod table_paths;
 
 pub use abbe_spec::mistake;
+use abbe_spec::notes;
 pub use abbe_spec::notes::Notes;
-use abbe_spec::{notes, toml_text};
 pub use acceptance::{Acceptance, AcceptanceVerdict, LimitCheck};
 pub use changed_text::changed_text;
 pub use changes::{Changes, find_symbol};

@@ -15,6 +15,7 @@ use abbe_spec::{Magnitude, Source, Spec};
 
 use crate::changes::Changes;
 use crate::named;
+use crate::table_paths::with_table_paths;
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
 #[derive(Clone)]
@@ -130,6 +131,17 @@ impl Machine {
                 Ok(Document::read(file)?.text.to_string())
             }
         }
+    }
+
+    /// Returns the text of the spec before changes for another file: relative paths of tables lead
+    /// to the same files.
+    pub fn text_for(&self, path: &Path) -> Result<String, Diagnostics> {
+        let folder = |file: &Path| file.parent().map(Path::to_owned).unwrap_or_default();
+        let text = self.text()?;
+        Ok(match &self.file {
+            Some(file) => with_table_paths(&text, &folder(file), &folder(path)),
+            None => text,
+        })
     }
 }
 

@@ -14,6 +14,7 @@ use std::io::{self, ErrorKind, Read, Write, stderr, stdout};
 use std::path::Path;
 use std::process::ExitCode;
 
+use abbe_spec::visible::visible;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -52,7 +53,7 @@ impl Outcome {
     pub(crate) fn print(&self) -> Result<ExitCode, Failure> {
         match self.aside {
             true => note(self.text.trim_end()),
-            false => print(&mut self.text.as_bytes())?,
+            false => print(&mut visible(&self.text).as_bytes())?,
         }
         Ok(ExitCode::from(u8::from(!self.passed)))
     }
@@ -64,13 +65,27 @@ pub(crate) struct Printed(bool);
 
 /// Writes to stdout. A closed pipe is not an error: its reader has read enough.
 fn print(content: &mut impl Read) -> Result<(), Failure> {
-    let mut out = stdout().lock();
-    match io::copy(content, &mut out).and_then(|_| out.flush()) {
+    printed(io::copy(content, &mut stdout().lock()))
+}
+
+/// Completes a write to stdout, and returns its failure.
+fn printed<T>(result: io::Result<T>) -> Result<(), Failure> {
+    match result.and_then(|_| stdout().flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::new("stdout", format!("cannot write the results: {error}")))
         }
         _ => Ok(()),
     }
+}
+
+/// Prints the help or the version to stdout, or a usage error to stderr, and returns the exit
+/// status.
+pub(crate) fn print_usage(usage: &clap::Error) -> Result<ExitCode, Failure> {
+    let result = usage.print();
+    if !usage.use_stderr() {
+        printed(result)?;
+    }
+    Ok(ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2)))
 }
 
 /// Serializes a report as one line of JSON.
@@ -82,7 +97,7 @@ pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
 /// Prints a message to stderr.
 pub(crate) fn note(message: &str) {
     // A failed write to stderr cannot be reported anywhere.
-    let _ = writeln!(stderr(), "{message}");
+    let _ = writeln!(stderr(), "{}", visible(message));
 }
 
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {

@@ -57,6 +57,21 @@ impl Target {
     }
 }
 
+impl Target {
+    /// Checks that the folder of a file is not replaced by a link: its path has none.
+    pub(super) fn is_where_it_was(&self, path: &Path) -> Result<(), Failure> {
+        let Self::File(file) = self else { return Ok(()) };
+        match fs::canonicalize(parent(file)) {
+            Ok(folder) if folder == parent(file) => Ok(()),
+            Ok(folder) => {
+                let message = format!("its folder was replaced by a link to {} meanwhile", folder.display());
+                Err(Failure::new(path.display(), message).help("run the command again"))
+            }
+            Err(error) => Err(cannot_write(path, &error)),
+        }
+    }
+}
+
 pub(crate) fn is_stdout(path: &Path) -> bool {
     STDOUT.iter().any(|name| path == Path::new(name))
 }

@@ -6,6 +6,7 @@ use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
 use crate::running::{abbe, full, json, narrow, prints, shipped, write};
+use crate::workshop::Workshop;
 
 fn path(path: &Path) -> &str {
     path.to_str().expect("a path is text")
@@ -519,4 +520,18 @@ fn limits_make_a_verdict() {
         "{}",
         run.stderr
     );
+}
+
+/// A table at a relative path is found from the folder of the identified spec, and measurements are
+/// predicted with it.
+#[test]
+fn an_identified_spec_in_another_folder_keeps_its_tables() {
+    let workshop = Workshop::new();
+    let [spec, data, map] = ["s.toml", "d.csv", "m.toml"].map(|name| workshop.path(name));
+    std::fs::create_dir(workshop.at("results")).unwrap();
+    let out = workshop.path("results/found.toml");
+    prints(&["identify", &spec, &data, "--map", &map, "--out", &out]);
+    let text = std::fs::read_to_string(&out).unwrap();
+    assert!(text.contains("file = \"../rail.csv\""), "{text}");
+    prints(&["measure", &out, &data, "--map", &workshop.path("results/found.map.toml")]);
 }

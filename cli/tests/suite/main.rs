@@ -33,6 +33,7 @@ mod progress;
 mod readme;
 mod report;
 mod running;
+mod shown_text;
 mod study;
 mod ways_out;
 mod workshop;

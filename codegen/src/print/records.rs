@@ -1,6 +1,7 @@
 //! The description of a manipulator as nested records.
 
 use abbe_core::Description;
+use abbe_spec::literal::quoted;
 
 use super::layout::Writer;
 
@@ -51,9 +52,4 @@ pub(super) fn records(
     });
     list("inputs", inputs.collect());
     list("sources", description.sources.iter().map(|source| quoted(&source.name)).collect());
-}
-
-/// Returns a text on one line, in quotation marks.
-pub(super) fn quoted(text: &str) -> String {
-    format!("{:?}", text.replace(char::is_control, " "))
 }

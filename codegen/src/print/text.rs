@@ -1,5 +1,7 @@
 //! A spec's free text as documentation.
 
+use abbe_spec::visible::alters_text;
+
 /// Escapes links, tags and code blocks.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
@@ -13,13 +15,14 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// Makes a text safe for a comment of any language: on one line, in one writing direction, without
-/// the end of a comment.
+/// the end of a comment and the trigraphs of C.
 pub(super) fn harmless(text: &str) -> String {
-    let turns = |c: char| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let ends = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}');
-    text.replace(|c| turns(c) || ends(c), " ")
+    text.replace(alters_text, " ")
         .replace("*/", "* /")
         .replace("/*", "/ *")
+        .replace("??", "? ?")
+        // Of `???` the first pass leaves two.
+        .replace("??", "? ?")
         .replace(r#"""""#, "'''")
 }
 

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, Item};
 use crate::expr::{FUNCTION_NAMES, UNIT_NAMES};
+use crate::visible::alters_text;
 
 /// Reserved words of Rust.
 const KEYWORDS: [&str; 53] = [
@@ -79,13 +80,18 @@ fn fault(name: &str) -> Option<(String, String)> {
 /// Maximum length of a free-text name, in bytes.
 const LONGEST_TITLE: usize = 200;
 
-/// Reads a free-text name: not empty, on one line, of limited length.
+/// Reads a free-text name: not empty, on one line, shown as it is read, of limited length.
 pub(super) fn title_of(item: &Item<'_>, document: &mut Document) -> Option<String> {
     let name = document.string(item)?;
     if name.trim().is_empty() || name.contains(char::is_control) {
         document.mistake(
             Diagnostic::new(item.span(), "expected a name on one line").help("use a short, descriptive name"),
         );
+        return None;
+    }
+    if let Some(c) = name.chars().find(|c| alters_text(*c)) {
+        let message = format!("this name contains U+{:04X}, which alters the text around it", u32::from(c));
+        document.mistake(Diagnostic::new(item.span(), message).help("remove this invisible character"));
         return None;
     }
     if name.len() > LONGEST_TITLE {

@@ -3,6 +3,7 @@
 use abbe::identify::Observation;
 use abbe::{Manipulator, Pose};
 use abbe_spec::Spec;
+use abbe_spec::literal::quoted;
 
 /// Rule by which an input is computed from the rows. Its value is −1, 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,11 +43,11 @@ impl FromRows {
     /// Returns the lines of its entry in `[inputs]` of a map.
     pub fn lines(&self, spec: &Spec) -> String {
         match *self {
-            Self::Approach(variable) => format!("approach = {:?}\n", spec.variables[variable].name),
+            Self::Approach(variable) => format!("approach = {}\n", quoted(&spec.variables[variable].name)),
             Self::GravityMoment { variable, at } => {
-                let frame = spec.frames.get(at).map(|frame| format!("frame = {:?}\n", frame.name));
-                let joint = &spec.variables[variable].name;
-                format!("gravity_moment = {joint:?}\n{}", frame.unwrap_or_default())
+                let frame = spec.frames.get(at).map(|frame| format!("frame = {}\n", quoted(&frame.name)));
+                let joint = quoted(&spec.variables[variable].name);
+                format!("gravity_moment = {joint}\n{}", frame.unwrap_or_default())
             }
         }
     }

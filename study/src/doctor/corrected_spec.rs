@@ -10,13 +10,13 @@ use std::path::Path;
 use abbe::VariableKind;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::literal::quoted;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::report::Report;
 use crate::interpretations::{Change, words};
 use crate::number::digits;
-use crate::toml_text::quoted;
 
 /// Keys that place a frame or the tool.
 const PLACEMENT_KEYS: [&str; 5] = ["transform", "matrix", "dh", "mdh", "origin"];

@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use abbe::{Pose, VariableKind};
 use abbe_spec::Spec;
+use abbe_spec::literal::quoted;
 
 use super::columns::Columns;
 use crate::data::quaternion;
 use crate::interpretations::{Candidate, Change, Interpretation, PoseFormat, words};
 use crate::number::digits;
-use crate::toml_text::quoted;
 
 /// Significant digits of a fitted zero; data determine fewer.
 const DIGITS: usize = 8;

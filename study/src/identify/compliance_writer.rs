@@ -2,6 +2,7 @@
 
 use abbe::Component;
 use abbe_spec::Spec;
+use abbe_spec::literal::quoted;
 
 use super::found_model::{FoundModel, FoundTerm};
 use super::spec_writer::{format_number, source_name};
@@ -56,10 +57,12 @@ impl FoundModel {
         };
         let source = |name: &str, what: &str, magnitude: &str, matrix: &[[f64; 3]; 3]| {
             format!(
-                "\n[[source]]\nname = {:?}\ndescription = {what:?}\nclass = \"repeatable\"\n{magnitude}reference = {:?}\n\n\
-                 [[source.effect]]\nframe = {frame:?}\ncompliance = {{ matrix = {} }}\n",
-                source_name(spec, name),
-                self.reference,
+                "\n[[source]]\nname = {}\ndescription = {}\nclass = \"repeatable\"\n{magnitude}reference = {}\n\n\
+                 [[source.effect]]\nframe = {}\ncompliance = {{ matrix = {} }}\n",
+                quoted(&source_name(spec, name)),
+                quoted(what),
+                quoted(&self.reference),
+                quoted(frame),
                 format_matrix(spec, matrix),
             )
         };

@@ -2,6 +2,7 @@
 //! identified machine.
 
 use abbe_spec::Spec;
+use abbe_spec::literal::quoted;
 
 use super::found_model::FoundModel;
 use super::spec_writer::{ABOVE, constant_name};
@@ -41,13 +42,13 @@ impl FoundModel {
         let constants = frames.flat_map(|(frame, errors)| {
             let source = constant_name(spec, &frame.name);
             errors.iter().map(move |error| {
-                let text = format!("source = {source:?}, error = {:?}", error.component.name());
+                let text = format!("source = {}, error = \"{}\"", quoted(&source), error.component.name());
                 Entry { text, row: error.row, size: 1.0 }
             })
         });
         let whole = |name: &str, row: usize, size: f64| {
             // A relative deviation of a magnitude of zero is undefined.
-            (size != 0.0).then(|| Entry { text: format!("source = {name:?}"), row, size })
+            (size != 0.0).then(|| Entry { text: format!("source = {}", quoted(name)), row, size })
         };
         let written = self.terms.iter().filter(|found| self.is_expressible(spec, found));
         // A compliance matrix has no single magnitude.

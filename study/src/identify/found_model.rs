@@ -3,6 +3,7 @@
 use abbe::Component;
 use abbe::identify::{Configurations, Unknown};
 use abbe_spec::expr::Symbol;
+use abbe_spec::visible::alters_text;
 use abbe_spec::{Fitted, Spec};
 
 use super::as_joint_errors::AsJointErrors;
@@ -148,8 +149,7 @@ impl FoundModel {
 /// string.
 fn printable_name(file: &str) -> String {
     let name = std::path::Path::new(file).file_name().unwrap_or_default().to_string_lossy();
-    let plain = |c: &char| matches!(c, '"' | '\\' | '\'') || c.escape_debug().count() == 1;
-    name.chars().map(|c| if plain(&c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
+    name.replace(alters_text, "\u{fffd}")
 }
 
 /// Returns the ranges of joints and inputs that the rows cover.

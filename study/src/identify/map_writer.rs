@@ -4,12 +4,12 @@
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::{Document, Section};
+use abbe_spec::literal::quoted;
 
 use super::derived::{Derived, with_inputs};
 use super::found_model::FoundModel;
 use super::found_placement::FoundPlacement;
 use crate::data::{Map, quaternion};
-use crate::toml_text::quoted;
 
 impl FoundModel {
     /// Returns the map of the data with the identified placement. `path` is the name of its file.

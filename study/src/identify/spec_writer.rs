@@ -7,6 +7,7 @@ use abbe::{Component, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::{Document, Section};
 use abbe_spec::expr::{Motion, Symbol};
+use abbe_spec::literal::quoted;
 use abbe_spec::{Fitted, Spec};
 
 use super::derived::{Derived, with_inputs};
@@ -38,7 +39,7 @@ impl FoundModel {
         let sources = self.sources(spec, &base) + &self.inputs(spec);
         let (kept, changed) = with_magnitudes(&without_fitted(text), spec, &self.magnitudes);
         let ground = match self.terms.iter().any(|found| matches!(found.term.site, ErrorSite::Base(_))) {
-            true => format!("[[frame]]\nname = {base:?}\norigin = {{ xyz = [0, 0, 0] }}\n\n"),
+            true => format!("[[frame]]\nname = {}\norigin = {{ xyz = [0, 0, 0] }}\n\n", quoted(&base)),
             false => String::new(),
         };
         let at =
@@ -96,8 +97,8 @@ impl FoundModel {
 
     fn inputs(&self, spec: &Spec) -> String {
         let input = |one: &Derived| {
-            let description = one.description(spec);
-            format!("\n[inputs.{}]\nvalue = 0\nrange = [-1, 1]\ndescription = {description:?}\n", one.name)
+            let description = quoted(&one.description(spec));
+            format!("\n[inputs.{}]\nvalue = 0\nrange = [-1, 1]\ndescription = {description}\n", one.name)
         };
         self.needed(spec).into_iter().map(input).collect()
     }
@@ -112,7 +113,7 @@ impl FoundModel {
             };
             let [lower, upper] =
                 fitted.range.map(|end| format!("{} {unit}", format_number(end)).trim_end().to_owned());
-            format!("{} = [{lower:?}, {upper:?}]\n", spec.name_of(fitted.symbol))
+            format!("{} = [{}, {}]\n", spec.name_of(fitted.symbol), quoted(&lower), quoted(&upper))
         };
         let lines = self.fitted.iter().map(line).collect::<String>();
         format!("{}[fitted]\n{lines}", ABOVE[0])
@@ -127,10 +128,11 @@ impl FoundModel {
             deviations.push(format!("{name} {} {unit}", digits(error.standard_deviation, 2)));
         }
         format!(
-            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\nframe = {frame:?}\n{lines}reference = {:?}\n",
-            constant_name(spec, frame),
-            format!("Standard deviations: {}", deviations.join(", ")),
-            self.reference,
+            "\n[[source]]\nname = {}\ndescription = {}\nclass = \"repeatable\"\nframe = {}\n{lines}reference = {}\n",
+            quoted(&constant_name(spec, frame)),
+            quoted(&format!("Standard deviations: {}", deviations.join(", "))),
+            quoted(frame),
+            quoted(&self.reference),
         )
     }
 
@@ -159,10 +161,10 @@ impl FoundModel {
             _ => format!("{} of the value", digits((standard_deviation / magnitude).abs(), 2)),
         };
         format!(
-            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\n{reversed}reference = {:?}\n\n[[source.effect]]\n{}\n",
-            name,
-            format!("Standard deviation: {deviation}{remark}"),
-            self.reference,
+            "\n[[source]]\nname = {}\ndescription = {}\nclass = \"repeatable\"\n{reversed}reference = {}\n\n[[source.effect]]\n{}\n",
+            quoted(&name),
+            quoted(&format!("Standard deviation: {deviation}{remark}")),
+            quoted(&self.reference),
             effect_lines(spec, term, size, base),
         )
     }
@@ -218,15 +220,17 @@ fn effect_lines(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String 
             }
             _ => format!("{} = {error}", component.name()),
         };
-        format!("frame = {name:?}\n{error}")
+        format!("frame = {}\n{error}", quoted(name))
     };
     match term.site {
-        ErrorSite::Joint(joint) => format!("joint = {:?}\nerror = {error}", spec.variables[joint].name),
+        ErrorSite::Joint(joint) => {
+            format!("joint = {}\nerror = {error}", quoted(&spec.variables[joint].name))
+        }
         ErrorSite::Parameter(parameter) => {
-            format!("parameter = {:?}\nerror = {error}", spec.parameters[parameter].name)
+            format!("parameter = {}\nerror = {error}", quoted(&spec.parameters[parameter].name))
         }
         ErrorSite::DenavitHartenberg(frame, number) => {
-            format!("frame = {:?}\ndh = {{ {} = {error} }}", spec.frames[frame].name, number.name())
+            format!("frame = {}\ndh = {{ {} = {error} }}", quoted(&spec.frames[frame].name), number.name())
         }
         ErrorSite::Frame(frame, component) => of_frame(&spec.frames[frame].name, component),
         ErrorSite::Base(component) => of_frame(base, component),
@@ -294,7 +298,8 @@ pub(super) fn format_number(value: f64) -> String {
 fn weight(spec: &Spec) -> [String; 2] {
     let last = spec.frames.last().map_or("", |frame| frame.name.as_str());
     let load = format!(
-        "\n[[load]]\nname = \"weight at the tool point\"\nmass = \"1 kg\"\nframe = {last:?}\npoint = \"tool\"\n"
+        "\n[[load]]\nname = \"weight at the tool point\"\nmass = \"1 kg\"\nframe = {}\npoint = \"tool\"\n",
+        quoted(last)
     );
     let gravity = "gravity = [0, 0, \"-9.80665 m/s^2\"]\n".to_owned();
     [

@@ -2,6 +2,8 @@
 
 use std::fmt::Display;
 
+use abbe_spec::visible::alters_text;
+
 /// An XML element.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
@@ -56,8 +58,8 @@ impl Element {
     }
 }
 
-/// Escapes markup. Characters that XML cannot contain become `�`; line breaks and tabs become
-/// spaces.
+/// Escapes markup. Characters that XML cannot contain or that alter the text around them become
+/// `�`; line breaks and tabs become spaces.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {
@@ -67,7 +69,7 @@ pub(super) fn escaped(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
             '\n' | '\r' | '\t' => escaped.push(' '),
-            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            other if alters_text(other) => escaped.push('\u{fffd}'),
             other => escaped.push(other),
         }
     }

@@ -11,12 +11,13 @@ mod operators;
 
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
+use abbe_spec::literal::quoted;
 
 use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
 use super::header::{header, operations};
 use super::layout::Writer;
-use super::records::{quoted, records};
+use super::records::records;
 use super::text::{escaped, harmless};
 use crate::program::{Routines, Sums};
 

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use abbe_spec::as_identifier;
-use abbe_spec::toml_text::quoted;
+use abbe_spec::literal::quoted;
 
 use self::number::{angle, number, quoted_if_expression, three};
 use self::transform::{origin, transform};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use abbe_spec::toml_text::quoted;
+use abbe_spec::literal::quoted;
 
 /// Returns a bare number as it is, and an expression in quotes.
 pub(super) fn quoted_if_expression(text: &str) -> String {

@@ -2,6 +2,7 @@
 
 use abbe_spec::diagnostic::{Diagnostic, Span};
 use abbe_spec::document::Document;
+use abbe_spec::visible::alters_text;
 use roxmltree::{Attribute, Node};
 
 use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};
@@ -244,7 +245,7 @@ impl Reader<'_> {
     fn name(&mut self, node: Node<'_, '_>) -> Option<String> {
         let attribute = self.attribute(node, "name")?;
         let name = attribute.value();
-        if name.trim().is_empty() || name.chars().any(char::is_control) || name.len() > LONGEST {
+        if name.trim().is_empty() || name.contains(alters_text) || name.len() > LONGEST {
             let help = format!("a name has at most {LONGEST} bytes, in one line");
             self.fault(attribute.range_value(), "this is not a valid name".to_owned(), &help);
             return None;
