@@ -35,7 +35,8 @@ impl Model<'_> {
         Evaluation { value: evaluation.value + scratch.zeros[i], ..evaluation }
     }
 
-    /// Returns the derivative of observable `i` with respect to unknown `k`.
+    /// Returns the derivative of observable `i` with respect to unknown `k` as a difference: the
+    /// part of this row, and the part of the row that the observable refers to.
     ///
     /// `along` is the gradient of its evaluation in the axes of the instrument.
     pub(super) fn observable_derivative(
@@ -45,20 +46,21 @@ impl Model<'_> {
         evaluation: &Evaluation,
         along: [f64; 3],
         k: usize,
-    ) -> f64 {
+    ) -> [f64; 2] {
         let observable = &self.observables[i];
         match self.unknowns[k] {
-            Unknown::Zero(zero) => f64::from(u8::from(zero == i)),
+            Unknown::Zero(zero) => [f64::from(u8::from(zero == i)), 0.0],
             Unknown::Fixture(f, coordinate) if observable.fixture == Some(f) => {
-                match self.fixtures[f].geometry {
+                let derivative = match self.fixtures[f].geometry {
                     FixtureGeometry::Point(_) => evaluation.by_fixture[coordinate],
                     FixtureGeometry::Direction(n) => {
                         dot(evaluation.by_fixture, tilt_derivative(n, &scratch.fixtures[f], coordinate))
                     }
-                }
+                };
+                [derivative, 0.0]
             }
-            Unknown::Fixture(..) => 0.0,
-            Unknown::Base(..) if !observable.kind.sees_base => 0.0,
+            Unknown::Fixture(..) => [0.0; 2],
+            Unknown::Base(..) if !observable.kind.sees_base => [0.0; 2],
             _ => {
                 let [first, second] = observable.targets;
                 let change = |scratch: &Scratch, target: usize| match observable.kind.is_angle {
@@ -68,14 +70,14 @@ impl Model<'_> {
                         dot(along, self.point(scratch, k, target, position))
                     }
                 };
-                change(scratch, first)
-                    - match observable.kind.reference {
-                        Reference::None => 0.0,
-                        Reference::Target => change(scratch, second),
-                        Reference::PreviousRow => {
-                            scratch.previous.as_ref().map_or(0.0, |previous| change(previous, first))
-                        }
+                let here = change(scratch, first);
+                match observable.kind.reference {
+                    Reference::None => [here, 0.0],
+                    Reference::Target => [here - change(scratch, second), 0.0],
+                    Reference::PreviousRow => {
+                        [here, scratch.previous.as_ref().map_or(0.0, |previous| change(previous, first))]
                     }
+                }
             }
         }
     }

@@ -81,10 +81,16 @@ impl LeftOut {
             for &i in fold {
                 let weight = fit.weights[i].sqrt();
                 let factors = (offer.factors)(&data[i]);
-                model.linear(&mut scratch, &data[i], &x, |residual, derivatives| {
-                    for (j, term) in terms.iter().enumerate() {
-                        let factor = term.factor.map_or(weight, |factor| weight * factors[factor]);
-                        columns[(at, j)] = derivatives[term.unknown] * factor;
+                // f(here) ∂g(here) − f(there) ∂g(there), for a number that refers to another row.
+                let there = data[i].from().map(offer.factors);
+                model.linear_by_row(&mut scratch, &data[i], &x, |residual, derivatives, of_there| {
+                    for (j, Factored { unknown, factor }) in terms.iter().enumerate() {
+                        let here = factor.map_or(1.0, |factor| factors[factor]);
+                        let mut derivative = derivatives[*unknown] * here;
+                        if let (Some(factor), Some(there), false) = (factor, &there, of_there.is_empty()) {
+                            derivative += of_there[*unknown] * (there[*factor] - here);
+                        }
+                        columns[(at, j)] = weight * derivative;
                     }
                     columns[(at, terms.len())] = -weight * residual;
                     configuration.push(data[i].configuration as usize);

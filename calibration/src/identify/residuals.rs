@@ -30,7 +30,7 @@ impl Model<'_> {
         x: &[f64],
         mut take: impl FnMut(f64),
     ) -> Result<(), Failure> {
-        self.numbers::<false>(scratch, observation, x, |residual, _| take(residual))
+        self.numbers::<false>(scratch, observation, x, |residual, _, _| take(residual))
     }
 
     /// Passes each residual and its derivatives with respect to all unknowns to `row`.
@@ -39,18 +39,34 @@ impl Model<'_> {
         scratch: &mut Scratch,
         observation: &Observation,
         x: &[f64],
-        row: impl FnMut(f64, &[f64]),
+        mut row: impl FnMut(f64, &[f64]),
+    ) -> Result<(), Failure> {
+        self.numbers::<true>(scratch, observation, x, |residual, derivatives, _| row(residual, derivatives))
+    }
+
+    /// Passes each residual, its derivatives with respect to all unknowns, and the part of these
+    /// that the row before it contributes, to `row`; that part is empty for a number that refers to
+    /// no other row.
+    ///
+    /// A reading `g(here) − g(there)` has the derivatives `here − there`, and `−there` is the part.
+    pub(super) fn linear_by_row(
+        &self,
+        scratch: &mut Scratch,
+        observation: &Observation,
+        x: &[f64],
+        row: impl FnMut(f64, &[f64], &[f64]),
     ) -> Result<(), Failure> {
         self.numbers::<true>(scratch, observation, x, row)
     }
 
-    /// Calls `row(residual, derivatives)` for each number; without derivatives unless `DERIVED`.
+    /// Calls `row(residual, derivatives, part of the row before)` for each number; without
+    /// derivatives unless `DERIVED`.
     fn numbers<const DERIVED: bool>(
         &self,
         scratch: &mut Scratch,
         observation: &Observation,
         x: &[f64],
-        mut row: impl FnMut(f64, &[f64]),
+        mut row: impl FnMut(f64, &[f64], &[f64]),
     ) -> Result<(), Failure> {
         self.chain(scratch, observation, x)?;
         let weight = observation.weight.sqrt();
@@ -67,7 +83,7 @@ impl Model<'_> {
                         self.point(scratch, k, j, point).map(|moved| moved * length)
                     });
                     for axis in 0..3 {
-                        row((point[axis] - measured[axis]) * length, &lines[axis]);
+                        row((point[axis] - measured[axis]) * length, &lines[axis], &[]);
                     }
                 }
             }
@@ -76,7 +92,7 @@ impl Model<'_> {
                 let place = |k| self.point(scratch, k, usize::MAX, point).map(|moved| moved * length);
                 fill(&mut lines, derived, place);
                 for axis in 0..3 {
-                    row((point[axis] - measured.0[3][axis]) * length, &lines[axis]);
+                    row((point[axis] - measured.0[3][axis]) * length, &lines[axis], &[]);
                 }
                 let mut difference = last.then(&measured.inverse());
                 difference.0[3] = [0.0; 3];
@@ -85,7 +101,7 @@ impl Model<'_> {
                     turned(turn, self.turn(scratch, k)).map(|turned| turned * angle)
                 });
                 for axis in 0..3 {
-                    row(turn[axis] * angle, &lines[axis]);
+                    row(turn[axis] * angle, &lines[axis], &[]);
                 }
             }
             Measurement::Readings(values) => {
@@ -96,8 +112,11 @@ impl Model<'_> {
                     let evaluation = self.evaluate(scratch, &geometry, i);
                     let along = geometry.base.turn(evaluation.along);
                     let derivative = |k| self.observable_derivative(scratch, i, &evaluation, along, k);
-                    fill(&mut lines, derived, |k| [derivative(k) * unit, 0.0, 0.0]);
-                    row((evaluation.value - measured) * unit, &lines[0]);
+                    fill(&mut lines, derived, |k| {
+                        let [here, there] = derivative(k);
+                        [(here - there) * unit, -there * unit, 0.0]
+                    });
+                    row((evaluation.value - measured) * unit, &lines[0], &lines[1]);
                 }
             }
         }

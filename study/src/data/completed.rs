@@ -3,11 +3,10 @@
 use std::borrow::Cow;
 
 use abbe::Manipulator;
-use abbe::identify::Observation;
 use abbe_spec::Spec;
 
 use super::column::Channel;
-use super::from_rows::in_order;
+use super::from_rows::{in_order, set_input, with_references};
 use super::map::Map;
 use super::rows::Data;
 
@@ -38,9 +37,8 @@ impl Data {
         let order = in_order(&data.observations);
         for (input, channel) in map.inputs.iter().enumerate() {
             let Channel::FromRows(follows) = channel else { continue };
-            let sorted: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
-            let values = follows.values(manipulator, spec, &sorted);
-            order.iter().zip(values).for_each(|(i, value)| data.observations[*i].u[input] = value);
+            let values = follows.values(manipulator, spec, &with_references(&data.observations, &order));
+            set_input(&mut data.observations, &order, input, values);
         }
         Cow::Owned(data)
     }

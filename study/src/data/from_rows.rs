@@ -76,6 +76,32 @@ pub(crate) fn in_order(rows: &[Observation]) -> Vec<usize> {
     order
 }
 
+/// Returns the rows in this order, each after the row that its readings refer to, if there is one.
+pub(crate) fn with_references<'o>(rows: &'o [Observation], order: &[usize]) -> Vec<&'o Observation> {
+    let with_reference = |i: &usize| rows[*i].from().into_iter().chain([&rows[*i]]);
+    order.iter().flat_map(with_reference).collect()
+}
+
+/// Calls `change` with the row that the readings of a row refer to, if there is one, then with the
+/// row itself.
+pub(crate) fn change_with_reference(row: &mut Observation, mut change: impl FnMut(&mut Observation)) {
+    if let Some(from) = row.approach.as_mut().and_then(|approach| approach.from.as_deref_mut()) {
+        change(from);
+    }
+    change(row);
+}
+
+/// Sets an input of the rows of [`with_references`] to these values.
+pub(crate) fn set_input(rows: &mut [Observation], order: &[usize], input: usize, values: Vec<f64>) {
+    let mut values = values.into_iter();
+    let mut set = |row: &mut Observation| {
+        if let (Some(own), Some(value)) = (row.u.get_mut(input), values.next()) {
+            *own = value;
+        }
+    };
+    order.iter().for_each(|i| change_with_reference(&mut rows[*i], &mut set));
+}
+
 /// Returns the sign of the last move of a joint, row by row.
 fn approaches(rows: &[&Observation], variable: usize) -> Vec<f64> {
     let mut last = 0.0;

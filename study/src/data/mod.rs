@@ -39,7 +39,7 @@ pub use date::Calendar;
 pub(crate) use date::{in_name, parse_date};
 pub use dated::Dated;
 pub use from_rows::FromRows;
-pub(crate) use from_rows::in_order;
+pub(crate) use from_rows::{change_with_reference, in_order, set_input, with_references};
 pub use instrument::{Instrument, Instruments};
 pub use keys::{OPTIONAL, TABLES, rules};
 pub use map::{Base, Layout, Map, Target};

@@ -9,7 +9,9 @@ use abbe_spec::{Input, Spec};
 
 use super::families::Family;
 use super::terms::{Basis, ErrorSite, Term};
-use crate::data::{Channel, Data, FromRows, Map, in_order};
+use crate::data::{
+    Channel, Data, FromRows, Map, change_with_reference, in_order, set_input, with_references,
+};
 
 /// Derived input.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,25 +110,31 @@ pub(super) fn with_columns<'d>(
     let mut data = data.into_owned();
     let count = data.observations.len();
     let order = in_order(&data.observations);
-    for row in &mut data.observations {
+    let declared = spec.inputs.len() - derived.len();
+    let with_zeros = |row: &mut Observation| {
         let nothing = derived.iter().map(|_| 0.0);
         row.u = row.u.iter().copied().chain(nothing).collect::<Vec<f64>>().into();
-    }
+    };
+    data.observations.iter_mut().for_each(|row| change_with_reference(row, with_zeros));
     // One column at a time, so that a million rows need memory for one column only.
     for (k, one) in derived.iter().enumerate() {
-        let column: Vec<f64> = match one.kind {
+        // The row that another refers to is the one before it.
+        let by_number = |value: &dyn Fn(f64) -> f64| {
+            let of_row = |(n, i): (usize, &usize)| {
+                let from = data.observations[*i].from().map(|_| value(n.saturating_sub(1) as f64));
+                from.into_iter().chain([value(n as f64)])
+            };
+            order.iter().enumerate().flat_map(of_row).collect::<Vec<f64>>()
+        };
+        let values = match one.kind {
             DerivedKind::FromRows(follows) => {
-                let rows: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
-                follows.values(manipulator, spec, &rows)
+                follows.values(manipulator, spec, &with_references(&data.observations, &order))
             }
             DerivedKind::Settling(_) | DerivedKind::Drift if !fitted => continue,
-            DerivedKind::Settling(after) => (0..count).map(|n| (-(n as f64) / after).exp()).collect(),
-            DerivedKind::Drift => (0..count).map(|n| (n + 1) as f64 / count.max(1) as f64 - 1.0).collect(),
+            DerivedKind::Settling(after) => by_number(&|n| (-n / after).exp()),
+            DerivedKind::Drift => by_number(&|n| (n + 1.0) / count.max(1) as f64 - 1.0),
         };
-        for (i, value) in order.iter().zip(column) {
-            let own = data.observations[*i].u.iter_mut().rev().nth(derived.len() - 1 - k);
-            own.into_iter().for_each(|own| *own = value);
-        }
+        set_input(&mut data.observations, &order, declared + k, values);
     }
     Cow::Owned(data)
 }

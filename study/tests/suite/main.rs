@@ -10,6 +10,7 @@ mod monitor;
 mod parts;
 mod plausibility;
 mod round_trips;
+mod selection;
 mod verdict;
 
 #[path = "../../../tests/src/thorough.rs"]
