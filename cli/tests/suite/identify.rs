@@ -270,7 +270,7 @@ fn a_page_begins_with_the_answer() {
     let groups = report["groups"].as_array().unwrap().len();
     let listed = all.matches(" acts as ").count() + all.matches("cannot be observed").count();
     assert_eq!(listed, groups, "{all}");
-    // The errors shown are the most significant ones.
+    // The errors shown are the most significant ones: the four of the machine, and none by chance.
     let parameters = report["parameters"].as_array().unwrap().iter();
     let machine = parameters.filter(|one| one["kind"] == "machine");
     let mut sure: Vec<(f64, &str)> = machine
@@ -281,7 +281,7 @@ fn a_page_begins_with_the_answer() {
         .collect();
     sure.sort_by(|a, b| b.0.total_cmp(&a.0));
     let shown = |name: &str| text.lines().any(|line| line.starts_with(&format!("  {name} ")));
-    assert!(sure.len() > 6 && shown(sure[0].1) && shown(sure[4].1) && !shown(sure[5].1), "{sure:?}\n{text}");
+    assert!(sure.len() > 6 && shown(sure[0].1) && shown(sure[3].1) && !shown(sure[4].1), "{sure:?}\n{text}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Report of an identification.
 
-use abbe::identify::Comparison;
+use abbe::identify::{Comparison, student_factor};
 use serde::Serialize;
 
 use super::as_joint_errors::JointError;
@@ -120,6 +120,14 @@ pub struct Certainty {
     pub factor_95: f64,
     /// Probability of an uncertainty factor at least as far from 1 by chance.
     pub p_of_factor: f64,
+}
+
+impl Certainty {
+    /// Returns the coverage factor at which all of `count` intervals together hold with 95 %
+    /// (Bonferroni): the limit for the errors that are called significant.
+    pub fn factor_of_all(&self, count: usize) -> f64 {
+        student_factor(1.0 - 0.05 / count.max(1) as f64, self.freedom)
+    }
 }
 
 /// Observability indices of the singular values `σ_1 ≥ … ≥ σ_r` of the design matrix with `m` rows

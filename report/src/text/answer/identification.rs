@@ -63,13 +63,14 @@ fn significance(parameter: &Parameter) -> f64 {
     parameter.value.abs() / parameter.standard_deviation.max(f64::MIN_POSITIVE)
 }
 
-/// The errors that each differ from zero with 95 % confidence, the most significant first.
+/// The errors that differ from zero with 95 % confidence for all of them together, the most
+/// significant first.
 fn errors(report: &Report) -> String {
     let machine = || report.parameters.iter().filter(|parameter| parameter.kind == Kind::Machine);
-    let is_significant = |parameter: &&Parameter| significance(parameter) > report.certainty.factor_95;
-    let mut all: Vec<&Parameter> = machine().filter(is_significant).collect();
-    all.sort_by(|a, b| significance(b).total_cmp(&significance(a)));
     let count = machine().count();
+    let limit = report.certainty.factor_of_all(count);
+    let mut all: Vec<&Parameter> = machine().filter(|parameter| significance(parameter) > limit).collect();
+    all.sort_by(|a, b| significance(b).total_cmp(&significance(a)));
     if all.is_empty() {
         return format!("None of the {count} errors of the machine differs from zero with 95 % confidence.");
     }

@@ -233,7 +233,7 @@ fn extrapolation(report: &Report) -> String {
 /// Compares the residuals with the uncertainty of the instrument.
 pub(in crate::text) fn residuals(report: &Report) -> String {
     let factor = report.uncertainty_factor;
-    let is_chance = report.certainty.p_of_factor > 0.001;
+    let is_chance = report.certainty.p_of_factor > 0.01;
     let estimated =
         !report.instruments.is_empty() && report.instruments.iter().all(|instrument| instrument.estimated);
     match factor {
@@ -248,12 +248,17 @@ pub(in crate::text) fn residuals(report: &Report) -> String {
              errors that the model does not have.",
             digits(factor, 3)
         ),
-        _ if factor < 0.67 => format!(
+        _ if factor > 1.0 => format!(
+            "The residuals are {} times the stated uncertainty of the instrument, more than chance \
+             explains: the machine has errors that the model does not have, or the instrument is worse \
+             than stated.",
+            digits(factor, 3)
+        ),
+        _ => format!(
             "The residuals are {} times the uncertainty stated in the map: the instrument is \
              better than stated.",
             digits(factor, 3)
         ),
-        _ => "The residuals agree with the stated uncertainty of the instrument.".to_owned(),
     }
 }
 
