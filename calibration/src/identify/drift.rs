@@ -73,6 +73,13 @@ pub fn drift<R: Borrow<Observation> + Sync>(
     if !order.is_sorted_by(|a, b| time(*a).total_cmp(&time(*b)).is_le()) {
         order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
     }
+    // One time for all rows is no order.
+    let is_timed = order.iter().all(|i| row(*i).time().is_some());
+    if let (true, Some(first), Some(last)) = (is_timed, order.first(), order.last())
+        && time(*first) == time(*last)
+    {
+        return Ok(None);
+    }
     let errors = |take: &mut dyn FnMut([f64; 3])| {
         let block = |_: usize, order: &[u32]| {
             let mut scratch = model.scratch();

@@ -215,6 +215,18 @@ impl Data {
         place(!self.files.is_empty(), line)
     }
 
+    /// Returns a note if all rows have one time, so that drift cannot be tested.
+    pub(crate) fn note_on_time(&self) -> Option<String> {
+        let first = self.observations.first()?.time()?;
+        let is_single =
+            self.observations.len() > 1 && self.observations.iter().all(|row| row.time() == Some(first));
+        is_single.then(|| {
+            "all rows have the same time: drift was not tested; give the time of each row, or remove \
+             `time` from the map if the rows are in order"
+                .to_owned()
+        })
+    }
+
     /// Summarizes the rows and the reasons of unusable ones.
     pub fn summary(&self) -> Summary {
         Summary {

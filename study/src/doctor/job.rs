@@ -88,7 +88,7 @@ impl Doctor<'_> {
             joints: columns.joint_names,
             seen: columns.pose_names,
             within,
-            sentence: sentence(&found, &others, spec, within),
+            sentence: sentence(&found, &others, spec, within, &columns.joints),
             found,
             others,
             map,

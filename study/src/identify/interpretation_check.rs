@@ -99,7 +99,10 @@ fn better_interpretation(
         let most = if questions.len() > 1 { LIKELY * setup.arm } else { f64::INFINITY };
         let rows: Vec<Observation> = rows.iter().map(|row| map_interpretation.reread(row, found)).collect();
         let there = FitResidual::fitted(setup, &rows)?;
-        (!questions.is_empty() && there.share < share && there.rms < most).then_some((there, questions))
+        // A unit that enlarges all points lowers the share, but explains nothing.
+        let is_better = here.is_none_or(|here| there.rms < here.rms);
+        (!questions.is_empty() && is_better && there.share < share && there.rms < most)
+            .then_some((there, questions))
     };
     found.first().and_then(|first| accepted(&first.interpretation))
 }

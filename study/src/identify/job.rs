@@ -27,7 +27,7 @@ use super::instruments::{estimate, instrument_fits};
 use super::interpretation_check::check_interpretation;
 use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::options::{LOSSES, Settings, TERMS};
-use super::plausibility::check_plausibility;
+use super::plausibility::{check_lengths, check_plausibility};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::report::{
     Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
@@ -142,6 +142,8 @@ impl Identify {
         estimate(&mut setup, map, &data, settings.prior)
             .map_err(|failure| mistake::whole(&data.file, &failure))?;
         let mut solved = solve(&setup, &data, &own, &terms, settings, notes)?;
+        check_lengths(&setup, &solved.model, &solved.fit, settings.prior, &data, notes)?;
+        solved.notes.extend(data.note_on_time().map(|note| format!("note: {note}")));
         let cross_validated =
             CrossValidated::new(std::mem::take(&mut solved.cross_validated), &solved, &chosen, &data);
         let test = test.map(|test| completed(test, false));

@@ -9,9 +9,6 @@ use crate::interpretations::{
     Change, Interpretation, LENGTHS, Length, PoseFormat, angle, changed, joint_values, mirrored,
 };
 
-/// Length units with a name, in metres.
-const NAMED: [Length; 5] = [LENGTHS[0], LENGTHS[1], ("um", 1e-6), ("cm", 1e-2), ("inch", 0.0254)];
-
 /// Interpretation stated by a map, and the conversion factors to other interpretations.
 pub(super) struct MapInterpretation<'a> {
     pub(super) interpretation: Interpretation,
@@ -168,14 +165,14 @@ fn is_degree(one: f64) -> bool {
 
 fn named(metres: f64) -> Length {
     let is_it = |(_, one): &&Length| (one / metres - 1.0).abs() < 1e-9;
-    NAMED.iter().find(is_it).copied().unwrap_or(("the unit of the map", metres))
+    LENGTHS.iter().find(is_it).copied().unwrap_or(("the unit of the map", metres))
 }
 
 fn common(unit: &str) -> Length {
     LENGTHS.into_iter().find(|(name, _)| *name == unit).unwrap_or(LENGTHS[0])
 }
 
-/// Returns the stated unit and the common ones.
+/// Returns the stated unit and all others.
 fn with_common(stated: Length) -> Vec<Length> {
     let others = LENGTHS.into_iter().filter(|(name, _)| *name != stated.0);
     std::iter::once(stated).chain(others).collect()

@@ -1,11 +1,14 @@
-//! Warns of errors that are too large for a machine, before the fit.
+//! Doubts errors that are too large for a machine: before the fit by the residuals, after it by the
+//! lengths that it changes.
 
-use abbe::identify::{Failure, Loss, Options, fit};
+use abbe::identify::{Failure, Fit, Loss, Model, Options, Unknown, fit};
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::interpretation_check::{ROWS, subsample};
+use super::priors::Prior;
 use super::setup::Setup;
 use crate::data::{Data, Map};
-use crate::{Notes, number};
+use crate::{Notes, mistake, number};
 
 /// Residual, as a share of the arm length, above which errors are too large for a machine.
 const LARGE: f64 = 1e-2;
@@ -69,5 +72,54 @@ pub(crate) fn check_plausibility(
     if let Some(statement) = too_large(rms, None, setup) {
         notes.warn(&statement);
     }
+    Ok(())
+}
+
+/// Changes of a length, in standard deviations of its prior, from which it is doubted and refused.
+const DOUBTED: f64 = 5.0;
+const REFUSED: f64 = 20.0;
+
+/// Warns of lengths of the machine that a fit changes by far more than their prior, and returns an
+/// error if a change is impossible: then units, spec or machine are wrong, or the readings leave the
+/// size of the machine free. Without a prior, the default one counts.
+pub(super) fn check_lengths(
+    setup: &Setup,
+    model: &Model,
+    fit: &Fit,
+    prior: Prior,
+    data: &Data,
+    notes: &mut dyn Notes,
+) -> Result<(), Diagnostics> {
+    let deviation = prior.share().max(Prior::DEFAULT_SHARE) * setup.arm;
+    let lengths = fit.identifiable.kept.iter().filter_map(|k| match model.unknowns[*k] {
+        unknown @ Unknown::Error(frame, component) if !component.is_rotation() => {
+            Some((unknown, frame, fit.x[*k]))
+        }
+        _ => None,
+    });
+    let Some((unknown, frame, change)) = lengths.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) else {
+        return Ok(());
+    };
+    let times = change.abs() / deviation;
+    if times < DOUBTED {
+        return Ok(());
+    }
+    let length = |value: f64| number::length(value, setup.description.length);
+    let statement = format!(
+        "the fit changes a length of the frame `{}` by {} (`{}`), {} times the standard deviation of \
+         its prior, {}",
+        setup.description.frames[frame].name,
+        length(change),
+        model.name(unknown),
+        number::digits(times, 2),
+        length(deviation),
+    );
+    let help = "check the units in the map, the dimensions in the spec, and that these are measurements of \
+         this machine; `abbe doctor` tries other interpretations, and a larger `--prior` permits \
+         larger errors";
+    if times > REFUSED {
+        return Err(mistake::with_help(&data.file, statement, help));
+    }
+    notes.warn(&format!("{statement}: {help}"));
     Ok(())
 }

@@ -30,7 +30,9 @@ impl Interpretation {
                 + usize::from(self.lengths_in != stated.lengths_in)
                 + usize::from(self.layout != stated.layout)
         });
-        self.changes.iter().map(Change::cost).sum::<usize>() + units
+        // A map states target − actual; the data can rarely tell which sign was meant.
+        let sign = usize::from(self.layout == PoseFormat::Difference { target_minus_actual: false });
+        self.changes.iter().map(Change::cost).sum::<usize>() + units + sign
     }
 
     /// Returns true if this interpretation is the other one without some of its changes.

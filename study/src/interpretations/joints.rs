@@ -9,8 +9,9 @@ use super::change::Change;
 /// Unit of length: its symbol and its value in metres.
 pub(crate) type Length = (&'static str, f64);
 
-/// Units of length that are tried.
-pub(crate) const LENGTHS: [Length; 2] = [("mm", 1e-3), ("m", 1.0)];
+/// Units of length that are tried, the most usual ones first.
+pub(crate) const LENGTHS: [Length; 5] =
+    [("mm", 1e-3), ("m", 1.0), ("inch", 0.0254), ("cm", 1e-2), ("um", 1e-6)];
 
 /// Units of joints, with the factors to coherent units.
 #[derive(Clone, Copy)]

@@ -201,6 +201,7 @@ impl Measure {
             Some(all) => Evaluated::of_readings(&setup, all, data)?,
             None => Evaluated::of_points(&setup, data, keep, notes)?,
         };
+        evaluated.data.note_on_time().iter().for_each(|note| notes.warn(note));
         let rows = &evaluated.data.observations;
         let places = rows.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated = warn_of_extrapolation(&machine.spec, &interpreter, "rows", places, notes);

@@ -6,6 +6,7 @@ use abbe::Pose;
 use abbe::identify::{Loss, Measurement};
 use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
+use abbe_study::doctor::{Doctor, PoseFormat};
 use abbe_study::identify::{Identify, Prior, Settings};
 use abbe_study::measure::Measure;
 use abbe_study::simulate::{Places, Simulate};
@@ -104,7 +105,16 @@ impl Notes for RecordedNotes {
 fn combinations_of_wrong_interpretations_are_named() {
     let metres = POINT.replace("mm", "m");
     let swapped = POINT.replace("\"x\", \"y\"", "\"y\", \"x\"");
-    let centimetres = POINT.replace("mm", "cm");
+    let [centimetres, inches, micrometres] = ["cm", "inch", "um"].map(|unit| POINT.replace("mm", unit));
+    // Two matrices of which one is the other, transposed.
+    let matrix = |a: &str, b: &str, c: &str| {
+        let [d, e, f, g] =
+            if b == "r12" { ["r13", "r31", "r23", "r32"] } else { ["r31", "r13", "r32", "r23"] };
+        format!(
+            "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
+             matrix = [\"{a}\", \"{b}\", \"{d}\", \"{c}\", \"r22\", \"{f}\", \"{e}\", \"{g}\", \"r33\"]\n"
+        )
+    };
     let in_rad = euler("zyx").replace("unit = \"deg\"", "unit = \"rad\"");
     // R_z(c) R_y(b) R_x(a): angles about fixed axes x, y, z.
     let fixed = euler("zyx").replace("[\"a\", \"b\", \"c\"]", "[\"c\", \"b\", \"a\"]");
@@ -121,6 +131,15 @@ fn combinations_of_wrong_interpretations_are_named() {
         (deg(&[], &euler("xyz")), deg(&[], &euler("zyx")), vec!["Euler angles in the order `xyz`"]),
         (deg(&[1, 4], &euler("zxy")), deg(&[], &euler("zyx")), vec!["order `zxy`", "`q1`, `q4` count"]),
         (deg(&[], POINT), deg(&[], &centimetres), vec!["lengths in mm, not cm"]),
+        (deg(&[], &inches), deg(&[], POINT), vec!["lengths in inch, not mm"]),
+        (deg(&[], &centimetres), deg(&[], POINT), vec!["lengths in cm, not mm"]),
+        (deg(&[], &micrometres), deg(&[], POINT), vec!["lengths in um, not mm"]),
+        (deg(&[2], &inches), deg(&[], &metres), vec!["lengths in inch, not m", "`q2` count"]),
+        (
+            deg(&[], &matrix("r11", "r12", "r21")),
+            deg(&[], &matrix("r11", "r21", "r12")),
+            vec!["orientations inverted"],
+        ),
         (deg(&[], &in_rad), deg(&[], &euler("zyx")), vec!["angles of the orientations in rad, not deg"]),
         (
             deg(&[], &fixed),
@@ -231,4 +250,81 @@ fn delimiters_and_decimal_commas_are_recognized() {
         refused.contains("6 columns of the map are missing in") && refused.matches("error:").count() == 1,
         "{refused}"
     );
+}
+
+/// Data of a machine whose link is half as long as in the spec: no interpretation explains them, and
+/// a fit that changes the link by 212 mm is refused; one that changes it by 60 mm is doubted.
+#[test]
+fn impossible_lengths_are_refused() {
+    let map = map("deg", &[], POINT);
+    let read = |link: f64| {
+        let text = ur5().text().unwrap().replacen("-425", &(-link).to_string(), 1);
+        let machine = Machine::of_spec(Spec::parse("short.toml", &text).unwrap(), "short.toml");
+        let at = Places::Samples(60);
+        let (noise, outliers, random, seed) = (None, 0.0, false, 3);
+        let job = Simulate { machine, map: map.clone(), at, noise, outliers, random, seed };
+        read(&job.run(&mut ()).unwrap().table.csv(), &map).unwrap()
+    };
+    let identified = |data: Data| {
+        let mut heard = RecordedNotes::default();
+        let settings =
+            Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+        let job = Identify {
+            machine: ur5(),
+            map: map.clone(),
+            data,
+            test: None,
+            terms: Vec::new(),
+            harmonics: Vec::new(),
+            settings,
+            accept: Acceptance::default(),
+        };
+        (job.run(&mut heard).map(|_| ()).map_err(|mistake| mistake.to_string()), heard.0.join("\n"))
+    };
+    let (refused, _) = identified(read(-50.0));
+    assert!(refused.as_ref().is_err_and(|said| said.contains("changes a length")), "{refused:?}");
+    let (fitted, said) = identified(read(300.0));
+    assert!(fitted.is_ok() && said.contains("changes a length"), "{fitted:?} {said}");
+    let (fitted, said) = identified(read(424.0));
+    assert!(fitted.is_ok() && !said.contains("changes a length"), "{fitted:?} {said}");
+}
+
+/// Where joints do not move, the doctor names them instead of doubting the machine.
+#[test]
+fn the_doctor_names_joints_at_rest() {
+    let row =
+        |i: u32| format!("10,-60,80,20,30,{},{},{},{}\n", 12 * i, 97 * i % 370, 53 * i % 410, 31 * i % 290);
+    let text = format!("j1,j2,j3,j4,j5,j6,x,y,z\n{}", (0..12).map(row).collect::<String>());
+    let (_folder, path) = file(&text);
+    let report = Doctor { machine: ur5(), data: (&path).into(), within: None }.run(&mut ()).unwrap();
+    assert!(!report.fits);
+    let expected = "q1, q2, q3, q4, q5 do not move in these rows, only q6";
+    assert!(report.sentence.contains(expected), "{}", report.sentence);
+}
+
+/// The sign of differences between commanded and actual cannot be told from small errors: the one
+/// that a map states comes first, and the other is named.
+#[test]
+fn the_sign_of_differences_is_that_of_a_map() {
+    let text = simulated_file(&map("deg", &[], POINT), 8);
+    let data = read(&text, &map("deg", &[], POINT)).unwrap();
+    let interpreter = abbe_interpreter::Interpreter::new(ur5().spec.clone());
+    let parameters =
+        abbe::analysis::sampling::nominal_parameters(abbe::Manipulator::description(&interpreter));
+    for sign in [1.0, -1.0] {
+        let row = |row: &abbe::identify::Observation| {
+            let ideal = abbe::Manipulator::pose(&interpreter, &row.q, &parameters).unwrap().position();
+            let Measurement::Points(points) = &row.measured else { unreachable!() };
+            let real = points[0].unwrap();
+            let difference = [0, 1, 2].map(|k| sign * (ideal[k] - real[k]));
+            let all = row.q.iter().map(|q| q.to_degrees()).chain(ideal).chain(difference);
+            all.map(|value| value.to_string()).collect::<Vec<_>>().join(",") + "\n"
+        };
+        let rows: String = data.observations.iter().map(row).collect();
+        let (_folder, path) = file(&format!("j1,j2,j3,j4,j5,j6,x,y,z,dx,dy,dz\n{rows}"));
+        let report = Doctor { machine: ur5(), data: (&path).into(), within: None }.run(&mut ()).unwrap();
+        let signs: Vec<PoseFormat> = report.found.iter().map(|found| found.interpretation.layout).collect();
+        let expected = [true, false].map(|sign| PoseFormat::Difference { target_minus_actual: sign });
+        assert_eq!(signs, expected, "{}", report.sentence);
+    }
 }

@@ -129,7 +129,7 @@ fn with_joint(data: &Data, joint: usize, factor: f64) -> Data {
 const IMPLAUSIBLE: &str = "Check that these are measurements of this machine";
 
 /// One joint in rad where the map says deg cannot be corrected by any interpretation. The warning
-/// is the same as that of `measure`, whether the fit succeeds or not.
+/// is the same as that of `measure`, whether the fit converges or not; neither is accepted.
 #[test]
 fn implausible_data_raise_a_warning_before_the_fit() {
     let machine = Machine::find("ur5").unwrap();
@@ -146,9 +146,10 @@ fn implausible_data_raise_a_warning_before_the_fit() {
         );
         let (result, recorded) = identified(&machine, &map, &wrong);
         assert_eq!(recorded, said);
-        ends.push(result.is_ok());
+        ends.push(result.unwrap_err());
     }
-    assert_eq!(ends, [false, true], "with a fit, and without one");
+    let [without, with] = [&ends[0], &ends[1]].map(|end| end.contains("changes a length"));
+    assert_eq!([without, with], [false, true], "with a fit, and without one: {ends:?}");
 }
 
 /// The first check is tested, because a wrong model of the machine explains no change.
@@ -241,4 +242,29 @@ fn an_interpretation_must_not_shrink_all_points() {
         "{refused}"
     );
     assert_eq!(refused.matches('?').count(), 2, "{refused}");
+}
+
+/// One time in all rows is no order of time: no statement on drift, and the reason.
+#[test]
+fn a_single_time_is_no_order() {
+    let machine = Machine::find("ur5").unwrap();
+    let map = map(&machine, "known");
+    let mut data = simulated(&machine, &map, 3);
+    let report = |data: &Data| {
+        let (machine, map, data) = (machine.clone(), map.clone(), data.clone());
+        let mut recorded = RecordedNotes::default();
+        let report =
+            Measure { machine, map, data, accept: Acceptance::default() }.run(&mut recorded).unwrap();
+        (report.drift.is_some(), recorded.0)
+    };
+    assert_eq!(report(&data), (true, Vec::new()));
+    for (i, row) in data.observations.iter_mut().enumerate() {
+        row.approach_mut().time = Some(i as f64);
+    }
+    assert_eq!(report(&data), (true, Vec::new()));
+    for row in &mut data.observations {
+        row.approach_mut().time = Some(20_000.0);
+    }
+    let (is_tested, said) = report(&data);
+    assert!(!is_tested && said.len() == 1 && said[0].contains("all rows have the same time"), "{said:?}");
 }
