@@ -79,9 +79,10 @@ pub(crate) fn check_plausibility(
 const DOUBTED: f64 = 5.0;
 const REFUSED: f64 = 20.0;
 
-/// Warns of lengths of the machine that a fit changes by far more than their prior, and returns an
-/// error if a change is impossible: then units, spec or machine are wrong, or the readings leave the
-/// size of the machine free. Without a prior, the default one counts.
+/// Warns of lengths of the machine that a fit changes by far more than their prior.
+///
+/// Returns an error if a change is impossible: units, spec or machine are wrong, or the readings
+/// leave the size of the machine free. Without a prior, the default one counts.
 pub(super) fn check_lengths(
     setup: &Setup,
     model: &Model,

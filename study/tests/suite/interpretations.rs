@@ -252,8 +252,8 @@ fn delimiters_and_decimal_commas_are_recognized() {
     );
 }
 
-/// Data of a machine whose link is half as long as in the spec: no interpretation explains them, and
-/// a fit that changes the link by 212 mm is refused; one that changes it by 60 mm is doubted.
+/// A fit that changes a link by far more than its prior is doubted (125 mm of 425 mm), and refused
+/// where no machine can be that wrong (475 mm).
 #[test]
 fn impossible_lengths_are_refused() {
     let map = map("deg", &[], POINT);
