@@ -5,9 +5,10 @@
 //! residuals and their exact derivatives on the real chain, equation (6). [`identifiable()`] finds
 //! the unknowns that the data determine and the equivalents of the others; [`groups()`] finds these
 //! from the joint twists alone. [`fit()`] solves for the unknowns, [`cross_validate`] estimates the
-//! error on unseen data, and [`select()`] adds terms that reduce it. [`optimal`] chooses
-//! configurations to measure, and [`simulate()`] measures a machine with known errors.
-//! [`INSTRUMENTS`] lists the instruments that are read one number at a time.
+//! error on unseen data, [`select()`] adds terms that reduce it, and [`fit_profiles()`] errors of
+//! joints with up to 64 periods per turn. [`optimal`] chooses configurations to measure, and
+//! [`simulate()`] measures a machine with known errors. [`INSTRUMENTS`] lists the instruments that
+//! are read one number at a time.
 //!
 //! ```
 //! # use abbe::*;
@@ -91,6 +92,7 @@ mod observation;
 mod offer;
 mod options;
 mod outliers;
+mod profile;
 mod reflections;
 mod registration;
 mod residuals;
@@ -133,6 +135,7 @@ pub use model::Model;
 pub use observation::{Approach, Measurement, Observation, Uncertainty};
 pub use offer::{Factored, Offer};
 pub use options::Options;
+pub use profile::{Profile, ProfileBasis, ProfileJoint, Profiles, fit_profiles, profiles_can_be_known};
 pub use registration::{Registration, register, register_pairs};
 pub use robust::{Loss, robust_scale};
 pub use scratch::Scratch;

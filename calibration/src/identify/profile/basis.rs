@@ -1,0 +1,86 @@
+//! Functions of a joint of which its profile is a sum.
+
+use core::f64::consts::PI;
+
+use crate::identify::Unknown;
+
+/// Highest number of periods per turn, and of half periods over a travel.
+const HIGHEST: usize = 64;
+
+/// Joint that may have a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProfileJoint {
+    /// Index of the joint among the variables.
+    pub variable: usize,
+    /// Constant error of the joint: the magnitude of a source, or an equivalent error of a frame.
+    pub error: Unknown,
+    /// Functions of the profile.
+    pub basis: ProfileBasis,
+}
+
+/// Functions of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ProfileBasis {
+    /// Harmonics of a revolute joint: `cos(k q)` and `sin(k q)`, k from 1 to 64.
+    Turn,
+    /// Harmonics of a prismatic joint over its travel from a to b: `cos(k π (q − a)/(b − a))`, k
+    /// from 1 to 64.
+    Travel([f64; 2]),
+}
+
+impl ProfileBasis {
+    /// Returns the number of functions.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Turn => 2 * HIGHEST,
+            Self::Travel(_) => HIGHEST,
+        }
+    }
+
+    /// Evaluates the functions at a joint value, in rad or the length unit.
+    ///
+    /// `(cos kφ, sin kφ)` follow from the angle addition theorems, one multiplication of complex
+    /// numbers each.
+    pub(super) fn fill(self, q: f64, values: &mut [f64]) {
+        let angle = match self {
+            Self::Turn => q,
+            Self::Travel([from, to]) => PI * (q - from) / (to - from),
+        };
+        let (sine, cosine) = angle.sin_cos();
+        let (mut c, mut s) = (1.0, 0.0);
+        for k in 0..HIGHEST {
+            (c, s) = (c * cosine - s * sine, c * sine + s * cosine);
+            match self {
+                Self::Turn => [values[2 * k], values[2 * k + 1]] = [c, s],
+                Self::Travel(_) => values[k] = c,
+            }
+        }
+    }
+
+    /// Returns the functions at a joint value.
+    pub(super) fn values(self, q: f64) -> Vec<f64> {
+        let mut values = vec![0.0; self.count()];
+        self.fill(q, &mut values);
+        values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ProfileBasis;
+
+    #[test]
+    fn functions_are_harmonics() {
+        for q in [-3.0, 0.2, 2.5] {
+            let values = ProfileBasis::Turn.values(q);
+            let travel = ProfileBasis::Travel([-3.0, 3.0]).values(q);
+            for k in 1..=64 {
+                let angle = k as f64 * q;
+                assert!((values[2 * k - 2] - angle.cos()).abs() < 1e-12);
+                assert!((values[2 * k - 1] - angle.sin()).abs() < 1e-12);
+                let half_periods = k as f64 * core::f64::consts::PI * (q + 3.0) / 6.0;
+                assert!((travel[k - 1] - half_periods.cos()).abs() < 1e-12);
+            }
+        }
+    }
+}
