@@ -76,13 +76,24 @@ impl Interpreter {
     ///
     /// Returns the errors of the corresponding function of [`Manipulator`].
     pub fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
-        let signature = function.signature();
-        for (array, values) in signature.arguments.iter().zip(arguments) {
+        let values = self.unchecked(function, arguments)?;
+        self.check(function, &values)?;
+        Ok(values)
+    }
+
+    /// Evaluates a function; only its arguments are checked.
+    fn unchecked(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
+        for (array, values) in function.signature().arguments.iter().zip(arguments) {
             count(array.quantity, array.len(&self.routines.description), values.len())?;
             checks::given(&self.routines.description, array.quantity, values)?;
         }
-        let values = evaluated(self.tape(function), arguments.iter().copied().flatten());
-        let mut rest = values.as_slice();
+        Ok(evaluated(self.tape(function), arguments.iter().copied().flatten()))
+    }
+
+    /// Checks that the results of a function are finite and not singular.
+    fn check(&self, function: Function, values: &[f64]) -> Result<(), Error> {
+        let signature = function.signature();
+        let mut rest = values;
         if signature.has_margin(self.routines.description.orientation)
             && let Some((margin, results)) = values.split_last()
         {
@@ -94,18 +105,19 @@ impl Interpreter {
             checks::finite(array.quantity, result)?;
             rest = others;
         }
-        Ok(values)
+        Ok(())
     }
 
-    /// Evaluates a function, copies its last result to a slice, and returns all results.
+    /// Evaluates a function, copies its last result to a slice, checks and returns all results.
     fn fill(&self, function: Function, arguments: &[&[f64]], filled: &mut [f64]) -> Result<Vec<f64>, Error> {
         let description = &self.routines.description;
         let Some((last, others)) = function.signature().results.split_last() else { return Ok(Vec::new()) };
         let row: usize = last.shape[1..].iter().map(|count| count.value(description)).product();
         count(last.quantity, last.shape[0].value(description), filled.len() / row)?;
-        let values = self.run(function, arguments)?;
+        let values = self.unchecked(function, arguments)?;
         let first: usize = others.iter().map(|array| array.len(description)).sum();
         filled.copy_from_slice(&values[first..][..filled.len()]);
+        self.check(function, &values)?;
         Ok(values)
     }
 }

@@ -7,9 +7,9 @@ use super::partial_errors::{self, InitialErrors, PartialErrors, SampleErrors};
 use super::{Budget, BudgetOptions, OrientationErrors, RemainingErrors, Residual, Watch, remaining_errors};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::workspace::One;
-use crate::{Measurand, Subset, Workspace};
-use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register, Sweepable};
-use abbe_core::{Class, Scalar};
+use crate::{Measurand, ReachError, Subset, Workspace};
+use abbe_core::Class;
+use abbe_core::lanes::{InstructionSet, Kernel, Register, Sweepable};
 
 /// Number of configurations from which the error sphere and ellipsoid are initialized.
 const SCATTERED: usize = 512;
@@ -59,6 +59,7 @@ pub struct BudgetSweep<'a> {
     residuals: Option<&'a [Option<Residual>]>,
     position: InitialErrors,
     orientation: InitialErrors,
+    oriented_at_home: bool,
     /// Number of configurations of a chunk. The last one may have fewer.
     chunk: usize,
 }
@@ -72,9 +73,16 @@ impl<'a> BudgetSweep<'a> {
         options: BudgetOptions<'a>,
     ) -> Result<Self, Unevaluated> {
         ready(manipulator, workspace)?;
-        let mut home = Vec::new();
-        sweep(manipulator, &One(workspace.home()), &mut |row| home.extend_from_slice(row.sources))
-            .map_err(|Unevaluated { error, .. }| Unevaluated { configuration: None, error })?;
+        let (mut home, mut oriented_at_home) = (Vec::new(), true);
+        let unreached = sweep(manipulator, &One(workspace.home()), &mut |row| {
+            home.extend_from_slice(row.sources);
+            oriented_at_home = row.oriented;
+        });
+        let unreached =
+            unreached.map_err(|Unevaluated { error, .. }| Unevaluated { configuration: None, error })?;
+        if let Some(&(ReachError::Evaluation(error), _)) = unreached.reasons.first() {
+            return Err(Unevaluated { configuration: None, error });
+        }
         // If one of these cannot be evaluated, the sweep over all of them reports it.
         let known = &manipulator.description().sources;
         let mut sample = Measurand::ALL.map(|measurand| SampleErrors::new(measurand, known));
@@ -90,6 +98,7 @@ impl<'a> BudgetSweep<'a> {
             orientation: second.finish(&classes, &home, options.tolerances[1]),
             classes,
             residuals: options.residuals,
+            oriented_at_home,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
         })
     }
@@ -129,7 +138,15 @@ impl<'a> BudgetSweep<'a> {
 
     /// Returns whether a part can belong to this sweep. It may come from a file.
     pub fn fits(&self, part: &PartialBudget) -> bool {
-        let PartialBudget { chunks, position, orientation, compensation, configurations, unreachable } = part;
+        let PartialBudget {
+            chunks,
+            position,
+            orientation,
+            compensation,
+            configurations,
+            oriented,
+            unreachable,
+        } = part;
         let description = self.manipulator.description();
         let sources = self.classes.len();
         let mut indices = [position, orientation].into_iter().flat_map(PartialErrors::indices);
@@ -140,6 +157,7 @@ impl<'a> BudgetSweep<'a> {
             && orientation.is_valid_for(sources, chunks.clone())
             && compensation.is_some() == self.residuals.is_some()
             && configurations.checked_add(unreachable.count) == Some(self.configurations(chunks).len())
+            && oriented <= configurations
             && unreachable.is_sound(description.variables.len())
             && indices.all(|index| index < self.workspace.len())
             && remaining.all(|index| index < self.workspace.len())
@@ -150,12 +168,19 @@ impl<'a> BudgetSweep<'a> {
         let count = part.configurations;
         let (sources, combined, gains, least_likely) = part.position.finish(&self.position, count);
         let (turned, turns, turn_gains, turn_least_likely) =
-            part.orientation.finish(&self.orientation, count);
+            part.orientation.finish(&self.orientation, part.oriented);
+        let orientation = OrientationErrors {
+            sources: turned,
+            combined: turns,
+            gains: turn_gains,
+            configurations: part.oriented,
+            at_home: self.oriented_at_home,
+        };
         Budget {
             sources,
             combined,
             gains,
-            orientation: OrientationErrors { sources: turned, combined: turns, gains: turn_gains },
+            orientation,
             least_likely: [least_likely, turn_least_likely],
             compensation: part.compensation,
             configurations: count,
@@ -188,35 +213,26 @@ impl<'a> Kernel for Chunk<'_, 'a> {
         let mut position = partial_errors::ErrorsAccumulator::<R>::new(&self.sweep.position);
         let mut orientation = partial_errors::ErrorsAccumulator::<R>::new(&self.sweep.orientation);
         let mut compensated = remaining_errors::RemainingErrorsAccumulator::<R>::new();
-        let mut indices = Vec::with_capacity(range.len());
+        let (mut indices, mut oriented) = (Vec::with_capacity(range.len()), Vec::new());
         let mut block = Block::new(manipulator, workspace, BLOCK.min(range.len()));
         for first in range.clone().step_by(BLOCK) {
             block.evaluate(first..range.end.min(first + BLOCK))?;
             let before = indices.len();
             indices.extend_from_slice(&block.indices);
             let displacements = &block.displacements;
-            let (tiles, count) = (displacements.tiles(), displacements.count());
-            let lane = Lanes::<R>::from_fn(|lane| lane as f64);
-            let place = |tile: usize| lane + Lanes::constant((before + tile * R::WIDTH) as f64);
-            let weight = |tile: usize| match count - tile * R::WIDTH {
-                left if left < R::WIDTH => Lanes::from_fn(|lane| f64::from(u8::from(lane < left))),
-                _ => Lanes::constant(1.0),
-            };
-            for k in 0..classes.len() {
-                for tile in 0..tiles {
-                    let rows = displacements.tile::<R>(tile);
-                    position.add_source(k, rows, place(tile), weight(tile));
-                    orientation.add_source(k, rows, place(tile), weight(tile));
-                }
-            }
-            let index = |place: usize| indices[place];
-            for tile in 0..tiles {
-                let rows = displacements.tile::<R>(tile);
-                let sums = position.add_sums(classes, rows, place(tile), weight(tile), index);
-                orientation.add_sums(classes, rows, place(tile), weight(tile), index);
+            position.add_sources(displacements, before);
+            for tile in 0..displacements.tiles() {
+                let sums = position.add_sums(classes, displacements, tile, before, |place| indices[place]);
                 if let Some(residuals) = residuals {
                     compensated.add(residuals, &position.norm_of, &sums);
                 }
+            }
+            let before = oriented.len();
+            let (kept, displacements) = block.oriented();
+            oriented.extend_from_slice(&kept);
+            orientation.add_sources(&displacements, before);
+            for tile in 0..displacements.tiles() {
+                orientation.add_sums(classes, &displacements, tile, before, |place| oriented[place]);
             }
             block.unreachable.drain(..).for_each(|unreachable| part.unreachable.add(unreachable));
             if self.rows {
@@ -227,7 +243,8 @@ impl<'a> Kernel for Chunk<'_, 'a> {
         let index = |place: usize| indices[place];
         part.configurations = indices.len();
         part.position = position.finish(self.number, index);
-        part.orientation = orientation.finish(self.number, index);
+        part.oriented = oriented.len();
+        part.orientation = orientation.finish(self.number, |place| oriented[place]);
         part.compensation = residuals.map(|_| compensated.finish(index));
         Ok((part, blocks))
     }

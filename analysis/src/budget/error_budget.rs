@@ -34,7 +34,7 @@ impl Budget {
         match measurand {
             Measurand::Position => (&self.sources, &self.combined, &self.gains),
             Measurand::Orientation => {
-                let OrientationErrors { sources, combined, gains } = &self.orientation;
+                let OrientationErrors { sources, combined, gains, .. } = &self.orientation;
                 (sources, combined, gains)
             }
         }
@@ -66,6 +66,11 @@ pub struct OrientationErrors {
     pub combined: Combined,
     /// Decrease of the radius for a source reduced by one percent.
     pub gains: Vec<f64>,
+    /// Number of configurations at which rows 4–6 exist: all reached ones but those where Euler
+    /// angles are singular.
+    pub configurations: usize,
+    /// `true` if rows 4–6 exist at home. If not, `relative_to_home` of the sources has no meaning.
+    pub at_home: bool,
 }
 
 /// Callbacks during the computation of a budget. `()` ignores them.

@@ -16,6 +16,8 @@ pub struct PartialBudget {
     pub(super) orientation: PartialErrors,
     pub(super) compensation: Option<RemainingErrors>,
     pub(super) configurations: usize,
+    /// Number of configurations at which rows 4–6 exist.
+    pub(super) oriented: usize,
     pub(super) unreachable: UnreachableSummary,
 }
 
@@ -46,6 +48,7 @@ impl PartialBudget {
             orientation: PartialErrors::new(sources),
             compensation: compensated.then(RemainingErrors::none),
             configurations: 0,
+            oriented: 0,
             unreachable: UnreachableSummary::default(),
         }
     }
@@ -82,6 +85,7 @@ impl PartialBudget {
             here.merge(next);
         }
         self.configurations += next.configurations;
+        self.oriented += next.oriented;
         self.unreachable.append(next.unreachable);
         self.chunks.end = next.chunks.end;
     }

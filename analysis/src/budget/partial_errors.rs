@@ -11,7 +11,7 @@ use super::source_errors::{self, PartialSourceErrors};
 use super::sums::Sums;
 use super::{Combined, Ellipsoid, SourceErrors, covariance};
 use crate::{Measurand, Row};
-use abbe_core::lanes::{Lanes, Register};
+use abbe_core::lanes::{Lanes, Register, Tiles};
 use abbe_core::{Class, Scalar, Source};
 
 /// Figures of a sample of configurations, before the sweep over all of them.
@@ -28,8 +28,11 @@ impl SampleErrors {
         Self { measurand, points: Vec::new(), alone, ellipsoid: Ellipsoid::default() }
     }
 
-    /// Adds a configuration.
+    /// Adds a configuration, if its rows of the measurand exist.
     pub(super) fn add(&mut self, sources: &[Source], row: &Row) {
+        if self.measurand == Measurand::Orientation && !row.oriented {
+            return;
+        }
         self.points.push(self.measurand.rows(&row.repeatable));
         for (points, error) in self.alone.iter_mut().zip(row.sources) {
             points.push(self.measurand.rows(error));
@@ -195,27 +198,37 @@ impl<R: Register> ErrorsAccumulator<R> {
         }
     }
 
-    /// Adds the rows of source k in a tile, with the places and the weights of its configurations.
+    /// Adds the errors of each source in a block, whose first configuration has the place `before`
+    /// in its chunk.
     #[inline(always)]
-    pub(super) fn add_source(&mut self, k: usize, rows: &[Lanes<R>], place: Lanes<R>, weight: Lanes<R>) {
-        let first = 6 * k + self.measurand.first();
-        let here = [rows[first], rows[first + 1], rows[first + 2]];
-        self.singles[k].add(here, place, weight);
-        if let Some(outline) = &mut self.outlines[k] {
-            outline.add(here, weight);
+    pub(super) fn add_sources(&mut self, displacements: &Tiles, before: usize) {
+        for k in 0..self.singles.len() {
+            let first = 6 * k + self.measurand.first();
+            for tile in 0..displacements.tiles() {
+                let (place, weight) = (place(before, tile), weight(displacements.count(), tile));
+                let rows = displacements.tile::<R>(tile);
+                let here = [rows[first], rows[first + 1], rows[first + 2]];
+                self.singles[k].add(here, place, weight);
+                if let Some(outline) = &mut self.outlines[k] {
+                    outline.add(here, weight);
+                }
+            }
         }
     }
 
-    /// Adds the combined errors of a tile. `index` maps places to indices of configurations.
+    /// Adds the combined errors of a tile of a block. `index` maps places to indices of
+    /// configurations.
     #[inline(always)]
     pub(super) fn add_sums(
         &mut self,
         classes: &[Class],
-        rows: &[Lanes<R>],
-        place: Lanes<R>,
-        weight: Lanes<R>,
+        displacements: &Tiles,
+        tile: usize,
+        before: usize,
         index: impl Fn(usize) -> usize,
     ) -> Sums<R> {
+        let (place, weight) = (place(before, tile), weight(displacements.count(), tile));
+        let rows = displacements.tile::<R>(tile);
         // Without sources there are no rows.
         let rows = rows.get(self.measurand.first()..).unwrap_or_default();
         let sums = Sums::new(classes, rows, &mut self.norm_of, place, weight);
@@ -247,5 +260,21 @@ impl<R: Register> ErrorsAccumulator<R> {
                 .map(least_likely::LeastLikelyAccumulator::finish)
                 .unwrap_or_default(),
         }
+    }
+}
+
+/// Returns the places in their chunk of the configurations of a tile.
+#[inline(always)]
+fn place<R: Register>(before: usize, tile: usize) -> Lanes<R> {
+    let lane = Lanes::<R>::from_fn(|lane| lane as f64);
+    lane + Lanes::constant((before + tile * R::WIDTH) as f64)
+}
+
+/// Returns the weights of the configurations of a tile: 1, or 0 in lanes that repeat the last one.
+#[inline(always)]
+fn weight<R: Register>(count: usize, tile: usize) -> Lanes<R> {
+    match count - tile * R::WIDTH {
+        left if left < R::WIDTH => Lanes::from_fn(|lane| f64::from(u8::from(lane < left))),
+        _ => Lanes::constant(1.0),
     }
 }

@@ -48,8 +48,12 @@ impl Search<'_> {
 
     fn evaluate(&self, q: Vec<f64>) -> Result<Point, Error> {
         let Problem { manipulator, ref s, ref free, arm, .. } = *self.problem;
-        let mut columns = vec![[0.0; 6]; q.len()];
-        let pose = manipulator.joint_jacobian(&q, s, &mut columns)?;
+        let mut columns = vec![[f64::NAN; 6]; q.len()];
+        let pose = match (manipulator.joint_jacobian(&q, s, &mut columns), self.target) {
+            // A point needs rows 1–3 alone.
+            (Err(Error::EulerSingularity { .. }), Target::Point(_)) => manipulator.pose(&q, s)?,
+            (pose, _) => pose?,
+        };
         let (target, rows) = match self.target {
             Target::Point(point) => (Pose([pose.0[0], pose.0[1], pose.0[2], *point]), 3),
             Target::Pose(target) => (*target, 6),

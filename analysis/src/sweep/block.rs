@@ -1,6 +1,7 @@
 //! `ΔX = J_e ε` of every source at the configurations of one block.
 
 use core::ops::Range;
+use std::borrow::Cow;
 
 use super::{Row, Unevaluated};
 use crate::{Configuration, ReachError, Unreachable, Workspace};
@@ -18,8 +19,10 @@ pub(crate) struct Block<'a> {
     pub(crate) indices: Vec<usize>,
     arguments: Tiles,
     /// ΔX of every source, the bound for a random one: six rows each, followed by the margin of
-    /// Euler rows.
+    /// Euler rows. Rows 4–6 are 0 where they do not exist.
     pub(crate) displacements: Tiles,
+    /// Places of the configurations at which Euler rows are singular.
+    singular: Vec<usize>,
     pub(crate) unreachable: Vec<Unreachable>,
 }
 
@@ -45,6 +48,7 @@ impl<'a> Block<'a> {
             indices: Vec::with_capacity(size),
             arguments,
             displacements: Tiles::new(set, signature.results_len(description), size),
+            singular: Vec::new(),
             unreachable: Vec::new(),
         }
     }
@@ -52,6 +56,7 @@ impl<'a> Block<'a> {
     /// Evaluates the configurations of a range of indices, at most `size` of them.
     pub(crate) fn evaluate(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
         self.fill(range)?;
+        self.singular.clear();
         loop {
             let evaluated = self.manipulator.source_displacements(&self.arguments, &mut self.displacements);
             evaluated.map_err(|error| self.at(0, error))?;
@@ -65,15 +70,34 @@ impl<'a> Block<'a> {
             if sound || reached == 0 {
                 break;
             }
-            self.set_aside()?;
-            // Configurations that scalar code accepts stay, although lanes are below the margin by
-            // a rounding error.
+            self.find_singular()?;
             if self.indices.len() == reached {
                 break;
             }
         }
         self.unreachable.sort_by_key(|unreachable| unreachable.index);
         Ok(())
+    }
+
+    /// Returns the indices and the displacements of the configurations at which rows 4–6 exist.
+    pub(crate) fn oriented(&self) -> (Cow<'_, [usize]>, Cow<'_, Tiles>) {
+        if self.singular.is_empty() {
+            return (Cow::Borrowed(&self.indices), Cow::Borrowed(&self.displacements));
+        }
+        let kept: Vec<usize> = (0..self.indices.len()).filter(|place| self.is_oriented(*place)).collect();
+        let rows = self.displacements.rows();
+        let mut displacements = Tiles::new(self.displacements.instruction_set(), rows, kept.len());
+        for (to, from) in kept.iter().enumerate() {
+            for row in 0..rows {
+                displacements.set_value(row, to, self.displacements.get(row, *from));
+            }
+        }
+        displacements.pad();
+        (kept.iter().map(|place| self.indices[*place]).collect(), Cow::Owned(displacements))
+    }
+
+    fn is_oriented(&self, place: usize) -> bool {
+        self.singular.binary_search(&place).is_err()
     }
 
     /// Writes the reachable configurations of a range to the arguments.
@@ -131,43 +155,62 @@ impl<'a> Block<'a> {
         self.arguments.copy_rows(first_u..first_u + u.len(), place, u);
     }
 
-    /// Removes configurations whose Euler rows are singular, and counts them as unreachable.
-    /// Returns an error for other values that are not finite.
-    fn set_aside(&mut self) -> Result<(), Unevaluated> {
+    /// Finds the configurations whose Euler rows are singular: their rows 4–6 become 0. Returns an
+    /// error for other values that are not finite.
+    ///
+    /// Configurations that scalar code accepts stay, although lanes are below the margin by a
+    /// rounding error. A manipulator written by hand may have no position rows there, either: such
+    /// configurations are removed and count as unreachable.
+    fn find_singular(&mut self) -> Result<(), Unevaluated> {
         let description = self.manipulator.description();
+        let sources = description.sources.len();
         let mut here = self.workspace.home().clone();
+        let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+        let mut effects = vec![0.0; description.effects.len()];
+        self.singular.clear();
         let mut kept = 0;
         for place in 0..self.indices.len() {
             self.configuration(place, &mut here);
             let index = self.indices[place];
-            let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
-            let mut effects = vec![0.0; description.effects.len()];
-            let evaluated = self.manipulator.error_jacobian(&here.q, &here.s, &mut columns);
-            let evaluated =
-                evaluated.and_then(|_| self.manipulator.effects(&here.q, &here.s, &here.u, &mut effects));
-            match evaluated {
-                Ok(()) => {
-                    let infinite = |source: &usize| {
-                        (0..6).any(|row| !self.displacements.get(6 * source + row, place).is_finite())
-                    };
-                    if let Some(source) = (0..description.sources.len()).find(infinite) {
+            let jacobian = self.manipulator.error_jacobian(&here.q, &here.s, &mut columns);
+            let effects = self.manipulator.effects(&here.q, &here.s, &here.u, &mut effects);
+            effects.map_err(|error| self.at(place, error))?;
+            let infinite = |rows: usize| {
+                (0..sources).find(|source| {
+                    (0..rows).any(|row| !self.displacements.get(6 * source + row, place).is_finite())
+                })
+            };
+            match jacobian {
+                Ok(_) => {
+                    if let Some(source) = infinite(6) {
                         let effect = description.effects.iter().position(|effect| effect.source == source);
                         let index = effect.unwrap_or(0);
                         return Err(self.at(place, Error::NotFinite { quantity: Quantity::Effects, index }));
                     }
-                    self.indices[kept] = index;
-                    self.write(kept, &here);
-                    kept += 1;
                 }
-                Err(error @ Error::EulerSingularity { .. }) => {
+                Err(error @ Error::EulerSingularity { .. }) if infinite(3).is_some() => {
                     let (point, reason) = (self.workspace.point(index), ReachError::Evaluation(error));
                     self.unreachable.push(Unreachable { index, point, requested: here.clone(), reason });
+                    continue;
+                }
+                Err(Error::EulerSingularity { .. }) => {
+                    for row in (0..sources).flat_map(|source| 6 * source + 3..6 * source + 6) {
+                        self.displacements.set_value(row, place, 0.0);
+                    }
+                    self.singular.push(place);
                 }
                 Err(error) => return Err(self.at(place, error)),
             }
+            self.indices[kept] = index;
+            self.write(kept, &here);
+            kept += 1;
         }
-        self.indices.truncate(kept);
-        self.finish_filling();
+        if kept < self.indices.len() {
+            self.indices.truncate(kept);
+            self.finish_filling();
+        } else {
+            self.displacements.pad();
+        }
         Ok(())
     }
 
@@ -201,7 +244,8 @@ impl<'a> Block<'a> {
                 }
             }
             let random = squares.map(f64::sqrt);
-            visit(&Row { index, configuration: here, pose, sources: &sources, repeatable, random });
+            let oriented = self.is_oriented(place);
+            visit(&Row { index, configuration: here, pose, oriented, sources: &sources, repeatable, random });
         }
     }
 }

@@ -37,6 +37,8 @@ pub struct Row<'a> {
     pub configuration: &'a Configuration,
     /// Nominal pose of the tool point in `F_0`, equation (3).
     pub pose: Pose,
+    /// `true` if rows 4–6 exist. Where Euler angles are singular, they are 0 in all deviations.
+    pub oriented: bool,
     /// ΔX of each source: with its sign for a repeatable one; the bound (half-width or 3σ), of
     /// unknown overall sign, for a random one.
     pub sources: &'a [[f64; 6]],

@@ -93,7 +93,12 @@ fn summary(report: &Report) -> String {
         count => format!("{count} unreachable: {}", analyze::unreachable_summary(unreachable, &report.spec)),
     };
     all.push(card("Configurations", report.configurations.to_string(), Some(unreached)));
-    format!("{}<p><b>Workspace.</b> {}.</p>\n", cards(all), escaped(&report.workspace))
+    let singular = if report.singular() > 0 {
+        format!("<p>{}</p>\n", escaped(&report.singular_sentence()))
+    } else {
+        String::new()
+    };
+    format!("{}<p><b>Workspace.</b> {}.</p>\n{singular}", cards(all), escaped(&report.workspace))
 }
 
 /// Formats sampled errors and certified bounds.

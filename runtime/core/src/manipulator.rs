@@ -23,7 +23,8 @@ pub trait Manipulator: Sync {
     /// Returns the pose and computes the error Jacobian `J_e = ∂X_T/∂ε`, equation (9): `6 · frames`
     /// columns, frame 1 first.
     ///
-    /// Returns [`Error::EulerSingularity`] where Euler rows are singular.
+    /// Returns [`Error::EulerSingularity`] where Euler rows are singular; rows 1–3 of the columns
+    /// are computed there, too.
     fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error>;
 
     /// Returns the pose and computes the joint Jacobian `J_q = ∂X_T/∂q`: one column per variable.

@@ -96,6 +96,7 @@ impl Sweep<'_> {
         let spec = &machine.spec;
         let budget = self.budget.finish(data.budget);
         self.require_reached(&budget)?;
+        self.require_oriented(&budget)?;
         notes.go_on()?;
 
         let first_order = FirstOrder::compare(manipulator, workspace);
@@ -234,6 +235,17 @@ impl Sweep<'_> {
         let reasons = unreachable::unreachable_summary(&budget.unreachable, &self.machine.spec);
         let message = format!("no configuration of the workspace is reachable: {reasons}");
         let help = "move or shrink the workspace of the study, or widen the limits of the joints";
+        Err(mistake::with_help(&self.machine.origin, message, help))
+    }
+
+    /// Fails if the study limits an orientation error that exists at no configuration.
+    fn require_oriented(&self, budget: &Budget) -> Result<(), Diagnostics> {
+        if budget.orientation.configurations > 0 || self.study.orientation_tolerance.is_none() {
+            return Ok(());
+        }
+        let message = "Euler angles are singular at every configuration: there is no orientation error to \
+                       compare with the tolerance";
+        let help = "write `orientation = \"rotation-vector\"` in [manipulator]: it has no singularity";
         Err(mistake::with_help(&self.machine.origin, message, help))
     }
 

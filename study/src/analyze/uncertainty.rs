@@ -138,7 +138,7 @@ fn workspace_bound(report: &Report, measurand: Measurand, largest: f64) -> Optio
     let show = |value| unit::with_symbol(report, measurand, value);
     Some(format!(
         "Over the {} configurations, U of the norm is at most {} ({factor:.3} × {}).",
-        report.budget.configurations,
+        report.configurations_of(measurand),
         show(factor * largest),
         show(largest)
     ))

@@ -34,18 +34,22 @@ impl Report {
             Measurand::Orientation => "Orientation",
         };
         let tolerance = show(verdict.tolerance);
+        let all = self.configurations_of(verdict.measurand);
+        let left_out = match all < self.configurations {
+            true => format!(" {}", self.singular_sentence()),
+            false => String::new(),
+        };
         if let (Verdict::Met, Some(largest)) = (verdict.verdict, verdict.largest) {
             return format!(
                 "{name}: met. All random sources are bounded, and with the repeatable ones the \
                  error is at most {} of {tolerance} at each of the {} configurations, to first \
-                 order.",
+                 order.{left_out}",
                 show(largest),
-                self.configurations,
+                all,
             );
         }
         let at = self.configuration(verdict.configuration);
         let at = at.map(|worst| number::unbroken(&self.label(worst))).unwrap_or_default();
-        let all = self.configurations;
         let least = match verdict.configurations {
             1 if all == 1 => "the only configuration".to_owned(),
             some if some < all => {
@@ -66,7 +70,7 @@ impl Report {
         let met = if verdict.verdict == Verdict::NotMet { "not met" } else { "met" };
         format!(
             "{name}: {met}. The error is within {tolerance} with probability {}; {enough}. This \
-             is {least}, at {at}. To first order, repeatable sources at their values, {how}.",
+             is {least}, at {at}. To first order, repeatable sources at their values, {how}.{left_out}",
             probability(verdict.compliance)
         )
     }

@@ -159,6 +159,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         let reasons = unreachable_summary(unreachable, &report.spec);
         facts.push(("Reach", format!("{} configurations unreachable: {reasons}", unreachable.count)));
     }
+    if report.singular() > 0 {
+        facts.push(("Euler", report.singular_sentence()));
+    }
     let (factor, unit) = error_unit(report.length);
     let largest = factor * report.first_order.largest;
     facts.push((

@@ -133,22 +133,19 @@ const JOINTS: [(f64, usize); 6] = [(0.0, 0), (0.0, 1), (0.0, 2), (0.0, 1), (300.
 
 /// Returns `(v; 0)` along, or `(v × (p_T − p); v)` about, an axis `v` through `p`, with rows 4–6 as
 /// Euler rates.
-fn column(turns: bool, v: [f64; 3], p: [f64; 3], tool: &Pose) -> Result<[f64; 6], Error> {
+fn column(turns: bool, v: [f64; 3], p: [f64; 3], tool: &Pose) -> [f64; 6] {
     if !turns {
-        return Ok([v[0], v[1], v[2], 0.0, 0.0, 0.0]);
+        return [v[0], v[1], v[2], 0.0, 0.0, 0.0];
     }
     let [x, y, z]: [f64; 3] = core::array::from_fn(|i| tool.position()[i] - p[i]);
     let lever = [v[1] * z - v[2] * y, v[2] * x - v[0] * z, v[0] * y - v[1] * x];
     // The x axis of the tool is (cos σ cos ρ, sin ρ, −sin σ cos ρ).
     let [a, sin_roll, b] = tool.0[0];
     let margin = a.hypot(b);
-    if margin < MINIMUM_MARGIN {
-        return Err(Error::EulerSingularity { margin });
-    }
     // R_yᵀ(σ) v = (cos ρ π', σ' + sin ρ π', ρ').
     let turned = [(a * v[0] + b * v[2]) / margin, v[1], (a * v[2] - b * v[0]) / margin];
     let pitch = turned[0] / margin;
-    Ok([lever[0], lever[1], lever[2], turned[1] - sin_roll * pitch, turned[2], pitch])
+    [lever[0], lever[1], lever[2], turned[1] - sin_roll * pitch, turned[2], pitch]
 }
 
 impl Manipulator for Pps {
@@ -172,9 +169,10 @@ impl Manipulator for Pps {
             let prefix = chain(&transforms[..=i]);
             for (entry, component) in columns.iter_mut().zip(Component::ALL) {
                 let axis = prefix.0[component.axis()];
-                *entry = column(component.is_rotation(), axis, prefix.position(), &tool)?;
+                *entry = column(component.is_rotation(), axis, prefix.position(), &tool);
             }
         }
+        checks::margin(roll_cosine(&tool))?;
         Ok(tool)
     }
 
@@ -183,15 +181,16 @@ impl Manipulator for Pps {
         let tool = chain(&transforms);
         for (i, (entry, (offset, axis))) in columns.iter_mut().zip(JOINTS).enumerate() {
             let prefix = chain(&transforms[..i]).then(&translation(0.0, offset, 0.0));
-            *entry = column(i >= 3, prefix.0[axis], prefix.position(), &tool)?;
+            *entry = column(i >= 3, prefix.0[axis], prefix.position(), &tool);
         }
+        checks::margin(roll_cosine(&tool))?;
         Ok(tool)
     }
 
     fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
         let tool = chain(&transforms(q, s)?);
         for (i, entry) in columns.iter_mut().enumerate() {
-            *entry = column(false, tool.0[i], tool.position(), &tool)?;
+            *entry = column(false, tool.0[i], tool.position(), &tool);
         }
         Ok(tool)
     }

@@ -9,7 +9,8 @@ use crate::{
 /// Wrapper that gives any manipulator batches: each configuration is evaluated by the methods of
 /// [`Manipulator`].
 ///
-/// A configuration whose result is not finite or not defined has NaN results.
+/// A configuration whose result is not finite or not defined has NaN results. Where Euler rows are
+/// singular, rows 1–3 of the functions of `J_e` are defined.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OneByOne<M>(pub M);
 
@@ -114,10 +115,16 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
         Ok(transforms)
     }
 
+    /// Returns the pose and `J_e`. Singular Euler rows are NaN.
     fn error_jacobian(&self) -> Result<(Pose, Vec<[f64; 6]>), Error> {
-        let mut columns = vec![[0.0; 6]; 6 * self.description.frames.len()];
-        let pose = self.manipulator.error_jacobian(self.q, self.s, &mut columns)?;
-        Ok((pose, columns))
+        let mut columns = vec![[f64::NAN; 6]; 6 * self.description.frames.len()];
+        match self.manipulator.error_jacobian(self.q, self.s, &mut columns) {
+            Err(Error::EulerSingularity { .. }) => {
+                columns.iter_mut().for_each(|column| column[3..].fill(f64::NAN));
+                Ok((self.manipulator.pose(self.q, self.s)?, columns))
+            }
+            pose => Ok((pose?, columns)),
+        }
     }
 
     fn joint_jacobian(&self) -> Result<(Pose, Vec<[f64; 6]>), Error> {

@@ -1,6 +1,6 @@
 //! Data of one figure while it is gathered.
 
-use abbe::analysis::{Configuration, Row};
+use abbe::analysis::{Configuration, Measurand, Row};
 use abbe::{Class, Description, Source};
 use serde::{Deserialize, Serialize};
 
@@ -76,8 +76,11 @@ impl<'a> FigureBuilder<'a> {
         Some(Self { figure, source, bounds, random, data })
     }
 
-    /// Adds a configuration.
+    /// Adds a configuration, if its rows of the measurand exist.
     pub(super) fn add(&mut self, row: &Row) {
+        if self.figure.measurand == Measurand::Orientation && !row.oriented {
+            return;
+        }
         let errors = self.errors(row);
         let configuration = row.configuration;
         match (&mut self.data, self.figure.content) {

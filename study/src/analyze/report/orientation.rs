@@ -16,6 +16,9 @@ use crate::number::Named;
 pub struct OrientationReport {
     /// Names of rows 4–6.
     pub rows: [&'static str; 3],
+    /// Number of configurations at which these rows exist: all reached ones but those where Euler
+    /// angles are singular.
+    pub configurations: usize,
     /// Errors of each source alone.
     pub sources: Vec<OrientationSource>,
     /// Combined errors, as the paper adds them.
@@ -47,8 +50,9 @@ pub struct OrientationSource {
     pub plain_max: Figures,
     /// Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere.
     pub half_peak_to_peak: Figures,
-    /// Largest difference from the error at home.
-    pub relative_to_home: Figures,
+    /// Largest difference from the error at home; `None` if the rows are singular at home.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative_to_home: Option<Figures>,
     /// Root mean square of the norm over the configurations.
     pub rms: f64,
     /// Configuration with the largest norm.
@@ -68,6 +72,7 @@ impl OrientationReport {
         let sources = spec.enabled_sources().zip(sources).map(|(source, errors)| {
             let &SourceErrors { plain_max, half_peak_to_peak, relative_to_home, rms, worst, .. } = errors;
             let (name, worst) = (source.name.clone(), sites.variables(worst));
+            let relative_to_home = budget.orientation.at_home.then_some(relative_to_home);
             OrientationSource { name, plain_max, half_peak_to_peak, relative_to_home, rms, worst }
         });
         Self {
@@ -75,6 +80,7 @@ impl OrientationReport {
                 Orientation::RotationVector => ["about x", "about y", "about z"],
                 Orientation::EulerYzx => ["spin", "roll", "pitch"],
             },
+            configurations: budget.orientation.configurations,
             sources: sources.collect(),
             radii: combined.into(),
             standard_deviation: combined.standard_deviation,

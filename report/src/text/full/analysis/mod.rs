@@ -94,6 +94,9 @@ fn heading(report: &Report) -> String {
     for example in analyze::first_unreachable(unreachable, &report.home, spec) {
         text += &format!("                - {}\n", wrapped(&example, 18));
     }
+    if report.singular() > 0 {
+        text += &format!("                {}\n", wrapped(&report.singular_sentence(), 16));
+    }
     let home = number::variables(&report.home.q, spec);
     text += &format!("Home            {}\n", wrapped(&unbroken(&home), 16));
     let inputs = report.inputs().join(", ");
