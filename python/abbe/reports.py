@@ -1879,6 +1879,9 @@ class OrientationReport(Fields):
     rows: list[str]
     """Names of rows 4–6."""
 
+    configurations: int
+    """Number of configurations at which these rows exist: all reached ones but those where Euler angles are singular."""
+
     sources: list[OrientationSource]
     """Errors of each source alone."""
 
@@ -1952,8 +1955,8 @@ class OrientationSource(Fields):
     half_peak_to_peak: Figures
     """Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere."""
 
-    relative_to_home: Figures
-    """Largest difference from the error at home."""
+    relative_to_home: Figures | None = None
+    """Largest difference from the error at home; None if the rows are singular at home."""
 
     rms: float
     """Root mean square of the norm over the configurations.
