@@ -65,6 +65,19 @@ class Alarm(Fields):
     """Name of the chart that is farthest beyond its limit."""
 
 
+class Alternative(Fields):
+    """Another error that explains the data as well as the named one (likelihood ratio, 95 %)."""
+
+    number: str
+    """Name: `zero of q5`, `a of shoulder`, `e_x of wrist`."""
+
+    value: float
+    """Value that replaces the named error, in the length unit or rad."""
+
+    standard_deviation: float
+    """Standard deviation of the value, in the length unit or rad."""
+
+
 class AnalyzeReport(Report):
     """Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`; angles are in
     rad.
@@ -1418,8 +1431,11 @@ class JointError(Fields):
     standard_deviation: float
     """Standard deviation of the value, in the length unit or rad."""
 
+    alternatives: list[Alternative]
+    """Other errors that explain the data as well in place of this one."""
+
     sentence: str
-    """Statement of the result in one sentence."""
+    """Statement of the result in one sentence, with the alternatives."""
 
 
 class Law(Fields):
@@ -1592,6 +1608,11 @@ class Magnitude(Fields):
 
     standard_deviation: float | None
     """Standard deviation of the magnitude, in coherent units; None if the data do not determine it."""
+
+    stands_for: list[list[str | float]]
+    """Magnitudes fixed at their declared values that act as this one in these data, with their factors: the value
+    stands for this magnitude plus their sum.
+    """
 
     sentence: str
     """Statement of the result in one sentence."""

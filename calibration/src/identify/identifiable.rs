@@ -54,6 +54,19 @@ pub struct Identifiable {
     pub gap: f64,
 }
 
+impl Identifiable {
+    /// Returns the combination of kept unknowns that an unknown is equivalent to, as a factor for
+    /// each kept unknown.
+    pub fn kept_coordinates(&self, unknown: usize) -> Vec<f64> {
+        let held = self.held.iter().find(|(held, _)| *held == unknown);
+        let factor = |kept: &usize| match held {
+            Some((_, acts_as)) => acts_as.iter().find(|(k, _)| k == kept).map_or(0.0, |(_, factor)| *factor),
+            None => f64::from(u8::from(*kept == unknown)),
+        };
+        self.kept.iter().map(factor).collect()
+    }
+}
+
 /// An unknown that the data determine no better than to half of its expected size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weak {

@@ -213,7 +213,7 @@ fn the_page_has_the_surest_numbers_of_the_chain() {
             ["in_place_of", "number", "sentence"].map(|field| meaning[field].as_str().unwrap());
         assert!(all.contains(sentence), "{sentence}");
         let line = answer.lines().find(|line| line.starts_with(&format!("  {error} ")));
-        shown += line.map_or(0, |line| usize::from(line.ends_with(number)));
+        shown += line.map_or(0, |line| usize::from(line.contains(number)));
     }
     assert!(shown >= 3, "{answer}");
 }

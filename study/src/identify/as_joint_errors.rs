@@ -6,21 +6,17 @@
 //! the number is a linear combination of constant errors and replaces one of them. This is a change
 //! of basis; the machine stays the same to first order.
 
+use abbe::Component;
 use abbe::identify::{Failure, Fit, Model, Observation, Unknown};
-use abbe::{Component, VariableKind};
-use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
-use abbe_codegen::graph::{Frame, Graph, Node};
-use abbe_spec::expr::{Dimension, Motion, Symbol};
-use abbe_spec::{ChainNumber, DhNumber, Spec};
+use abbe_codegen::graph::Graph;
+use abbe_spec::{ChainNumber, Spec};
 use serde::Serialize;
 
+use super::alternatives::{Alternative, Explanations, Significant};
+use super::chain_numbers::{chain_numbers, constant_errors, is_angle, phrase};
 use super::setup::Setup;
 use super::solve::Solved;
 use super::terms::{self, ErrorSite, Term};
-use crate::number::digits;
-
-/// Number of configurations at which an error must be equal to count as constant.
-const SAMPLES: usize = 5;
 
 /// Largest number of rows at which two machines are compared.
 const ROWS: usize = 1000;
@@ -53,8 +49,21 @@ pub struct JointError {
     pub value: f64,
     /// Standard deviation of the value, in the length unit or rad.
     pub standard_deviation: f64,
-    /// Statement of the result in one sentence.
+    /// Other errors that explain the data as well in place of this one.
+    pub alternatives: Vec<Alternative>,
+    /// Statement of the result in one sentence, with the alternatives.
     pub sentence: String,
+}
+
+impl JointError {
+    /// Returns the name of the number, with its alternatives: `a of A5 or zero of q5`.
+    pub fn names(&self) -> String {
+        match &self.alternatives[..] {
+            [] => self.number.clone(),
+            [other] => format!("{} or {}", self.number, other.number),
+            [other, rest @ ..] => format!("{} or {} or {} more", self.number, other.number, rest.len()),
+        }
+    }
 }
 
 /// Number of the chain with its identified error.
@@ -96,16 +105,40 @@ impl AsJointErrors {
         Self { numbers, others, covariance: basis.covariance() }
     }
 
-    /// Returns the significant errors, with a sentence each.
+    /// Returns the significant errors, with their alternatives and a sentence each.
+    pub(super) fn joint_errors(
+        &self,
+        explanations: &Explanations,
+        model: &Model,
+        fit: &Fit,
+    ) -> Vec<JointError> {
+        let names = self.significant().map(|one| one.name.as_str()).collect();
+        let errors = self.significant_others(model, fit).collect();
+        let significant = Significant { names, errors };
+        let joint_error = |one: &FoundNumber| one.joint_error(&significant, explanations, model, fit);
+        self.significant().map(joint_error).collect()
+    }
+
+    /// Returns the significant numbers.
     ///
     /// A term that changes with a joint is hard to distinguish from a constant if the joint moves
     /// only a little. Numbers that are correlated with the magnitude of a source are therefore left
     /// out.
-    pub(super) fn joint_errors(&self, spec: &Spec, model: &Model, fit: &Fit) -> Vec<JointError> {
+    fn significant(&self) -> impl Iterator<Item = &FoundNumber> {
         let is_significant = |one: &&FoundNumber| {
             one.value.abs() > SIGNIFICANT * one.standard_deviation && one.correlation < CORRELATED
         };
-        self.numbers.iter().filter(is_significant).map(|one| one.joint_error(spec, model, fit)).collect()
+        self.numbers.iter().filter(is_significant)
+    }
+
+    /// Returns the indices among the kept unknowns of the other significant errors of the machine.
+    fn significant_others(&self, model: &Model, fit: &Fit) -> impl Iterator<Item = usize> {
+        let is_error =
+            |index: usize| matches!(model.unknowns[fit.identifiable.kept[index]], Unknown::Error(..));
+        let others = self.others.iter();
+        others.filter_map(move |(index, value, deviation)| {
+            (is_error(*index) && value.abs() > SIGNIFICANT * deviation).then_some(*index)
+        })
     }
 }
 
@@ -155,30 +188,20 @@ impl AsJointErrors {
 }
 
 impl FoundNumber {
-    fn joint_error(&self, spec: &Spec, model: &Model, fit: &Fit) -> JointError {
+    fn joint_error(
+        &self,
+        significant: &Significant,
+        explanations: &Explanations,
+        model: &Model,
+        fit: &Fit,
+    ) -> JointError {
         let Self { name: number, number: of, index, value, standard_deviation, .. } = self.clone();
         let in_place_of = model.name(model.unknowns[fit.identifiable.kept[index]]);
-        let (factor, unit) = if is_angle(spec, of) { (1e3, "mrad") } else { (1.0, spec.length.symbol()) };
-        let size = format!(
-            "{} ± {} {unit}",
-            digits(value.abs() * factor, 3),
-            digits(standard_deviation * factor, 2)
-        );
-        let sentence = match (of, value < 0.0) {
-            (ChainNumber::Joint(_), true) => format!("the {number} is offset by -{size} ({in_place_of})"),
-            (ChainNumber::Joint(_), false) => format!("the {number} is offset by {size} ({in_place_of})"),
-            (_, true) => format!("{number} is {size} less than nominal ({in_place_of})"),
-            (_, false) => format!("{number} is {size} more than nominal ({in_place_of})"),
-        };
-        JointError { in_place_of, number, value, standard_deviation, sentence }
-    }
-}
-
-fn is_angle(spec: &Spec, number: ChainNumber) -> bool {
-    match number {
-        ChainNumber::Joint(joint) => spec.variables[joint].kind == VariableKind::Revolute,
-        ChainNumber::Parameter(parameter) => spec.parameters[parameter].dimension == Dimension::NONE,
-        ChainNumber::DenavitHartenberg { number, .. } => number.motion().0 == Motion::Rotation,
+        let spec = explanations.spec;
+        let phrase = phrase(spec, &number, is_angle(spec, of), value, standard_deviation);
+        let alternatives = explanations.alternatives(&number, value, standard_deviation, significant);
+        let sentence = format!("{phrase} ({in_place_of}){}", explanations.sentence(&alternatives));
+        JointError { in_place_of, number, value, standard_deviation, alternatives, sentence }
     }
 }
 
@@ -205,23 +228,12 @@ impl<'a> ExchangedBasis<'a> {
         let is_free = |k: usize, unknown: &Unknown| matches!(unknown, Unknown::Fixture(..)) && held(k);
         for (k, unknown) in model.unknowns.iter().enumerate() {
             if !matches!(unknown, Unknown::Error(..)) && !is_free(k, unknown) {
-                let coordinates = basis.kept_coordinates(k);
+                let coordinates = fit.identifiable.kept_coordinates(k);
                 let taken = coordinates.iter().map(|factor| factor.abs() > 1e-9);
                 basis.free.iter_mut().zip(taken).for_each(|(free, taken)| *free &= !taken);
             }
         }
         basis
-    }
-
-    /// Returns the combination of kept unknowns that an unknown is equivalent to.
-    fn kept_coordinates(&self, unknown: usize) -> Vec<f64> {
-        let identifiable = &self.fit.identifiable;
-        let held = identifiable.held.iter().find(|(held, _)| *held == unknown);
-        let factor = |kept: &usize| match held {
-            Some((_, acts_as)) => acts_as.iter().find(|(k, _)| k == kept).map_or(0.0, |(_, factor)| *factor),
-            None => f64::from(u8::from(*kept == unknown)),
-        };
-        identifiable.kept.iter().map(factor).collect()
     }
 
     /// Replaces the kept unknown with the largest part in a number. Returns the index of that
@@ -233,7 +245,7 @@ impl<'a> ExchangedBasis<'a> {
             if self.fit.identifiable.inexact.contains(&unknown) {
                 return None;
             }
-            let parts = self.kept_coordinates(unknown);
+            let parts = self.fit.identifiable.kept_coordinates(unknown);
             coordinates.iter_mut().zip(parts).for_each(|(sum, part)| *sum += error * part);
         }
         let now: Vec<f64> = self.forms.iter().map(|form| product(form, &coordinates)).collect();
@@ -299,80 +311,4 @@ impl<'a> ExchangedBasis<'a> {
 
 fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Number of the chain that is equivalent to constant errors of one frame.
-pub(crate) struct ChainError {
-    /// Name: `zero of q2`, `upper_arm`.
-    pub(crate) name: String,
-    /// Is true for an angle or a pure number, false for a length.
-    pub(crate) is_angle: bool,
-    /// Index of the frame, from 0.
-    pub(crate) frame: usize,
-    /// Six generalized errors of that frame per unit of the number.
-    pub(crate) errors: [f64; 6],
-}
-
-/// Returns all such numbers, joints first.
-pub(crate) fn chain_errors(spec: &Spec) -> Vec<ChainError> {
-    let mut graph = Graph::with_tables(&spec.tables);
-    let all = chain_numbers(spec).into_iter().filter_map(|(name, number)| {
-        let (frame, errors) = constant_errors(&mut graph, spec, number)?;
-        Some(ChainError { name, is_angle: is_angle(spec, number), frame, errors })
-    });
-    all.collect()
-}
-
-/// Returns every number of the chain with its name: joints, then parameters, then
-/// Denavit-Hartenberg numbers.
-fn chain_numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
-    let joints = spec.variables.iter().enumerate();
-    let joints = joints.map(|(i, joint)| (format!("zero of {}", joint.name), ChainNumber::Joint(i)));
-    let parameters = spec.parameters.iter().enumerate();
-    let parameters = parameters.map(|(i, parameter)| (parameter.name.clone(), ChainNumber::Parameter(i)));
-    let frames = spec.frames.iter().enumerate().filter(|(_, frame)| frame.convention.is_some());
-    let of_frames = frames.flat_map(|(i, frame)| {
-        let name = &frame.name;
-        DhNumber::ALL.map(|number| {
-            (format!("{} of {name}", number.name()), ChainNumber::DenavitHartenberg { frame: i, number })
-        })
-    });
-    joints.chain(parameters).chain(of_frames).collect()
-}
-
-/// Returns the frame and its six errors per unit of a number, if they are the same in all
-/// configurations.
-fn constant_errors(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Option<(usize, [f64; 6])> {
-    let twists = frame_twists(graph, spec, number);
-    let [FrameTwist { frame, velocity, rotation }] = twists[..] else { return None };
-    if let Some(errors) = constant(graph, spec, velocity, rotation) {
-        return Some((frame, errors));
-    }
-    // Ad(A): ω' = R ω, v' = R v + p × ω'.
-    let before = frame.checked_sub(1)?;
-    let Frame { axes, position } = transform(graph, &spec.frames[frame].factors);
-    let turned = graph.turn(&axes, rotation);
-    let (moved, swing) = (graph.turn(&axes, velocity), graph.cross(position, turned));
-    let moved = graph.add_vectors(moved, swing);
-    Some((before, constant(graph, spec, moved, turned)?))
-}
-
-fn constant(graph: &Graph, spec: &Spec, velocity: [Node; 3], rotation: [Node; 3]) -> Option<[f64; 6]> {
-    let nodes = Component::ALL.map(|component| match component.is_rotation() {
-        true => rotation[component.axis()],
-        false => velocity[component.axis()],
-    });
-    let at = |sample: usize| {
-        graph.evaluate(&nodes, |symbol| match symbol {
-            Symbol::Variable(i) => spec.variables[i].home + (1.3 * (sample * (i + 2)) as f64).sin(),
-            Symbol::Parameter(i) => spec.parameters[i].value,
-            Symbol::Input(_) | Symbol::Error(_) | Symbol::Local(_) | Symbol::Magnitude(_) => f64::NAN,
-        })
-    };
-    let first = at(0);
-    let largest = first.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let same = |(a, b): (&f64, f64)| (a - b).abs() <= 1e-12 * largest;
-    let constant = (1..SAMPLES).all(|sample| first.iter().zip(at(sample)).all(same));
-    let errors: [f64; 6] = first.try_into().ok()?;
-    constant.then_some(errors.map(|value| if value.abs() > 1e-12 * largest { value } else { 0.0 }))
 }

@@ -6,7 +6,7 @@ use abbe_spec::expr::Symbol;
 use abbe_spec::visible::alters_text;
 use abbe_spec::{Fitted, Spec};
 
-use super::as_joint_errors::AsJointErrors;
+use super::as_joint_errors::{AsJointErrors, JointError};
 use super::derived::Derived;
 use super::found_placement::FoundPlacement;
 use super::solve::Solved;
@@ -34,6 +34,8 @@ pub struct FoundModel {
     /// Covariance of the identified values, in the order of the kept unknowns; the `row` of a value
     /// is its index in this matrix.
     pub covariance: Vec<Vec<f64>>,
+    /// Significant errors as numbers of the chain, with their alternatives.
+    pub(super) meanings: Vec<JointError>,
     /// Ranges of joints and inputs covered by the fitted rows.
     pub fitted: Vec<Fitted>,
 }

@@ -78,7 +78,7 @@ impl Indistinguishable {
 }
 
 /// Formats a combination, such as `e_r2 − 425 e_y2`.
-fn combination(terms: &[(String, f64)]) -> String {
+pub(super) fn combination(terms: &[(String, f64)]) -> String {
     let mut text = String::new();
     for (name, factor) in terms {
         let size = number::digits(factor.abs(), 4);

@@ -12,6 +12,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
+use super::alternatives::Explanations;
 use super::as_joint_errors::{AsJointErrors, number_terms};
 use super::candidates::candidates;
 use super::choose::{Chosen, choose};
@@ -22,7 +23,7 @@ use super::extended::extended;
 use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
 use super::found_model::FoundModel;
-use super::indistinguishable::indistinguishable;
+use super::indistinguishable::{combination, indistinguishable};
 use super::instruments::{estimate, instrument_fits};
 use super::interpretation_check::check_interpretation;
 use super::magnitude::{OwnMagnitude, own_magnitudes};
@@ -237,8 +238,11 @@ fn report(
     let difference = joint_errors.difference(spec, setup, solved, rows);
     let difference = difference.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let converted = Some(&joint_errors).filter(|_| difference <= CONVERSION_TOLERANCE * left);
+    let explanations = Explanations::new(spec, setup, model, fit, rows).map_err(fail)?;
+    let meanings = joint_errors.joint_errors(&explanations, model, fit);
     let found = FoundModel {
         derived: derived.to_vec(),
+        meanings: meanings.clone(),
         ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
@@ -264,7 +268,7 @@ fn report(
             .saturating_sub(groups.len() + identifiable.weak.len()),
         not_known: WeaklyDetermined::all(model, identifiable, spec.length),
         groups,
-        meanings: joint_errors.joint_errors(spec, model, fit),
+        meanings,
         magnitudes: magnitudes(spec, solved),
         parameters,
         held: identifiable
@@ -370,6 +374,15 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
             Some(deviation) => format!("{} ± {}", digits(declared, 3), digits(deviation, 2)),
             None => digits(declared, 3),
         };
+        let stands_for: Vec<(String, f64)> = k.map_or(Vec::new(), |k| solved.held_magnitudes(spec, k));
+        let combination = match &stands_for[..] {
+            [] => String::new(),
+            others => {
+                let own = (source.clone(), 1.0);
+                let all = std::iter::once(own).chain(others.iter().cloned()).collect::<Vec<_>>();
+                format!("; these data determine the combination {} only", combination(&all))
+            }
+        };
         let sentence = match standard_deviation {
             Some(deviation) if k.is_some_and(|k| fit.weakly_determined().contains(&k)) => format!(
                 "the magnitude of {source} is {} ± {}, which these data determine less well than \
@@ -378,7 +391,7 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
                 digits(deviation, 2)
             ),
             Some(deviation) => format!(
-                "the magnitude of {source} is {} ± {} (in the spec: {before})",
+                "the magnitude of {source} is {} ± {} (in the spec: {before}){combination}",
                 digits(value, 4),
                 digits(deviation, 2)
             ),
@@ -387,7 +400,7 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
                  in the spec: {before}"
             ),
         };
-        Magnitude { source, declared, declared_deviation, value, standard_deviation, sentence }
+        Magnitude { source, declared, declared_deviation, value, standard_deviation, stands_for, sentence }
     };
     own.iter().map(one).collect()
 }

@@ -13,12 +13,14 @@
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
 //! `covariance_writer` the covariance, and `map_writer` the map. The `report` contains `counts`,
-//! `as_joint_errors` (errors as zeros and lengths of the chain), what is `indistinguishable` or
-//! `weakly_determined`, `drift`, `extrapolation`, the `scale`, and `point_residuals` for plots.
-//! `job` runs all of it.
+//! `as_joint_errors` (errors as `chain_numbers`: zeros and lengths) and their `alternatives`, what
+//! is `indistinguishable` or `weakly_determined`, `drift`, `extrapolation`, the `scale`, and
+//! `point_residuals` for plots. `job` runs all of it.
 
+mod alternatives;
 mod as_joint_errors;
 mod candidates;
+mod chain_numbers;
 mod choose;
 mod compliance_writer;
 mod counts;
@@ -52,6 +54,7 @@ mod terms;
 mod train_test_overlap;
 mod weakly_determined;
 
+pub use alternatives::Alternative;
 pub use as_joint_errors::JointError;
 pub use candidates::candidates;
 pub use counts::Counts;
@@ -79,7 +82,7 @@ pub use weakly_determined::WeaklyDetermined;
 
 pub use crate::sizes::Sizes;
 
-pub(crate) use as_joint_errors::chain_errors;
+pub(crate) use chain_numbers::chain_errors;
 pub(crate) use indistinguishable::indistinguishable;
 pub(crate) use interpretation_check::check_interpretation;
 pub(crate) use line_of_sight::{nothing_readable, readable_configurations};

@@ -193,6 +193,9 @@ pub struct Magnitude {
     /// Standard deviation of the magnitude, in coherent units; `None` if the data do not determine
     /// it.
     pub standard_deviation: Option<f64>,
+    /// Magnitudes fixed at their declared values that act as this one in these data, with their
+    /// factors: the value stands for this magnitude plus their sum.
+    pub stands_for: Vec<(String, f64)>,
     /// Statement of the result in one sentence.
     pub sentence: String,
 }

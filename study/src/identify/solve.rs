@@ -2,6 +2,7 @@
 
 use abbe::VariableKind;
 use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
+use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
 
@@ -109,6 +110,19 @@ impl Solved<'_> {
     /// magnitude of the spec.
     pub(super) fn own_magnitude(&self, unknown: usize) -> Option<OwnMagnitude> {
         self.own.get(unknown).copied()
+    }
+}
+
+impl Solved<'_> {
+    /// Returns the magnitudes fixed at their declared values that act as an unknown, with their
+    /// factors: the value of the unknown stands for the sum.
+    pub(super) fn held_magnitudes(&self, spec: &Spec, unknown: usize) -> Vec<(String, f64)> {
+        let held = self.fit.identifiable.held.iter().filter_map(|(k, acts_as)| {
+            let own = self.own_magnitude(*k)?;
+            let (_, factor) = acts_as.iter().find(|(kept, _)| *kept == unknown)?;
+            Some((spec.sources[own.source].name.clone(), *factor))
+        });
+        held.collect()
     }
 }
 

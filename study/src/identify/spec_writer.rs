@@ -160,10 +160,18 @@ impl FoundModel {
             Basis::One => format!("{} {}", digits(*standard_deviation, 2), term.site.unit(spec)),
             _ => format!("{} of the value", digits((standard_deviation / magnitude).abs(), 2)),
         };
+        let number = term.name(spec);
+        let alternatives =
+            self.meanings.iter().filter(|one| term.basis == Basis::One && number == one.number);
+        let alternatives = alternatives.flat_map(|one| &one.alternatives).map(|one| one.number.as_str());
+        let alternatives = match alternatives.collect::<Vec<_>>() {
+            names if names.is_empty() => String::new(),
+            names => format!(". Explains the data as well: {}", names.join(", ")),
+        };
         format!(
             "\n[[source]]\nname = {}\ndescription = {}\nclass = \"repeatable\"\n{reversed}reference = {}\n\n[[source.effect]]\n{}\n",
             quoted(&name),
-            quoted(&format!("Standard deviation: {deviation}{remark}")),
+            quoted(&format!("Standard deviation: {deviation}{remark}{alternatives}")),
             quoted(&self.reference),
             effect_lines(spec, term, size, base),
         )

@@ -147,6 +147,29 @@ fn a_named_source_is_kept_before_errors_that_act_alike() {
     assert!(report.magnitudes[0].sentence.contains("is indistinguishable from"), "{:?}", report.magnitudes);
 }
 
+/// Of two magnitudes that act as each other, one is fitted and stands for both: its sentence states
+/// the combination.
+#[test]
+fn a_magnitude_states_the_combination_that_it_stands_for() {
+    let source = |name: &str, error: &str, value: f64| {
+        format!(
+            "[[source]]\nname = {name:?}\nclass = \"repeatable\"\njoint = \"q2\"\nerror = {error:?}\n\
+             magnitude = {{ value = {value} }}\n\n"
+        )
+    };
+    let both = |one: f64, other: f64| {
+        ur5(&(source("encoder", "1 mrad", one) + &source("coupling", "0.5 mrad", other)))
+    };
+    let data = measured(&both(1.0, 1.0), "exact", POINT, 100, 4);
+    let report = job(&both(0.0, 0.0), "exact", POINT, &data).run(&mut ()).unwrap();
+    let [encoder, coupling] = &report.magnitudes[..] else { panic!("{:?}", report.magnitudes) };
+    let [(name, factor)] = &encoder.stands_for[..] else { panic!("{encoder:?}") };
+    assert!(name == "coupling" && (factor - 0.5).abs() < 1e-6, "{encoder:?}");
+    assert!((encoder.value - 1.5).abs() < 4.0 * encoder.standard_deviation.unwrap(), "{encoder:?}");
+    assert!(encoder.sentence.ends_with("the combination encoder + 0.5 coupling only"), "{encoder:?}");
+    assert_eq!(coupling.standard_deviation, None, "{coupling:?}");
+}
+
 const ZEROS: [f64; 6] = [0.7, -0.5, 1.1, -0.8, 0.6, 0.9];
 
 fn zeros() -> String {

@@ -2,6 +2,7 @@
 
 mod abuse;
 mod accumulated;
+mod alternatives;
 mod arrows;
 mod bad_specs;
 mod bad_studies;

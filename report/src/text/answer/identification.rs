@@ -1,7 +1,7 @@
 //! The answer of an identification: accuracy on held-out rows, most significant errors, and gaps.
 
 use abbe_spec::Spec;
-use abbe_study::identify::{Kind, Parameter, Report, ResidualDrift, Sizes};
+use abbe_study::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes};
 use abbe_study::number::{counted, digits, fixed};
 
 use super::full::identification::residuals;
@@ -88,7 +88,7 @@ fn errors(report: &Report) -> String {
             _ => fixed(factor * value, 4),
         };
         let meaning = report.meanings.iter().find(|meaning| meaning.in_place_of == parameter.name);
-        let meaning = meaning.map(|meaning| meaning.number.clone());
+        let meaning = meaning.map(JointError::names);
         let frame = parameter.frame_name.clone();
         let name = frame.map_or(parameter.name.clone(), |frame| format!("{} ({frame})", parameter.name));
         let [value, deviation] = [parameter.value, parameter.standard_deviation].map(show);
