@@ -71,6 +71,7 @@ pub mod workspace;
 
 mod acceptance;
 mod archive;
+mod calibration;
 mod changed_text;
 mod changes;
 mod extrapolation;

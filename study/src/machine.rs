@@ -11,11 +11,15 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, Shipped};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
-use abbe_spec::{Magnitude, Source, Spec};
+use abbe_spec::{Identified, Magnitude, Source, Spec, Uncertain};
 
 use crate::changes::Changes;
+use crate::calibration::independent_parts;
 use crate::named;
 use crate::table_paths::with_table_paths;
+
+/// Name of the sources that are the uncertainty of a calibration.
+const CALIBRATION: &str = "calibration";
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
 #[derive(Clone)]
@@ -97,6 +101,28 @@ impl Machine {
             sources.extend(errors);
             self.changed = true;
         }
+    }
+
+    /// Returns the machine with the uncertainty of its calibration as random sources: independent
+    /// normal errors, whose covariance is the spec's `[covariance]`. They replace the uncertainty of
+    /// the magnitudes that were identified. Returns `None` if the spec has no covariance.
+    pub fn with_calibration_errors(&self) -> Option<Self> {
+        let covariance = &self.spec.covariance;
+        if covariance.of.is_empty() {
+            return None;
+        }
+        let mut spec = Spec::clone(&self.spec);
+        let identified = |source: usize| covariance.of.contains(&Identified::Magnitude(source));
+        let replaced: Vec<String> = self.spec.sources.iter().enumerate().filter(|(i, _)| identified(*i))
+            .filter_map(|(_, source)| Some(magnitude_error(source)?.name)).collect();
+        spec.sources.retain(|source| !is_magnitude_error(source) || !replaced.contains(&source.name));
+        for part in independent_parts(&covariance.rows) {
+            let quantities = covariance.of.iter().map(|one| Uncertain::Identified(*one)).zip(part);
+            let propagated = quantities.filter(|(_, factor)| *factor != 0.0).collect();
+            let description = "Uncertainty of the identified errors".to_owned();
+            spec.sources.push(Source::propagating(CALIBRATION.to_owned(), description, propagated));
+        }
+        Some(Self { spec: Arc::new(spec), changed: true, ..self.clone() })
     }
 
     /// Returns the indices of the inputs that changes fix: no workspace varies them.

@@ -1,15 +1,12 @@
 //! Probability that a tolerance is met.
 
-use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
+use super::error_distribution::ErrorDistribution;
+use super::errors_at::{ErrorsAt, RandomError, covariance};
 use crate::Measurand;
 use crate::normal::{NormalVector, PROBABILITY_ERROR};
-use crate::sampling::{norm, stream};
-use crate::sweep::in_order;
 
 /// Number of draws for errors that are not normal.
 pub const DRAWS: usize = 200_000;
-/// Number of draws per stream of random numbers.
-const BLOCK: usize = 8192;
 
 /// Probability that the norm of the error is within a limit at one configuration, to first order:
 /// the repeatable sources are fixed, the random ones vary.
@@ -46,27 +43,5 @@ fn integrated(bias: [f64; 3], random: &[RandomError], limit: f64) -> Compliance 
 }
 
 pub(super) fn within(bias: [f64; 3], random: &[RandomError], limit: f64, seed: u64) -> Compliance {
-    if is_normal(random) {
-        return integrated(bias, random, limit);
-    }
-    let mut within = 0;
-    let Ok(()) = in_order(
-        DRAWS.div_ceil(BLOCK),
-        |block| {
-            let mut numbers = stream(seed, block);
-            let drawn = (block * BLOCK..DRAWS.min((block + 1) * BLOCK)).filter(|_| {
-                let mut error = bias;
-                for one in random {
-                    let t = one.draw(&mut numbers);
-                    error = core::array::from_fn(|i| error[i] + t * one.magnitude[i]);
-                }
-                norm(error) <= limit
-            });
-            Ok::<_, core::convert::Infallible>(drawn.count())
-        },
-        |more| within += more,
-    );
-    let probability = within as f64 / DRAWS as f64;
-    let error = (probability * (1.0 - probability) / DRAWS as f64).sqrt();
-    Compliance { probability, error, draws: Some(DRAWS) }
+    ErrorDistribution::new(bias, random.to_vec()).coverage(limit, seed).0
 }

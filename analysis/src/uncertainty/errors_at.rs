@@ -56,19 +56,28 @@ impl ErrorsAt<'_> {
 
     /// Returns the random sources with a nonzero effect.
     pub(super) fn random(&self, measurand: Measurand) -> Vec<RandomError> {
-        let sources = self.description.sources.iter().zip(&self.sources).enumerate();
-        let random = sources.filter_map(|(source, (Source { class, degrees_of_freedom, .. }, bound))| {
-            let Class::Random(distribution) = *class else { return None };
-            let magnitude = measurand.rows(bound).map(|b| b / distribution.bound());
-            (magnitude != [0.0; 3]).then_some(RandomError {
-                source,
-                distribution,
-                degrees_of_freedom: *degrees_of_freedom,
-                magnitude,
-            })
-        });
-        random.collect()
+        random(self.description, &self.sources, measurand)
     }
+}
+
+/// Returns the random sources with a nonzero effect, given ΔX of each source at its bound.
+pub(super) fn random(
+    description: &Description,
+    sources: &[[f64; 6]],
+    measurand: Measurand,
+) -> Vec<RandomError> {
+    let sources = description.sources.iter().zip(sources).enumerate();
+    let random = sources.filter_map(|(source, (Source { class, degrees_of_freedom, .. }, bound))| {
+        let Class::Random(distribution) = *class else { return None };
+        let magnitude = measurand.rows(bound).map(|b| b / distribution.bound());
+        (magnitude != [0.0; 3]).then_some(RandomError {
+            source,
+            distribution,
+            degrees_of_freedom: *degrees_of_freedom,
+            magnitude,
+        })
+    });
+    random.collect()
 }
 
 /// Random source at a configuration.

@@ -2,11 +2,13 @@
 //! statement of the GUM (JCGM 100).
 
 mod compliance;
+mod error_distribution;
 mod errors_at;
 mod statement;
 #[cfg(test)]
 mod tests;
 
 pub use compliance::{Compliance, DRAWS, compliance, normal_compliance};
+pub use error_distribution::{Correction, ErrorDistribution};
 pub use errors_at::{ErrorsAt, errors_at};
 pub use statement::{COVERAGE, Contribution, Statement, student_95};

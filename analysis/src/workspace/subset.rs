@@ -40,7 +40,7 @@ impl Workspace for Subset<'_> {
 
 impl Subset<'_> {
     /// Returns the index in the original workspace.
-    fn place(&self, index: usize) -> usize {
+    pub fn place(&self, index: usize) -> usize {
         let all = self.workspace.len();
         match all <= self.count {
             true => index,

@@ -156,6 +156,7 @@ impl Analyze {
     ) -> Result<T, Diagnostics> {
         let Self { machine, study, monte_carlo, seed, figures, .. } = self;
         let manipulator = &*machine.evaluator(!self.interpret);
+        let calibrated = machine.with_calibration_errors().map(|machine| machine.evaluator(false));
         let description = manipulator.description();
         let workspace = study.region.workspace(manipulator, *seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
@@ -175,6 +176,7 @@ impl Analyze {
             manipulator,
             workspace,
             budget,
+            calibrated: calibrated.as_deref(),
         };
         work(&sweep, notes)
     }

@@ -6,9 +6,10 @@
 //!
 //! The other files turn the report into text: `summary` and `verdict` (first sentences), `ledger`
 //! and `uncertainty` (tables), `norm_comparison` (certified bounds), `agreement` (published
-//! figures), `unreachable` (reasons), `conclusions` (closing sentences), and `unit` (units).
+//! figures), `unreachable` (reasons), `compensated` (the machine after compensation), `conclusions` (closing sentences), and `unit` (units).
 
 mod agreement;
+mod compensated;
 mod conclusions;
 pub mod figures;
 mod first_order;
@@ -30,8 +31,9 @@ pub use job::Analyze;
 pub use ledger::{allowance_table, ledger, orientation_ledger};
 pub use norm_comparison::{NormComparison, norm_comparison_table};
 pub use report::{
-    AfterCompensation, Agreement, CombinedReport, Comparison, ErrorAllowance, Ledger, LedgerEntry,
-    LongestEllipsoid, MonteCarloErrors, MonteCarloReport, OrientationReport, OrientationSource, Quantity,
+    AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis,
+    ErrorAllowance, Ledger, LedgerEntry,
+    LongestEllipsoid, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport, OrientationSource, Quantity,
     Radii, Report, RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict,
     UncertaintyBudget, Verdict, Verdicts,
 };

@@ -4,17 +4,18 @@ use std::ops::Range;
 
 use abbe::Description;
 use abbe::analysis::{
-    Budget, BudgetSweep, Configuration, Measurand, PartialBudget, Row, Statement, Subset, Sweepable,
-    Unevaluated, Watch, Workspace, errors_at, monte_carlo,
+    Budget, BudgetSweep, Configuration, Correction, Measurand, PartialBudget, Residual, Row, Statement,
+    Subset, Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
 use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
+use super::compensated::CompensatedSweep;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
 use super::report::{
-    AfterCompensation, CombinedReport, Comparison, ErrorAllowance, ErrorSites, Ledger, MonteCarloErrors,
-    MonteCarloReport, OrientationReport, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget,
+    AfterCompensation, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, ErrorAllowance,
+    ErrorSites, JudgedErrors, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget,
     Verdicts,
 };
 use super::unreachable;
@@ -51,6 +52,8 @@ pub(super) struct Sweep<'a> {
     pub(super) manipulator: &'a dyn Sweepable,
     pub(super) workspace: &'a dyn Workspace,
     pub(super) budget: BudgetSweep<'a>,
+    /// The manipulator with the uncertainty of its calibration as random sources, if it is known.
+    pub(super) calibrated: Option<&'a dyn Sweepable>,
 }
 
 impl Sweep<'_> {
@@ -102,8 +105,11 @@ impl Sweep<'_> {
         let first_order = FirstOrder::compare(manipulator, workspace);
         let first_order = first_order.map_err(|refused| self.not_evaluated(&refused))?;
         let moving_inputs = study.region.moving_inputs();
-        let sites = ErrorSites::new(&budget, workspace, spec, &study.region.varying(spec), &moving_inputs);
-        let verdicts = self.verdicts(&budget, &sites)?;
+        let compensated = self.compensated()?;
+        let others = compensated.iter().flat_map(|(_, swept)| swept.indices());
+        let varying = study.region.varying(spec);
+        let sites = ErrorSites::new(&budget, workspace, spec, &varying, &moving_inputs, others);
+        let verdicts = self.verdicts(&budget, &sites, compensated)?;
         let uncertainty = self.uncertainty(&budget, &sites, Measurand::Position)?;
         let turned = self.uncertainty(&budget, &sites, Measurand::Orientation)?;
         let monte_carlo = self.draw_errors(&budget, &sites, notes)?;
@@ -151,19 +157,93 @@ impl Sweep<'_> {
         finite(&machine.origin, report)
     }
 
-    fn verdicts(&self, budget: &Budget, sites: &ErrorSites) -> Result<Option<Verdicts>, Diagnostics> {
-        let Study { tolerance, orientation_tolerance, probability, .. } = *self.study;
-        let verdict = |measurand, tolerance: Option<f64>| {
-            let errors_at =
-                |index| self.at(index, |configuration| errors_at(self.manipulator, configuration));
+    /// Returns the manipulator whose errors include the uncertainty of the calibration.
+    fn uncertain(&self) -> &dyn Sweepable {
+        self.calibrated.unwrap_or(self.manipulator)
+    }
+
+    /// Returns what says how much compensation leaves, and the correction of the sources; `None` if
+    /// nothing does.
+    fn correction(&self) -> Option<(CompensationBasis, Vec<Option<Residual>>, Option<f64>)> {
+        let description = self.uncertain().description();
+        if let Some(stated) = &self.study.compensation {
+            return Some((CompensationBasis::Stated, stated.residuals(description), stated.together));
+        }
+        if self.calibrated.is_some() {
+            let corrected = vec![Some(Residual::Share(0.0)); description.sources.len()];
+            return Some((CompensationBasis::Identified, corrected, None));
+        }
+        let published = self.study.compensated.as_ref()?;
+        Some((CompensationBasis::Published, Vec::new(), Some(published.residual)))
+    }
+
+    /// Evaluates the compensated machine over the workspace, if there is a tolerance.
+    fn compensated(&self) -> Result<Option<(CompensationBasis, CompensatedSweep)>, Diagnostics> {
+        let tolerances = [self.study.tolerance, self.study.orientation_tolerance];
+        let Some((basis, residuals, together)) = self.correction() else { return Ok(None) };
+        if tolerances == [None; 2] {
+            return Ok(None);
+        }
+        let correction = Correction { residuals: &residuals, together };
+        let swept = CompensatedSweep::new(self.uncertain(), self.workspace, correction, tolerances);
+        Ok(Some((basis, swept.map_err(|refused| self.not_evaluated(&refused))?)))
+    }
+
+    fn verdicts(
+        &self,
+        budget: &Budget,
+        sites: &ErrorSites,
+        compensated: Option<(CompensationBasis, CompensatedSweep)>,
+    ) -> Result<Option<Verdicts>, Diagnostics> {
+        let Study { tolerance, orientation_tolerance, probability, judged, .. } = *self.study;
+        let distribution = |index, measurand, correction: Option<Correction<'_>>| {
+            let errors = self.at(index, |configuration| errors_at(self.uncertain(), configuration))?;
+            Ok::<_, Diagnostics>(errors.distribution(measurand, correction))
+        };
+        let as_built = |measurand, tolerance: Option<f64>| {
             let verdict = tolerance.map(|tolerance| {
-                ToleranceVerdict::new(budget, sites, measurand, (tolerance, probability), errors_at)
+                let bounded = self.calibrated.is_none();
+                let errors = JudgedErrors::as_built(budget, measurand, (tolerance, bounded), |index| {
+                    distribution(index, measurand, None)
+                })?;
+                Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, (tolerance, probability)))
             });
             verdict.transpose()
         };
-        let position = verdict(Measurand::Position, tolerance)?;
-        let orientation = verdict(Measurand::Orientation, orientation_tolerance)?;
-        Ok(Verdicts::new(probability, [position, orientation]))
+        let as_built = MachineVerdicts {
+            position: as_built(Measurand::Position, tolerance)?,
+            orientation: as_built(Measurand::Orientation, orientation_tolerance)?,
+        };
+        let compensated = match (compensated, self.correction()) {
+            (Some((basis, swept)), Some((_, residuals, together))) => {
+                let correction = Correction { residuals: &residuals, together };
+                let is_all = swept.checked == budget.configurations;
+                let verdict = |measurand: Measurand, tolerance: Option<f64>| {
+                    let verdict = tolerance.map(|tolerance| {
+                        let extremes = &swept.extremes[measurand as usize];
+                        let candidates = extremes.candidates().into_iter().map(|index| {
+                            Ok((index, distribution(index, measurand, Some(correction))?))
+                        });
+                        let errors = JudgedErrors {
+                            measurand,
+                            radius: extremes.radius,
+                            // Certain only if no configuration was left out.
+                            largest: extremes.largest.filter(|_| is_all),
+                            candidates: candidates.collect::<Result<_, Diagnostics>>()?,
+                        };
+                        Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, (tolerance, probability)))
+                    });
+                    verdict.transpose()
+                };
+                let verdicts = MachineVerdicts {
+                    position: verdict(Measurand::Position, tolerance)?,
+                    orientation: verdict(Measurand::Orientation, orientation_tolerance)?,
+                };
+                Some(CompensatedVerdicts { basis, checked: swept.checked, verdicts })
+            }
+            _ => None,
+        };
+        Ok(Verdicts::new(probability, judged, as_built, compensated))
     }
 
     /// Returns the uncertainty budget at the configuration with the largest standard uncertainty;

@@ -2,9 +2,12 @@
 
 use abbe::analysis::{Compliance, Measurand};
 
-use super::report::{Report, ToleranceVerdict, Verdict, Verdicts};
+use super::report::{
+    CompensatedVerdicts, CompensationBasis, MachineVerdicts, Report, ToleranceVerdict, Verdict,
+};
 use super::unit;
 use crate::number;
+use crate::study_file::JudgedMachine;
 
 impl Report {
     /// Returns the verdict in one line, such as `Verdict: not met`; `None` if the study has no
@@ -22,17 +25,52 @@ impl Report {
         })
     }
 
-    /// Returns one sentence on each tolerance.
+    /// Returns the sentences on each tolerance: for the machine as built, and for the compensated one
+    /// if it is known.
     pub fn verdict_sentences(&self) -> Vec<String> {
-        self.verdicts.iter().flat_map(Verdicts::all).map(|verdict| self.tolerance_sentence(verdict)).collect()
+        let Some(verdicts) = &self.verdicts else { return Vec::new() };
+        let Some(compensated) = &verdicts.compensated else { return self.machine_sentences(&verdicts.as_built, None) };
+        let mut sentences = vec![format!(
+            "The verdict is on the machine {}.",
+            match verdicts.machine {
+                JudgedMachine::AsBuilt => "as built, without compensation",
+                JudgedMachine::Compensated => "after compensation",
+            }
+        )];
+        sentences.extend(self.machine_sentences(&verdicts.as_built, None));
+        sentences.extend(self.machine_sentences(&compensated.verdicts, Some(compensated)));
+        sentences
     }
 
-    fn tolerance_sentence(&self, verdict: &ToleranceVerdict) -> String {
+    fn machine_sentences(
+        &self,
+        verdicts: &MachineVerdicts,
+        compensated: Option<&CompensatedVerdicts>,
+    ) -> Vec<String> {
+        verdicts.all().map(|verdict| self.tolerance_sentence(verdict, compensated)).collect()
+    }
+
+    fn tolerance_sentence(
+        &self,
+        verdict: &ToleranceVerdict,
+        compensated: Option<&CompensatedVerdicts>,
+    ) -> String {
         let show = |value| unit::with_symbol(self, verdict.measurand, value);
         let name = match verdict.measurand {
             Measurand::Position => "Position",
             Measurand::Orientation => "Orientation",
         };
+        let name = match compensated {
+            None => name.to_owned(),
+            Some(_) => format!("{name}, compensated"),
+        };
+        let repeatable = match compensated.map(|compensated| compensated.basis) {
+            None => "repeatable sources at their values",
+            Some(CompensationBasis::Stated) => "what the study says compensation leaves of the repeatable sources, with unknown signs",
+            Some(CompensationBasis::Identified) => "all repeatable sources corrected, with the uncertainty of the identified errors",
+            Some(CompensationBasis::Published) => "the published residual of the repeatable sources, in an unknown direction",
+        };
+        let contains = format!("95 % of the errors there have a norm of at most {}.", show(verdict.u95));
         let tolerance = show(verdict.tolerance);
         let all = self.configurations_of(verdict.measurand);
         let left_out = match all < self.configurations {
@@ -41,15 +79,17 @@ impl Report {
         };
         if let (Verdict::Met, Some(largest)) = (verdict.verdict, verdict.largest) {
             return format!(
-                "{name}: met. All random sources are bounded, and with the repeatable ones the \
+                "{name}: met. All random sources are bounded, and with {} the \
                  error is at most {} of {tolerance} at each of the {} configurations, to first \
                  order.{left_out}",
+                compensated.map_or("the repeatable ones", |_| repeatable),
                 show(largest),
-                all,
+                compensated.map_or(all, |compensated| compensated.checked),
             );
         }
         let at = self.configuration(verdict.configuration);
         let at = at.map(|worst| number::unbroken(&self.label(worst))).unwrap_or_default();
+        let all = compensated.map_or(all, |compensated| compensated.checked);
         let least = match verdict.configurations {
             1 if all == 1 => "the only configuration".to_owned(),
             some if some < all => {
@@ -62,7 +102,9 @@ impl Report {
         };
         let how = match verdict.compliance.draws {
             Some(draws) => format!("random sources drawn {} times", number::short(draws as f64)),
-            None if self.is_random(verdict.measurand) => "all random sources normal".to_owned(),
+            None if self.is_random(verdict.measurand) || compensated.is_some() => {
+                "all random sources normal".to_owned()
+            }
             None => "nothing is random".to_owned(),
         };
         let required = number::at_least(self.study.probability);
@@ -70,7 +112,7 @@ impl Report {
         let met = if verdict.verdict == Verdict::NotMet { "not met" } else { "met" };
         format!(
             "{name}: {met}. The error is within {tolerance} with probability {}; {enough}. This \
-             is {least}, at {at}. To first order, repeatable sources at their values, {how}.{left_out}",
+             is {least}, at {at}. To first order, {repeatable}, {how}. {contains}{left_out}",
             probability(verdict.compliance)
         )
     }

@@ -27,6 +27,19 @@ pub(super) const UP_AXES: [(&str, usize); 3] = [("x", 0), ("y", 1), ("z", 2)];
 pub(super) const MEASURANDS: [(&str, Measurand); 2] =
     [("position", Measurand::Position), ("orientation", Measurand::Orientation)];
 
+/// Machine that a tolerance is held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum JudgedMachine {
+    /// The machine as built: repeatable errors at their values.
+    AsBuilt,
+    /// The compensated machine: repeatable errors corrected.
+    Compensated,
+}
+
+pub(super) const MACHINES: [(&str, JudgedMachine); 2] =
+    [("as-built", JudgedMachine::AsBuilt), ("compensated", JudgedMachine::Compensated)];
+
 /// Metric of a published figure of a single source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {

@@ -9,10 +9,13 @@ use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_spec::value::find_name;
 
 use super::keys;
+use crate::workspace::constant;
 
 /// Residuals after compensation.
 #[derive(Clone, Debug)]
 pub struct Compensated {
+    /// Norm of what remains of all repeatable sources together, in the length unit.
+    pub together: Option<f64>,
     default: Residual,
     /// Residuals of single sources, by name.
     named: Vec<(String, Residual)>,
@@ -30,10 +33,25 @@ impl Compensated {
     }
 }
 
-/// Reads `default` (the whole error if missing) and a residual for each named source.
+/// Reads `residual`; or `default` (the whole error if missing, nothing for an identified machine) and
+/// a residual for each named source.
 pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Compensated> {
     let section = document.section(item)?;
-    let mut compensated = Compensated { default: Residual::Share(1.0), named: Vec::new() };
+    let whole = if spec.covariance.of.is_empty() { 1.0 } else { 0.0 };
+    let mut compensated = Compensated { together: None, default: Residual::Share(whole), named: Vec::new() };
+    if let Some(item) = section.get("residual") {
+        if let Some(other) = section.items().find(|item| item.key != "residual") {
+            let message = format!("`residual` is of all sources together; `{}` contradicts it", other.key);
+            let mistake = Diagnostic::new(other.key_span.clone(), message);
+            document.mistake(mistake.help("remove it, or remove `residual` and give residuals by source"));
+        }
+        let norm = constant(&item, document, spec, Dimension::LENGTH, "`residual`")?;
+        if norm < 0.0 {
+            let mistake = Diagnostic::new(item.span(), "`residual` cannot be negative");
+            document.mistake(mistake.help("write the norm of what remains, such as \"0.05 mm\""));
+        }
+        return Some(Compensated { together: Some(norm), ..compensated });
+    }
     let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
     for item in section.items() {
         if keys::COMPENSATION.contain(&item.key) {

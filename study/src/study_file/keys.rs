@@ -3,7 +3,7 @@
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Open, Table, Tables, Text};
 use abbe_spec::keys::{Keys, Rule, Then, When, words};
 
-use super::choices::{CombinedFigure, KINDS, Kind, MEASURANDS, Metric, UP_AXES};
+use super::choices::{CombinedFigure, KINDS, Kind, MACHINES, MEASURANDS, Metric, UP_AXES};
 
 const TEXT: Value = Text("text");
 const NUMBER: Value = Number("number");
@@ -37,9 +37,13 @@ abbe_spec::tables! {
         "orientation": POSITIVE, "rad", "none", "Permitted norm of rows 4 to 6";
         "probability": Number("number between 0 and 1"), "1", "`0.95`",
             "Probability with which the tolerance must be met in every configuration";
+        "machine": Choice(|| words(&MACHINES)), "-", "`\"compensated\"` if the study has `[compensation]`, else `\"as-built\"`",
+            "Machine whose verdict counts, for `--check`, too: with its repeatable errors, or with these corrected";
     ]
     COMPENSATION: ["[compensation]"], [
-        "default": Number("share from 0 to 1, or length"), "1", "`1`: nothing is compensated",
+        "residual": Number("length"), "length unit", "none: by source",
+            "Norm of what remains of all repeatable sources together, in place of residuals by source";
+        "default": Number("share from 0 to 1, or length"), "1", "`1`: nothing is compensated; `0` if the spec has `[covariance]`",
             "Residual of each repeatable source that is not named: a share of its error, or a length";
     ]
 

@@ -16,7 +16,7 @@ mod read;
 mod study;
 mod tolerance;
 
-pub use choices::{CombinedFigure, Metric};
+pub use choices::{CombinedFigure, JudgedMachine, Metric};
 pub use compensation::Compensated;
 pub use figure::{Content, Figure, Over};
 pub use keys::{TABLES, rules};

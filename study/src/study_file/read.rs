@@ -9,6 +9,7 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Symbol;
 use sha2::{Digest, Sha256};
 
+use super::choices::JudgedMachine;
 use super::compensation;
 use super::figure::read_figures;
 use super::keys;
@@ -71,11 +72,22 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     let title = head.required("title", document).and_then(|item| document.string(&item));
     let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item, document, spec));
     let tolerance = tolerance.unwrap_or_default();
+    let is_known = compensation.is_some() || compensated.is_some() || !spec.covariance.of.is_empty();
+    if tolerance.machine == Some(JudgedMachine::Compensated)
+        && !is_known
+        && let Some(item) = head.get("tolerance")
+    {
+        let mistake = Diagnostic::new(item.span(), "nothing says what compensation leaves");
+        let help = "add [compensation] with a `residual`, or analyze a spec that `abbe identify` wrote";
+        document.mistake(mistake.label("held against the compensated machine").help(help));
+    }
+    let default = if compensation.is_some() { JudgedMachine::Compensated } else { JudgedMachine::AsBuilt };
     Some(Study {
         publisher: head.optional_text("publisher", document),
         tolerance: tolerance.position,
         orientation_tolerance: tolerance.orientation,
         probability: tolerance.probability,
+        judged: tolerance.machine.unwrap_or(default),
         changes: read_changes(&head, document, spec, &moved),
         not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item, document)),
         title: title?,

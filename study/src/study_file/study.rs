@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use abbe_spec::Spec;
 
+use super::choices::JudgedMachine;
 use super::compensation::Compensated;
 use super::figure::Figure;
 use super::published::{Published, PublishedResidual};
@@ -24,6 +25,8 @@ pub struct Study {
     pub orientation_tolerance: Option<f64>,
     /// Probability with which a tolerance must be met.
     pub probability: f64,
+    /// Machine whose verdict counts.
+    pub judged: JudgedMachine,
     /// Changes of the spec.
     pub changes: Changes,
     /// Workspace to analyze.
@@ -79,6 +82,7 @@ impl Study {
             tolerance: None,
             orientation_tolerance: None,
             probability: Tolerance::default().probability,
+            judged: JudgedMachine::AsBuilt,
             changes: Changes::default(),
             figures: Figure::defaults(&region),
             region,

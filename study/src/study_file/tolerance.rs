@@ -5,6 +5,7 @@ use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::Dimension;
 
+use super::choices::{JudgedMachine, MACHINES};
 use super::keys;
 use crate::workspace::{constant, positive_length};
 
@@ -17,11 +18,13 @@ pub(super) struct Tolerance {
     pub(super) orientation: Option<f64>,
     /// Probability with which the tolerance must be met; 0.95 by default.
     pub(super) probability: f64,
+    /// Machine whose verdict counts; `None` if the study does not say.
+    pub(super) machine: Option<JudgedMachine>,
 }
 
 impl Default for Tolerance {
     fn default() -> Self {
-        Self { position: None, orientation: None, probability: 0.95 }
+        Self { position: None, orientation: None, probability: 0.95, machine: None }
     }
 }
 
@@ -50,6 +53,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     };
     let orientation = number("orientation", f64::INFINITY, "write an angle such as \"0.5 mrad\"");
     let probability = number("probability", 1.0, "write 0.95 for 95 %");
+    let machine = section.get("machine").and_then(|item| document.choice(&item, &MACHINES));
     if position.is_none() && orientation.is_none() {
         document.mistake(
             Diagnostic::new(item.span(), "this tolerance is empty")
@@ -67,5 +71,6 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
         position: position.flatten(),
         orientation: orientation.flatten(),
         probability: probability.flatten().unwrap_or(Tolerance::default().probability),
+        machine,
     })
 }

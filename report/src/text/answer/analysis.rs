@@ -1,9 +1,13 @@
 //! The answer of an error budget: verdict, figures, largest sources and worst configuration.
 
 use abbe::analysis::Measurand;
-use abbe_study::analyze::{Agreement, Report, Verdict, unit, unreachable_summary};
+use abbe_study::analyze::{
+    Agreement, CompensationBasis, MachineVerdicts, Report, ToleranceVerdict, Verdict, unit,
+    unreachable_summary,
+};
 use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self, fixed, percent};
+use abbe_study::study_file::JudgedMachine;
 
 use super::{Answer, aligned, error_unit};
 
@@ -40,7 +44,12 @@ fn headline(report: &Report) -> String {
         .into_iter()
         .filter_map(|measurand| Some(unit::with_symbol(report, measurand, report.tolerance(measurand)?)));
     let tolerances = tolerances.collect::<Vec<_>>().join(" and ");
-    format!("{title}: {verdict}, tolerance {tolerances} at {at}")
+    let machine = match report.verdicts.as_ref().map(|verdicts| (verdicts.machine, &verdicts.compensated)) {
+        Some((JudgedMachine::Compensated, _)) => " compensated",
+        Some((JudgedMachine::AsBuilt, Some(_))) => " as built",
+        _ => "",
+    };
+    format!("{title}: {verdict}{machine}, tolerance {tolerances} at {at}")
 }
 
 /// Decimals that show the largest error to four digits.
@@ -65,15 +74,26 @@ fn figures(report: &Report) -> String {
         let value = format!("{} {unit}", fixed(factor * value, decimals));
         [name.to_owned(), value, share.unwrap_or_default(), probability, note]
     };
-    let probability = |measurand: Measurand| {
-        let verdict = report.verdicts.iter().flat_map(|all| all.all()).find(|one| one.measurand == measurand);
-        verdict.map_or(String::new(), |verdict| format!("P(within) {}", verdict.probability()))
+    let judged = |verdict: Option<&ToleranceVerdict>, factor: f64, unit: &str| {
+        verdict.map_or(String::new(), |verdict| {
+            let u95 = number::digits(factor * verdict.u95, 3);
+            format!("P(within) {}   U95 {u95} {unit}", verdict.probability())
+        })
+    };
+    let as_built = report.verdicts.as_ref().map(|verdicts| &verdicts.as_built);
+    let compensated = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
+    let compensated = compensated.map(|compensated| &compensated.verdicts);
+    let position_of = |verdicts: Option<&MachineVerdicts>| {
+        judged(verdicts.and_then(|verdicts| verdicts.position.as_ref()), factor, unit)
     };
     let radii = &report.combined.radii;
     let most = norms.and_then(|norms| norms.all_sources());
     let mut rows =
-        vec![position("as built", radii.radius, probability(Measurand::Position), certified(most))];
-    if let Some(left) = &report.compensation {
+        vec![position("as built", radii.radius, position_of(as_built), certified(most))];
+    if let Some(verdict) = compensated.and_then(|verdicts| verdicts.position.as_ref()) {
+        let probability = position_of(compensated);
+        rows.push(position("compensated", verdict.radius, probability, basis(report)));
+    } else if let Some(left) = &report.compensation {
         rows.push(position("compensated", left.total.value, String::new(), String::new()));
     } else if let Some(left) = &report.after_compensation {
         let note = format!("residual {} of {}", number::short(factor * left.residual), report.publisher());
@@ -88,10 +108,29 @@ fn figures(report: &Report) -> String {
         let value = report.orientation.radii.radius;
         let share = report.orientation.tolerance.map(|tolerance| percent(value, tolerance));
         let value = format!("{} mrad", number::digits(1e3 * value, 4));
-        let probability = probability(Measurand::Orientation);
-        rows.push(["orientation".to_owned(), value, share.unwrap_or_default(), probability, String::new()]);
+        let of = |verdicts: Option<&MachineVerdicts>| {
+            judged(verdicts.and_then(|verdicts| verdicts.orientation.as_ref()), 1e3, "mrad")
+        };
+        rows.push(["orientation".to_owned(), value, share.unwrap_or_default(), of(as_built), String::new()]);
+        if let Some(verdict) = compensated.and_then(|verdicts| verdicts.orientation.as_ref()) {
+            let value = format!("{} mrad", number::digits(1e3 * verdict.radius, 4));
+            let share = percent(verdict.radius, verdict.tolerance);
+            rows.push(["  compensated".to_owned(), value, share, of(compensated), String::new()]);
+        }
     }
     aligned(&rows, [false, true, true, false, false])
+}
+
+/// Returns what says how much compensation leaves.
+fn basis(report: &Report) -> String {
+    let verdicts = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
+    match verdicts.map(|verdicts| verdicts.basis) {
+        Some(CompensationBasis::Identified) => "by the covariance of the spec".to_owned(),
+        Some(CompensationBasis::Published) => {
+            format!("residual as {} states", report.publisher())
+        }
+        _ => String::new(),
+    }
 }
 
 /// Lists the largest sources with their shares of the sum of all norms, and the factor at which
@@ -138,6 +177,21 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if let Some(worst) = report.configuration(report.budget.combined.radius.configuration) {
         facts.push(("Worst", super::place(&report.label(worst))));
     }
+    let compensated = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
+    let worst = compensated.and_then(|compensated| compensated.verdicts.all().next());
+    if let Some(worst) = worst.and_then(|verdict| report.configuration(verdict.configuration)) {
+        facts.push(("", format!("compensated {}", super::place(&report.label(worst)))));
+    }
+    let (factor, unit) = error_unit(report.length);
+    let [bounded, radius] =
+        [report.budget.combined.bounded_radius, report.budget.combined.radius].map(|largest| largest.value);
+    if report.certified.is_some() && bounded > radius * (1.0 + 1e-9) {
+        let bounded = number::rounded_up(factor * bounded, decimals(report));
+        facts.push((
+            "Certified",
+            format!("repeatable + root sum of squares of random bounds; all bounds at once: {bounded} {unit}"),
+        ));
+    }
     let published = &report.comparisons;
     let missed: Vec<String> = published
         .iter()
@@ -162,7 +216,6 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if report.singular() > 0 {
         facts.push(("Euler", report.singular_sentence()));
     }
-    let (factor, unit) = error_unit(report.length);
     let largest = factor * report.first_order.largest;
     facts.push((
         "Exact",

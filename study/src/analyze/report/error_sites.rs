@@ -28,13 +28,14 @@ pub(in crate::analyze) struct ErrorSites {
 
 impl ErrorSites {
     /// Collects the sites of a budget. `varying` and `moving_inputs` are the indices of the
-    /// parameters and inputs that vary over the workspace.
+    /// parameters and inputs that vary over the workspace, `others` those of further configurations.
     pub(in crate::analyze) fn new(
         budget: &Budget,
         workspace: &dyn Workspace,
         spec: &Spec,
         varying: &[usize],
         moving_inputs: &[usize],
+        others: impl IntoIterator<Item = usize>,
     ) -> Self {
         let named = |configuration: Configuration| {
             let Configuration { q, s, u } = &configuration;
@@ -59,7 +60,7 @@ impl ErrorSites {
         let indices = budget.sources.iter().chain(&budget.orientation.sources).map(|errors| errors.worst);
         let indices = indices.chain(extremes.map(|extreme| extreme.configuration));
         let indices = indices.chain([all.ellipsoid.configuration]).flatten();
-        let indices = indices.chain(budget.least_likely.iter().flatten().copied());
+        let indices = indices.chain(budget.least_likely.iter().flatten().copied()).chain(others);
         let site = |index: usize| Some((index, named(workspace.configuration(index).ok()?)));
         Self { home: named(workspace.home().clone()), by_index: indices.filter_map(site).collect() }
     }

@@ -34,7 +34,10 @@ pub use orientation::{OrientationReport, OrientationSource};
 pub use source_report::SourceReport;
 pub use source_value::Quantity;
 pub(super) use tolerance_verdict::SEED;
-pub use tolerance_verdict::{ToleranceVerdict, Verdict, Verdicts};
+pub(super) use tolerance_verdict::JudgedErrors;
+pub use tolerance_verdict::{
+    CompensatedVerdicts, CompensationBasis, MachineVerdicts, ToleranceVerdict, Verdict, Verdicts,
+};
 pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 
 use super::figures::Figures;

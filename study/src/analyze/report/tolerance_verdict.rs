@@ -1,10 +1,11 @@
 //! Verdicts on the tolerances of a study.
 
-use abbe::analysis::{Budget, Compliance, ErrorsAt, Measurand, compliance, normal_compliance};
+use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand};
 use serde::Serialize;
 
 use super::error_sites::ErrorSites;
 use crate::number::Named;
+use crate::study_file::JudgedMachine;
 
 /// Fixed seed of the draws for verdicts and uncertainty budgets, which stand in for integrals.
 pub(in crate::analyze) const SEED: u64 = 0;
@@ -12,10 +13,23 @@ pub(in crate::analyze) const SEED: u64 = 0;
 /// Verdicts on the tolerances of a study.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdicts {
-    /// Worst of the verdicts.
+    /// Worst of the verdicts on the machine that counts.
     pub verdict: Verdict,
+    /// Machine whose verdict counts: `as-built` or `compensated`.
+    pub machine: JudgedMachine,
     /// Required probability of meeting each tolerance.
     pub probability_required: f64,
+    /// Verdicts on the machine as built.
+    #[serde(flatten)]
+    pub as_built: MachineVerdicts,
+    /// Verdicts on the compensated machine; `None` if nothing says what compensation leaves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compensated: Option<CompensatedVerdicts>,
+}
+
+/// Verdicts on one machine, as built or compensated.
+#[derive(Clone, Debug, Serialize)]
+pub struct MachineVerdicts {
     /// Verdict on the position error; `None` without a position tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<ToleranceVerdict>,
@@ -24,20 +38,61 @@ pub struct Verdicts {
     pub orientation: Option<ToleranceVerdict>,
 }
 
+/// Verdicts on the compensated machine.
+#[derive(Clone, Debug, Serialize)]
+pub struct CompensatedVerdicts {
+    /// What says how much compensation leaves.
+    pub basis: CompensationBasis,
+    /// Number of configurations at which the compensated errors were evaluated.
+    pub checked: usize,
+    /// The verdicts.
+    #[serde(flatten)]
+    pub verdicts: MachineVerdicts,
+}
+
+/// Origin of what is known of the errors after compensation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CompensationBasis {
+    /// Residuals of the study's `[compensation]`, and the covariance of the spec if it has one.
+    Stated,
+    /// Covariance of the identified errors in the spec: all repeatable errors are corrected.
+    Identified,
+    /// Published residual, `[compensated]` of the study.
+    Published,
+}
+
+impl MachineVerdicts {
+    /// Iterates over the verdicts, position first.
+    pub fn all(&self) -> impl Iterator<Item = &ToleranceVerdict> {
+        self.position.iter().chain(&self.orientation)
+    }
+}
+
 impl Verdicts {
     /// Combines the verdicts; returns `None` if there is no tolerance.
     pub(in crate::analyze) fn new(
         probability_required: f64,
-        [position, orientation]: [Option<ToleranceVerdict>; 2],
+        judged: JudgedMachine,
+        as_built: MachineVerdicts,
+        compensated: Option<CompensatedVerdicts>,
     ) -> Option<Self> {
-        let verdict =
-            position.iter().chain(&orientation).map(|one| one.verdict).max_by_key(|one| *one as u8)?;
-        Some(Self { verdict, probability_required, position, orientation })
+        let machine = if compensated.is_some() { judged } else { JudgedMachine::AsBuilt };
+        let counting = match (&compensated, machine) {
+            (Some(compensated), JudgedMachine::Compensated) => &compensated.verdicts,
+            _ => &as_built,
+        };
+        let verdict = counting.all().map(|one| one.verdict).max_by_key(|one| *one as u8)?;
+        Some(Self { verdict, machine, probability_required, as_built, compensated })
     }
 
-    /// Iterates over the verdicts, position first.
+    /// Iterates over the verdicts on the machine that counts, position first.
     pub fn all(&self) -> impl Iterator<Item = &ToleranceVerdict> {
-        self.position.iter().chain(&self.orientation)
+        let counting = match (&self.compensated, self.machine) {
+            (Some(compensated), JudgedMachine::Compensated) => &compensated.verdicts,
+            _ => &self.as_built,
+        };
+        counting.all()
     }
 }
 
@@ -62,8 +117,10 @@ const DRAWN: usize = 4;
 ///
 /// The probability is the smallest over the evaluated configurations: the one with the largest
 /// radius (norm of the repeatable errors + norm of the random bounds), and those that an
-/// approximation ranks least likely to meet the tolerance. To first order; repeatable sources have
-/// their nominal values, random sources are distributed.
+/// approximation ranks least likely to meet the tolerance. To first order; random sources are
+/// distributed. Repeatable sources have their nominal values. On the compensated machine they are
+/// replaced by residuals with their full norm, of unknown sign or direction; the uncertainty of the
+/// calibration and of the inputs is a random error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ToleranceVerdict {
     /// Position or orientation.
@@ -73,9 +130,15 @@ pub struct ToleranceVerdict {
     pub verdict: Verdict,
     /// Largest permitted norm of the error.
     pub tolerance: f64,
+    /// Norm of the repeatable errors, or of what compensation leaves of them, + norm of the random
+    /// bounds; the largest over the configurations.
+    pub radius: f64,
     /// Probability of meeting the tolerance; 1 if certain.
     #[serde(flatten)]
     pub compliance: Compliance,
+    /// Norm that contains the error with a probability of 95 %, the largest over the evaluated
+    /// configurations.
+    pub u95: f64,
     /// Largest possible error over the workspace: the norm of the repeatable errors + the norms of
     /// all random bounds. `None` if a random source is unbounded.
     pub largest: Option<f64>,
@@ -89,57 +152,92 @@ pub struct ToleranceVerdict {
     pub configuration: Option<usize>,
 }
 
-impl ToleranceVerdict {
-    /// Compares the errors of a budget with a tolerance and a required probability. `errors_at`
-    /// evaluates the errors at a configuration.
-    pub(in crate::analyze) fn new<'a, E>(
+/// Errors of a machine over the workspace that a tolerance is compared with.
+pub(in crate::analyze) struct JudgedErrors {
+    pub(in crate::analyze) measurand: Measurand,
+    /// Largest radius.
+    pub(in crate::analyze) radius: Extreme,
+    /// Largest possible error; `None` if it is not bounded.
+    pub(in crate::analyze) largest: Option<f64>,
+    /// Distributions at some configurations: first the one with the largest radius, then the most
+    /// likely to be worst.
+    pub(in crate::analyze) candidates: Vec<(Option<usize>, ErrorDistribution)>,
+}
+
+impl JudgedErrors {
+    /// Returns the errors of the machine as built. `distribution` gives the error at a
+    /// configuration; `bounded` is false if its errors have a part that the budget does not have and
+    /// that is not bounded.
+    pub(in crate::analyze) fn as_built<E>(
         budget: &Budget,
-        sites: &ErrorSites,
         measurand: Measurand,
-        (tolerance, probability): (f64, f64),
-        errors_at: impl Fn(Option<usize>) -> Result<ErrorsAt<'a>, E>,
+        (tolerance, bounded): (f64, bool),
+        distribution: impl Fn(Option<usize>) -> Result<ErrorDistribution, E>,
     ) -> Result<Self, E> {
         let (sources, combined, _) = budget.errors(measurand);
-        let bounded = sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
-        let largest = bounded.then_some(combined.bounded_radius.value);
-        let radius = combined.radius.configuration;
-        let new_verdict = |verdict, compliance, configuration, configurations| Self {
+        let bounded = bounded
+            && sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
+        let radius = combined.radius;
+        let listed = budget.least_likely_for(measurand).iter().map(|index| Some(*index));
+        let mut candidates = Vec::new();
+        for index in
+            [radius.configuration].into_iter().chain(listed.filter(|index| *index != radius.configuration))
+        {
+            let error = distribution(index)?;
+            candidates.push((error.normal_within(tolerance), index, error));
+        }
+        // A stable sort: among equals the configuration with the largest radius stays first.
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(Self {
+            measurand,
+            radius,
+            largest: bounded.then_some(combined.bounded_radius.value),
+            candidates: candidates.into_iter().map(|(_, index, error)| (index, error)).collect(),
+        })
+    }
+}
+
+impl ToleranceVerdict {
+    /// Compares errors with a tolerance and a required probability.
+    pub(in crate::analyze) fn new(
+        errors: JudgedErrors,
+        sites: &ErrorSites,
+        (tolerance, probability): (f64, f64),
+    ) -> Self {
+        let JudgedErrors { measurand, radius, largest, mut candidates } = errors;
+        let certain = largest.is_some_and(|largest| largest <= tolerance);
+        if certain {
+            candidates.retain(|(index, _)| *index == radius.configuration);
+        }
+        if candidates.iter().any(|(_, error)| !error.is_normal()) {
+            candidates.truncate(DRAWN);
+        }
+        let configurations = if certain { 0 } else { candidates.len() };
+        let mut compliance = Compliance { probability: 1.0, error: 0.0, draws: None };
+        let (mut configuration, mut u95) = (radius.configuration, 0.0_f64);
+        for (n, (index, error)) in candidates.iter().enumerate() {
+            let (here, quantile) = error.coverage(tolerance, SEED);
+            u95 = u95.max(quantile);
+            if !certain && (n == 0 || here.probability < compliance.probability) {
+                (compliance, configuration) = (here, *index);
+            }
+        }
+        let verdict = match compliance.probability >= probability {
+            _ if certain => Verdict::Met,
+            true => Verdict::MetWithProbability,
+            false => Verdict::NotMet,
+        };
+        Self {
             measurand,
             verdict,
             tolerance,
+            radius: radius.value,
             compliance,
+            u95,
             largest,
             at: sites.variables(configuration),
             configurations,
             configuration,
-        };
-        if largest.is_some_and(|largest| largest <= tolerance) {
-            let certain = Compliance { probability: 1.0, error: 0.0, draws: None };
-            return Ok(new_verdict(Verdict::Met, certain, radius, 0));
         }
-        let listed = budget.least_likely_for(measurand).iter().map(|index| Some(*index));
-        let mut candidates = Vec::new();
-        for index in [radius].into_iter().chain(listed.filter(|index| *index != radius)) {
-            let errors = errors_at(index)?;
-            let likely = normal_compliance(&errors, measurand, tolerance).probability;
-            candidates.push((likely, index, errors));
-        }
-        // A stable sort: among equals the configuration with the largest radius stays first.
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
-        if candidates.iter().any(|(.., errors)| !errors.is_normal(measurand)) {
-            candidates.truncate(DRAWN);
-        }
-        let configurations = candidates.len();
-        let evaluate = |errors: &ErrorsAt| compliance(errors, measurand, tolerance, SEED);
-        let (mut compliance, mut configuration) = (evaluate(&candidates[0].2), candidates[0].1);
-        for (_, index, errors) in &candidates[1..] {
-            let here = evaluate(errors);
-            if here.probability < compliance.probability {
-                (compliance, configuration) = (here, *index);
-            }
-        }
-        let met = compliance.probability >= probability;
-        let verdict = if met { Verdict::MetWithProbability } else { Verdict::NotMet };
-        Ok(new_verdict(verdict, compliance, configuration, configurations))
     }
 }

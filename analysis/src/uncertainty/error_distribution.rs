@@ -1,0 +1,210 @@
+//! Distribution of the error at one configuration: of the machine as built, or compensated.
+
+use rand::{Rng, RngExt};
+use rand_distr::StandardNormal;
+
+use super::compliance::{Compliance, DRAWS};
+use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
+use super::statement::COVERAGE;
+use crate::normal::{NormalVector, PROBABILITY_ERROR};
+use crate::sampling::{norm, stream};
+use crate::sweep::in_order;
+use crate::{Measurand, Residual};
+use abbe_core::{Class, Description};
+
+/// Number of draws per stream of random numbers.
+const BLOCK: usize = 8192;
+/// Normal quantile `Φ⁻¹(0.95)`, to compare configurations.
+const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
+
+/// Correction of the repeatable errors by compensation.
+#[derive(Clone, Copy, Debug)]
+pub struct Correction<'a> {
+    /// Residual of each source, `None` for random ones. A share of 1 is not compensated: the error
+    /// keeps its value and sign.
+    pub residuals: &'a [Option<Residual>],
+    /// Norm of the position error that remains of all repeatable sources together, in the length
+    /// unit, in place of their residuals.
+    pub together: Option<f64>,
+}
+
+/// Distribution of the position error or of rows 4–6 at one configuration, to first order: the sum
+/// of a fixed error, residuals of known norms, and random errors.
+#[derive(Clone, Debug)]
+pub struct ErrorDistribution {
+    bias: [f64; 3],
+    /// Residuals of known direction, whose signs are unknown and independent.
+    signed: Vec<[f64; 3]>,
+    /// Norms of residuals of unknown directions.
+    undirected: Vec<f64>,
+    random: Vec<RandomError>,
+}
+
+impl ErrorDistribution {
+    /// Returns the distribution of a fixed error and random ones.
+    pub(super) fn new(bias: [f64; 3], random: Vec<RandomError>) -> Self {
+        Self { bias, signed: Vec::new(), undirected: Vec::new(), random }
+    }
+
+    /// Returns the distribution for a machine, given ΔX of each source as in
+    /// [`Row::sources`](crate::Row::sources). Without a correction the repeatable sources keep
+    /// their values. A residual that is a length says nothing of rows 4–6: there the errors count
+    /// as not compensated.
+    pub fn at(
+        description: &Description,
+        sources: &[[f64; 6]],
+        measurand: Measurand,
+        correction: Option<Correction<'_>>,
+    ) -> Self {
+        let mut all = Self::new([0.0; 3], super::errors_at::random(description, sources, measurand));
+        let is_position = measurand == Measurand::Position;
+        let together = correction.and_then(|correction| correction.together);
+        if let Some(norm) = together.filter(|_| is_position) {
+            all.undirected.push(norm);
+            return all;
+        }
+        for (k, (source, error)) in description.sources.iter().zip(sources).enumerate() {
+            if source.class != Class::Repeatable {
+                continue;
+            }
+            let error = measurand.rows(error);
+            let residual = correction.filter(|_| together.is_none());
+            match residual.and_then(|correction| correction.residuals.get(k).copied().flatten()) {
+                Some(Residual::Share(share)) if share < 1.0 => all.signed.push(error.map(|row| share * row)),
+                // Only where the source has an error.
+                Some(Residual::Bound(bound)) if is_position => {
+                    if error != [0.0; 3] {
+                        all.undirected.push(bound);
+                    }
+                }
+                _ => all.bias = core::array::from_fn(|i| all.bias[i] + error[i]),
+            }
+        }
+        all.signed.retain(|error| *error != [0.0; 3]);
+        all
+    }
+
+    /// Returns whether the error is a normal vector, so that its coverage is an integral.
+    pub fn is_normal(&self) -> bool {
+        is_normal(&self.random) && self.signed.is_empty() && self.undirected.is_empty()
+    }
+
+    /// Returns `‖bias‖ + √(Σ ρ²) + √(Σ b²)` with the norms ρ of the residuals and the bounds b of
+    /// the random sources, as the paper adds them.
+    pub fn radius(&self) -> f64 {
+        let squares = |norms: &mut dyn Iterator<Item = f64>| norms.map(|norm| norm * norm).sum::<f64>().sqrt();
+        norm(self.bias) + squares(&mut self.residuals()) + squares(&mut self.bounds())
+    }
+
+    /// Returns the largest possible norm, `‖bias‖ + Σ ρ + Σ b`; `None` if a random source is not
+    /// bounded.
+    pub fn largest(&self) -> Option<f64> {
+        let bounded = self.random.iter().all(|one| Class::Random(one.distribution).is_bounded());
+        bounded.then(|| norm(self.bias) + self.residuals().sum::<f64>() + self.bounds().sum::<f64>())
+    }
+
+    /// Returns an approximation of the norm that is exceeded with a probability of 5 %, and of the
+    /// number of standard deviations by which a limit exceeds the median.
+    ///
+    /// The squared norm of an error with mean b and covariance C has the mean `κ_1 = |b|² + tr C` and
+    /// the variance `κ_2 = 2 tr C² + 4 bᵀ C b`. Its root is nearly normal, with the mean
+    /// `√(κ_1 − κ_2/(4 κ_1))` and the standard deviation `√κ_2 / (2 √κ_1)`.
+    pub fn approximate(&self, limit: f64) -> [f64; 2] {
+        let (b, c) = (self.bias, self.covariance());
+        let sum = |f: &dyn Fn(usize, usize) -> f64| {
+            (0..9).map(|k| f(k / 3, k % 3)).sum::<f64>()
+        };
+        let mean = b.iter().map(|row| row * row).sum::<f64>() + c[0][0] + c[1][1] + c[2][2];
+        let variance = 2.0 * sum(&|i, j| c[i][j] * c[i][j]) + 4.0 * sum(&|i, j| b[i] * c[i][j] * b[j]);
+        if mean == 0.0 {
+            return [0.0, f64::INFINITY];
+        }
+        let middle = (mean - variance / (4.0 * mean)).max(0.0).sqrt();
+        let deviation = variance.max(0.0).sqrt() / (2.0 * mean.sqrt());
+        [middle + ONE_SIDED_95 * deviation, (limit - middle) / deviation.max(1e-12 * limit)]
+    }
+
+    /// Returns the probability that the norm is within a limit as if the error were normal with this
+    /// mean and covariance.
+    pub fn normal_within(&self, limit: f64) -> f64 {
+        NormalVector::new(self.bias, self.covariance()).within(limit)
+    }
+
+    /// Returns the probability that the norm is within a limit, and the norm that contains the error
+    /// with a probability of 95 %. If all errors are normal these are integrals. Otherwise they come
+    /// from [`DRAWS`] draws, which depend on the seed alone; residuals are drawn with their full norm.
+    pub fn coverage(&self, limit: f64, seed: u64) -> (Compliance, f64) {
+        if self.is_normal() {
+            let normal = NormalVector::new(self.bias, self.covariance());
+            let error = if self.random.is_empty() { 0.0 } else { PROBABILITY_ERROR };
+            let compliance = Compliance { probability: normal.within(limit), error, draws: None };
+            return (compliance, normal.quantile(COVERAGE));
+        }
+        let mut norms = Vec::with_capacity(DRAWS);
+        let Ok(()) = in_order(
+            DRAWS.div_ceil(BLOCK),
+            |block| {
+                let mut numbers = stream(seed, block);
+                let draws = block * BLOCK..DRAWS.min((block + 1) * BLOCK);
+                Ok::<_, core::convert::Infallible>(
+                    draws.map(|_| norm(self.draw(&mut numbers))).collect::<Vec<f64>>(),
+                )
+            },
+            |more| norms.extend(more),
+        );
+        let within = norms.iter().filter(|norm| **norm <= limit).count();
+        let probability = within as f64 / DRAWS as f64;
+        let error = (probability * (1.0 - probability) / DRAWS as f64).sqrt();
+        let rank = (COVERAGE * DRAWS as f64).ceil() as usize - 1;
+        let (_, quantile, _) = norms.select_nth_unstable_by(rank, f64::total_cmp);
+        (Compliance { probability, error, draws: Some(DRAWS) }, *quantile)
+    }
+
+    fn draw(&self, numbers: &mut impl Rng) -> [f64; 3] {
+        let mut error = self.bias;
+        for one in &self.random {
+            let t = one.draw(numbers);
+            error = core::array::from_fn(|i| error[i] + t * one.magnitude[i]);
+        }
+        for residual in &self.signed {
+            let sign = if numbers.random::<bool>() { 1.0 } else { -1.0 };
+            error = core::array::from_fn(|i| error[i] + sign * residual[i]);
+        }
+        for length in &self.undirected {
+            let direction: [f64; 3] = core::array::from_fn(|_| numbers.sample(StandardNormal));
+            let scale = length / norm(direction);
+            error = core::array::from_fn(|i| error[i] + scale * direction[i]);
+        }
+        error
+    }
+
+    /// Returns the covariance: `Σ u uᵀ` of the random errors, `r rᵀ` of a residual with unknown sign,
+    /// and `ρ²/3` along each axis of one with unknown direction.
+    fn covariance(&self) -> [[f64; 3]; 3] {
+        let mut sum = covariance(&self.random);
+        let isotropic = self.undirected.iter().map(|norm| norm * norm).sum::<f64>() / 3.0;
+        for (i, row) in sum.iter_mut().enumerate() {
+            row[i] += isotropic;
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry += self.signed.iter().map(|r| r[i] * r[j]).sum::<f64>();
+            }
+        }
+        sum
+    }
+
+    fn residuals(&self) -> impl Iterator<Item = f64> {
+        self.signed.iter().map(|error| norm(*error)).chain(self.undirected.iter().copied())
+    }
+
+    fn bounds(&self) -> impl Iterator<Item = f64> {
+        self.random.iter().map(|one| one.distribution.bound() * norm(one.magnitude))
+    }
+}
+
+impl ErrorsAt<'_> {
+    /// Returns the distribution of the error, with the repeatable sources at their values or
+    /// corrected.
+    pub fn distribution(&self, measurand: Measurand, correction: Option<Correction<'_>>) -> ErrorDistribution {
+        ErrorDistribution::at(self.description, &self.sources, measurand, correction)
+    }
+}

@@ -1,0 +1,162 @@
+//! Verdicts on the compensated machine, compared with probabilities in closed form.
+
+use abbe_spec::Spec;
+use abbe_spec::document::Document;
+use abbe_study::analyze::{Analyze, CompensationBasis, Report, ToleranceVerdict, Verdict};
+use abbe_study::study_file::JudgedMachine;
+use abbe_study::{Machine, Study};
+
+/// A slide with an error of 0.1 mm along x and a normal one of 0.01 mm in the same direction.
+const SLIDE: &str = r#"
+[manipulator]
+name = "slide"
+length = "mm"
+[inputs]
+payload = { value = "2 kg", uncertainty = "0.5 kg" }
+[[frame]]
+name = "slide"
+variable = { name = "d1", kind = "prismatic", limits = ["0 mm", "100 mm"] }
+transform = "Tx(d1)"
+[[source]]
+name = "offset"
+class = "repeatable"
+frame = "slide"
+e_x = "0.1 mm"
+[[source]]
+name = "play"
+class = "random"
+distribution = "normal"
+frame = "slide"
+e_x = "0.01 mm"
+"#;
+
+fn read(text: &str, study: &str) -> Result<Report, String> {
+    let spec = Spec::parse("slide.toml", text).map_err(|refused| refused.to_string())?;
+    let study = format!("[study]\ntitle = \"t\"\n{study}");
+    let study = Study::read(Document::new("study.toml", study), &spec).map_err(|refused| refused.to_string())?;
+    Ok(Analyze::new(Machine::of_spec(spec, "slide.toml"), study).run(&mut ()).unwrap())
+}
+
+fn analyzed(tolerance: &str, compensation: &str, added: &str) -> Report {
+    let study = format!("tolerance = {tolerance}\n[workspace.joints]\nsamples = 5\n{compensation}");
+    read(&format!("{SLIDE}{added}"), &study).unwrap()
+}
+
+/// Returns the verdicts on the position: as built and compensated.
+fn positions(report: &Report) -> [ToleranceVerdict; 2] {
+    let verdicts = report.verdicts.as_ref().unwrap();
+    let compensated = verdicts.compensated.as_ref().unwrap();
+    [&verdicts.as_built, &compensated.verdicts].map(|verdicts| verdicts.position.clone().unwrap())
+}
+
+/// Φ(1.644854) = 0.95 and Φ(2) = 0.977250.
+const Z95: f64 = 1.644_853_626_951_472_6;
+const PHI_2: f64 = 0.977_249_868_051_820_8;
+
+fn close(found: f64, expected: f64, room: f64) {
+    assert!((found - expected).abs() <= room, "{found}, not {expected}");
+}
+
+/// A residual of a fifth, ±0.02 mm, and the play of 0.01 mm: `P = Φ((T − 0.02)/0.01)`, and U95 where
+/// this is 95 %. The verdict counts for the compensated machine; as built it is not met.
+#[test]
+fn stated_share_has_an_unknown_sign() {
+    let report = analyzed("\"0.04 mm\"", "[compensation]\ndefault = 0.2\n", "");
+    let [built, compensated] = positions(&report);
+    let verdicts = report.verdicts.as_ref().unwrap();
+    assert_eq!((verdicts.machine, verdicts.verdict), (JudgedMachine::Compensated, Verdict::MetWithProbability));
+    assert_eq!(built.verdict, Verdict::NotMet);
+    close(compensated.compliance.probability, PHI_2, 4.0 * compensated.compliance.error);
+    close(compensated.u95, 0.02 + 0.01 * Z95, 2e-4);
+    close(compensated.radius, 0.02 + 0.03, 1e-12);
+    // As built all errors are normal: 0.1 mm ± 0.01 mm.
+    close(built.u95, 0.1 + 0.01 * Z95, 1e-9);
+
+    let asked = "{ position = \"0.04 mm\", machine = \"as-built\" }";
+    let report = analyzed(asked, "[compensation]\ndefault = 0.2\n", "");
+    assert_eq!(report.verdict(), Some(Verdict::NotMet));
+    assert!(report.verdict_sentences()[0].contains("as built"), "{:?}", report.verdict_sentences());
+}
+
+/// A source that is not named keeps its error with its sign.
+#[test]
+fn what_is_not_compensated_keeps_its_sign() {
+    let other = "[[source]]\nname = \"scale\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"0.03 mm\"\n";
+    let report = analyzed("\"0.05 mm\"", "[compensation]\noffset = 0\n", other);
+    let [_, compensated] = positions(&report);
+    assert!(compensated.compliance.draws.is_none());
+    close(compensated.compliance.probability, PHI_2, 1e-9);
+    close(compensated.radius, 0.03 + 0.03, 1e-12);
+}
+
+/// A residual of all sources together has any direction: with a norm of ρ and an error z along x the
+/// norm is within T if `2 ρ z cos θ ≤ T² − ρ² − z²`, with cos θ uniform.
+#[test]
+fn residual_of_all_sources_has_any_direction() {
+    let (residual, tolerance): (f64, f64) = (0.04, 0.045);
+    let report = analyzed("\"0.045 mm\"", "[compensation]\nresidual = \"0.04 mm\"\n", "");
+    let [_, compensated] = positions(&report);
+    let steps = 20_000;
+    let mut exact = 0.0;
+    for k in 0..steps {
+        let z = 0.06 * ((f64::from(k) + 0.5) / f64::from(steps) - 0.5) * 2.0;
+        let density = (-0.5 * (z / 0.01).powi(2)).exp() / (0.01 * std::f64::consts::TAU.sqrt());
+        let cosine = (tolerance.powi(2) - residual.powi(2) - z * z) / (2.0 * residual * z.abs());
+        exact += density * (cosine.clamp(-1.0, 1.0) + 1.0) / 2.0 * 0.12 / f64::from(steps);
+    }
+    close(compensated.compliance.probability, exact, 4.0 * compensated.compliance.error);
+    close(compensated.radius, 0.07, 1e-12);
+}
+
+/// The covariance of an identified error is the only error that remains of it; it belongs to both
+/// machines. With the play: `√(0.01² + 0.0075²) = 0.0125 mm`.
+#[test]
+fn calibration_leaves_its_covariance() {
+    let found = "[covariance]\nof = [{ source = \"offset\", error = \"e_x\" }]\nrows = [[5.625e-5]]\n";
+    let asked = "{ position = \"0.025 mm\", machine = \"compensated\" }";
+    let report = analyzed(asked, "", found);
+    let [built, compensated] = positions(&report);
+    let verdicts = report.verdicts.as_ref().unwrap();
+    assert_eq!(verdicts.compensated.as_ref().unwrap().basis, CompensationBasis::Identified);
+    assert_eq!(report.verdict(), Some(Verdict::MetWithProbability));
+    close(compensated.compliance.probability, 2.0 * PHI_2 - 1.0, 1e-9);
+    close(compensated.u95, 0.0125 * 1.959_963_984_540_054, 1e-9);
+    close(built.u95, 0.1 + 0.0125 * Z95, 1e-9);
+    // Without a statement the verdict is on the machine as built.
+    assert_eq!(analyzed("\"0.025 mm\"", "", found).verdict(), Some(Verdict::NotMet));
+}
+
+/// The uncertainty of an input that the correction uses remains: 0.02 mm/kg × 0.5 kg.
+#[test]
+fn uncertainty_of_an_input_remains() {
+    let sag = "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"0.02 mm/kg * payload\"\n";
+    let report = analyzed("\"0.03 mm\"", "[compensation]\ndefault = 0\n", sag);
+    let [_, compensated] = positions(&report);
+    close(compensated.u95, 0.01 * 2_f64.sqrt() * 1.959_963_984_540_054, 1e-9);
+}
+
+/// A verdict on a compensated machine needs something that says what compensation leaves.
+#[test]
+fn compensated_machine_must_be_known() {
+    let study = "tolerance = { position = \"0.1 mm\", machine = \"compensated\" }\n[workspace.joints]\nsamples = 5\n";
+    let refused = read(SLIDE, study).unwrap_err();
+    assert!(refused.contains("nothing says what compensation leaves"), "{refused}");
+    let both = "[workspace.joints]\nsamples = 5\n[compensation]\nresidual = \"0.1 mm\"\noffset = 0.1\n";
+    let refused = read(SLIDE, both).unwrap_err();
+    assert!(refused.contains("`offset` contradicts it"), "{refused}");
+}
+
+/// The paper's positioner: as built 5.480 mm of 0.5 mm; with its published residual of 0.25 mm no
+/// draw of the four encoders exceeds the tolerance.
+#[test]
+fn compensated_positioner_meets_its_tolerance() {
+    let machine = Machine::find("pps").unwrap();
+    let study = Study::find(None, &machine).unwrap();
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    let [built, compensated] = positions(&report);
+    assert_eq!((built.verdict, compensated.verdict), (Verdict::NotMet, Verdict::Met));
+    assert_eq!(report.verdict(), Some(Verdict::NotMet));
+    close(built.radius, 5.480, 5e-4);
+    close(compensated.radius, 0.349, 5e-4);
+    assert!(compensated.largest.is_some_and(|largest| largest < 0.5) && compensated.u95 < compensated.radius);
+}
