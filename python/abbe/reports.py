@@ -525,6 +525,22 @@ class Comparison(Fields):
     """Table or page where it is printed."""
 
 
+class CompensatedVerdicts(Fields):
+    """Verdicts on the compensated machine."""
+
+    basis: Literal["stated", "identified", "published"]
+    """What says how much compensation leaves."""
+
+    checked: int
+    """Number of configurations at which the compensated errors were evaluated."""
+
+    position: ToleranceVerdict | None = None
+    """Verdict on the position error; None without a position tolerance."""
+
+    orientation: ToleranceVerdict | None = None
+    """Verdict on the orientation error; None without an orientation tolerance."""
+
+
 class Compliance(Fields):
     """Probability that the norm of the error is within a limit at one configuration, to first order: the repeatable
     sources are fixed, the random ones vary.
@@ -2665,7 +2681,9 @@ class ToleranceVerdict(Fields):
 
     The probability is the smallest over the evaluated configurations: the one with the largest radius (norm of the
     repeatable errors + norm of the random bounds), and those that an approximation ranks least likely to meet the
-    tolerance. To first order; repeatable sources have their nominal values, random sources are distributed.
+    tolerance. To first order; random sources are distributed. Repeatable sources have their nominal values. On the
+    compensated machine they are replaced by residuals with their full norm, of unknown sign or direction; the
+    uncertainty of the calibration and of the inputs is a random error.
     """
 
     verdict: Literal["met", "met-with-probability", "not-met"]
@@ -2673,6 +2691,13 @@ class ToleranceVerdict(Fields):
 
     tolerance: float
     """Largest permitted norm of the error.
+
+    Unit: length unit or rad.
+    """
+
+    radius: float
+    """Norm of the repeatable errors, or of what compensation leaves of them, + norm of the random bounds; the largest
+    over the configurations.
 
     Unit: length unit or rad.
     """
@@ -2685,6 +2710,9 @@ class ToleranceVerdict(Fields):
 
     draws: int | None
     """Number of draws. None for an integral."""
+
+    u95: float
+    """Norm that contains the error with a probability of 95 %, the largest over the evaluated configurations."""
 
     largest: float | None
     """Largest possible error over the workspace: the norm of the repeatable errors + the norms of all random bounds.
@@ -2822,7 +2850,10 @@ class Verdicts(Fields):
     """Verdicts on the tolerances of a study."""
 
     verdict: Literal["met", "met-with-probability", "not-met"]
-    """Worst of the verdicts."""
+    """Worst of the verdicts on the machine that counts."""
+
+    machine: Literal["as-built", "compensated"]
+    """Machine whose verdict counts: `as-built` or `compensated`."""
 
     probability_required: float
     """Required probability of meeting each tolerance."""
@@ -2832,6 +2863,9 @@ class Verdicts(Fields):
 
     orientation: ToleranceVerdict | None = None
     """Verdict on the orientation error; None without an orientation tolerance."""
+
+    compensated: CompensatedVerdicts | None = None
+    """Verdicts on the compensated machine; None if nothing says what compensation leaves."""
 
 
 class Warning(Fields):

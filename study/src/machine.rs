@@ -104,8 +104,8 @@ impl Machine {
     }
 
     /// Returns the machine with the uncertainty of its calibration as random sources: independent
-    /// normal errors, whose covariance is the spec's `[covariance]`. They replace the uncertainty of
-    /// the magnitudes that were identified. Returns `None` if the spec has no covariance.
+    /// normal errors, whose covariance is the spec's `[covariance]`. They replace the uncertainty
+    /// of the magnitudes that were identified. Returns `None` if the spec has no covariance.
     pub fn with_calibration_errors(&self) -> Option<Self> {
         let covariance = &self.spec.covariance;
         if covariance.of.is_empty() {

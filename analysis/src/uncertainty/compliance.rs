@@ -1,30 +1,13 @@
 //! Probability that a tolerance is met.
 
-use super::error_distribution::ErrorDistribution;
+use super::error_distribution::{Compliance, ErrorDistribution};
 use super::errors_at::{ErrorsAt, RandomError, covariance};
 use crate::Measurand;
 use crate::normal::{NormalVector, PROBABILITY_ERROR};
 
-/// Number of draws for errors that are not normal.
-pub const DRAWS: usize = 200_000;
-
-/// Probability that the norm of the error is within a limit at one configuration, to first order:
-/// the repeatable sources are fixed, the random ones vary.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Compliance {
-    /// Probability.
-    pub probability: f64,
-    /// Error of the probability: a bound for an integral, the standard error `√(p (1 − p)/N)` for
-    /// draws.
-    pub error: f64,
-    /// Number of draws. `None` for an integral.
-    pub draws: Option<usize>,
-}
-
 /// Computes the probability that `‖Σ r_k + Σ t_k a_k‖ ≤ limit`, with the magnitudes a and the
 /// errors t of the random sources. If these are all normal with known standard deviations, or there
-/// are none, it is the integral of [`NormalVector`]. Otherwise it is estimated by [`DRAWS`] draws,
+/// are none, it is the integral of [`NormalVector`]. Otherwise it is estimated by [`DRAWS`](super::DRAWS) draws,
 /// which depend on the seed alone.
 pub fn compliance(errors: &ErrorsAt, measurand: Measurand, limit: f64, seed: u64) -> Compliance {
     within(errors.bias(measurand), &errors.random(measurand), limit, seed)

@@ -3,19 +3,35 @@
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
-use super::compliance::{Compliance, DRAWS};
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
-use super::statement::COVERAGE;
 use crate::normal::{NormalVector, PROBABILITY_ERROR};
 use crate::sampling::{norm, stream};
 use crate::sweep::in_order;
 use crate::{Measurand, Residual};
 use abbe_core::{Class, Description};
 
+/// Coverage probability of an expanded uncertainty.
+pub const COVERAGE: f64 = 0.95;
+/// Number of draws for errors that are not normal.
+pub const DRAWS: usize = 200_000;
 /// Number of draws per stream of random numbers.
 const BLOCK: usize = 8192;
 /// Normal quantile `Φ⁻¹(0.95)`, to compare configurations.
 const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
+
+/// Probability that the norm of the error is within a limit at one configuration, to first order:
+/// the repeatable sources are fixed, the random ones vary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Compliance {
+    /// Probability.
+    pub probability: f64,
+    /// Error of the probability: a bound for an integral, the standard error `√(p (1 − p)/N)` for
+    /// draws.
+    pub error: f64,
+    /// Number of draws. `None` for an integral.
+    pub draws: Option<usize>,
+}
 
 /// Correction of the repeatable errors by compensation.
 #[derive(Clone, Copy, Debug)]
@@ -106,9 +122,9 @@ impl ErrorDistribution {
     /// Returns an approximation of the norm that is exceeded with a probability of 5 %, and of the
     /// number of standard deviations by which a limit exceeds the median.
     ///
-    /// The squared norm of an error with mean b and covariance C has the mean `κ_1 = |b|² + tr C` and
-    /// the variance `κ_2 = 2 tr C² + 4 bᵀ C b`. Its root is nearly normal, with the mean
-    /// `√(κ_1 − κ_2/(4 κ_1))` and the standard deviation `√κ_2 / (2 √κ_1)`.
+    /// The squared norm of an error with mean b and covariance C has the mean `κ_1 = |b|² + tr C`
+    /// and the variance `κ_2 = 2 tr C² + 4 bᵀ C b`. Its root is nearly normal, with the mean `√(κ_1
+    /// − κ_2/(4 κ_1))` and the standard deviation `√κ_2 / (2 √κ_1)`.
     pub fn approximate(&self, limit: f64) -> [f64; 2] {
         let (b, c) = (self.bias, self.covariance());
         let sum = |f: &dyn Fn(usize, usize) -> f64| {
@@ -124,15 +140,16 @@ impl ErrorDistribution {
         [middle + ONE_SIDED_95 * deviation, (limit - middle) / deviation.max(1e-12 * limit)]
     }
 
-    /// Returns the probability that the norm is within a limit as if the error were normal with this
-    /// mean and covariance.
+    /// Returns the probability that the norm is within a limit as if the error were normal with
+    /// this mean and covariance.
     pub fn normal_within(&self, limit: f64) -> f64 {
         NormalVector::new(self.bias, self.covariance()).within(limit)
     }
 
-    /// Returns the probability that the norm is within a limit, and the norm that contains the error
-    /// with a probability of 95 %. If all errors are normal these are integrals. Otherwise they come
-    /// from [`DRAWS`] draws, which depend on the seed alone; residuals are drawn with their full norm.
+    /// Returns the probability that the norm is within a limit, and the norm that contains the
+    /// error with a probability of 95 %. If all errors are normal these are integrals. Otherwise
+    /// they come from [`DRAWS`] draws, which depend on the seed alone; residuals are drawn with
+    /// their full norm.
     pub fn coverage(&self, limit: f64, seed: u64) -> (Compliance, f64) {
         if self.is_normal() {
             let normal = NormalVector::new(self.bias, self.covariance());
@@ -178,8 +195,8 @@ impl ErrorDistribution {
         error
     }
 
-    /// Returns the covariance: `Σ u uᵀ` of the random errors, `r rᵀ` of a residual with unknown sign,
-    /// and `ρ²/3` along each axis of one with unknown direction.
+    /// Returns the covariance: `Σ u uᵀ` of the random errors, `r rᵀ` of a residual with unknown
+    /// sign, and `ρ²/3` along each axis of one with unknown direction.
     fn covariance(&self) -> [[f64; 3]; 3] {
         let mut sum = covariance(&self.random);
         let isotropic = self.undirected.iter().map(|norm| norm * norm).sum::<f64>() / 3.0;

@@ -8,7 +8,7 @@ mod statement;
 #[cfg(test)]
 mod tests;
 
-pub use compliance::{Compliance, DRAWS, compliance, normal_compliance};
-pub use error_distribution::{Correction, ErrorDistribution};
+pub use compliance::{compliance, normal_compliance};
+pub use error_distribution::{COVERAGE, Compliance, Correction, DRAWS, ErrorDistribution};
 pub use errors_at::{ErrorsAt, errors_at};
-pub use statement::{COVERAGE, Contribution, Statement, student_95};
+pub use statement::{Contribution, Statement, student_95};

@@ -1,13 +1,12 @@
 //! The uncertainty budget of the GUM (JCGM 100:2008) at one configuration.
 
-use super::compliance::{Compliance, within};
+use super::compliance::within;
+use super::error_distribution::{COVERAGE, Compliance};
 use super::errors_at::{ErrorsAt, RandomError, covariance};
 use crate::Measurand;
 use crate::normal::{Principal, StudentVector};
 use abbe_core::{Component, Distribution};
 
-/// Coverage probability of an expanded uncertainty.
-pub const COVERAGE: f64 = 0.95;
 /// Normal coverage factor `Φ⁻¹((1 + 0.95)/2)`.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 

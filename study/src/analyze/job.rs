@@ -161,7 +161,8 @@ impl Analyze {
         let workspace = study.region.workspace(manipulator, *seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
         notes.progress(0, workspace.len());
-        let residuals = study.compensation.as_ref().map(|compensated| compensated.residuals(description));
+        let by_source = study.compensation.as_ref().filter(|stated| stated.together.is_none());
+        let residuals = by_source.map(|stated| stated.residuals(description));
         let tolerances = [study.tolerance, study.orientation_tolerance];
         let options = BudgetOptions { residuals: residuals.as_deref(), tolerances };
         let budget = BudgetSweep::new(manipulator, workspace, options)

@@ -6,7 +6,8 @@
 //!
 //! The other files turn the report into text: `summary` and `verdict` (first sentences), `ledger`
 //! and `uncertainty` (tables), `norm_comparison` (certified bounds), `agreement` (published
-//! figures), `unreachable` (reasons), `compensated` (the machine after compensation), `conclusions` (closing sentences), and `unit` (units).
+//! figures), `unreachable` (reasons), `compensated` (the machine after compensation), `conclusions`
+//! (closing sentences), and `unit` (units).
 
 mod agreement;
 mod compensated;

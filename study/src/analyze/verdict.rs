@@ -25,8 +25,8 @@ impl Report {
         })
     }
 
-    /// Returns the sentences on each tolerance: for the machine as built, and for the compensated one
-    /// if it is known.
+    /// Returns the sentences on each tolerance: for the machine as built, and for the compensated
+    /// one if it is known.
     pub fn verdict_sentences(&self) -> Vec<String> {
         let Some(verdicts) = &self.verdicts else { return Vec::new() };
         let Some(compensated) = &verdicts.compensated else { return self.machine_sentences(&verdicts.as_built, None) };

@@ -33,8 +33,8 @@ impl Compensated {
     }
 }
 
-/// Reads `residual`; or `default` (the whole error if missing, nothing for an identified machine) and
-/// a residual for each named source.
+/// Reads `residual`; or `default` (the whole error if missing, nothing for an identified machine)
+/// and a residual for each named source.
 pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Compensated> {
     let section = document.section(item)?;
     let whole = if spec.covariance.of.is_empty() { 1.0 } else { 0.0 };

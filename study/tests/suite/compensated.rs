@@ -57,8 +57,8 @@ fn close(found: f64, expected: f64, room: f64) {
     assert!((found - expected).abs() <= room, "{found}, not {expected}");
 }
 
-/// A residual of a fifth, ±0.02 mm, and the play of 0.01 mm: `P = Φ((T − 0.02)/0.01)`, and U95 where
-/// this is 95 %. The verdict counts for the compensated machine; as built it is not met.
+/// A residual of a fifth, ±0.02 mm, and the play of 0.01 mm: `P = Φ((T − 0.02)/0.01)`, and U95
+/// where this is 95 %. The verdict counts for the compensated machine; as built it is not met.
 #[test]
 fn stated_share_has_an_unknown_sign() {
     let report = analyzed("\"0.04 mm\"", "[compensation]\ndefault = 0.2\n", "");
@@ -89,8 +89,8 @@ fn what_is_not_compensated_keeps_its_sign() {
     close(compensated.radius, 0.03 + 0.03, 1e-12);
 }
 
-/// A residual of all sources together has any direction: with a norm of ρ and an error z along x the
-/// norm is within T if `2 ρ z cos θ ≤ T² − ρ² − z²`, with cos θ uniform.
+/// A residual of all sources together has any direction: with a norm of ρ and an error z along x
+/// the norm is within T if `2 ρ z cos θ ≤ T² − ρ² − z²`, with cos θ uniform.
 #[test]
 fn residual_of_all_sources_has_any_direction() {
     let (residual, tolerance): (f64, f64) = (0.04, 0.045);

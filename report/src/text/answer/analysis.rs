@@ -45,7 +45,7 @@ fn headline(report: &Report) -> String {
         .filter_map(|measurand| Some(unit::with_symbol(report, measurand, report.tolerance(measurand)?)));
     let tolerances = tolerances.collect::<Vec<_>>().join(" and ");
     let machine = match report.verdicts.as_ref().map(|verdicts| (verdicts.machine, &verdicts.compensated)) {
-        Some((JudgedMachine::Compensated, _)) => " compensated",
+        Some((JudgedMachine::Compensated, _)) => ", compensated",
         Some((JudgedMachine::AsBuilt, Some(_))) => " as built",
         _ => "",
     };
@@ -69,15 +69,15 @@ fn figures(report: &Report) -> String {
         Some(_) => "not bounded closely".to_owned(),
     };
     let norms = report.certified.as_ref();
-    let position = |name: &str, value: f64, probability: String, note: String| {
+    let position = |name: &str, value: f64, [probability, u95]: [String; 2], note: String| {
         let share = report.position_tolerance.map(|tolerance| percent(value, tolerance));
         let value = format!("{} {unit}", fixed(factor * value, decimals));
-        [name.to_owned(), value, share.unwrap_or_default(), probability, note]
+        [name.to_owned(), value, share.unwrap_or_default(), probability, u95, note]
     };
     let judged = |verdict: Option<&ToleranceVerdict>, factor: f64, unit: &str| {
-        verdict.map_or(String::new(), |verdict| {
+        verdict.map_or([const { String::new() }; 2], |verdict| {
             let u95 = number::digits(factor * verdict.u95, 3);
-            format!("P(within) {}   U95 {u95} {unit}", verdict.probability())
+            [format!("P(within) {}", verdict.probability()), format!("U95 {u95} {unit}")]
         })
     };
     let as_built = report.verdicts.as_ref().map(|verdicts| &verdicts.as_built);
@@ -94,15 +94,15 @@ fn figures(report: &Report) -> String {
         let probability = position_of(compensated);
         rows.push(position("compensated", verdict.radius, probability, basis(report)));
     } else if let Some(left) = &report.compensation {
-        rows.push(position("compensated", left.total.value, String::new(), String::new()));
+        rows.push(position("compensated", left.total.value, Default::default(), String::new()));
     } else if let Some(left) = &report.after_compensation {
         let note = format!("residual {} of {}", number::short(factor * left.residual), report.publisher());
-        rows.push(position("compensated", left.total, String::new(), note));
+        rows.push(position("compensated", left.total, Default::default(), note));
     }
     let is_mixed = radii.random_radius > 0.0 && radii.repeatable_radius > 0.0;
     if is_mixed {
         let most = norms.and_then(|norms| norms.random.as_ref());
-        rows.push(position("random only", radii.random_radius, String::new(), certified(most)));
+        rows.push(position("random only", radii.random_radius, Default::default(), certified(most)));
     }
     if report.orientation.radii.radius > 0.0 {
         let value = report.orientation.radii.radius;
@@ -111,24 +111,25 @@ fn figures(report: &Report) -> String {
         let of = |verdicts: Option<&MachineVerdicts>| {
             judged(verdicts.and_then(|verdicts| verdicts.orientation.as_ref()), 1e3, "mrad")
         };
-        rows.push(["orientation".to_owned(), value, share.unwrap_or_default(), of(as_built), String::new()]);
+        let [probability, u95] = of(as_built);
+        let share = share.unwrap_or_default();
+        rows.push(["orientation".to_owned(), value, share, probability, u95, String::new()]);
         if let Some(verdict) = compensated.and_then(|verdicts| verdicts.orientation.as_ref()) {
             let value = format!("{} mrad", number::digits(1e3 * verdict.radius, 4));
             let share = percent(verdict.radius, verdict.tolerance);
-            rows.push(["  compensated".to_owned(), value, share, of(compensated), String::new()]);
+            let [probability, u95] = of(compensated);
+            rows.push(["  compensated".to_owned(), value, share, probability, u95, String::new()]);
         }
     }
-    aligned(&rows, [false, true, true, false, false])
+    aligned(&rows, [false, true, true, false, false, false])
 }
 
 /// Returns what says how much compensation leaves.
 fn basis(report: &Report) -> String {
     let verdicts = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
     match verdicts.map(|verdicts| verdicts.basis) {
-        Some(CompensationBasis::Identified) => "by the covariance of the spec".to_owned(),
-        Some(CompensationBasis::Published) => {
-            format!("residual as {} states", report.publisher())
-        }
+        Some(CompensationBasis::Identified) => "covariance of the spec".to_owned(),
+        Some(CompensationBasis::Published) => "published residual".to_owned(),
         _ => String::new(),
     }
 }

@@ -28,7 +28,8 @@ pub(in crate::analyze) struct ErrorSites {
 
 impl ErrorSites {
     /// Collects the sites of a budget. `varying` and `moving_inputs` are the indices of the
-    /// parameters and inputs that vary over the workspace, `others` those of further configurations.
+    /// parameters and inputs that vary over the workspace, `others` those of further
+    /// configurations.
     pub(in crate::analyze) fn new(
         budget: &Budget,
         workspace: &dyn Workspace,

@@ -27,8 +27,8 @@ pub enum Quantity {
 
 impl SourceValue {
     /// Determines the value of a source: the standard deviation of a magnitude; or the uncertainty
-    /// of an input; or the deviation of a joint or parameter, if it is the only one and constant; or
-    /// the only generalized error at the configuration.
+    /// of an input; or the deviation of a joint or parameter, if it is the only one and constant;
+    /// or the only generalized error at the configuration.
     pub(super) fn new(spec: &Spec, source: &Source, one: &Contribution) -> Self {
         if let Some(magnitude) = source.magnitude {
             return Self { value: magnitude.value, quantity: Quantity::Parameter(String::new()) };

@@ -41,7 +41,7 @@ pub struct MachineVerdicts {
 /// Verdicts on the compensated machine.
 #[derive(Clone, Debug, Serialize)]
 pub struct CompensatedVerdicts {
-    /// What says how much compensation leaves.
+    /// Origin of what is known of the errors after compensation.
     pub basis: CompensationBasis,
     /// Number of configurations at which the compensated errors were evaluated.
     pub checked: usize,
@@ -166,8 +166,8 @@ pub(in crate::analyze) struct JudgedErrors {
 
 impl JudgedErrors {
     /// Returns the errors of the machine as built. `distribution` gives the error at a
-    /// configuration; `bounded` is false if its errors have a part that the budget does not have and
-    /// that is not bounded.
+    /// configuration; `bounded` is false if its errors have a part that the budget does not have
+    /// and that is not bounded.
     pub(in crate::analyze) fn as_built<E>(
         budget: &Budget,
         measurand: Measurand,
