@@ -73,8 +73,8 @@ use reach::Inverse;
 pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
 pub use sweep::{BLOCK, Row, Unevaluated, in_order, in_order_until, sweep};
 pub use uncertainty::{
-    COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Statement, compliance, errors_at, normal_compliance,
-    student_95,
+    COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Statement,
+    compliance, errors_at, normal_compliance, student_95,
 };
 pub use workspace::{
     Axis, BaseBox, Configuration, JointGrid, JointSamples, Listed, Presentation, PresentedVolume, ReachedBox,

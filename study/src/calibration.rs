@@ -16,7 +16,9 @@ pub(crate) fn independent_parts(covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
         variance => rest[i][i] / variance,
     };
     for _ in 0..count {
-        let Some(pivot) = (0..count).max_by(|i, j| share(&rest, *i).total_cmp(&share(&rest, *j))) else { break };
+        let Some(pivot) = (0..count).max_by(|i, j| share(&rest, *i).total_cmp(&share(&rest, *j))) else {
+            break;
+        };
         if share(&rest, pivot) <= ROUNDING {
             break;
         }

@@ -13,8 +13,8 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::{Identified, Magnitude, Source, Spec, Uncertain};
 
-use crate::changes::Changes;
 use crate::calibration::independent_parts;
+use crate::changes::Changes;
 use crate::named;
 use crate::table_paths::with_table_paths;
 
@@ -113,8 +113,14 @@ impl Machine {
         }
         let mut spec = Spec::clone(&self.spec);
         let identified = |source: usize| covariance.of.contains(&Identified::Magnitude(source));
-        let replaced: Vec<String> = self.spec.sources.iter().enumerate().filter(|(i, _)| identified(*i))
-            .filter_map(|(_, source)| Some(magnitude_error(source)?.name)).collect();
+        let replaced: Vec<String> = self
+            .spec
+            .sources
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| identified(*i))
+            .filter_map(|(_, source)| Some(magnitude_error(source)?.name))
+            .collect();
         spec.sources.retain(|source| !is_magnitude_error(source) || !replaced.contains(&source.name));
         for part in independent_parts(&covariance.rows) {
             let quantities = covariance.of.iter().map(|one| Uncertain::Identified(*one)).zip(part);

@@ -108,7 +108,8 @@ impl ErrorDistribution {
     /// Returns `‖bias‖ + √(Σ ρ²) + √(Σ b²)` with the norms ρ of the residuals and the bounds b of
     /// the random sources, as the paper adds them.
     pub fn radius(&self) -> f64 {
-        let squares = |norms: &mut dyn Iterator<Item = f64>| norms.map(|norm| norm * norm).sum::<f64>().sqrt();
+        let squares =
+            |norms: &mut dyn Iterator<Item = f64>| norms.map(|norm| norm * norm).sum::<f64>().sqrt();
         norm(self.bias) + squares(&mut self.residuals()) + squares(&mut self.bounds())
     }
 
@@ -127,9 +128,7 @@ impl ErrorDistribution {
     /// − κ_2/(4 κ_1))` and the standard deviation `√κ_2 / (2 √κ_1)`.
     pub fn approximate(&self, limit: f64) -> [f64; 2] {
         let (b, c) = (self.bias, self.covariance());
-        let sum = |f: &dyn Fn(usize, usize) -> f64| {
-            (0..9).map(|k| f(k / 3, k % 3)).sum::<f64>()
-        };
+        let sum = |f: &dyn Fn(usize, usize) -> f64| (0..9).map(|k| f(k / 3, k % 3)).sum::<f64>();
         let mean = b.iter().map(|row| row * row).sum::<f64>() + c[0][0] + c[1][1] + c[2][2];
         let variance = 2.0 * sum(&|i, j| c[i][j] * c[i][j]) + 4.0 * sum(&|i, j| b[i] * c[i][j] * b[j]);
         if mean == 0.0 {
@@ -221,7 +220,11 @@ impl ErrorDistribution {
 impl ErrorsAt<'_> {
     /// Returns the distribution of the error, with the repeatable sources at their values or
     /// corrected.
-    pub fn distribution(&self, measurand: Measurand, correction: Option<Correction<'_>>) -> ErrorDistribution {
+    pub fn distribution(
+        &self,
+        measurand: Measurand,
+        correction: Option<Correction<'_>>,
+    ) -> ErrorDistribution {
         ErrorDistribution::at(self.description, &self.sources, measurand, correction)
     }
 }

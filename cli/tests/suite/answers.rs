@@ -52,7 +52,8 @@ fn every_command_fits_one_screen() {
 fn the_answer_for_the_papers_robot() {
     let text = prints(&["analyze", "pps"]);
     let mut lines = text.lines();
-    let expected = "NPTC patient positioning system: NOT MET as built, tolerance 0.5 mm at 999 configurations";
+    let expected =
+        "NPTC patient positioning system: NOT MET as built, tolerance 0.5 mm at 999 configurations";
     assert_eq!(lines.next(), Some(expected));
     let beginnings = [
         "  as built        5.480 mm   1096 %   P(within) < 0.002 %",

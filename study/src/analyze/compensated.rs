@@ -49,6 +49,9 @@ impl CompensatedSweep {
             all.checked += 1;
             for (measurand, extremes) in Measurand::ALL.into_iter().zip(&mut all.extremes) {
                 let Some(tolerance) = tolerances[measurand as usize] else { continue };
+                if measurand == Measurand::Orientation && !row.oriented {
+                    continue;
+                }
                 let error = ErrorDistribution::at(description, row.sources, measurand, Some(correction));
                 extremes.add(&error, index, tolerance);
             }

@@ -33,10 +33,9 @@ pub use ledger::{allowance_table, ledger, orientation_ledger};
 pub use norm_comparison::{NormComparison, norm_comparison_table};
 pub use report::{
     AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis,
-    ErrorAllowance, Ledger, LedgerEntry,
-    LongestEllipsoid, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport, OrientationSource, Quantity,
-    Radii, Report, RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict,
-    UncertaintyBudget, Verdict, Verdicts,
+    ErrorAllowance, Ledger, LedgerEntry, LongestEllipsoid, MachineVerdicts, MonteCarloErrors,
+    MonteCarloReport, OrientationReport, OrientationSource, Quantity, Radii, Report, RootMeanSquares,
+    SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict, UncertaintyBudget, Verdict, Verdicts,
 };
 pub use uncertainty::{uncertainty_contributions, uncertainty_sentences, uncertainty_totals};
 pub use unreachable::{

@@ -15,8 +15,8 @@ use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, ErrorAllowance,
-    ErrorSites, JudgedErrors, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget,
-    Verdicts,
+    ErrorSites, JudgedErrors, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport,
+    Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget, Verdicts,
 };
 use super::unreachable;
 use crate::bound::CertifiedNorms;
@@ -221,9 +221,10 @@ impl Sweep<'_> {
                 let verdict = |measurand: Measurand, tolerance: Option<f64>| {
                     let verdict = tolerance.map(|tolerance| {
                         let extremes = &swept.extremes[measurand as usize];
-                        let candidates = extremes.candidates().into_iter().map(|index| {
-                            Ok((index, distribution(index, measurand, Some(correction))?))
-                        });
+                        let candidates = extremes
+                            .candidates()
+                            .into_iter()
+                            .map(|index| Ok((index, distribution(index, measurand, Some(correction))?)));
                         let errors = JudgedErrors {
                             measurand,
                             radius: extremes.radius,

@@ -29,7 +29,9 @@ impl Report {
     /// one if it is known.
     pub fn verdict_sentences(&self) -> Vec<String> {
         let Some(verdicts) = &self.verdicts else { return Vec::new() };
-        let Some(compensated) = &verdicts.compensated else { return self.machine_sentences(&verdicts.as_built, None) };
+        let Some(compensated) = &verdicts.compensated else {
+            return self.machine_sentences(&verdicts.as_built, None);
+        };
         let mut sentences = vec![format!(
             "The verdict is on the machine {}.",
             match verdicts.machine {
@@ -66,9 +68,15 @@ impl Report {
         };
         let repeatable = match compensated.map(|compensated| compensated.basis) {
             None => "repeatable sources at their values",
-            Some(CompensationBasis::Stated) => "what the study says compensation leaves of the repeatable sources, with unknown signs",
-            Some(CompensationBasis::Identified) => "all repeatable sources corrected, with the uncertainty of the identified errors",
-            Some(CompensationBasis::Published) => "the published residual of the repeatable sources, in an unknown direction",
+            Some(CompensationBasis::Stated) => {
+                "what the study says compensation leaves of the repeatable sources, with unknown signs"
+            }
+            Some(CompensationBasis::Identified) => {
+                "all repeatable sources corrected, with the uncertainty of the identified errors"
+            }
+            Some(CompensationBasis::Published) => {
+                "the published residual of the repeatable sources, in an unknown direction"
+            }
         };
         let contains = format!("95 % of the errors there have a norm of at most {}.", show(verdict.u95));
         let tolerance = show(verdict.tolerance);

@@ -33,7 +33,8 @@ e_x = "0.01 mm"
 fn read(text: &str, study: &str) -> Result<Report, String> {
     let spec = Spec::parse("slide.toml", text).map_err(|refused| refused.to_string())?;
     let study = format!("[study]\ntitle = \"t\"\n{study}");
-    let study = Study::read(Document::new("study.toml", study), &spec).map_err(|refused| refused.to_string())?;
+    let study =
+        Study::read(Document::new("study.toml", study), &spec).map_err(|refused| refused.to_string())?;
     Ok(Analyze::new(Machine::of_spec(spec, "slide.toml"), study).run(&mut ()).unwrap())
 }
 
@@ -64,7 +65,10 @@ fn stated_share_has_an_unknown_sign() {
     let report = analyzed("\"0.04 mm\"", "[compensation]\ndefault = 0.2\n", "");
     let [built, compensated] = positions(&report);
     let verdicts = report.verdicts.as_ref().unwrap();
-    assert_eq!((verdicts.machine, verdicts.verdict), (JudgedMachine::Compensated, Verdict::MetWithProbability));
+    assert_eq!(
+        (verdicts.machine, verdicts.verdict),
+        (JudgedMachine::Compensated, Verdict::MetWithProbability)
+    );
     assert_eq!(built.verdict, Verdict::NotMet);
     close(compensated.compliance.probability, PHI_2, 4.0 * compensated.compliance.error);
     close(compensated.u95, 0.02 + 0.01 * Z95, 2e-4);
@@ -81,7 +85,8 @@ fn stated_share_has_an_unknown_sign() {
 /// A source that is not named keeps its error with its sign.
 #[test]
 fn what_is_not_compensated_keeps_its_sign() {
-    let other = "[[source]]\nname = \"scale\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"0.03 mm\"\n";
+    let other =
+        "[[source]]\nname = \"scale\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"0.03 mm\"\n";
     let report = analyzed("\"0.05 mm\"", "[compensation]\noffset = 0\n", other);
     let [_, compensated] = positions(&report);
     assert!(compensated.compliance.draws.is_none());
@@ -138,7 +143,8 @@ fn uncertainty_of_an_input_remains() {
 /// A verdict on a compensated machine needs something that says what compensation leaves.
 #[test]
 fn compensated_machine_must_be_known() {
-    let study = "tolerance = { position = \"0.1 mm\", machine = \"compensated\" }\n[workspace.joints]\nsamples = 5\n";
+    let study =
+        "tolerance = { position = \"0.1 mm\", machine = \"compensated\" }\n[workspace.joints]\nsamples = 5\n";
     let refused = read(SLIDE, study).unwrap_err();
     assert!(refused.contains("nothing says what compensation leaves"), "{refused}");
     let both = "[workspace.joints]\nsamples = 5\n[compensation]\nresidual = \"0.1 mm\"\noffset = 0.1\n";

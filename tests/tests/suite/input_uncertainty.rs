@@ -136,7 +136,10 @@ fn uncertainty_of_an_input_is_the_difference_of_the_errors() {
                     let expected = uncertainty * (fine + (fine - coarse) / 3.0);
                     let found = found[frame][i];
                     let room = 1e-7 * expected.abs().max(1e-6);
-                    assert!((found - expected).abs() < room, "{input}, {frame}, {i}: {found}, not {expected}");
+                    assert!(
+                        (found - expected).abs() < room,
+                        "{input}, {frame}, {i}: {found}, not {expected}"
+                    );
                 }
             }
 

@@ -88,8 +88,7 @@ fn figures(report: &Report) -> String {
     };
     let radii = &report.combined.radii;
     let most = norms.and_then(|norms| norms.all_sources());
-    let mut rows =
-        vec![position("as built", radii.radius, position_of(as_built), certified(most))];
+    let mut rows = vec![position("as built", radii.radius, position_of(as_built), certified(most))];
     if let Some(verdict) = compensated.and_then(|verdicts| verdicts.position.as_ref()) {
         let probability = position_of(compensated);
         rows.push(position("compensated", verdict.radius, probability, basis(report)));
@@ -190,7 +189,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         let bounded = number::rounded_up(factor * bounded, decimals(report));
         facts.push((
             "Certified",
-            format!("repeatable + root sum of squares of random bounds; all bounds at once: {bounded} {unit}"),
+            format!(
+                "repeatable + root sum of squares of random bounds; all bounds at once: {bounded} {unit}"
+            ),
         ));
     }
     let published = &report.comparisons;

@@ -99,7 +99,9 @@ impl Declarations {
             document.mistake(
                 Diagnostic::new(item.span(), "`uncertainty` must be positive")
                     .label(format!("this is {value}"))
-                    .help("write the standard uncertainty of the input, or leave it out if the value is exact"),
+                    .help(
+                        "write the standard uncertainty of the input, or leave it out if the value is exact",
+                    ),
             );
         }
         value

@@ -33,8 +33,8 @@ pub use monte_carlo::{MonteCarloErrors, MonteCarloReport};
 pub use orientation::{OrientationReport, OrientationSource};
 pub use source_report::SourceReport;
 pub use source_value::Quantity;
-pub(super) use tolerance_verdict::SEED;
 pub(super) use tolerance_verdict::JudgedErrors;
+pub(super) use tolerance_verdict::SEED;
 pub use tolerance_verdict::{
     CompensatedVerdicts, CompensationBasis, MachineVerdicts, ToleranceVerdict, Verdict, Verdicts,
 };

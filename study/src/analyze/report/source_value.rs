@@ -34,7 +34,10 @@ impl SourceValue {
             return Self { value: magnitude.value, quantity: Quantity::Parameter(String::new()) };
         }
         if let [(Uncertain::Input(input), uncertainty)] = source.propagated[..] {
-            return Self { value: uncertainty, quantity: Quantity::Parameter(spec.inputs[input].unit.clone()) };
+            return Self {
+                value: uncertainty,
+                quantity: Quantity::Parameter(spec.inputs[input].unit.clone()),
+            };
         }
         if let ([], [deviation]) = (&source.effects[..], &source.deviations[..])
             && let Some(value) = deviation.error.constant().filter(|value| *value != 0.0)

@@ -175,8 +175,8 @@ impl JudgedErrors {
         distribution: impl Fn(Option<usize>) -> Result<ErrorDistribution, E>,
     ) -> Result<Self, E> {
         let (sources, combined, _) = budget.errors(measurand);
-        let bounded = bounded
-            && sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
+        let bounded =
+            bounded && sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
         let radius = combined.radius;
         let listed = budget.least_likely_for(measurand).iter().map(|index| Some(*index));
         let mut candidates = Vec::new();
