@@ -96,7 +96,13 @@ const CONFIGURATIONS: usize = 4;
 
 /// Returns whether there are enough data for profiles of these joints: three independent numbers
 /// for each function, and four configurations for each function of one joint.
+///
+/// False for readings that refer to the row before, such as displacements: profiles of them are not
+/// supported.
 pub fn profiles_can_be_known(data: &[Observation], joints: &[ProfileJoint]) -> bool {
+    if data.iter().any(|row| row.from().is_some()) {
+        return false;
+    }
     let (numbers, configurations) = Configurations::independent(data);
     let each = || joints.iter().map(|joint| joint.basis.count());
     numbers >= NUMBERS * each().sum::<usize>()
@@ -104,9 +110,6 @@ pub fn profiles_can_be_known(data: &[Observation], joints: &[ProfileJoint]) -> b
 }
 
 /// Fits profiles of joints beside the unknowns of a fit, whose priors they share.
-///
-/// Readings that refer to the row before, such as displacements, are not supported: the functions
-/// are evaluated at their own row alone.
 ///
 /// Keeps those that reduce the squared cross-validation error by half a percent each; none if there
 /// are none. `model` and `data` are those of the fit. Each trial calls `proceed`, which returns
