@@ -38,9 +38,13 @@ pub enum DerivedKind {
 /// Time constants that are tried for settling, in rows.
 const SETTLING: [f64; 7] = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0];
 
-/// Returns the inputs that the families need in addition to those of the map. `rows` is the number
-/// of fitted rows.
-pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], rows: usize) -> Vec<Derived> {
+/// Returns the inputs that the families need in addition to those of the map, for these rows of the
+/// fit.
+///
+/// With several stations there is none for drift: along the file, time and station cannot be
+/// distinguished.
+pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], data: &Data) -> Vec<Derived> {
+    let rows = data.observations.len();
     let moved: Vec<usize> = map.moved().collect();
     let mut all = Vec::new();
     let mut add = |name: String, kind| {
@@ -71,7 +75,7 @@ pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], rows: usize) 
             }
         }
     }
-    if families.contains(&Family::Drift) {
+    if families.contains(&Family::Drift) && has_one_station(data) {
         // A time constant longer than half of the rows cannot be distinguished from a drift.
         for after in SETTLING.into_iter().filter(|after| *after <= rows as f64 / 2.0) {
             add(format!("settling_{after}"), DerivedKind::Settling(after));
@@ -79,6 +83,11 @@ pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], rows: usize) 
         add("drift".to_owned(), DerivedKind::Drift);
     }
     all
+}
+
+/// Returns true if all rows were measured at the same station.
+pub(super) fn has_one_station(data: &Data) -> bool {
+    data.observations.windows(2).all(|pair| pair[0].station == pair[1].station)
 }
 
 /// Returns the spec with the derived inputs after its own.

@@ -97,7 +97,7 @@ impl FoundModel {
         let as_found = |(row, k): (usize, &usize)| (row, fit.x[*k], deviations[*k].unwrap_or_default());
         let values: Vec<(usize, f64, f64)> = joint_errors
             .map_or_else(|| kept.iter().enumerate().map(as_found).collect(), |one| one.others.clone());
-        let placed = FoundPlacement::new(model, fit, pose);
+        let placed = FoundPlacement::new(model, fit, &data.observations, pose);
         let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
         let first = model.unknowns.len() - solved.terms.len();
         for (row, value, standard_deviation) in values {

@@ -1,10 +1,11 @@
 //! Identified placement of the machine and of what is mounted on its tool.
 
-use abbe::identify::{Fit, FixtureGeometry, Model, Unknown};
+use abbe::identify::{Fit, FixtureGeometry, Model, Observation, Unknown};
 use abbe::{Component, Pose};
 use serde::Serialize;
 
 use super::setup::{error_pose, fitted_fixture, fitted_stations, fitted_zero};
+use super::unread::read;
 
 /// Identified placement of stations, tool and instruments.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -60,8 +61,10 @@ pub struct FoundStation {
 }
 
 impl FoundPlacement {
-    /// Collects the placement from a fit. `pose` is true if whole poses were measured.
-    pub(super) fn new(model: &Model, fit: &Fit, pose: bool) -> Self {
+    /// Collects the placement from a fit of these rows. `pose` is true if whole poses were
+    /// measured. Instruments that were never read are left out.
+    pub(super) fn new(model: &Model, fit: &Fit, rows: &[Observation], pose: bool) -> Self {
+        let read = read(model, rows);
         let among = |unknown: Unknown| {
             let k = model.unknowns.iter().position(|u| *u == unknown)?;
             fit.identifiable.kept.iter().position(|kept| *kept == k)
@@ -118,7 +121,7 @@ impl FoundPlacement {
         let first = |i: &usize| {
             let reading = &model.observables[*i];
             let is_first = *i == 0 || model.observables[i - 1].instrument != reading.instrument;
-            is_first && (reading.fixture.is_some() || !reading.zero_known)
+            is_first && read[*i] && (reading.fixture.is_some() || !reading.zero_known)
         };
         Self {
             stations: stations.collect(),

@@ -3,10 +3,9 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
-use abbe::LengthUnit;
 use abbe::identify::{
-    Comparison, Configurations, Distances, Failure, Figures, Fit, FixtureGeometry, Independent, Model,
-    Selection, Unknown, deviation_beyond, drift, student_factor,
+    Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Selection,
+    deviation_beyond, drift, student_factor,
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
@@ -17,31 +16,29 @@ use super::as_joint_errors::{AsJointErrors, number_terms};
 use super::candidates::candidates;
 use super::choose::{Chosen, choose};
 use super::counts::Counts;
-use super::derived::{Derived, derived, with_columns, with_inputs};
+use super::derived::{Derived, derived, has_one_station, with_columns, with_inputs};
 use super::drift::ResidualDrift;
 use super::extended::extended;
 use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
 use super::found_model::FoundModel;
-use super::indistinguishable::{combination, indistinguishable};
+use super::indistinguishable::indistinguishable;
 use super::instruments::{estimate, instrument_fits};
 use super::interpretation_check::check_interpretation;
-use super::magnitude::{OwnMagnitude, own_magnitudes};
+use super::magnitude::own_magnitudes;
 use super::options::{LOSSES, Settings, TERMS};
+use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, check_plausibility};
 use super::point_residuals::{EvaluatedModel, PointResidual};
-use super::report::{
-    Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
-    TermGain,
-};
+use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::{Solved, solve};
 use super::terms::Term;
 use super::train_test_overlap::{overlap_warning, train_test_overlap};
+use super::unread::without_unread;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Data, Map, Summary};
-use crate::number::digits;
 use crate::{Acceptance, Machine, Notes, finite, mistake, number};
 
 /// Identification of the errors of a machine from measurements.
@@ -116,7 +113,7 @@ impl Identify {
                  cross-validation"
             ));
         }
-        let derived = derived(&machine.spec, map, &self.terms, data.observations.len());
+        let derived = derived(&machine.spec, map, &self.terms, &data);
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());
         let completed = |data, fitted| {
@@ -222,8 +219,7 @@ fn report(
     refuse_worse(&compared_fit, data, setup, map)?;
     let o = identifiable.observability;
     let length = map.uncertainty.length;
-    let at_stations = |test| Data::at_stations(test, data).map_err(|name| unknown_station(test, &name));
-    let test = test.map(at_stations).transpose()?;
+    let test = test.map(|test| comparable(test, data, model)).transpose()?;
     let test = test.as_deref();
     let assess = |test: &Data| compare(solved, &setup.delivered, test, |_| true);
     let test_sizes = test.map(assess).transpose()?;
@@ -252,6 +248,11 @@ fn report(
         extrapolation.map_err(|failure| mistake::whole(&test.file, &failure))
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
+    let no_drift = (job.terms.contains(&Family::Drift) && !has_one_station(data)).then(|| {
+        "note: drift terms were not tried, because along these rows time cannot be distinguished \
+         from the station"
+            .to_owned()
+    });
     let extrapolation = test.map(extrapolation).transpose()?.flatten();
     let points = if settings.points { points(solved, data, test)? } else { Vec::new() };
     Ok(Report {
@@ -309,7 +310,7 @@ fn report(
         drift: drift_test.map(|drift| ResidualDrift::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,
-        notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).collect(),
+        notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).chain(no_drift).collect(),
         record: map.record.with_options(job.options()),
         points,
         files,
@@ -359,52 +360,6 @@ fn gain(spec: &Spec, found: &FoundModel, terms: &[Term], selection: &Selection, 
     }
 }
 
-/// Returns the identified magnitudes of the sources of the spec.
-fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
-    let Solved { model, fit, own, .. } = solved;
-    let deviations = fit.standard_deviations();
-    let one = |own: &OwnMagnitude| {
-        let of_this = |k: &usize| solved.own_magnitude(*k).is_some_and(|one| one.source == own.source);
-        let k = (0..model.unknowns.len()).find(of_this);
-        let (source, declared) = (spec.sources[own.source].name.clone(), own.declared.value);
-        let declared_deviation = own.declared.standard_deviation;
-        let standard_deviation = k.and_then(|k| deviations[k]);
-        let value = declared + k.map_or(0.0, |k| fit.x[k]);
-        let before = match declared_deviation {
-            Some(deviation) => format!("{} ± {}", digits(declared, 3), digits(deviation, 2)),
-            None => digits(declared, 3),
-        };
-        let stands_for: Vec<(String, f64)> = k.map_or(Vec::new(), |k| solved.held_magnitudes(spec, k));
-        let combination = match &stands_for[..] {
-            [] => String::new(),
-            others => {
-                let own = (source.clone(), 1.0);
-                let all = std::iter::once(own).chain(others.iter().cloned()).collect::<Vec<_>>();
-                format!("; these data determine the combination {} only", combination(&all))
-            }
-        };
-        let sentence = match standard_deviation {
-            Some(deviation) if k.is_some_and(|k| fit.weakly_determined().contains(&k)) => format!(
-                "the magnitude of {source} is {} ± {}, which these data determine less well than \
-                 the spec: {before}",
-                digits(value, 3),
-                digits(deviation, 2)
-            ),
-            Some(deviation) => format!(
-                "the magnitude of {source} is {} ± {} (in the spec: {before}){combination}",
-                digits(value, 4),
-                digits(deviation, 2)
-            ),
-            None => format!(
-                "the magnitude of {source} is indistinguishable from other errors in these data; \
-                 in the spec: {before}"
-            ),
-        };
-        Magnitude { source, declared, declared_deviation, value, standard_deviation, stands_for, sentence }
-    };
-    own.iter().map(one).collect()
-}
-
 /// Returns the residuals of every point, for plots.
 fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<PointResidual>, Diagnostics> {
     let Solved { simple, simple_x, model, fit, .. } = solved;
@@ -421,50 +376,23 @@ fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<Point
     Ok(points)
 }
 
-fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Parameter> {
-    let Solved { model, fit, .. } = solved;
-    let (deviations, hardly) = (fit.standard_deviations(), fit.weakly_determined());
-    let parameter = |k: &usize| {
-        let unknown = model.unknowns[*k];
-        let (frame, rotation) = match unknown {
-            Unknown::Base(_, component) => (Some(0), component.is_rotation()),
-            Unknown::Error(frame, component) => (Some(frame + 1), component.is_rotation()),
-            Unknown::Tool(component) => (None, component.is_rotation()),
-            Unknown::Fixture(fixture, _) => {
-                (None, matches!(model.fixtures[fixture].geometry, FixtureGeometry::Direction(_)))
-            }
-            Unknown::Zero(reading) => (None, model.observables[reading].kind.is_angle),
-            Unknown::Target(..) | Unknown::Magnitude(_) => (None, false),
-        };
-        let frame_name =
-            |frame: usize| frame.checked_sub(1).map_or("base", |i| &setup.description.frames[i].name);
-        let kind = match unknown {
-            Unknown::Base(..) => Kind::Station,
-            unknown if unknown.is_placement() => Kind::Placement,
-            _ => Kind::Machine,
-        };
-        Parameter {
-            kind,
-            name: model.name(unknown),
-            frame,
-            frame_name: frame.map(|frame| frame_name(frame).to_owned()),
-            value: fit.x[*k] + solved.own_magnitude(*k).map_or(0.0, |own| own.declared.value) + 0.0,
-            standard_deviation: deviations[*k].unwrap_or_default(),
-            unit: match unknown {
-                Unknown::Magnitude(_) => "",
-                _ if rotation => "rad",
-                _ => length.symbol(),
-            },
-            hardly_known: hardly.contains(k),
-        }
-    };
-    fit.identifiable.kept.iter().map(parameter).collect()
-}
-
 fn unknown_station(test: &Data, name: &str) -> Diagnostics {
     let message = format!("there is no station `{}` in the fitted data", name.escape_debug());
     let help = "fit a station of the identified machine by `abbe measure --station new`";
     mistake::with_help(&test.file, message, help)
+}
+
+/// Returns the test rows at the stations of the fit, with the readings whose instruments it located.
+fn comparable<'d>(test: &'d Data, data: &Data, model: &Model) -> Result<Cow<'d, Data>, Diagnostics> {
+    let placed = test.at_stations(data).map_err(|name| unknown_station(test, &name))?;
+    without_unread(model, &data.observations, placed).ok_or_else(|| nothing_placed(&test.file))
+}
+
+/// Returns the error that the test rows read only instruments that the fitted rows do not read.
+fn nothing_placed(file: &str) -> Diagnostics {
+    let message = "the fitted rows read none of the instruments of these rows, whose places are unknown";
+    let help = "fit rows that read the same instruments, or omit --test and rely on cross-validation";
+    mistake::with_help(file, message, help)
 }
 
 fn compare(

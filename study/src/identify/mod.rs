@@ -14,8 +14,9 @@
 //! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
 //! `covariance_writer` the covariance, and `map_writer` the map. The `report` contains `counts`,
 //! `as_joint_errors` (errors as `chain_numbers`: zeros and lengths) and their `alternatives`, what
-//! is `indistinguishable` or `weakly_determined`, `drift`, `extrapolation`, the `scale`, and
-//! `point_residuals` for plots. `job` runs all of it.
+//! is `indistinguishable` or `weakly_determined`, `parameters`, `drift`, `extrapolation`, the
+//! `scale`, and `point_residuals` for plots. `unread` are instruments without a reading. `job` runs
+//! all of it.
 
 mod alternatives;
 mod as_joint_errors;
@@ -42,6 +43,7 @@ mod map_interpretation;
 mod map_writer;
 pub mod options;
 mod outliers;
+mod parameters;
 mod plausibility;
 mod point_residuals;
 mod priors;
@@ -52,6 +54,7 @@ mod solve;
 mod spec_writer;
 mod terms;
 mod train_test_overlap;
+mod unread;
 mod weakly_determined;
 
 pub use alternatives::Alternative;

@@ -415,3 +415,38 @@ fn displacements_between_pairs_of_poses_identify_the_machine() {
     assert_eq!(data.observations.len(), 1);
     assert!(data.unusable[0].reason.contains("no row before it"), "{:?}", data.unusable);
 }
+
+/// A sphere that the fitted rows never touch has no identified place, and its readings in test rows
+/// do not count: they would be compared with its nominal place.
+#[test]
+fn instruments_that_were_never_read_have_no_place() {
+    let kinds = [("first", 1, PLACES[0]), ("second", 2, PLACES[1])];
+    let of = |moved: &str| {
+        let one = |(name, setup, at): &(&str, i32, &str)| {
+            let at = if *name == "second" { at.replace("-350 mm", moved) } else { (*at).to_owned() };
+            format!(
+                "[[instrument]]\nname = \"{name}\"\nkind = \"distance\"\ncolumn = \"length\"\nunit = \"mm\"\n{at}\nzero = \"0 mm\"\nuncertainty = \"0.01 mm\"\nsetup = {setup}\n"
+            )
+        };
+        map(&kinds.iter().map(one).collect::<String>())
+    };
+    // The second bar stands 5 mm beside its nominal place.
+    let data = simulated(&of("-345 mm"), 200, 3);
+    let map = of("-350 mm");
+    let in_setup = |data: &Data, setup: usize| {
+        let mut data = data.clone();
+        let is_read = |row: &abbe::identify::Observation| match &row.measured {
+            abbe::identify::Measurement::Readings(readings) => readings[setup - 1].is_some(),
+            _ => false,
+        };
+        data.observations.retain(is_read);
+        data
+    };
+    let first = in_setup(&data, 1);
+    assert!(first.observations.len() > 50 && in_setup(&data, 2).observations.len() > 50);
+    let nominal = nominal();
+    let report = identified_with(&map, first.clone(), Some(simulated(&of("-345 mm"), 100, 5)), 0.002);
+    let text = report.found.identified_map(&map, &nominal.spec, "found.map.toml").unwrap();
+    assert_eq!(text.matches("[[place]]").count(), 1, "{text}");
+    assert!(report.test.unwrap().after.rms < 0.05, "{:?}", report.test);
+}

@@ -71,3 +71,42 @@ fn backlash_and_drift_are_tried_with_displacements() {
         assert!(report.tried > 0, "{family:?}");
     }
 }
+
+/// Along several stations, time and station are the same thing: no drift is tried, and the report
+/// says so.
+#[test]
+fn drift_is_not_tried_across_stations() {
+    let machine = Machine::find("ur5").unwrap();
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"rad\" }}\n")).collect();
+    let text = format!(
+        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"unknown\"\n\n[joints]\n{joints}\n[point]\n\
+         columns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n"
+    );
+    let map = Map::parse("map.toml", &text, &machine.spec).unwrap();
+    let at = Places::Samples(80);
+    let job = Simulate {
+        machine: machine.clone(),
+        map: map.clone(),
+        at,
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed: 4,
+    };
+    let mut observations = job.run(&mut ()).unwrap().observations;
+    observations[40..].iter_mut().for_each(|row| row.station = 1);
+    let stations = ["first", "second"].map(str::to_owned).to_vec();
+    let data = Data { file: "simulated".to_owned(), observations, stations, ..Data::default() };
+    let settings =
+        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
+    let (terms, harmonics, accept) = (vec![Family::Drift], Vec::new(), Acceptance::default());
+    let job = Identify { machine, map, data, test: None, terms, harmonics, settings, accept };
+    let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
+    assert!(report.terms.is_empty() && report.tried == 0, "{:?}", report.terms);
+    assert!(
+        report.notes.iter().any(|note| note.contains("drift terms were not tried")),
+        "{:?}",
+        report.notes
+    );
+}
