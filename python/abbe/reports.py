@@ -529,7 +529,7 @@ class CompensatedVerdicts(Fields):
     """Verdicts on the compensated machine."""
 
     basis: Literal["stated", "identified", "published"]
-    """What says how much compensation leaves."""
+    """Origin of what is known of the errors after compensation."""
 
     checked: int
     """Number of configurations at which the compensated errors were evaluated."""

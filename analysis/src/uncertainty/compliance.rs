@@ -7,8 +7,8 @@ use crate::normal::{NormalVector, PROBABILITY_ERROR};
 
 /// Computes the probability that `‖Σ r_k + Σ t_k a_k‖ ≤ limit`, with the magnitudes a and the
 /// errors t of the random sources. If these are all normal with known standard deviations, or there
-/// are none, it is the integral of [`NormalVector`]. Otherwise it is estimated by [`DRAWS`](super::DRAWS) draws,
-/// which depend on the seed alone.
+/// are none, it is the integral of [`NormalVector`]. Otherwise it is estimated by
+/// [`DRAWS`](super::DRAWS) draws, which depend on the seed alone.
 pub fn compliance(errors: &ErrorsAt, measurand: Measurand, limit: f64, seed: u64) -> Compliance {
     within(errors.bias(measurand), &errors.random(measurand), limit, seed)
 }

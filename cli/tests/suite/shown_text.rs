@@ -13,7 +13,7 @@ use crate::workshop::Workshop;
 /// override, isolate, and a noncharacter.
 const HOSTILE: &str = "\u{1b}[31m\u{9b}2J\u{2028}\u{202e}\u{2066}\u{ffff}";
 
-/// The same as an escape of TOML.
+/// Returns these characters as escapes of TOML.
 fn in_toml() -> String {
     HOSTILE.chars().map(|c| format!("\\U{:08X}", u32::from(c))).collect()
 }

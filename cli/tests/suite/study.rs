@@ -215,14 +215,15 @@ fn an_interruption_leaves_no_half_written_file() {
     assert!(!out.exists());
 }
 
-/// Position figures and verdicts do not depend on the representation of orientations: configurations
-/// at singular Euler angles count. The orientation figures leave them out, and the report says so.
+/// Position figures and verdicts do not depend on the representation of orientations:
+/// configurations at singular Euler angles count. The orientation figures leave them out, and the
+/// report says so.
 #[test]
 fn euler_singularities_count_for_the_position() {
     let folder = tempdir().unwrap();
     let file = |name: &str, text: &str| write(folder.path(), name, text).to_str().unwrap().to_owned();
-    // The slide turns the tool a little, so that the general search solves for it, and only its home
-    // is singular.
+    // The slide turns the tool a little, so that the general search solves for it, and only its
+    // home is singular.
     let spec = |orientation: &str| {
         let text = format!(
             "[manipulator]\nname = \"gantry\"\nlength = \"mm\"\norientation = \"{orientation}\"\n\

@@ -6,8 +6,8 @@
 //!
 //! The other files turn the report into text: `summary` and `verdict` (first sentences), `ledger`
 //! and `uncertainty` (tables), `norm_comparison` (certified bounds), `agreement` (published
-//! figures), `unreachable` (reasons), `compensated` (the machine after compensation), `conclusions`
-//! (closing sentences), and `unit` (units).
+//! figures), `unreachable` (reasons), `singular` (Euler angles), `compensated` (the machine after
+//! compensation), `conclusions` (closing sentences), and `unit` (units).
 
 mod agreement;
 mod compensated;
@@ -20,6 +20,7 @@ mod norm_comparison;
 pub mod options;
 pub mod parts;
 mod report;
+mod singular;
 mod summary;
 mod sweep;
 mod uncertainty;

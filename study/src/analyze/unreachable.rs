@@ -1,37 +1,10 @@
-//! Unreachable configurations of the workspace, with reasons, and those without orientation rows.
+//! Unreachable configurations of the workspace, with reasons.
 
-use abbe::analysis::{Configuration, Measurand, ReachError, Unreachable, UnreachableSummary};
+use abbe::analysis::{Configuration, ReachError, Unreachable, UnreachableSummary};
 use abbe_spec::Spec;
 use serde::Serialize;
 
-use super::report::Report;
 use crate::number;
-
-impl Report {
-    /// Returns the number of configurations at which the rows of a measurand exist.
-    pub fn configurations_of(&self, measurand: Measurand) -> usize {
-        match measurand {
-            Measurand::Position => self.configurations,
-            Measurand::Orientation => self.orientation.configurations,
-        }
-    }
-
-    /// Returns the number of reached configurations at which Euler angles are singular: they count
-    /// for the position alone.
-    pub fn singular(&self) -> usize {
-        self.configurations - self.orientation.configurations
-    }
-
-    /// Returns a sentence on these configurations.
-    pub fn singular_sentence(&self) -> String {
-        format!(
-            "Euler angles are singular at {} of {} configurations: those count for the position, not \
-             for the orientation.",
-            self.singular(),
-            self.configurations,
-        )
-    }
-}
 
 /// Number of configurations that are listed individually.
 const SHOWN: usize = 3;

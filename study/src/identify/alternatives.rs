@@ -259,8 +259,8 @@ fn is_equal(a: &DVector<f64>, b: &DVector<f64>) -> bool {
 /// A rotation by θ moves a point at the distance r from the axis by `2 r sin(θ/2)`.
 fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Option<String>, Failure> {
     const ANGLE: f64 = 0.7;
-    let variables = setup.description.variables.iter().enumerate();
-    let last = variables.filter(|(_, variable)| variable.kind == VariableKind::Revolute).next_back();
+    let mut variables = setup.description.variables.iter().enumerate();
+    let last = variables.rfind(|(_, variable)| variable.kind == VariableKind::Revolute);
     let (Some((joint, variable)), Some(row)) = (last, rows.first()) else { return Ok(None) };
     if setup.pose || setup.ideal.targets.is_empty() {
         return Ok(None);

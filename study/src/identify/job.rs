@@ -382,7 +382,8 @@ fn unknown_station(test: &Data, name: &str) -> Diagnostics {
     mistake::with_help(&test.file, message, help)
 }
 
-/// Returns the test rows at the stations of the fit, with the readings whose instruments it located.
+/// Returns the test rows at the stations of the fit, with the readings whose instruments it
+/// located.
 fn comparable<'d>(test: &'d Data, data: &Data, model: &Model) -> Result<Cow<'d, Data>, Diagnostics> {
     let placed = test.at_stations(data).map_err(|name| unknown_station(test, &name))?;
     without_unread(model, &data.observations, placed).ok_or_else(|| nothing_placed(&test.file))

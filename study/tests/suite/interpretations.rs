@@ -289,7 +289,7 @@ fn impossible_lengths_are_refused() {
     assert!(fitted.is_ok() && !said.contains("changes a length"), "{fitted:?} {said}");
 }
 
-/// Where joints do not move, the doctor names them instead of doubting the machine.
+/// The doctor names joints that do not move instead of doubting the machine.
 #[test]
 fn the_doctor_names_joints_at_rest() {
     let row =

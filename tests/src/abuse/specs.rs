@@ -16,6 +16,9 @@ const NAMES: &str = "default default_ result results Vec vec self_ Self_ String 
     constructor prototype toString lookup i k e_x e_s links v1_s m1 e1_x _x x_ x__ a__b aB A B_ async_ union raw_ dyn_ \
     macro_rules auto static_ w yields wher D1 d_1 h_1 LOOKUP TABLE_ UP_TABLE one_sided index row column";
 
+/// Escapes of characters that a name must not contain.
+const REFUSED_IN_NAMES: [&str; 4] = ["\\u202E", "\\u2066", "\\u2028", "\\uFEFF"];
+
 /// Words for titles, descriptions, and names of frames and sources: ends of comments and strings,
 /// changes of writing direction, code.
 const WORDS: [&str; 46] = [
@@ -117,7 +120,9 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
     let said =
         |c: &mut Choices<'_>, lines| if hostile.is_some() { words(c, lines) } else { "said".to_owned() };
     let title = |c: &mut Choices<'_>, of: usize| -> String {
-        let said: String = said(c, false).chars().take(60).collect();
+        let said = said(c, false);
+        let said = REFUSED_IN_NAMES.iter().fold(said, |said, escape| said.replace(escape, "\\u00AD"));
+        let said: String = said.chars().take(60).collect();
         // Not within an escape sequence.
         let said = said.trim_end_matches(|x: char| x == '\\' || x.is_ascii_hexdigit() || x == 'u');
         format!("{of} {said}")

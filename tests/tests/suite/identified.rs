@@ -147,8 +147,8 @@ fn a_named_source_is_kept_before_errors_that_act_alike() {
     assert!(report.magnitudes[0].sentence.contains("is indistinguishable from"), "{:?}", report.magnitudes);
 }
 
-/// Of two magnitudes that act as each other, one is fitted and stands for both: its sentence states
-/// the combination.
+/// Two magnitudes act as each other: one is fitted and stands for both, and its sentence states the
+/// combination.
 #[test]
 fn a_magnitude_states_the_combination_that_it_stands_for() {
     let source = |name: &str, error: &str, value: f64| {
