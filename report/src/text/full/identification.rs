@@ -58,7 +58,7 @@ fn parameters(spec: &Spec, report: &Report) -> String {
     let mut text = format!("Errors of the machine, all others fixed at zero\n{table}");
     if !report.meanings.is_empty() {
         let sentences: String =
-            report.meanings.iter().map(|meaning| format!("{}\n", wrapped(&meaning.sentence, 2))).collect();
+            report.meanings.iter().map(|meaning| format!("  {}\n", wrapped(&meaning.sentence, 2))).collect();
         text += &format!(
             "Equivalent joint offsets and DH errors (in place of the error in \
              brackets)\n{sentences}"
