@@ -43,7 +43,7 @@ mod manipulator;
 mod not_toml;
 
 pub use manipulator::{
-    Axes, Beam, Cause, ChainNumber, Compliance, Covariance, Deviation, DhConvention, DhNumber, Effect,
-    Factor, Fitted, Frame, Identified, Input, Load, MAGNITUDE, Magnitude, Matrix, Parameter, Point, Source,
-    Spec, TABLES, Uncertain, Variable, as_identifier, check_name, rules,
+    Axes, Beam, Cause, ChainNumber, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
+    DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, MAGNITUDE, Magnitude, Matrix,
+    Parameter, Point, Source, Spec, TABLES, Uncertain, Variable, as_identifier, check_name, rules,
 };

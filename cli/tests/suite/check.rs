@@ -192,7 +192,7 @@ fn inputs_and_loads_without_effect_are_noted() {
         notes(&spec("1 um", "")),
         [
             "The input `warming` is not used: no source or load depends on it.",
-            "1 load has no effect: no `beam` or `compliance` at its frame or before it carries it."
+            "1 load has no effect: no elastic source at its frame or before it carries it."
         ]
     );
     assert_eq!(notes(&spec("1 um/K * warming", elastic)), Vec::<String>::new());

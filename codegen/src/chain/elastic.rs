@@ -8,6 +8,7 @@ use abbe_core::Component;
 use abbe_spec::expr::{Function, Motion, motion};
 use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
 
+use super::deviation::FrameTwist;
 use super::six::{six, vectors};
 use super::walk::transform;
 use crate::graph::{Frame, Graph, Node, Vector};
@@ -150,6 +151,30 @@ impl<'a> Loads<'a> {
             let force = local(graph, &there.axes, weight.force);
             let under_own_weight = own_weight(graph, beam, length, force);
             sum = add(graph, sum, under_own_weight);
+        }
+        sum
+    }
+
+    /// Returns the moment of the loads about a joint, or the force along it: their power per unit of
+    /// the joint's speed, with the twists `(v, ω)` of the frames whose transform has the joint,
+    ///
+    /// ```text
+    /// Σ_i  v_i · f_i + ω_i · m_i        (f_i, m_i): wrench at the origin of frame i of all loads at and behind it
+    /// ```
+    pub(super) fn on_joint(&self, graph: &mut Graph, twists: &[FrameTwist]) -> Node {
+        let mut sum = graph.zero();
+        for twist in twists {
+            let at_or_behind = self.acting.iter().filter(|load| load.frame >= twist.frame);
+            let mut carried: Vec<Acting> = at_or_behind.copied().collect();
+            for weight in self.weights.iter().filter(|weight| weight.effect.frame >= twist.frame) {
+                carried.push(weight.of_last(graph, weight.length));
+            }
+            let Frame { axes, position } = self.frames[twist.frame];
+            let (force, moment) = vectors(self.wrench(graph, &axes, position, &carried));
+            for (velocity, load) in [(twist.velocity, force), (twist.rotation, moment)] {
+                let power = graph.dot(velocity, load);
+                sum = graph.add(sum, power);
+            }
         }
         sum
     }

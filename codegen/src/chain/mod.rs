@@ -58,7 +58,7 @@ pub(crate) use real::displaced;
 pub use remainder::Remainder;
 pub use residual::Residual;
 pub(crate) use rows::Rows;
-pub use sources::{EffectNode, effects};
+pub use sources::{DeviationNode, EffectNode, deviations, effects};
 pub(crate) use symbol_jacobian::swing;
 pub use tool_compliance::ToolCompliance;
 pub use walk::transform;

@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use abbe_core::{Class, Component};
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Cause, ChainNumber, Effect, Identified, Source, Spec, Uncertain};
+use abbe_spec::{Cause, ChainNumber, Deviation, DeviationCause, Effect, Identified, Source, Spec, Uncertain};
 
-use super::deviation::frame_twists;
+use super::deviation::{FrameTwist, frame_twists};
 use super::elastic::{Element, Loads};
 use super::six::{six, vectors};
 use super::walk::{transform, walk};
@@ -65,19 +65,26 @@ pub(super) struct PlacedErrors {
 
 /// Deviation of a number of the chain.
 #[derive(Clone, Debug)]
-pub(super) struct DeviationNode {
+pub struct DeviationNode {
     /// Index of the source among the enabled ones.
-    pub(super) source: usize,
+    pub source: usize,
     /// The number that deviates.
-    pub(super) number: ChainNumber,
-    /// Actual minus nominal value.
-    pub(super) error: Node,
+    pub number: ChainNumber,
+    /// Actual minus nominal value, times the magnitude of the source.
+    pub error: Node,
 }
 
 /// Returns the effects of every enabled source, with a graph of their own.
 pub fn effects(spec: &Spec) -> (Graph, Vec<EffectNode>) {
     let (graph, effects, _) = effects_and_causes(spec);
     (graph, effects)
+}
+
+/// Returns the deviations of numbers of the chain by every enabled source, with a graph of their
+/// own.
+pub fn deviations(spec: &Spec) -> (Graph, Vec<DeviationNode>) {
+    let (graph, _, causes) = effects_and_causes(spec);
+    (graph, causes.deviations)
 }
 
 /// Returns the effects and their causes, with a graph of their own. Deflections are computed in the
@@ -88,8 +95,12 @@ pub(super) fn effects_and_causes(spec: &Spec) -> (Graph, Vec<EffectNode>, Causes
     let identity = g.identity();
     let frames = poses(g, spec, 0);
     let effects = spec.enabled_sources().flat_map(|source| &source.effects);
-    let elastic: BTreeSet<usize> =
+    let mut elastic: BTreeSet<usize> =
         effects.filter(|effect| effect.cause.is_elastic()).map(|effect| effect.frame).collect();
+    let joints = spec.enabled_sources().flat_map(|source| &source.deviations);
+    for joint in joints.filter(|deviation| deviation.is_elastic()) {
+        elastic.extend(frame_twists(g, spec, joint.number).first().map(|twist| twist.frame));
+    }
     // From each frame with an elastic element, the poses of the frames behind it.
     let seen: BTreeMap<usize, Vec<Frame>> = elastic
         .into_iter()
@@ -136,13 +147,11 @@ pub(super) fn effects_in<'a>(
             causes.errors.push(PlacedErrors { source, frame: effect.frame, place, errors });
         }
         for deviation in &declared.deviations {
-            let error = graph.lower(&deviation.error);
+            let twists = frame_twists(graph, spec, deviation.number);
+            let error = deviation_error(graph, deviation, &twists, &loads);
             let whole = graph.mul(times, error);
             causes.deviations.push(DeviationNode { source, number: deviation.number, error: whole });
-            for twist in frame_twists(graph, spec, deviation.number) {
-                let (shift, turn) = (graph.scale(error, twist.velocity), graph.scale(error, twist.rotation));
-                add(graph, &mut sums[twist.frame], six(shift, turn));
-            }
+            add_deviation(graph, &mut sums, &twists, error);
         }
         sums.as_flattened_mut().iter_mut().for_each(|sum| *sum = graph.mul(times, *sum));
         all.push(sums);
@@ -225,7 +234,7 @@ fn times(graph: &mut Graph, source: &Source) -> Node {
 }
 
 /// Returns the errors of the enabled repeatable beams and compliances under loads, six per frame.
-pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads) -> Vec<[Node; 6]> {
+pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads<'_>) -> Vec<[Node; 6]> {
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
     for source in spec.enabled_sources().filter(|source| source.class == Class::Repeatable) {
         let times = times(graph, source);
@@ -235,8 +244,40 @@ pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads) -> V
             let errors = at_frame(graph, &place, there);
             add(graph, &mut sums[effect.frame], errors);
         }
+        for deviation in source.deviations.iter().filter(|deviation| deviation.is_elastic()) {
+            let twists = frame_twists(graph, spec, deviation.number);
+            let error = deviation_error(graph, deviation, &twists, |_| loads);
+            let error = graph.mul(times, error);
+            add_deviation(graph, &mut sums, &twists, error);
+        }
     }
     sums
+}
+
+/// Returns actual minus nominal value of a number of the chain, given its twists.
+fn deviation_error<'a>(
+    graph: &mut Graph,
+    deviation: &Deviation,
+    twists: &[FrameTwist],
+    loads: impl Fn(usize) -> &'a Loads<'a>,
+) -> Node {
+    match (&deviation.cause, twists.first()) {
+        (DeviationCause::Error(error), _) => graph.lower(error),
+        (DeviationCause::Stiffness(stiffness), Some(first)) => {
+            let load = loads(first.frame).on_joint(graph, twists);
+            let stiffness = graph.lower(stiffness);
+            graph.div(load, stiffness)
+        }
+        (DeviationCause::Stiffness(_), None) => graph.zero(),
+    }
+}
+
+/// Adds the errors that a deviation causes at the frames with these twists.
+fn add_deviation(graph: &mut Graph, sums: &mut [[Node; 6]], twists: &[FrameTwist], error: Node) {
+    for twist in twists {
+        let (shift, turn) = (graph.scale(error, twist.velocity), graph.scale(error, twist.rotation));
+        add(graph, &mut sums[twist.frame], six(shift, turn));
+    }
 }
 
 fn add(graph: &mut Graph, sums: &mut [Node; 6], errors: [Node; 6]) {

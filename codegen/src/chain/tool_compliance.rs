@@ -2,7 +2,7 @@
 //! sought.
 
 use abbe_core::Class;
-use abbe_spec::Spec;
+use abbe_spec::{Source, Spec};
 
 use super::accumulate::Links;
 use super::elastic::Loads;
@@ -10,7 +10,7 @@ use super::joint_columns::at_tool;
 use super::sources::elastic_errors;
 use crate::graph::{Graph, Node};
 
-/// Compliance of the tool point due to the enabled repeatable beams and compliances, in the spec's
+/// Compliance of the tool point due to the enabled repeatable elastic sources, in the spec's
 /// unit of length per its unit of force. That is m/N for any unit of length.
 #[derive(Clone, Debug)]
 pub struct ToolCompliance {
@@ -26,7 +26,7 @@ impl ToolCompliance {
     /// point.
     pub fn new(spec: &Spec) -> Option<Self> {
         let mut sources = spec.enabled_sources().filter(|source| source.class == Class::Repeatable);
-        if !sources.any(|source| source.effects.iter().any(|effect| effect.cause.is_elastic())) {
+        if !sources.any(Source::is_elastic) {
             return None;
         }
         let mut graph = Graph::with_tables(&spec.tables);

@@ -1,6 +1,7 @@
 //! Repeatable errors of a machine as functions of the configuration.
 
 use abbe::{Error, Manipulator, repeatable_magnitudes};
+use abbe_codegen::chain::deviations;
 use abbe_codegen::graph::{Graph, Node};
 use abbe_interpreter::Interpreter;
 use abbe_spec::expr::Symbol;
@@ -44,20 +45,16 @@ impl ErrorModel {
         let mut without_deviations = spec.clone();
         without_deviations.sources.iter_mut().for_each(|source| source.deviations.clear());
         let frame_effects = Interpreter::new(without_deviations);
-        let mut graph = Graph::with_tables(&spec.tables);
-        let (mut causes, mut deviations) = (Vec::new(), Vec::new());
+        let mut causes = Vec::new();
         for effect in frame_effects.description().effects.iter() {
             let site = ErrorSite::Frame(effect.frame, effect.component.index());
             causes.push(Cause { source: effect.source, site });
         }
-        for (source, declared) in spec.enabled_sources().enumerate() {
-            let times = graph.constant(declared.magnitude.map_or(1.0, |magnitude| magnitude.value));
-            for deviation in &declared.deviations {
-                let error = graph.lower(&deviation.error);
-                deviations.push(graph.mul(times, error));
-                causes.push(Cause { source, site: ErrorSite::Number(deviation.number) });
-            }
-        }
+        let (graph, of_numbers) = deviations(spec);
+        causes.extend(
+            of_numbers.iter().map(|of| Cause { source: of.source, site: ErrorSite::Number(of.number) }),
+        );
+        let deviations = of_numbers.into_iter().map(|deviation| deviation.error).collect();
         let magnitudes = repeatable_magnitudes(manipulator.description());
         Self { frame_effects, graph, causes, deviations, magnitudes }
     }

@@ -22,6 +22,6 @@ pub use frame::{Factor, Frame, Matrix};
 pub use load::{Axes, Load, Point};
 pub use names::{as_identifier, check_name};
 pub use read::keys::{TABLES, rules};
-pub use source::{Beam, Cause, Compliance, Deviation, Effect, Magnitude, Source, Uncertain};
+pub use source::{Beam, Cause, Compliance, Deviation, DeviationCause, Effect, Magnitude, Source, Uncertain};
 pub use spec::Spec;
 pub use tunable::MAGNITUDE;

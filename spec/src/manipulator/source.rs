@@ -49,6 +49,12 @@ pub enum Uncertain {
 }
 
 impl Source {
+    /// Returns `true` if the loads cause any of its errors.
+    pub fn is_elastic(&self) -> bool {
+        self.effects.iter().any(|effect| effect.cause.is_elastic())
+            || self.deviations.iter().any(Deviation::is_elastic)
+    }
+
     /// Returns the normal random source that adds the effects of uncertain quantities, each times
     /// its factor, to no others.
     pub fn propagating(name: String, description: String, propagated: Vec<(Uncertain, f64)>) -> Self {
@@ -124,10 +130,35 @@ pub type Compliance = [[Option<Expression>; 6]; 6];
 pub struct Deviation {
     /// The number.
     pub number: ChainNumber,
-    /// Actual minus nominal value, in the number's own dimension.
-    pub error: Expression,
+    /// Cause of the deviation.
+    pub cause: DeviationCause,
     /// Location in the file.
     pub span: Span,
+}
+
+impl Deviation {
+    /// Returns the given error; `None` for an elastic joint.
+    pub fn error(&self) -> Option<&Expression> {
+        match &self.cause {
+            DeviationCause::Error(error) => Some(error),
+            DeviationCause::Stiffness(_) => None,
+        }
+    }
+
+    /// Returns `true` if the deviation is caused by loads.
+    pub fn is_elastic(&self) -> bool {
+        matches!(self.cause, DeviationCause::Stiffness(_))
+    }
+}
+
+/// Cause of the deviation of a number of the chain.
+#[derive(Clone, Debug)]
+pub enum DeviationCause {
+    /// Actual minus nominal value, in the number's own dimension.
+    Error(Expression),
+    /// Stiffness of a joint: it deviates by the moment, or force, of the loads along its motion,
+    /// divided by the stiffness.
+    Stiffness(Expression),
 }
 
 /// Factor of a source's errors, which measurements may determine.

@@ -6,7 +6,7 @@ use abbe::VariableKind;
 use abbe_codegen::graph::Graph;
 use abbe_spec::diagnostic::Span;
 use abbe_spec::expr::{Expression, Motion, Symbol, motion};
-use abbe_spec::{Cause, ChainNumber, DhNumber, Factor, Spec};
+use abbe_spec::{Cause, ChainNumber, Deviation, DhNumber, Factor, Spec};
 use serde::Serialize;
 
 use super::chain::value_at_home;
@@ -54,7 +54,7 @@ pub(super) fn warnings(spec: &Spec, text: Option<&str>) -> Vec<Warning> {
         let errors = errors.filter(|(component, _)| motion(*component).0 == Motion::Rotation);
         let errors = errors.map(|(_, error)| error);
         let deviations = source.deviations.iter().filter(|deviation| is_angle(deviation.number, spec));
-        for angle in errors.chain(deviations.map(|deviation| &deviation.error)) {
+        for angle in errors.chain(deviations.filter_map(Deviation::error)) {
             let (value, span) = value_without_unit(angle, spec, text);
             check(what.clone(), value, Some(span));
         }

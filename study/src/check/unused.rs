@@ -1,13 +1,21 @@
 //! Inputs and loads without effect.
 
 use abbe_spec::expr::{Expression, Symbol};
-use abbe_spec::{Cause, Effect, Factor, Load, Point, Spec};
+use abbe_spec::{Cause, ChainNumber, Deviation, DeviationCause, Effect, Factor, Load, Point, Spec};
 
 /// Returns a sentence for the inputs that nothing depends on, and one for the loads that nothing
 /// yields to.
 pub(super) fn notes(spec: &Spec) -> Vec<String> {
-    let elastic = || spec.sources.iter().flat_map(|source| &source.effects).filter(|e| e.cause.is_elastic());
-    let carried = |load: &Load| elastic().any(|effect| effect.frame <= load.frame);
+    let elements = || spec.sources.iter().flat_map(|source| &source.effects).filter(|e| e.cause.is_elastic());
+    let joints = || spec.sources.iter().flat_map(|source| &source.deviations).filter(|d| d.is_elastic());
+    let frame = |elastic: &Deviation| match elastic.number {
+        ChainNumber::Joint(joint) => Some(spec.variables[joint].frame),
+        _ => None,
+    };
+    let carried = |load: &Load| {
+        let elastic = elements().map(|effect| effect.frame).chain(joints().filter_map(frame));
+        elastic.into_iter().any(|frame| frame <= load.frame)
+    };
     let idle = spec.loads.iter().filter(|load| !carried(load)).count();
     let used: Vec<Symbol> = expressions(spec).into_iter().flat_map(Expression::symbols).collect();
     let names = spec.inputs.iter().enumerate();
@@ -26,9 +34,7 @@ pub(super) fn notes(spec: &Spec) -> Vec<String> {
     }
     if idle > 0 {
         let loads = if idle == 1 { "1 load has".to_owned() } else { format!("{idle} loads have") };
-        notes.push(format!(
-            "{loads} no effect: no `beam` or `compliance` at its frame or before it carries it."
-        ));
+        notes.push(format!("{loads} no effect: no elastic source at its frame or before it carries it."));
     }
     notes
 }
@@ -37,7 +43,10 @@ pub(super) fn notes(spec: &Spec) -> Vec<String> {
 fn expressions(spec: &Spec) -> Vec<&Expression> {
     let effects = spec.sources.iter().flat_map(|source| &source.effects).flat_map(effect_expressions);
     let deviations = spec.sources.iter().flat_map(|source| &source.deviations);
-    let deviations = deviations.map(|deviation| &deviation.error);
+    let deviations = deviations.map(|deviation| match &deviation.cause {
+        DeviationCause::Error(error) => error,
+        DeviationCause::Stiffness(stiffness) => stiffness,
+    });
     effects.chain(deviations).chain(spec.loads.iter().flat_map(load_expressions)).collect()
 }
 

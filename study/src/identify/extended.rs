@@ -2,7 +2,10 @@
 
 use abbe::{Class, Component, VariableKind};
 use abbe_spec::expr::{Dimension, Elementary, Expression, Function, Motion, Symbol, Unit};
-use abbe_spec::{Axes, Cause, ChainNumber, Compliance, Deviation, Effect, Factor, Load, Point, Source, Spec};
+use abbe_spec::{
+    Axes, Cause, ChainNumber, Compliance, Deviation, DeviationCause, Effect, Factor, Load, Point, Source,
+    Spec,
+};
 
 use super::magnitude::own_magnitudes;
 use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
@@ -56,7 +59,7 @@ impl Term {
             _ => Expression::from_number(1.0, dimension) * self.basis.expression(spec),
         };
         let mut deviation = |number: ChainNumber, dimension: Dimension| {
-            deviations.push(Deviation { number, error: error(dimension), span: 0..0 });
+            deviations.push(Deviation { number, cause: DeviationCause::Error(error(dimension)), span: 0..0 });
         };
         let cause = |component: Component| match self.basis {
             Basis::Moment => Cause::Compliance(Box::new(compliance(spec, component, component))),

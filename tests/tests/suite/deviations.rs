@@ -6,7 +6,7 @@ use abbe_codegen::chain::Model;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::expr::{Dimension, Expression, Symbol};
-use abbe_spec::{ChainNumber, Deviation, DhConvention, DhNumber, Source, Spec};
+use abbe_spec::{ChainNumber, Deviation, DeviationCause, DhConvention, DhNumber, Source, Spec};
 use abbe_tests::chains::{coupled_joints, general_chain, long_chain};
 
 /// Returns some value for every symbol.
@@ -64,7 +64,7 @@ fn repeatable(name: String, number: ChainNumber, error: f64) -> Source {
         magnitude: None,
         tuned_by: None,
         effects: Vec::new(),
-        deviations: vec![Deviation { number, error, span: 0..0 }],
+        deviations: vec![Deviation { number, cause: DeviationCause::Error(error), span: 0..0 }],
         propagated: Vec::new(),
     }
 }
@@ -201,7 +201,7 @@ fn shipped_encoders_are_their_perturbed_joints() {
                         let ChainNumber::Joint(joint) = deviation.number else {
                             panic!("{name}: {}", source.name)
                         };
-                        let node = graph.lower(&deviation.error);
+                        let node = graph.lower(deviation.error().unwrap());
                         let delta = graph.evaluate(&[node], |symbol| match symbol {
                             Symbol::Variable(i) => q[i],
                             Symbol::Parameter(i) => s[i],

@@ -17,6 +17,7 @@ mod deviations;
 mod doctor;
 mod drawings;
 mod elastic;
+mod elastic_joints;
 mod errata;
 mod exact_chain;
 mod exported;

@@ -7,7 +7,7 @@ use super::keys;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
-use crate::manipulator::{ChainNumber, Deviation, DhNumber, Factor, Frame};
+use crate::manipulator::{ChainNumber, Deviation, DeviationCause, DhNumber, Factor, Frame};
 use crate::value::find_name;
 
 /// Nominal chain as far as it could be read; `tool` is `None` after a mistake in it.
@@ -38,28 +38,47 @@ pub(super) fn read_deviations(
     let places: Vec<Item<'_>> =
         ["joint", "parameter", "dh"].iter().filter_map(|key| section.get(key)).collect();
     let Some(place) = places.first() else {
-        let item = section.get("error")?;
+        let item = ["error", "stiffness", "moment"].iter().find_map(|key| section.get(key))?;
+        let (owners, label, help) = match item.key.as_str() {
+            "error" => (
+                "`joint` or `parameter`",
+                "error of an unspecified quantity",
+                "add `joint = …` or `parameter = …`; errors of a frame are called e_x, e_y, e_z, e_s, e_r, e_p",
+            ),
+            _ => (
+                "`joint`",
+                "of an unspecified joint",
+                "add `joint = …`; an elastic `frame` has a `compliance` or `beam`",
+            ),
+        };
         document.mistake(
-            Diagnostic::new(item.key_span, "`error` needs a `joint` or `parameter`")
-                .label("error of an unspecified quantity")
-                .help("add `joint = …` or `parameter = …`; errors of a frame are called e_x, e_y, e_z, e_s, e_r, e_p"),
+            Diagnostic::new(item.key_span, format!("`{}` needs a {owners}", item.key))
+                .label(label)
+                .help(help),
         );
         return None;
     };
-    let is_dh = place.key == "dh";
-    let allowed: &[&str] = if is_dh { &["dh", "frame"] } else { &[place.key.as_str(), "error"] };
+    let allowed: &[&str] = match (place.key.as_str(), section.get("stiffness")) {
+        ("dh", _) => &["dh", "frame"],
+        ("joint", Some(_)) => &["joint", "stiffness", "moment"],
+        (key, _) => &[key, "error"],
+    };
     let says_where = |item: &Item<'_>| {
         [&keys::PLACE, &keys::CAUSE, &keys::DEVIATION].iter().any(|keys| keys.contain(&item.key))
     };
     if let Some(other) =
         section.items().find(|item| says_where(item) && !allowed.contains(&item.key.as_str()))
     {
-        let help = match (other.key.as_str(), is_dh) {
+        let help = match (other.key.as_str(), place.key.as_str()) {
             ("frame", _) => {
                 format!("remove `frame`: the error acts wherever the {} occurs in the chain", place.key)
             }
             ("at", _) => "remove `at`: it locates the errors e_… of a frame on its link".to_owned(),
-            ("error", _) => "write the errors in `dh`: dh = { theta = …, a = … }".to_owned(),
+            ("error", "dh") => "write the errors in `dh`: dh = { theta = …, a = … }".to_owned(),
+            ("stiffness" | "moment", "dh" | "parameter") => {
+                "loads deflect a `joint`, or a `frame` with a `compliance` or `beam`".to_owned()
+            }
+            ("moment", _) => "add the `stiffness` that the moment acts on".to_owned(),
             _ => "list them as [[source.effect]] tables of the source".to_owned(),
         };
         document.mistake(
@@ -75,6 +94,9 @@ pub(super) fn read_deviations(
     }
     match place.key.as_str() {
         "dh" => read_numbers(section, place, chain, document),
+        "joint" if section.get("stiffness").is_some() => {
+            read_stiffness(section, place, chain, document).map(|deviation| vec![deviation])
+        }
         _ => read_symbol(section, place, chain, document).map(|deviation| vec![deviation]),
     }
 }
@@ -92,7 +114,31 @@ fn read_symbol(
     let what = format!("the error of `{name}`");
     let entry = Entry { dimension, what: &what, names: Allowed::Everything };
     let error = document.expression(&error?, chain.scope, entry)?;
-    Some(Deviation { number, error, span: place.key_span.clone() })
+    Some(Deviation { number, cause: DeviationCause::Error(error), span: place.key_span.clone() })
+}
+
+/// Reads `joint` with its `stiffness`, and the `moment` if that is measured.
+fn read_stiffness(
+    section: &Section<'_>,
+    place: &Item<'_>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<Deviation> {
+    let (number, dimension) = find_symbol(place, chain, document)?;
+    let load = if dimension == Some(Dimension::LENGTH) { Dimension::FORCE } else { Dimension::MOMENT };
+    let mut quantity = |key: &str, dimension: Option<Dimension>| {
+        let item = section.get(key)?;
+        let what = format!("`{key}`");
+        let entry = Entry { dimension, what: &what, names: Allowed::Everything };
+        Some(document.expression(&item, chain.scope, entry))
+    };
+    // Small exponents cannot overflow.
+    let stiffness = quantity("stiffness", load.over(dimension.unwrap_or(Dimension::NONE)))??;
+    let cause = match quantity("moment", Some(load)) {
+        Some(moment) => DeviationCause::Error(moment? / stiffness),
+        None => DeviationCause::Stiffness(stiffness),
+    };
+    Some(Deviation { number, cause, span: place.key_span.clone() })
 }
 
 fn find_symbol(
@@ -187,7 +233,7 @@ fn read_numbers(
         match document.expression(&item, chain.scope, entry) {
             Some(error) => deviations.push(Deviation {
                 number: ChainNumber::DenavitHartenberg { frame, number },
-                error,
+                cause: DeviationCause::Error(error),
                 span: item.key_span,
             }),
             None => complete = false,

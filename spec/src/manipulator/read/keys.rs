@@ -154,9 +154,13 @@ crate::tables! {
         "compliance": Table("[source.compliance]"), "-", "none", "Elastic joint or bearing at the frame, which yields to the loads at it or beyond it";
     ]
     DEVIATION: ["[[source]]", "[[source.effect]]"], [
-        "joint": Text("name of a variable"), "-", "none", "Joint that has the `error`, for example of its encoder, gearbox or zero offset";
+        "joint": Text("name of a variable"), "-", "none", "Joint that has the `error`, for example of its encoder, gearbox or zero offset, or the `stiffness`";
         "parameter": Text("name of a parameter"), "-", "none", "Parameter with the `error`, wherever it occurs in the chain";
-        "error": EXPRESSION, "as the joint or the parameter", "required with `joint` and `parameter`", "Actual minus nominal value";
+        "error": EXPRESSION, "as the joint or the parameter", "required with `parameter`; with `joint`, this or `stiffness`", "Actual minus nominal value";
+        "stiffness": Number("expression, positive"), "none: give one", "rigid",
+            "Stiffness of the `joint`, which deviates by the moment of the loads about it (of a slide, the force along it), divided by the stiffness";
+        "moment": EXPRESSION, "none: give one", "that of the loads",
+            "Measured moment (of a slide, force) on an elastic `joint`, for example an input that follows a torque sensor";
         "dh": Table("[source.dh]"), "-", "none", "Errors of the Denavit-Hartenberg numbers of the `frame`";
     ]
     NUMBERS: ["[source.dh]", "[source.effect.dh]"], [
@@ -225,9 +229,11 @@ pub fn rules() -> Vec<Rule> {
         rule("[[load]]", When::Always, Then::NeedsOne(vec!["mass", "force", "moment"])),
     ];
     for table in ["[[source]]", "[[source.effect]]"] {
-        rules.extend(
-            ["joint", "parameter"].map(|key| rule(table, When::Has(key), Then::Needs(vec!["error"]))),
-        );
+        rules.extend([
+            rule(table, When::Has("parameter"), Then::Needs(vec!["error"])),
+            rule(table, When::Has("joint"), Then::NeedsOne(vec!["error", "stiffness"])),
+            rule(table, When::Has("moment"), Then::Needs(vec!["stiffness"])),
+        ]);
     }
     for table in COMPLIANCE.tables {
         rules.push(rule(table, When::Always, Then::NeedsOne(COMPLIANCE.names().collect())));

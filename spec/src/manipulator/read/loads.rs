@@ -6,7 +6,7 @@ use super::keys;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
-use crate::manipulator::{Axes, Cause, Effect, Frame, Load, Point, Source};
+use crate::manipulator::{Axes, Cause, ChainNumber, Effect, Frame, Load, Point, Source, Variable};
 
 /// Reads all loads of a spec.
 pub(super) fn read_loads(
@@ -142,6 +142,7 @@ pub(super) fn check_loaded(
     root: &Section<'_>,
     sources: &[Source],
     loads: &[Load],
+    joints: &[Variable],
     gravity: bool,
     document: &mut Document,
 ) {
@@ -151,16 +152,20 @@ pub(super) fn check_loaded(
         _ => None,
     };
     for source in sources {
-        for effect in source.effects.iter().filter(|effect| !matches!(effect.cause, Cause::Errors(_))) {
-            let load = loads.iter().any(|load| load.frame >= effect.frame);
-            if !load && !effects().any(|other| other.frame >= effect.frame && weight(other).is_some()) {
+        let elements = source.effects.iter().filter(|effect| effect.cause.is_elastic());
+        let elements = elements.map(|effect| (effect.frame, &effect.span));
+        let elastic = source.deviations.iter().filter(|deviation| deviation.is_elastic());
+        let elastic = elastic.filter_map(|deviation| match deviation.number {
+            ChainNumber::Joint(joint) => Some((joints.get(joint)?.frame, &deviation.span)),
+            _ => None,
+        });
+        for (frame, span) in elements.chain(elastic) {
+            let load = loads.iter().any(|load| load.frame >= frame);
+            if !load && !effects().any(|other| other.frame >= frame && weight(other).is_some()) {
                 document.mistake(
-                    Diagnostic::new(
-                        effect.span.clone(),
-                        format!("no load acts on the source \"{}\"", source.name),
-                    )
-                    .label("without a load it causes no error")
-                    .help("add a [[load]] at its frame or a later one, or `mass_per_length` to a beam"),
+                    Diagnostic::new(span.clone(), format!("no load acts on the source \"{}\"", source.name))
+                        .label("without a load it causes no error")
+                        .help("add a [[load]] at its frame or a later one, or `mass_per_length` to a beam"),
                 );
             }
         }

@@ -1,4 +1,5 @@
-//! Checks the signs of masses, of compliances, and of the lengths and stiffnesses of beams.
+//! Checks the signs of masses, of compliances, of the stiffnesses of joints, and of the lengths and
+//! stiffnesses of beams.
 
 use abbe_core::Component;
 
@@ -6,7 +7,7 @@ use super::declarations::Declarations;
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::expr::{Dimension, Expression, Symbol};
-use crate::manipulator::{Beam, Cause, Compliance, Load, Source};
+use crate::manipulator::{Beam, Cause, Compliance, DeviationCause, Load, Source};
 
 /// Rounding tolerance for a negative energy of a compliance, relative to its entries.
 const ROUNDING: f64 = 1e-9;
@@ -26,6 +27,17 @@ pub(super) fn check_signs(
             Cause::Beam(beam) => check.beam(beam, document),
             Cause::Compliance(compliance) => check.compliance(compliance, document),
             Cause::Errors(_) => {}
+        }
+    }
+    for deviation in sources.iter().flat_map(|source| &source.deviations) {
+        if let DeviationCause::Stiffness(stiffness) = &deviation.cause
+            && let Some((_, label)) = check.least(stiffness).filter(|(least, _)| *least <= 0.0)
+        {
+            document.mistake(
+                Diagnostic::new(stiffness.span(), "`stiffness` of a joint must be positive")
+                    .label(label)
+                    .help("a stiff joint has a large stiffness; leave the source out if the joint is rigid"),
+            );
         }
     }
     for mass in loads.iter().filter_map(|load| load.mass.as_ref()) {

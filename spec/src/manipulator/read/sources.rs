@@ -147,7 +147,10 @@ fn check_half_width(
     deviations: &[Deviation],
     document: &mut Document,
 ) {
-    let mut errors: Vec<&Expression> = deviations.iter().map(|deviation| &deviation.error).collect();
+    let Some(mut errors) = deviations.iter().map(Deviation::error).collect::<Option<Vec<&Expression>>>()
+    else {
+        return;
+    };
     for effect in effects {
         let Cause::Errors(list) = &effect.cause else { return };
         errors.extend(list.iter().map(|(_, error)| error));

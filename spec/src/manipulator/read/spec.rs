@@ -109,7 +109,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         Some(item) => Some(read_gravity(item, &declarations.scope, document)?),
         None => None,
     };
-    check_loaded(root, &sources, &loads, gravity.is_some(), document);
+    check_loaded(root, &sources, &loads, &declarations.variables, gravity.is_some(), document);
     check_signs(&sources, &loads, &declarations, document);
     let fitted = read_fitted(root, &declarations, document);
     let covariance = read_covariance(root, &sources, &declarations.scope, document);

@@ -2,6 +2,7 @@
 
 use abbe::analysis::Contribution;
 use abbe::{Component, VariableKind};
+use abbe_spec::expr::Expression;
 use abbe_spec::{ChainNumber, DhNumber, Source, Spec, Uncertain};
 
 /// Value of a source in the spec's coherent units, and its quantity.
@@ -40,7 +41,8 @@ impl SourceValue {
             };
         }
         if let ([], [deviation]) = (&source.effects[..], &source.deviations[..])
-            && let Some(value) = deviation.error.constant().filter(|value| *value != 0.0)
+            && let Some(value) =
+                deviation.error().and_then(Expression::constant).filter(|value| *value != 0.0)
         {
             return Self { value: value.abs(), quantity: quantity(spec, deviation.number) };
         }
