@@ -58,6 +58,14 @@ impl Placement {
         }
     }
 
+    /// Returns the pose of the outer frame in the inner one.
+    pub(crate) fn inverse(&self) -> Self {
+        match self.rpy == [0.0; 3] {
+            true => Self { xyz: self.xyz.map(|x| 0.0 - x), rpy: self.rpy },
+            false => Self::from_motion(&self.motion().inverse()),
+        }
+    }
+
     /// Takes a point of the inner frame to the outer one.
     pub(crate) fn point(&self, inner: [f64; 3]) -> [f64; 3] {
         match self.rpy == [0.0; 3] {

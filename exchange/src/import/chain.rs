@@ -51,6 +51,8 @@ pub(crate) struct Frame {
     pub(crate) link: Option<String>,
     pub(crate) geometry: Geometry,
     pub(crate) motion: Option<Motion>,
+    /// `true` if the chain leads from the child link of the joint to its parent.
+    pub(crate) upward: bool,
 }
 
 /// Motion by `multiplier · q + offset` along or about a unit vector.

@@ -1,6 +1,7 @@
 //! Nominal chain of a URDF file, joint by joint.
 
 use abbe::Pose;
+use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::Document;
 use nalgebra::Isometry3;
 
@@ -30,7 +31,16 @@ pub(super) struct NominalJoint {
 impl NominalChain {
     /// Reads a file; mistakes go to the document.
     pub(super) fn read(document: &mut Document, ends: &Ends) -> Option<Self> {
-        read(document, ends, false, &mut AngleRounding::new(false), &mut ()).map(Self)
+        let chain = read(document, ends, false, &mut AngleRounding::new(false), &mut ())?;
+        if let Some(frame) = chain.frames.iter().find(|frame| frame.upward) {
+            let message =
+                format!("the tip is no descendant of the base: the chain goes up at `{}`", frame.joint);
+            document.mistake(Diagnostic::whole_file(message).help(
+                "errors of such a chain cannot be written as origins of the file; choose a base link above the tip by `--base`",
+            ));
+            return None;
+        }
+        Some(Self(chain))
     }
 
     /// Iterates over the variables by their names in a spec.

@@ -17,10 +17,14 @@ struct Imported {
 }
 
 fn imported(urdf: &str, tip: &str, fold: bool, round_angles: bool) -> Imported {
+    imported_from(None, urdf, tip, fold, round_angles)
+}
+
+fn imported_from(base: Option<&str>, urdf: &str, tip: &str, fold: bool, round_angles: bool) -> Imported {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("robot.urdf");
     std::fs::write(&file, urdf).unwrap();
-    let format = Format::Urdf { base: None, tip: Some(tip.to_owned()), fold };
+    let format = Format::Urdf { base: base.map(str::to_owned), tip: Some(tip.to_owned()), fold };
     let report = Import { file, format, round_angles }.run(&mut ()).unwrap();
     let spec = Interpreter::new(Spec::parse("robot.toml", &report.spec).unwrap());
     Imported { report, spec }
@@ -179,4 +183,50 @@ fn joints_of_every_kind() {
     assert!(rounded.report.spec.contains("rpy = [\"pi/2\", 0, 0]"), "{}", rounded.report.spec);
     let off = (pose(&rounded.spec, &[0.3, 1.0]) - expected(0.3, 1.0)).abs().max();
     assert!((1e-13..1e-11).contains(&off), "{off:.1e}");
+}
+
+/// Checks a chain from foot to hand: up a leg to the pelvis and down an arm. Its pose is the pose of
+/// the hand relative to the foot of the two chains from the root, and its masses are those of
+/// everything behind the first joint.
+#[test]
+fn a_chain_goes_up_one_branch_and_down_another() {
+    let mut urdf = String::from("<robot name=\"humanoid\">\n<link name=\"world\"/>\n");
+    for link in ["pelvis", "thigh", "foot", "arm", "hand"] {
+        urdf += &format!(
+            "<link name=\"{link}\"><inertial><origin xyz=\"0.01 0.02 0.03\"/><mass value=\"2\"/></inertial></link>\n"
+        );
+    }
+    let turn = |axis: &str| format!("<axis xyz=\"{axis}\"/><limit lower=\"-2\" upper=\"2\"/>");
+    urdf += &joint("root", "fixed", ["world", "pelvis"], "xyz=\"0 0 1\" rpy=\"0 0 0.3\"", "");
+    urdf += &joint(
+        "hip",
+        "revolute",
+        ["pelvis", "thigh"],
+        "xyz=\"0.1 0.2 -0.1\" rpy=\"0.4 -0.2 0.1\"",
+        &turn("0 0.6 0.8"),
+    );
+    urdf += &joint("ankle", "revolute", ["thigh", "foot"], "xyz=\"0 0.05 -0.8\"", &turn("1 0 0"));
+    urdf += &joint(
+        "shoulder",
+        "revolute",
+        ["pelvis", "arm"],
+        "xyz=\"-0.2 0 0.4\" rpy=\"-1 0.5 0\"",
+        &turn("0 0 1"),
+    );
+    urdf += &joint("wrist", "fixed", ["arm", "hand"], "xyz=\"0.3 0 0\" rpy=\"0 0 0.7\"", "");
+    urdf += "</robot>\n";
+    let [leg, arm] = ["foot", "hand"].map(|tip| imported(&urdf, tip, false, false).spec);
+    for fold in [false, true] {
+        let Imported { report, spec } = imported_from(Some("foot"), &urdf, "hand", fold, false);
+        let names: Vec<&str> = spec.description().variables.iter().map(|v| v.name.as_ref()).collect();
+        assert_eq!(names, ["ankle", "hip", "shoulder"]);
+        for q in [[0.0, 0.0, 0.0], [0.3, -0.7, 1.1], [-1.2, 0.4, -0.6]] {
+            let [ankle, hip, shoulder] = q;
+            let expected = pose(&leg, &[hip, ankle]).try_inverse().unwrap() * pose(&arm, &[shoulder]);
+            let found = pose(&spec, &q);
+            assert!((found - expected).abs().max() < 1e-12, "{found}, not {expected}");
+        }
+        // Everything moves relative to the foot but the foot itself.
+        assert_eq!(report.spec.matches("[[load]]").count(), 4, "{}", report.spec);
+    }
 }

@@ -70,7 +70,7 @@ pub fn read(
         let geometry = Geometry::Origin(base);
         let is_taken = frames.iter().any(|frame| frame.joint == "base");
         let name = if is_taken { "before base" } else { "base" };
-        frames.insert(0, Frame { joint: name.to_owned(), link: None, geometry, motion: None });
+        frames.insert(0, Frame { joint: name.to_owned(), link: None, geometry, motion: None, upward: false });
     }
     Some(Chain {
         robot: text.name.clone(),

@@ -248,7 +248,7 @@ pub(super) fn frames(
             }
         });
         let geometry = Geometry::DenavitHartenberg(DhRow { convention, theta, d, a, alpha });
-        frames.push(Frame { joint: name, link: None, geometry, motion });
+        frames.push(Frame { joint: name, link: None, geometry, motion, upward: false });
     }
     (variables, frames)
 }

@@ -8,7 +8,7 @@ use abbe_spec::notes::Notes;
 use abbe_spec::value::find_name;
 
 use super::robot::{Joint, JointKind, Link, Robot};
-use super::tree::Tree;
+use super::tree::{Step, Tree};
 use crate::import::AngleRounding;
 use crate::import::chain::{Chain, Frame, Mass, Motion, Variable};
 use crate::import::geometry::Geometry;
@@ -42,25 +42,11 @@ pub(super) fn chain(
         Some(name) => find_link("--tip", name, &names, document)?,
         None => only_tip(tree, &names, document)?,
     };
-    let Some(path) = tree.path(base, tip) else {
-        let message = format!("`{}` is not a descendant of `{}`", names[tip], names[base]);
-        let mut above = tip;
-        while let Some((_, parent)) = tree.above(above) {
-            above = parent;
-        }
-        let help =
-            format!("choose a base link above the tip: `--base {}`, or one between them", names[above]);
-        let mistake = Diagnostic::new(tree.link(tip).span.clone(), message)
-            .context(tree.link(base).span.clone(), "the base")
-            .label("the tip");
-        document.mistake(mistake.help(help));
-        return None;
-    };
+    let path = tree.path(base, tip);
     let mut builder = Builder::new(robot, tree, fold, angles);
     builder.variables(&path, document)?;
-    for (i, (joint, link)) in path.iter().enumerate() {
-        builder.add(joint, *link, path.get(i + 1).map(|(_, next)| *next));
-    }
+    builder.links = std::iter::once(base).chain(path.iter().map(|step| step.link)).collect();
+    path.iter().for_each(|step| builder.add(step));
     let Builder { variables, frames, masses, pending, branches, .. } = builder;
     if frames.is_empty() {
         let message = format!("there is no moving joint between `{}` and `{}`", names[base], names[tip]);
@@ -135,7 +121,9 @@ struct Builder<'r> {
     driven: Vec<(&'r str, [f64; 2], usize)>,
     frames: Vec<Frame>,
     masses: Vec<Mass>,
-    /// Product of the fixed joints since the last frame.
+    /// Links from base to tip.
+    links: Vec<usize>,
+    /// Pose of the last link in the last frame, or in the base.
     pending: Placement,
     /// Names of the joints that move branches beside the chain.
     branches: Vec<&'r str>,
@@ -143,15 +131,15 @@ struct Builder<'r> {
 
 impl<'r> Builder<'r> {
     fn new(robot: &'r Robot, tree: &'r Tree<'r>, fold: bool, angles: &'r mut AngleRounding) -> Self {
-        let (variables, driven, frames, masses, branches) = Default::default();
+        let (variables, driven, frames, masses, links, branches) = Default::default();
         let pending = Placement::default();
-        Self { robot, tree, fold, angles, variables, driven, frames, masses, pending, branches }
+        Self { robot, tree, fold, angles, variables, driven, frames, masses, links, pending, branches }
     }
 
     /// Collects the variables of the joints on the path: their own, or that of the joint that they
     /// follow.
-    fn variables(&mut self, path: &[(&'r Joint, usize)], document: &mut Document) -> Option<()> {
-        for (joint, _) in path {
+    fn variables(&mut self, path: &[Step<'r>], document: &mut Document) -> Option<()> {
+        for Step { joint, .. } in path {
             match joint.kind {
                 JointKind::Fixed => continue,
                 JointKind::Planar | JointKind::Floating => {
@@ -222,45 +210,53 @@ impl<'r> Builder<'r> {
         names.find(|name| !taken(name)).unwrap_or(name)
     }
 
-    /// Adds a joint and the link that it carries; `next` is the link after it on the path.
-    fn add(&mut self, joint: &'r Joint, link: usize, next: Option<usize>) {
+    /// Adds a joint and the link behind it. With the pose `P` of the child link in the parent and the
+    /// motion `M(q)` of the joint, the step downward is `P M(q)`, upward `M(−q) P⁻¹`.
+    fn add(&mut self, step: &Step<'r>) {
+        let Step { joint, link, upward } = *step;
         let rpy = joint.placement.rpy.map(|angle| self.angles.angle(angle));
         let placement = Placement { rpy, ..joint.placement };
-        let placement = self.pending.then(&placement);
+        let sign = if upward { -1.0 } else { 1.0 };
         let motion = self.driven.iter().find(|(name, ..)| *name == joint.name).map(
             |&(_, [multiplier, offset], variable)| Motion {
                 prismatic: joint.kind == JointKind::Prismatic,
                 axis: joint.axis,
                 variable,
-                multiplier,
-                offset,
+                multiplier: sign * multiplier,
+                offset: sign * offset,
             },
         );
+        let (before, after) = match (upward, motion) {
+            (false, _) => (self.pending.then(&placement), Placement::default()),
+            (true, Some(_)) => (self.pending, placement.inverse()),
+            (true, None) => (self.pending.then(&placement.inverse()), Placement::default()),
+        };
         if motion.is_none() && self.fold {
-            self.pending = placement;
+            self.pending = before;
         } else {
-            self.pending = Placement::default();
-            let (joint, link) = (joint.name.clone(), self.tree.link(link).name.clone());
-            let geometry = Geometry::Origin(placement);
-            self.frames.push(Frame { joint, link: Some(link), geometry, motion });
+            self.pending = after;
+            let (joint, name) = (joint.name.clone(), self.tree.link(link).name.clone());
+            let geometry = Geometry::Origin(before);
+            self.frames.push(Frame { joint, link: Some(name), geometry, motion, upward });
         }
         if let Some(frame) = self.frames.len().checked_sub(1) {
-            self.add_masses(link, next, frame);
+            self.add_masses(link, frame);
         }
     }
 
     /// Adds the masses of a link on the path, and of the links that are fixed to it beside the
     /// path.
-    fn add_masses(&mut self, link: usize, next: Option<usize>, frame: usize) {
-        let mut rigid = vec![(link, self.pending)];
-        while let Some((link, at)) = rigid.pop() {
+    fn add_masses(&mut self, link: usize, frame: usize) {
+        let mut rigid = vec![(link, link, self.pending)];
+        while let Some((link, from, at)) = rigid.pop() {
             let Link { name, mass, .. } = self.tree.link(link);
             if let Some((kilograms, centre)) = *mass {
                 self.masses.push(Mass { link: name.clone(), kilograms, frame, centre: at.point(centre) });
             }
-            for (joint, child) in self.tree.carried(link).filter(|(_, child)| Some(*child) != next) {
+            for (joint, other, placement) in self.tree.neighbours(link) {
                 match joint.kind {
-                    JointKind::Fixed => rigid.push((child, at.then(&joint.placement))),
+                    _ if other == from || self.links.contains(&other) => {}
+                    JointKind::Fixed => rigid.push((other, link, at.then(&placement))),
                     _ => self.branches.push(&joint.name),
                 }
             }

@@ -7,6 +7,7 @@ use abbe_spec::document::Document;
 use abbe_spec::value::find_name;
 
 use super::robot::{Joint, Link, Named, Robot};
+use crate::placement::Placement;
 
 /// Robot with the connections of its links and joints, by index.
 pub(super) struct Tree<'r> {
@@ -128,24 +129,50 @@ impl<'r> Tree<'r> {
         Some((&self.robot.joints[joint], parent))
     }
 
-    /// Iterates over the joints on a link and their child links.
-    pub(super) fn carried(&self, link: usize) -> impl Iterator<Item = (&'r Joint, usize)> {
-        self.carried[link].iter().map(|&(joint, child)| (&self.robot.joints[joint], child))
+    /// Iterates over the joints at a link, the links that they connect to it, and the poses of these
+    /// in the link if the joints are fixed.
+    pub(super) fn neighbours(&self, link: usize) -> impl Iterator<Item = (&'r Joint, usize, Placement)> {
+        let carried = self.carried[link].iter().map(|&(joint, child)| {
+            let joint = &self.robot.joints[joint];
+            (joint, child, joint.placement)
+        });
+        let above = self.above(link).map(|(joint, parent)| (joint, parent, joint.placement.inverse()));
+        carried.chain(above)
     }
 
-    /// Returns the joints from `base` to `tip` with their child links; `None` if `base` does not
-    /// carry `tip`.
-    pub(super) fn path(&self, base: usize, tip: usize) -> Option<Vec<(&'r Joint, usize)>> {
-        let mut path = Vec::new();
-        let mut link = tip;
-        while link != base {
-            let (joint, parent) = self.above(link)?;
-            path.push((joint, link));
+    /// Returns the steps from `base` to `tip`: up to the link that carries both, then down.
+    pub(super) fn path(&self, base: usize, tip: usize) -> Vec<Step<'r>> {
+        let mut up = self.to_root(base);
+        let mut down = self.to_root(tip);
+        while let (Some((one, _)), Some((other, _))) = (up.last(), down.last())
+            && std::ptr::eq(*one, *other)
+        {
+            up.pop();
+            down.pop();
+        }
+        let up = up.into_iter().map(|(joint, [_, parent])| Step { joint, link: parent, upward: true });
+        let down = down.into_iter().rev();
+        up.chain(down.map(|(joint, [child, _])| Step { joint, link: child, upward: false })).collect()
+    }
+
+    /// Returns the joints from a link to the root, with their child and parent links.
+    fn to_root(&self, mut link: usize) -> Vec<(&'r Joint, [usize; 2])> {
+        let mut joints = Vec::new();
+        while let Some((joint, parent)) = self.above(link) {
+            joints.push((joint, [link, parent]));
             link = parent;
         }
-        path.reverse();
-        Some(path)
+        joints
     }
+}
+
+/// Step of a chain across a joint.
+pub(super) struct Step<'r> {
+    pub(super) joint: &'r Joint,
+    /// Link behind the joint.
+    pub(super) link: usize,
+    /// `true` from the child link to the parent.
+    pub(super) upward: bool,
 }
 
 /// Returns indices by name; a repeated name is a mistake.
