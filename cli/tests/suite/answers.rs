@@ -77,8 +77,8 @@ fn forty_joints_fit_one_screen() {
     let source = "[[source]]\nname = \"encoder\"\nclass = \"random\"\ndistribution = \"normal\"\njoint = \"q1\"\nerror = \"1e-5\"\n";
     let spec = write(folder.path(), "my arm.toml", &(abbe_tests::chains::revolute_chain(30) + source));
     let spec = spec.to_str().unwrap();
-    for command in ["analyze", "check", "bound"] {
-        is_one_screen(&prints(&[command, spec]), command);
+    for command in [&["analyze", spec][..], &["check", spec], &["bound", spec, "--boxes", "100"]] {
+        is_one_screen(&prints(command), command[0]);
     }
     assert!(prints(&["analyze", spec]).contains(" and 18 more\n"));
     assert!(prints(&["check", spec]).replace('\n', " ").contains("my arm.toml\";"));
