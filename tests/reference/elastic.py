@@ -109,9 +109,9 @@ def beam(spec, effect, names, nominal):
     place = place_of(effect, names, nominal)
     k = AXES[effect.beam["axis"]]
     length = effect.beam["length"](names)
-    # EI_y and EI_z are about the two axes that follow the beam's own.
+    # EI_x, EI_y and EI_z are about their own axes.
     soft = [0.0] * 3
-    for axis, key in ((k, "GJ"), ((k + 1) % 3, "EI_y"), ((k + 2) % 3, "EI_z")):
+    for axis, key in ((k, "GJ"), *((i, f"EI_{'xyz'[i]}") for i in range(3) if i != k)):
         soft[axis] = 1 / effect.beam[key](names) if key in effect.beam else 0.0
     stretch = 1 / effect.beam["EA"](names) if "EA" in effect.beam else 0.0
     per_length = effect.beam["mass_per_length"](names) if "mass_per_length" in effect.beam else 0.0

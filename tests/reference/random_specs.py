@@ -128,9 +128,9 @@ class Writer:
 
     def spec(self, folder):
         turn = self.random
-        orientation = self.pick("rotation-vector", "euler-yzx")
+        orientation = self.pick("rotation-vector", "euler-yzx", "iec-61217")
         self.add("[manipulator]", f'name = "random{self.seed}"', f'length = "{self.length}"')
-        if orientation == "euler-yzx" or turn.random() < 0.5:
+        if orientation != "rotation-vector" or turn.random() < 0.5:
             self.add(f'orientation = "{orientation}"')
         self.add(f'gravity = ["0.3 m/s^2", "-1100 mm/s^2", "{self.of_size(-9.7, {"m/s^2": 1, "m/min^2": 1 / 3600, "m/h^2": 1 / 3600**2})}"]')
         self.add("[parameters]")
@@ -339,10 +339,16 @@ class Writer:
             factor = self.random.choice(factors)
             self.add(f'{component} = "{size}{factor}"')
 
+    @staticmethod
+    def bending(axis):
+        """Both bending stiffnesses of a beam, named by the axes that follow its own."""
+        first, second = {"beam y": "zx", "beam z": "xy"}.get(axis, "yz")
+        return [f'EI_{first} = "EI"', f'EI_{second} = "0.7*EI"']
+
     def elastic(self, form):
         if form.startswith("beam"):
             axis = self.pick("beam x", "beam y", "beam z", "beam default")
-            parts = [f'length = "{self.random.choice(["s0", "s1", "0.45 m"])}"', 'EI_y = "EI"', 'EI_z = "0.7*EI"']
+            parts = [f'length = "{self.random.choice(["s0", "s1", "0.45 m"])}"', *self.bending(axis)]
             if self.random.random() < 0.7:
                 parts.append('GJ = "GJ"')
             if form != "beam without EA":

@@ -237,7 +237,7 @@ fn stiffness_is_said_where_something_gives_way() {
          [[frame]]\nname = \"1\"\nvariable = { name = \"out\", kind = \"prismatic\", limits = [\"100 mm\", \"400 mm\"], home = \"100 mm\" }\n\
          transform = \"Tz(out)\"\n\
          [[source]]\nname = \"quill\"\nclass = \"repeatable\"\nframe = \"1\"\n\
-         beam = { axis = \"z\", length = \"out\", EI_y = \"1.3e5 N*m^2\", EI_z = \"2e5 N*m^2\" }\n\
+         beam = { axis = \"z\", length = \"out\", EI_x = \"1.3e5 N*m^2\", EI_y = \"2e5 N*m^2\" }\n\
          [[load]]\nname = \"cuts\"\nforce = [\"10 N\", 0, 0]\nframe = \"1\"\n";
     let quill = write(folder.path(), "quill.toml", spec);
     let quill = quill.to_str().unwrap();
@@ -251,7 +251,7 @@ fn stiffness_is_said_where_something_gives_way() {
 
     // A force at the tool point has no lever about the spindle's axis. Nothing is found where the
     // stiffness has no number.
-    let beam = "beam = { axis = \"z\", length = \"out\", EI_y = \"1.3e5 N*m^2\", EI_z = \"2e5 N*m^2\" }";
+    let beam = "beam = { axis = \"z\", length = \"out\", EI_x = \"1.3e5 N*m^2\", EI_y = \"2e5 N*m^2\" }";
     let turns = |about_z: &str| {
         let text = spec.replace(beam, &format!("compliance = {{ diagonal = [0, 0, 0, 0, 0, {about_z}] }}"));
         write(folder.path(), "turns.toml", &text)

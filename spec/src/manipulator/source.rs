@@ -122,6 +122,15 @@ pub struct Beam {
     pub mass_per_length: Option<Expression>,
 }
 
+impl Beam {
+    /// Keys of the bending stiffnesses of a beam along `axis`, in the order of
+    /// [`bending`](Self::bending): each is named by the axis about which it resists bending.
+    pub const fn bending_keys(axis: usize) -> [&'static str; 2] {
+        const KEYS: [&str; 3] = ["EI_x", "EI_y", "EI_z"];
+        [KEYS[(axis + 1) % 3], KEYS[(axis + 2) % 3]]
+    }
+}
+
 /// Six errors per unit of six forces and moments, both in the order of ε; `None` for 0.
 pub type Compliance = [[Option<Expression>; 6]; 6];
 

@@ -118,8 +118,9 @@ impl Beam {
     fn text(&self) -> String {
         let [gj, b, c] = self.stiffness;
         let axis = ["x", "y", "z"][self.axis];
+        let [first, second] = [["EI_y", "EI_z"], ["EI_z", "EI_x"], ["EI_x", "EI_y"]][self.axis];
         format!(
-            "{{ length = {}, axis = {axis:?}, EI_y = \"{b} N*m^2\", EI_z = \"{c} N*m^2\", GJ = \"{gj} N*m^2\", EA = \"{} N\", mass_per_length = \"{} kg/m\" }}",
+            "{{ length = {}, axis = {axis:?}, {first} = \"{b} N*m^2\", {second} = \"{c} N*m^2\", GJ = \"{gj} N*m^2\", EA = \"{} N\", mass_per_length = \"{} kg/m\" }}",
             self.length, self.extension, self.mass_per_length
         )
     }

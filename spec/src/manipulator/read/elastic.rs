@@ -14,6 +14,17 @@ pub(super) fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document)
     let mut table = document.section(item)?;
     table.name = "`beam`".to_owned();
     table.check_keys(&[&keys::BEAM], document);
+    let axis = match table.get("axis") {
+        Some(item) => document.choice(&item, &BEAM_AXES)?,
+        None => 0,
+    };
+    let bending = Beam::bending_keys(axis);
+    if let Some(item) =
+        table.items().find(|item| item.key.starts_with("EI_") && !bending.contains(&&*item.key))
+    {
+        document.mistake(not_about_itself(axis, &item));
+        return None;
+    }
     let mut quantity = |key: &str, dimension: Dimension, required: bool| -> Option<Option<Expression>> {
         let item = if required { Some(table.required(key, document)?) } else { table.get(key) };
         let what = format!("`{key}`");
@@ -25,21 +36,37 @@ pub(super) fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document)
     };
     let stiffness = Dimension::FORCE_TIMES_AREA;
     let length = quantity("length", Dimension::LENGTH, true);
-    let (y, z) = (quantity("EI_y", stiffness, true), quantity("EI_z", stiffness, true));
+    let [first, second] = bending.map(|key| quantity(key, stiffness, true));
     let (torsion, extension) = (quantity("GJ", stiffness, false), quantity("EA", Dimension::FORCE, false));
     let mass_per_length = quantity("mass_per_length", Dimension::MASS_PER_LENGTH, false);
-    let axis = match table.get("axis") {
-        Some(item) => document.choice(&item, &BEAM_AXES),
-        None => Some(0),
-    };
     Some(Beam {
-        axis: axis?,
+        axis,
         length: length??,
-        bending: [y??, z??],
+        bending: [first??, second??],
         torsion: torsion?,
         extension: extension?,
         mass_per_length: mass_per_length?,
     })
+}
+
+/// Returns the mistake of a bending stiffness about the axis of the beam itself. Until version 0.3
+/// `EI_y` and `EI_z` were about the next two axes, whatever the axis of the beam: every beam along
+/// y or z was written with one of these keys.
+fn not_about_itself(axis: usize, item: &Item<'_>) -> Diagnostic {
+    let along = ["x", "y", "z"];
+    let [first, second] = Beam::bending_keys(axis);
+    let [about_first, about_second] = [along[(axis + 1) % 3], along[(axis + 2) % 3]];
+    let renamed = match axis {
+        0 => String::new(),
+        _ => format!("; before 0.3 {first} was written `EI_y`, and {second} `EI_z`"),
+    };
+    let axis = along[axis];
+    Diagnostic::new(item.key_span.clone(), format!("a beam along {axis} does not bend about {axis}")).label(
+        format!("write `{first}` and `{second}`"),
+    ).help(format!(
+        "`{first}` resists bending about {about_first}, a deflection along {about_second}; `{second}` bending about \
+         {about_second}, a deflection along {about_first}{renamed}"
+    ))
 }
 
 /// Reads a `compliance`: six numbers on the diagonal, or all 36.

@@ -7,6 +7,7 @@ use super::choices::{
 };
 use crate::keys::Value::{self, Boolean, Choice, Either, List, Names, Number, Table, Tables, Text};
 use crate::keys::{Rule, Then, When, words};
+use crate::manipulator::Beam;
 
 const NUMBER: Value = Number("number");
 const EXPRESSION: Value = Number("expression");
@@ -41,7 +42,7 @@ crate::tables! {
         "length": Choice(|| words(&LENGTHS)), "-", "required",
             "Unit of every length: in this file, in generated code and in results";
         "orientation": Choice(|| words(&ORIENTATIONS)), "-", "`\"rotation-vector\"`",
-            "Meaning of rows 4 to 6 of `J_e`: a rotation vector, or Euler angles about y, z, x";
+            "Meaning of rows 4 to 6 of `J_e`: a rotation vector, Euler angles about y, z, x, or the table angles of IEC 61217: yaw about z, pitch about x, roll about y";
         "gravity": List("three expressions", Some(3), &EXPRESSION), "none: give one", "none; loads need it",
             "Acceleration of gravity along x, y, z of `F_0`";
     ]
@@ -179,10 +180,12 @@ crate::tables! {
     BEAM: ["[source.beam]", "[source.effect.beam]"], [
         "length": Number("expression, positive"), "length unit", "required", "Length from the clamped end to the frame";
         "axis": Choice(|| words(&BEAM_AXES)), "-", "`\"x\"`", "Axis of the frame along which the beam arrives at it";
-        "EI_y": Number("expression, positive"), "none: give one", "required",
-            "Bending stiffness about y; for another `axis`, about the next one in x → y → z → x";
-        "EI_z": Number("expression, positive"), "none: give one", "required",
-            "Bending stiffness about z; for another `axis`, about the next but one in x → y → z → x";
+        "EI_x": Number("expression, positive"), "none: give one", "required unless the beam is along x",
+            "Stiffness against bending about x: of a beam along y the deflection along z, along z that along y";
+        "EI_y": Number("expression, positive"), "none: give one", "required unless the beam is along y",
+            "Stiffness against bending about y: of a beam along x the deflection along z, along z that along x";
+        "EI_z": Number("expression, positive"), "none: give one", "required unless the beam is along z",
+            "Stiffness against bending about z: of a beam along x the deflection along y, along y that along x";
         "GJ": Number("expression, positive"), "none: give one", "rigid", "Torsional stiffness";
         "EA": Number("expression, positive"), "none: give one", "rigid", "Stiffness against extension";
         "mass_per_length": Number("expression, positive"), "none: give one", "`0`", "Mass per length, which weighs under `gravity`";
@@ -234,6 +237,17 @@ pub fn rules() -> Vec<Rule> {
             rule(table, When::Has("joint"), Then::NeedsOne(vec!["error", "stiffness"])),
             rule(table, When::Has("moment"), Then::Needs(vec!["stiffness"])),
         ]);
+    }
+    for table in BEAM.tables {
+        for (word, axis) in BEAM_AXES {
+            let whens = [Some(When::Is("axis", word)), (axis == 0).then(|| When::Lacks(vec!["axis"]))];
+            for when in whens.into_iter().flatten() {
+                let [first, second] = Beam::bending_keys(axis);
+                rules.push(rule(table, when.clone(), Then::Needs(vec![first, second])));
+                let own = ["EI_x", "EI_y", "EI_z"][axis];
+                rules.push(rule(table, when, Then::Refuses(vec![own])));
+            }
+        }
     }
     for table in COMPLIANCE.tables {
         rules.push(rule(table, When::Always, Then::NeedsOne(COMPLIANCE.names().collect())));

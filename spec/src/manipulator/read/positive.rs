@@ -1,6 +1,8 @@
 //! Checks the signs of masses, of compliances, of the stiffnesses of joints, and of the lengths and
 //! stiffnesses of beams.
 
+use std::iter;
+
 use abbe_core::Component;
 
 use super::declarations::Declarations;
@@ -51,8 +53,8 @@ struct Check<'a> {
 
 impl Check<'_> {
     fn beam(&self, beam: &Beam, document: &mut Document) {
-        let [y, z] = &beam.bending;
-        let required = [("length", &beam.length), ("EI_y", y), ("EI_z", z)].into_iter();
+        let bending = Beam::bending_keys(beam.axis).into_iter().zip(&beam.bending);
+        let required = iter::once(("length", &beam.length)).chain(bending);
         let optional = [("GJ", &beam.torsion), ("EA", &beam.extension)];
         let given = optional.iter().filter_map(|(key, value)| Some((*key, value.as_ref()?)));
         for (key, value) in required.chain(given) {
