@@ -360,7 +360,7 @@ class CheckReport(Report):
     """Symbol of the length unit."""
 
     orientation: str
-    """Convention of rows 4–6: `rotation-vector` or `euler-yzx`."""
+    """Convention of rows 4–6: `rotation-vector`, `euler-yzx` or `iec-61217`."""
 
     frames: list[Frame]
     """Frames, base to tip."""

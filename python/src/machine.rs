@@ -206,7 +206,8 @@ impl Machine {
         self.machine.spec.length.symbol()
     }
 
-    /// Representation of orientations in rows 4 to 6: "rotation-vector" or "euler-yzx".
+    /// Representation of orientations in rows 4 to 6: "rotation-vector", "euler-yzx" or
+    /// "iec-61217".
     #[getter]
     fn orientation(&self) -> &'static str {
         self.interpreter.description().orientation.name()

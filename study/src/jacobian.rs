@@ -36,7 +36,7 @@ pub struct Report {
     pub name: String,
     /// Symbol of the length unit.
     pub length: &'static str,
-    /// Convention of rows 4–6: `rotation-vector` or `euler-yzx`.
+    /// Convention of rows 4–6: `rotation-vector`, `euler-yzx` or `iec-61217`.
     pub orientation: &'static str,
     /// Joint variables of the configuration.
     pub q: Vec<f64>,

@@ -86,8 +86,8 @@ class Configuration:
     def rows(self, factors):
         pose, change = derivative(factors)
         position, turn = rigid.small_motion(pose, change)
-        if self.spec.orientation == "euler-yzx":
-            turn = euler_slopes(pose, change)
+        if self.spec.orientation in EULER:
+            turn = EULER[self.spec.orientation](pose, change)
         return position + turn
 
     def error_jacobian(self):
@@ -122,6 +122,18 @@ def euler_slopes(pose, change):
     roll = asin(r[1][0])
     pitch = atan2(-r[1][2], r[1][1])
     return [slope(spin), slope(roll), slope(pitch)]
+
+
+def table_slopes(pose, change):
+    """Yaw, pitch and roll of R = R_z R_x R_y, the table angles of IEC 61217."""
+    r = [[Dual(pose[i][j], change[i][j]) for j in range(3)] for i in range(3)]
+    yaw = atan2(-r[0][1], r[1][1])
+    pitch = asin(r[2][1])
+    roll = atan2(-r[2][0], r[2][2])
+    return [slope(yaw), slope(pitch), slope(roll)]
+
+
+EULER = {"euler-yzx": euler_slopes, "iec-61217": table_slopes}
 
 
 def exact_position(configuration, magnitudes):

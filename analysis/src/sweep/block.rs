@@ -60,7 +60,7 @@ impl<'a> Block<'a> {
         loop {
             let evaluated = self.manipulator.source_displacements(&self.arguments, &mut self.displacements);
             evaluated.map_err(|error| self.at(0, error))?;
-            let euler = self.manipulator.description().orientation == Orientation::EulerYzx;
+            let euler = self.manipulator.description().orientation != Orientation::RotationVector;
             let sound = self.displacements.instruction_set().run(Scaled {
                 displacements: &mut self.displacements,
                 bounds: &self.bounds,

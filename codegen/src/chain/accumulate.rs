@@ -1,6 +1,7 @@
 //! Accumulates the effects of all frames' errors on the tool point from the tip to the base,
 //! without the poses of the frames in `F_0`.
 
+use abbe_core::Orientation;
 use abbe_spec::Spec;
 
 use super::local::Local;
@@ -147,11 +148,13 @@ impl Links {
         (sum, lever)
     }
 
-    /// Returns the x axis of the tool in `F_0`.
-    pub(super) fn first_axis(&self, graph: &mut Graph) -> Vector {
-        let (zero, one) = (graph.zero(), graph.constant(1.0));
+    /// Returns, in `F_0`, the axis of the tool about which the last of the Euler angles turns; the
+    /// x axis for a rotation vector.
+    pub(super) fn last_axis(&self, graph: &mut Graph, orientation: Orientation) -> Vector {
+        let mut axis = [graph.zero(); 3];
+        axis[orientation.last_axis().unwrap_or(0)] = graph.constant(1.0);
         let motions = self.frames.iter().chain([&self.tool]).flatten();
-        motions.rev().fold([one, zero, zero], |axis, motion| motion.direction(graph, axis))
+        motions.rev().fold(axis, |axis, motion| motion.direction(graph, axis))
     }
 }
 

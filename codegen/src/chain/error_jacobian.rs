@@ -68,7 +68,7 @@ impl Columns {
     pub(crate) fn distinct(&self, rows: &Rows) -> Vec<Node> {
         let rows = match rows {
             Rows::RotationVector => &[][..],
-            Rows::EulerYzx(_) => &self.rows,
+            Rows::Euler(_) => &self.rows,
         };
         self.axes.iter().chain(&self.moments).chain(rows).flatten().copied().collect()
     }

@@ -95,8 +95,8 @@ impl Magnitudes {
         let g = &mut graph;
         let zero = g.zero();
         let links = Links::new(g, spec);
-        let first_axis = links.first_axis(g);
-        let rows = Rows::new(g, spec.orientation, first_axis);
+        let last_axis = links.last_axis(g, spec.orientation);
+        let rows = Rows::new(g, spec.orientation, last_axis);
 
         let errors = sources::generalized_errors(g, spec, &effects);
         let axes = g.identity().axes;
@@ -173,7 +173,7 @@ impl ToolDisplacement {
         let [x, y, z, four, five, six] = links.accumulate(graph, errors, none).column(graph, rows);
         let none = Displacement::none(graph);
         let [across_x, across_y, _] = links.accumulate_behind_turns(graph, errors, none).shift;
-        if spec.orientation == Orientation::EulerYzx {
+        if spec.orientation != Orientation::RotationVector {
             turn = [four, five, six];
         }
         Self { shift, along: [x, y, z], across_z: [across_x, across_y], turn }

@@ -110,7 +110,7 @@ impl Model {
         }
         name_lengths(g, &spec.tool, "t");
 
-        let rows = Rows::new(g, spec.orientation, tool.axes[0]);
+        let rows = Rows::new(g, spec.orientation, tool.axes[spec.orientation.last_axis().unwrap_or(0)]);
         let margin = rows.margin();
         let moments = Moments::new(g, &frames, &tool, &steps, &ends);
         let by_frame = error_jacobian::columns(g, &frames, moments, &rows);
@@ -140,8 +140,8 @@ impl Model {
 
         let zero = g.zero();
         let links = Links::new(g, spec);
-        let first_axis = links.first_axis(g);
-        let along = Rows::new(g, spec.orientation, first_axis);
+        let last_axis = links.last_axis(g, spec.orientation);
+        let along = Rows::new(g, spec.orientation, last_axis);
         let symbols: Vec<[Node; 6]> = (0..spec.frames.len())
             .map(|i| std::array::from_fn(|k| g.symbol(Symbol::Error(6 * i + k))))
             .collect();

@@ -8,18 +8,21 @@ use crate::graph::{Graph, Node, Vector};
 pub(crate) enum Rows {
     /// The rotation vector ω itself.
     RotationVector,
-    /// Changes of spin σ, roll ρ and pitch π.
-    EulerYzx(EulerYzx),
+    /// Changes of three Euler angles.
+    Euler(Euler),
 }
 
-/// Map to Euler angles. With `R_T = R_y(σ) R_z(ρ) R_x(π)`, the first column of `R_T` is `(cos σ cos
-/// ρ, sin ρ, −sin σ cos ρ)`, and
+/// Map to Euler angles, in axes [renamed](Orientation::last_axis) so that the last rotation is
+/// about x. With `R_T = R_y(σ) R_z(ρ) R_x(π)`, the first column of `R_T` is `(cos σ cos ρ, sin ρ,
+/// −sin σ cos ρ)`, and
 ///
 /// ```text
 /// ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂
 /// π̇ = (r11 ωx + r31 ωz) / cos² ρ      ρ̇ = (r11 ωz − r31 ωx) / cos ρ      σ̇ = ωy − r21 π̇
 /// ```
-pub(crate) struct EulerYzx {
+pub(crate) struct Euler {
+    /// Axis that is renamed to x.
+    axis: usize,
     /// `cos ρ = √(r11² + r31²)`; where it is 0 the rows are undefined. `None` if only the parts are
     /// known.
     margin: Option<Node>,
@@ -32,21 +35,21 @@ pub(crate) struct EulerYzx {
 }
 
 impl Rows {
-    /// Creates the map; `first_axis` is the first column of `R_T`.
-    pub(crate) fn new(graph: &mut Graph, orientation: Orientation, first_axis: Vector) -> Self {
-        if orientation == Orientation::RotationVector {
-            return Self::RotationVector;
-        }
+    /// Creates the map; `last_axis` is the axis of the tool about which the last of the Euler
+    /// angles turns, in `F_0`. A rotation vector does not need it.
+    pub(crate) fn new(graph: &mut Graph, orientation: Orientation, last_axis: Vector) -> Self {
+        let Some(axis) = orientation.last_axis() else { return Self::RotationVector };
+        let first_axis = renamed(axis, last_axis);
         let [r11, _, r31] = first_axis;
         let (first, second) = (graph.mul(r11, r11), graph.mul(r31, r31));
         let square = graph.add(first, second);
         let margin = graph.sqrt(square);
-        graph.propose(margin, || "cos_roll".to_owned());
+        graph.propose(margin, || ["cos_roll", "cos_pitch"][axis].to_owned());
         let one = graph.constant(1.0);
         let inverse = graph.div(one, margin);
         let roll = [r11, r31].map(|entry| graph.mul(entry, inverse));
         let pitch = roll.map(|entry| graph.mul(entry, inverse));
-        Self::EulerYzx(EulerYzx { margin: Some(margin), roll, pitch, first_axis })
+        Self::Euler(Euler { axis, margin: Some(margin), roll, pitch, first_axis })
     }
 
     /// Number of nodes that represent the map to Euler angles.
@@ -56,16 +59,15 @@ impl Rows {
     pub(crate) fn parts(&self) -> Vec<Node> {
         match self {
             Self::RotationVector => Vec::new(),
-            Self::EulerYzx(EulerYzx { roll, pitch, first_axis, .. }) => {
-                [&roll[..], pitch, first_axis].concat()
-            }
+            Self::Euler(Euler { roll, pitch, first_axis, .. }) => [&roll[..], pitch, first_axis].concat(),
         }
     }
 
     /// Rebuilds the map to Euler angles from its parts, without the margin.
-    pub(crate) fn from_parts(parts: &[Node]) -> Self {
+    pub(crate) fn from_parts(axis: usize, parts: &[Node]) -> Self {
         let first_axis = [parts[4], parts[5], parts[6]];
-        Self::EulerYzx(EulerYzx {
+        Self::Euler(Euler {
+            axis,
             margin: None,
             roll: [parts[0], parts[1]],
             pitch: [parts[2], parts[3]],
@@ -77,14 +79,15 @@ impl Rows {
     pub(crate) fn margin(&self) -> Option<Node> {
         match self {
             Self::RotationVector => None,
-            Self::EulerYzx(euler) => euler.margin,
+            Self::Euler(euler) => euler.margin,
         }
     }
 
     pub(super) fn orientation_rows(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
-        let Self::EulerYzx(EulerYzx { roll, pitch, first_axis, .. }) = self else {
+        let Self::Euler(Euler { axis, roll, pitch, first_axis, .. }) = self else {
             return omega;
         };
+        let omega = renamed(*axis, omega);
         // A rotation about R_T x̂ changes the pitch only.
         let (zero, minus) = (graph.zero(), graph.neg_vector(omega));
         for (turn, pitch) in [(omega, 1.0), (minus, -1.0)] {
@@ -107,4 +110,9 @@ impl Rows {
         let [four, five, six] = self.orientation_rows(graph, omega);
         [x, y, z, four, five, six]
     }
+}
+
+/// Returns the components along the axes that follow `axis` in cyclic order, itself first.
+fn renamed(axis: usize, vector: Vector) -> Vector {
+    std::array::from_fn(|i| vector[(axis + i) % 3])
 }

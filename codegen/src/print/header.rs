@@ -15,6 +15,9 @@ fn rows(orientation: Orientation) -> &'static str {
         Orientation::EulerYzx => {
             "x, y, z of the tool point; spin σ, roll ρ, pitch π of `R_T = R_y(σ) R_z(ρ) R_x(π)`"
         }
+        Orientation::Iec61217 => {
+            "x, y, z of the tool point; yaw ψ, pitch θ, roll φ of `R_T = R_z(ψ) R_x(θ) R_y(φ)`"
+        }
     }
 }
 

@@ -17,6 +17,9 @@ pub(super) fn conventions(report: &Report) -> String {
         Orientation::EulerYzx => {
             "spin σ, roll ρ, pitch π of R<sub>T</sub> = R<sub>y</sub>(σ) R<sub>z</sub>(ρ) R<sub>x</sub>(π), rad"
         }
+        Orientation::Iec61217 => {
+            "yaw ψ, pitch θ, roll φ of R<sub>T</sub> = R<sub>z</sub>(ψ) R<sub>x</sub>(θ) R<sub>y</sub>(φ), rad"
+        }
     };
     let last = spec.frames.len();
     let facts = [

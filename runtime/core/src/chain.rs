@@ -43,7 +43,7 @@ pub fn displacement(e: &[f64; 6]) -> Pose {
 /// generated code is exact.
 pub fn located(place: &Pose, errors: &[f64; 6]) -> [f64; 6] {
     let displaced = place.then(&displacement(errors)).then(&place.inverse());
-    let ([x, y, z], [spin, roll, pitch]) = (displaced.position(), euler_yzx(&displaced));
+    let ([x, y, z], [spin, roll, pitch]) = (displaced.position(), euler(0, &displaced));
     [x, y, z, spin, roll, pitch]
 }
 
@@ -53,14 +53,14 @@ pub fn located(place: &Pose, errors: &[f64; 6]) -> [f64; 6] {
 /// differences are wrapped to (−π, π]; they are meaningless where the Euler angles of either pose
 /// are singular.
 pub fn deviation(orientation: Orientation, ideal: &Pose, real: &Pose) -> [f64; 6] {
-    let turn = match orientation {
-        Orientation::RotationVector => {
+    let turn = match orientation.last_axis() {
+        None => {
             let mut difference = real.then(&ideal.inverse());
             difference.0[3] = [0.0; 3];
             rotation_vector(&difference)
         }
-        Orientation::EulerYzx => {
-            let (a, b) = (euler_yzx(ideal), euler_yzx(real));
+        Some(axis) => {
+            let (a, b) = (euler(axis, ideal), euler(axis, real));
             core::array::from_fn(|i| wrap(b[i] - a[i]))
         }
     };
@@ -68,11 +68,26 @@ pub fn deviation(orientation: Orientation, ideal: &Pose, real: &Pose) -> [f64; 6
     [to[0] - from[0], to[1] - from[1], to[2] - from[2], turn[0], turn[1], turn[2]]
 }
 
-/// Returns spin, roll and pitch of `R = R_y(σ) R_z(ρ) R_x(π)`.
-fn euler_yzx(pose: &Pose) -> [f64; 3] {
-    let [x, y, z, _] = pose.0;
+/// Returns the angles of `R = R_y(σ) R_z(ρ) R_x(π)`, in axes [renamed](Orientation::last_axis) so
+/// that `axis` is x.
+fn euler(axis: usize, pose: &Pose) -> [f64; 3] {
+    let [x, y, z] = [0, 1, 2].map(|column| renamed(axis, pose.0[(axis + column) % 3]));
     let cosine = Scalar::sqrt(x[0] * x[0] + x[2] * x[2]);
     [Scalar::atan2(-x[2], x[0]), Scalar::atan2(x[1], cosine), Scalar::atan2(-z[1], y[1])]
+}
+
+/// Returns the margin of Euler rows, the cosine of the second angle: `cos ρ = √(r11² + r31²)` in
+/// [renamed](Orientation::last_axis) axes. It is 1 for rotation vectors.
+pub fn euler_margin(orientation: Orientation, pose: &Pose) -> f64 {
+    orientation.last_axis().map_or(1.0, |axis| {
+        let [r11, _, r31] = renamed(axis, pose.0[axis]);
+        Scalar::sqrt(r11 * r11 + r31 * r31)
+    })
+}
+
+/// Returns the components along the axes that follow `axis` in cyclic order, itself first.
+pub(crate) fn renamed(axis: usize, vector: [f64; 3]) -> [f64; 3] {
+    core::array::from_fn(|i| vector[(axis + i) % 3])
 }
 
 /// Limit on twice the sine of an angle below which its square underflows; the rotation vector is
@@ -113,6 +128,24 @@ mod tests {
         let Pose(found) = displacement(&e);
         for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
             assert!((found - expected).abs() < 1e-10);
+        }
+    }
+
+    /// Checks the table angles of IEC 61217 against a rotation by hand: yaw about z, then pitch
+    /// about the turned x, then roll about the turned y.
+    #[test]
+    fn table_angles_are_yaw_pitch_and_roll() {
+        let about = |component: Component, angle: f64| {
+            let mut e = [0.0; 6];
+            e[component.index()] = angle;
+            displacement(&e)
+        };
+        let [yaw, pitch, roll] = [1.2, -0.05, 0.03];
+        let turned = about(Component::Roll, yaw);
+        let turned = turned.then(&about(Component::Pitch, pitch)).then(&about(Component::Spin, roll));
+        let found = deviation(Orientation::Iec61217, &Pose::IDENTITY, &turned);
+        for (found, expected) in found.iter().zip([0.0, 0.0, 0.0, yaw, pitch, roll]) {
+            assert!((found - expected).abs() < 1e-15, "{found} {expected}");
         }
     }
 

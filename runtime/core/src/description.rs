@@ -36,6 +36,9 @@ pub enum Orientation {
     RotationVector,
     /// Spin σ, roll ρ, pitch π of `R_T = R_y(σ) R_z(ρ) R_x(π)`. Singular at cos ρ = 0.
     EulerYzx,
+    /// Table angles of IEC 61217: yaw ψ, pitch θ, roll φ of `R_T = R_z(ψ) R_x(θ) R_y(φ)`, in axes
+    /// with z up and y towards the gantry. Singular at cos θ = 0.
+    Iec61217,
 }
 
 impl Orientation {
@@ -44,6 +47,7 @@ impl Orientation {
         match self {
             Self::RotationVector => "rotation-vector",
             Self::EulerYzx => "euler-yzx",
+            Self::Iec61217 => "iec-61217",
         }
     }
 
@@ -52,6 +56,20 @@ impl Orientation {
         match self {
             Self::RotationVector => ["x", "y", "z", "rotation_x", "rotation_y", "rotation_z"],
             Self::EulerYzx => ["x", "y", "z", "spin", "roll", "pitch"],
+            Self::Iec61217 => ["x", "y", "z", "yaw", "pitch", "roll"],
+        }
+    }
+
+    /// Returns the axis of the last of the three rotations of Euler angles: 0 = x, 1 = y; `None`
+    /// for a rotation vector.
+    ///
+    /// With the axes renamed in cyclic order so that this one is x, all Euler angles are those of
+    /// `R_y R_z R_x`.
+    pub const fn last_axis(self) -> Option<usize> {
+        match self {
+            Self::RotationVector => None,
+            Self::EulerYzx => Some(0),
+            Self::Iec61217 => Some(1),
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::{Component, Orientation, Scalar};
 pub const fn vectors(orientation: Orientation) -> usize {
     match orientation {
         Orientation::RotationVector => 6,
-        Orientation::EulerYzx => 9,
+        Orientation::EulerYzx | Orientation::Iec61217 => 9,
     }
 }
 
@@ -39,7 +39,7 @@ pub const fn number(orientation: Orientation, component: Component, row: usize) 
         (false, false, _) => None,
         (true, true, _) => Some(9 + 3 * turn + row),
         (true, false, Orientation::RotationVector) => Some(3 * component.axis() + row - 3),
-        (true, false, Orientation::EulerYzx) => Some(18 + 3 * turn + row - 3),
+        (true, false, _) => Some(18 + 3 * turn + row - 3),
     }
 }
 

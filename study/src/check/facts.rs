@@ -1,6 +1,6 @@
 //! Content of a spec, in the order of the file.
 
-use abbe::{Class, Distribution, Orientation, VariableKind};
+use abbe::{Class, Distribution, VariableKind};
 use abbe_codegen::chain::effects;
 use abbe_codegen::program::{Operations, Routines};
 use abbe_interpreter::Interpreter;
@@ -18,7 +18,7 @@ pub struct Facts {
     pub spec: String,
     /// Symbol of the length unit.
     pub length: &'static str,
-    /// Convention of rows 4–6: `rotation-vector` or `euler-yzx`.
+    /// Convention of rows 4–6: `rotation-vector`, `euler-yzx` or `iec-61217`.
     pub orientation: &'static str,
     /// Frames, base to tip.
     pub frames: Vec<Frame>,
@@ -150,10 +150,7 @@ impl Facts {
             title: spec.title.clone(),
             spec: origin.to_owned(),
             length: spec.length.symbol(),
-            orientation: match spec.orientation {
-                Orientation::RotationVector => "rotation-vector",
-                Orientation::EulerYzx => "euler-yzx",
-            },
+            orientation: spec.orientation.name(),
             frames: frames.collect(),
             variables: variables.collect(),
             parameters: parameters.collect(),

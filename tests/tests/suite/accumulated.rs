@@ -130,7 +130,7 @@ fn compare(spec: &Spec) {
 fn every_shipped_manipulator_with_rows_of_both_kinds() {
     for shipped in SHIPPED {
         let mut spec = Spec::parse(shipped.name, shipped.spec).unwrap();
-        for orientation in [Orientation::RotationVector, Orientation::EulerYzx] {
+        for orientation in [Orientation::RotationVector, Orientation::EulerYzx, Orientation::Iec61217] {
             spec.orientation = orientation;
             compare(&spec);
         }
@@ -143,7 +143,7 @@ fn every_shipped_manipulator_with_rows_of_both_kinds() {
 fn coupled_joints_and_a_long_chain() {
     for text in [coupled_joints().to_owned(), general_chain(30)] {
         let mut spec = Spec::parse("chain.toml", &text).unwrap();
-        for orientation in [Orientation::RotationVector, Orientation::EulerYzx] {
+        for orientation in [Orientation::RotationVector, Orientation::EulerYzx, Orientation::Iec61217] {
             spec.orientation = orientation;
             compare(&spec);
         }

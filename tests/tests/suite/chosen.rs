@@ -95,7 +95,7 @@ fn total(count: Operations) -> usize {
 fn no_function_takes_more_than_what_was_made_first() {
     let (mut before, mut after) = (0, 0);
     for mut spec in specs() {
-        for orientation in [Orientation::RotationVector, Orientation::EulerYzx] {
+        for orientation in [Orientation::RotationVector, Orientation::EulerYzx, Orientation::Iec61217] {
             spec.orientation = orientation;
             let model = Model::new(&spec);
             let mut plain = model.clone();

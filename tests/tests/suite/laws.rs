@@ -26,10 +26,12 @@ fn interpreted() {
 #[test]
 fn euler_rows_of_every_manipulator() {
     for shipped in SHIPPED {
-        let text = with_orientation(shipped.spec, "euler-yzx");
-        let spec = Spec::parse(shipped.name, &text).unwrap();
-        all(&Interpreter::new(spec.clone()), 60)
-            .unwrap_or_else(|failure| panic!("{}: {failure}", shipped.name));
+        for orientation in ["euler-yzx", "iec-61217"] {
+            let text = with_orientation(shipped.spec, orientation);
+            let spec = Spec::parse(shipped.name, &text).unwrap();
+            all(&Interpreter::new(spec.clone()), 60)
+                .unwrap_or_else(|failure| panic!("{}, {orientation}: {failure}", shipped.name));
+        }
     }
 }
 

@@ -54,6 +54,15 @@ fn rows(graph: &mut Graph, orientation: Orientation, pose: &Frame, symbol: Symbo
             let pitch = graph.atan2(r23, y[1]);
             [spin, roll, pitch].map(|angle| graph.diff(angle, symbol))
         }
+        // Yaw, pitch and roll of R_z R_x R_y: r12 = −sin ψ cos θ, r32 = sin θ, r31 = −cos θ sin φ.
+        Orientation::Iec61217 => {
+            let [x, y, z] = pose.axes;
+            let (r12, r31) = (graph.neg(y[0]), graph.neg(x[2]));
+            let yaw = graph.atan2(r12, y[1]);
+            let pitch = graph.call(abbe_spec::expr::Function::Asin, y[2]);
+            let roll = graph.atan2(r31, z[2]);
+            [yaw, pitch, roll].map(|angle| graph.diff(angle, symbol))
+        }
     };
     [slopes[9], slopes[10], slopes[11], turn[0], turn[1], turn[2]]
 }
@@ -103,7 +112,7 @@ fn compare(spec: &Spec) {
 fn structured_equals_differentiated_for_every_shipped_manipulator() {
     for shipped in SHIPPED {
         let mut spec = Spec::parse(shipped.name, shipped.spec).unwrap();
-        for orientation in [Orientation::RotationVector, Orientation::EulerYzx] {
+        for orientation in [Orientation::RotationVector, Orientation::EulerYzx, Orientation::Iec61217] {
             spec.orientation = orientation;
             compare(&spec);
         }
@@ -115,7 +124,7 @@ fn structured_equals_differentiated_for_every_shipped_manipulator() {
 #[test]
 fn structured_equals_differentiated_for_coupled_joints() {
     let mut spec = Spec::parse("coupled.toml", coupled_joints()).unwrap();
-    for orientation in [Orientation::RotationVector, Orientation::EulerYzx] {
+    for orientation in [Orientation::RotationVector, Orientation::EulerYzx, Orientation::Iec61217] {
         spec.orientation = orientation;
         compare(&spec);
     }

@@ -64,7 +64,7 @@ pub(super) fn type_name(name: &str) -> String {
 pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNode]) {
     let distinct = match spec.orientation {
         Orientation::RotationVector => 6,
-        Orientation::EulerYzx => 9,
+        Orientation::EulerYzx | Orientation::Iec61217 => 9,
     };
     for (name, count, documentation) in [
         ("FRAMES", spec.frames.len(), "Number of frames n."),
@@ -96,6 +96,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     writer.lines(match spec.orientation {
         Orientation::RotationVector => "orientation: Orientation::RotationVector,",
         Orientation::EulerYzx => "orientation: Orientation::EulerYzx,",
+        Orientation::Iec61217 => "orientation: Orientation::Iec61217,",
     });
     let entries = writer.indent() + 4;
     let mut list = |name: &str, entries: Vec<(&str, Vec<String>)>| {

@@ -33,11 +33,12 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     writer.documentation(
         "Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values propagate.",
     );
-    if spec.orientation == Orientation::EulerYzx {
+    if spec.orientation != Orientation::RotationVector {
         writer.documentation_line("");
-        writer.documentation(
-            "Functions with Euler angles return `cos ρ`; where it is 0, rows 4–6 are not finite.",
-        );
+        let cosine = if spec.orientation == Orientation::EulerYzx { "cos ρ" } else { "cos θ" };
+        writer.documentation(&format!(
+            "Functions with Euler angles return `{cosine}`; where it is 0, rows 4–6 are not finite.",
+        ));
     }
     let shares_columns = shares_columns(routines);
     writer.open("pub mod raw");

@@ -1,6 +1,5 @@
 //! Builder of a routine: its arrays and its stages so far.
 
-use abbe_core::Orientation;
 use abbe_core::function::Count;
 
 use super::body::Body;
@@ -61,37 +60,43 @@ impl<'d, 'm> Draft<'d, 'm> {
         self.stages.push(body.stage(Some(Repeated { count: Count::Frames, backwards: true })));
     }
 
-    /// Computes the margin, if there is one, from the x axis of the tool, for functions that
-    /// compute no rows 4–6.
+    /// Returns the axis of the tool about which the last of the Euler angles turns.
+    pub(super) fn last_axis(&self) -> usize {
+        self.loops.orientation.last_axis().unwrap_or(0)
+    }
+
+    /// Computes the margin, if there is one, from the [last axis](Self::last_axis) of the tool, for
+    /// functions that compute no rows 4–6.
     pub(super) fn margin_alone(&mut self, axis: impl FnOnce(&mut Body) -> Vector) {
         let Some(margin) = self.margin() else { return };
         let mut body = Body::new();
         let axis = axis(&mut body);
-        let rows = Rows::new(&mut body.graph, Orientation::EulerYzx, axis);
+        let rows = Rows::new(&mut body.graph, self.loops.orientation, axis);
         body.write(margin, Row::All, &rows.margin().into_iter().collect::<Vec<_>>());
         self.once(body);
     }
 
-    /// Computes the coefficients of rows 4–6 and the margin from the x axis of the tool.
+    /// Computes the coefficients of rows 4–6 and the margin from the [last axis](Self::last_axis)
+    /// of the tool.
     pub(super) fn rows(&mut self, axis: impl FnOnce(&mut Body) -> Vector) -> RowsArray {
-        if self.loops.orientation == Orientation::RotationVector {
+        let Some(last) = self.loops.orientation.last_axis() else {
             return RowsArray::ROTATION_VECTOR;
-        }
+        };
         let euler = self.zeros("euler", &[Count::Exactly(Rows::PARTS)]);
         let mut body = Body::new();
         let axis = axis(&mut body);
-        let rows = Rows::new(&mut body.graph, Orientation::EulerYzx, axis);
+        let rows = Rows::new(&mut body.graph, self.loops.orientation, axis);
         body.write(euler, Row::All, &rows.parts());
         if let (Some(margin), Some(node)) = (self.margin(), rows.margin()) {
             body.write(margin, Row::All, &[node]);
         }
         self.once(body);
-        RowsArray(Some(euler))
+        RowsArray(Some((last, euler)))
     }
 }
 
-/// Array that holds the coefficients of rows 4–6; a rotation vector needs none.
-pub(super) struct RowsArray(Option<usize>);
+/// Last axis, and the array that holds the coefficients of rows 4–6; a rotation vector needs none.
+pub(super) struct RowsArray(Option<(usize, usize)>);
 
 impl RowsArray {
     /// Coefficients of a rotation vector.
@@ -100,7 +105,7 @@ impl RowsArray {
     pub(super) fn read(&self, body: &mut Body) -> Rows {
         match self.0 {
             None => Rows::RotationVector,
-            Some(array) => Rows::from_parts(&body.read(array, Row::All, Rows::PARTS)),
+            Some((last, array)) => Rows::from_parts(last, &body.read(array, Row::All, Rows::PARTS)),
         }
     }
 }

@@ -17,7 +17,8 @@ impl Draft<'_, '_> {
         let frames = self.frames(terms);
         let pose = self.array("pose");
         self.copy(frames, Row::Last, pose);
-        let rows = self.rows(|body| body.frame(pose, Row::All).axes[0]);
+        let last = self.last_axis();
+        let rows = self.rows(|body| body.frame(pose, Row::All).axes[last]);
         let mut body = Body::new();
         let (at, tool) = (body.frame(frames, Row::NEXT), body.frame(pose, Row::All));
         let rows = rows.read(&mut body);
@@ -48,7 +49,8 @@ impl Draft<'_, '_> {
         let pose = self.array("pose");
         self.copy(frames, Row::Last, pose);
         let twists = if by_parameters { &self.loops.parameters } else { &self.loops.joints };
-        let axis = |body: &mut Body| body.frame(pose, Row::All).axes[0];
+        let last = self.last_axis();
+        let axis = move |body: &mut Body| body.frame(pose, Row::All).axes[last];
         if twists.count == 0 {
             // No symbol moves any frame.
             self.margin_alone(axis);
@@ -103,7 +105,7 @@ impl Draft<'_, '_> {
     /// the tip to the base.
     pub(super) fn accumulate<A: Accumulated>(&mut self, errors: usize, result: &'static str) {
         let links = self.links();
-        let euler = self.loops.orientation == Orientation::EulerYzx;
+        let euler = self.loops.orientation != Orientation::RotationVector;
         let lever = self.zeros("lever", &[Count::Exactly(3)]);
         let axis = euler.then(|| self.zeros("direction", &[Count::Exactly(3)]));
         let state = self.zeros("sum", &[Count::Exactly(A::NUMBERS)]);
@@ -111,7 +113,7 @@ impl Draft<'_, '_> {
         let tool = body.frame(links, Row::Last);
         body.write(lever, Row::All, &tool.position);
         if let Some(axis) = axis {
-            body.write(axis, Row::All, &tool.axes[0]);
+            body.write(axis, Row::All, &tool.axes[self.last_axis()]);
         }
         self.once(body);
 
@@ -120,7 +122,7 @@ impl Draft<'_, '_> {
         let errors = body.six(errors, Row::EACH);
         let numbers = body.read(state, Row::All, A::NUMBERS);
         let point = body.vector(lever, Row::All);
-        let first_axis = axis.map(|axis| body.vector(axis, Row::All));
+        let last_axis = axis.map(|axis| body.vector(axis, Row::All));
         let g = &mut body.graph;
         let mut sum = A::from_numbers(&numbers);
         sum.add(g, errors, point);
@@ -128,10 +130,10 @@ impl Draft<'_, '_> {
         sum.turn(g, &turn);
         let point = turn.direction(g, point);
         let point = shift.point(g, point);
-        let first_axis = first_axis.map(|axis| turn.direction(g, axis));
+        let last_axis = last_axis.map(|axis| turn.direction(g, axis));
         body.write(state, Row::All, &sum.numbers());
         body.write(lever, Row::All, &point);
-        if let (Some(array), Some(node)) = (axis, first_axis) {
+        if let (Some(array), Some(node)) = (axis, last_axis) {
             body.write(array, Row::All, &node);
         }
         self.backwards(body);
@@ -154,7 +156,8 @@ impl Draft<'_, '_> {
             if self.margin().is_some() {
                 let pose = self.zeros("pose", &POSE);
                 self.call("pose", &[self.array("q"), self.array("s"), pose]);
-                self.margin_alone(|body| body.frame(pose, Row::All).axes[0]);
+                let last = self.last_axis();
+                self.margin_alone(|body| body.frame(pose, Row::All).axes[last]);
             }
             self.stages.push(Stage::Clear(self.array("displacements")));
             return;

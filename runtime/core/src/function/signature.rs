@@ -74,9 +74,9 @@ impl Signature {
         results + usize::from(self.has_margin(description.orientation))
     }
 
-    /// Returns whether the function returns the margin `cos ρ` after its results.
+    /// Returns whether the function returns the margin, such as `cos ρ`, after its results.
     pub const fn has_margin(&self, orientation: Orientation) -> bool {
-        self.oriented && matches!(orientation, Orientation::EulerYzx)
+        self.oriented && orientation.last_axis().is_some()
     }
 }
 

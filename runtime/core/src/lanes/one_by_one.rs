@@ -1,9 +1,10 @@
 //! Batches for a manipulator without code for lanes: one configuration after the other.
 
 use super::{Batches, Tiles, check};
-use crate::twist::{roll_cosine, twist};
+use crate::twist::twist;
 use crate::{
-    Delegate, Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, repeatable_magnitudes,
+    Delegate, Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, euler_margin,
+    repeatable_magnitudes,
 };
 
 /// Wrapper that gives any manipulator batches: each configuration is evaluated by the methods of
@@ -104,7 +105,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
             }
         };
         if function.signature().has_margin(description.orientation) {
-            values.push(roll_cosine(&manipulator.pose(q, s)?));
+            values.push(euler_margin(description.orientation, &manipulator.pose(q, s)?));
         }
         Ok(values)
     }

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::sampling;
-use crate::{Error, Manipulator, Orientation, Pose, chain};
+use crate::{Error, Manipulator, Pose, chain, euler_margin};
 
 /// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
@@ -46,10 +46,7 @@ impl<'a> Subject<'a> {
             let transforms =
                 self.transforms(&q, &self.s).map_err(|error| Failure::Evaluation { q: q.clone(), error })?;
             let pose = chain(&transforms);
-            let margin = match description.orientation {
-                Orientation::RotationVector => 1.0,
-                Orientation::EulerYzx => pose.0[0][0].hypot(pose.0[0][2]),
-            };
+            let margin = euler_margin(description.orientation, &pose);
             if margin >= EULER_MARGIN {
                 samples.push(Sample { q, transforms, pose, margin });
             }

@@ -8,8 +8,11 @@ use crate::manipulator::Axes;
 pub(super) const LENGTHS: [(&str, LengthUnit); 2] =
     [("mm", LengthUnit::Millimetre), ("m", LengthUnit::Metre)];
 
-pub(super) const ORIENTATIONS: [(&str, Orientation); 2] =
-    [("rotation-vector", Orientation::RotationVector), ("euler-yzx", Orientation::EulerYzx)];
+pub(super) const ORIENTATIONS: [(&str, Orientation); 3] = [
+    ("rotation-vector", Orientation::RotationVector),
+    ("euler-yzx", Orientation::EulerYzx),
+    ("iec-61217", Orientation::Iec61217),
+];
 
 pub(super) const JOINT_KINDS: [(&str, VariableKind); 2] =
     [("revolute", VariableKind::Revolute), ("prismatic", VariableKind::Prismatic)];

@@ -79,6 +79,7 @@ impl OrientationReport {
             rows: match spec.orientation {
                 Orientation::RotationVector => ["about x", "about y", "about z"],
                 Orientation::EulerYzx => ["spin", "roll", "pitch"],
+                Orientation::Iec61217 => ["yaw", "pitch", "roll"],
             },
             configurations: budget.orientation.configurations,
             sources: sources.collect(),

@@ -41,7 +41,7 @@ fn differences(spec: &Spec, given: Vec<Vec<f64>>) -> Differences {
     let robot = Interpreter::new(spec.clone());
     let nearest = |given: Vec<f64>| given.into_iter().map(|value| Real::Float.nearest(value)).collect();
     let given: Vec<Vec<f64>> = given.into_iter().map(nearest).collect();
-    let euler = robot.description().orientation == Orientation::EulerYzx;
+    let euler = robot.description().orientation != Orientation::RotationVector;
     let [mut double, mut single] = Real::ALL.map(|real| {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), spec, real);
