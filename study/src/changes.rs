@@ -118,6 +118,14 @@ impl Changes {
         })
     }
 
+    /// Iterates over the indices of the parameters that are set.
+    pub fn parameters(&self) -> impl Iterator<Item = usize> {
+        self.values.iter().filter_map(|(symbol, _)| match symbol {
+            Symbol::Parameter(i) => Some(*i),
+            _ => None,
+        })
+    }
+
     /// Applies the changes. Values become the nominal ones.
     pub fn apply(&self, spec: &mut Spec) {
         for &(symbol, value) in &self.values {

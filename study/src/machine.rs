@@ -11,7 +11,8 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, Shipped};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
-use abbe_spec::{Identified, Magnitude, Source, Spec, Uncertain};
+use abbe_spec::expr::{Expression, Symbol};
+use abbe_spec::{Factor, Identified, Magnitude, Source, Spec, Uncertain};
 
 use crate::calibration::independent_parts;
 use crate::changes::Changes;
@@ -36,6 +37,8 @@ pub struct Machine {
     changed: bool,
     /// Indices of the inputs that changes fix.
     fixed_inputs: Vec<usize>,
+    /// Indices of the parameters that changes set.
+    set_parameters: Vec<usize>,
     /// Changes as they were written, each with the name of its option.
     stated_changes: Vec<(&'static str, String)>,
 }
@@ -79,6 +82,7 @@ impl Machine {
             shipped,
             changed: false,
             fixed_inputs: Vec::new(),
+            set_parameters: Vec::new(),
             stated_changes: Vec::new(),
         }
     }
@@ -88,6 +92,7 @@ impl Machine {
         changes.apply(Arc::make_mut(&mut self.spec));
         self.changed |= !changes.is_empty();
         self.fixed_inputs.extend(changes.inputs());
+        self.set_parameters.extend(changes.parameters());
         self.stated_changes.extend_from_slice(changes.stated());
     }
 
@@ -134,6 +139,14 @@ impl Machine {
     /// Returns the indices of the inputs that changes fix: no workspace varies them.
     pub fn fixed_inputs(&self) -> &[usize] {
         &self.fixed_inputs
+    }
+
+    /// Returns the names of the parameters of the tool that changes set.
+    pub(crate) fn set_tool_parameters(&self) -> Vec<&str> {
+        let symbols = self.spec.tool.iter().flat_map(Factor::expressions).flat_map(Expression::symbols);
+        let of_tool = symbols.collect::<Vec<_>>();
+        let set = self.set_parameters.iter().filter(|i| of_tool.contains(&Symbol::Parameter(**i)));
+        set.map(|i| &*self.spec.parameters[*i].name).collect()
     }
 
     /// Returns the changes, followed by other options of a run, for its record.

@@ -5,6 +5,7 @@ use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, T
 use abbe_spec::keys::{Rule, Then, When, words};
 
 use super::choices::{BASES, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
+use super::target_frame::TARGET_FRAMES;
 use super::turn::EULER_ORDERS;
 
 const TEXT: Value = Text("text");
@@ -70,6 +71,8 @@ abbe_spec::tables! {
             "Column of the name of the station: each station has its own pose, and all share the machine";
         "placement": Choice(|| words(&PLACEMENTS)), "-", "`\"unknown\"`",
             "Position of the targets, or of the measured frame, on the tool: near the nominal one, or exactly there. If unknown, errors that act as a displacement of the targets are attributed to it, never to the machine";
+        "target_frame": Choice(|| words(&TARGET_FRAMES)), "-", "`\"tool\"`",
+            "Frame of the positions of targets in `[[target]]` and `[placement]`: that of the tool, with which `--set` moves them, or `flange`, the last frame before the tool, to which they are fixed wherever the tool point is";
         "setup": COLUMN, "-", "none", "Column of the number of the setup, which decides which instruments were read in a row";
     ]
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], [
@@ -103,7 +106,7 @@ abbe_spec::tables! {
         "columns": COLUMNS, "-", "required without `[[instrument]]`", "Headings of the columns of x, y and z";
         "unit": LENGTH_UNIT, "-", "required without `[[instrument]]`", "Unit of their numbers";
         "position": Either("three numbers, or `\"unknown\"` beside `[[instrument]]`", &[VECTOR, Choice(|| words(&UNKNOWN))]), "length unit", "required",
-            "Nominal position in the frame of the tool";
+            "Nominal position in the frame of the tool, or in that of `target_frame`";
     ]
     ANY_INSTRUMENT: ["[[instrument]]"], [
         "name": TEXT, "-", "required", "Name of the instrument in reports, and of its unknowns: `bar_x`";
@@ -188,7 +191,7 @@ abbe_spec::tables! {
     ]
     PLACEMENT: ["[placement]"], [
         "targets": List("three numbers for each target", None, &VECTOR), "length unit", "required for points",
-            "Positions of the targets in the frame of the tool, instead of the nominal ones";
+            "Positions of the targets in the frame of the tool or of `target_frame`, instead of the nominal ones";
         "position": VECTOR, "length unit", "required for poses", "Position of the measured frame in the frame of the tool";
         "quaternion": QUATERNION_VALUE, "1", "required for poses", "Orientation of the measured frame in the frame of the tool";
         "covariance": MATRIX, "length unit and rad", "none",

@@ -12,6 +12,7 @@ use super::column::{Channel, Column, Scale};
 use super::configurations::resolution;
 use super::instrument::Instruments;
 use super::station::{Placement, Stations};
+use super::target_frame::TargetFrame;
 use super::turn::Turn;
 use crate::workspace::has_range;
 use crate::{Acceptance, Machine, RunRecord};
@@ -64,6 +65,8 @@ pub struct Map {
     pub base: Base,
     /// Stations of the machine.
     pub stations: Stations,
+    /// Frame in which the map states the positions of targets.
+    pub target_frame: TargetFrame,
     /// Mounting of the targets on the tool.
     pub placement: Placement,
     /// Limits for rows that were not used in a fit.
@@ -108,6 +111,7 @@ impl Map {
             uncertainty: Uncertainty { length: 1.0, angle: 1.0 },
             base: Base::Known,
             stations: Stations::default(),
+            target_frame: TargetFrame::default(),
             placement: Placement::default(),
             accept: Acceptance::default(),
             record: RunRecord::default(),
@@ -149,6 +153,25 @@ impl Map {
             (None, Layout::Instruments(all)) => all.targets.clone(),
             _ => vec![[0.0; 3]],
         }
+    }
+
+    /// Returns a warning if parameters of the tool are set and targets in its frame move along,
+    /// unless the map says that they do.
+    pub(crate) fn carried_targets(&self, machine: &Machine) -> Option<String> {
+        let set = machine.set_tool_parameters();
+        let has_targets = match &self.layout {
+            Layout::Targets(_) => true,
+            Layout::Instruments(all) => all.targets.iter().any(|target| *target != [0.0; 3]),
+            _ => false,
+        };
+        (has_targets && !set.is_empty() && !self.target_frame.is_stated).then(|| {
+            format!(
+                "setting {} moves the targets with the tool, because the map states their positions in its \
+                 frame: if they stay where they are on the machine, state them in the last frame before the \
+                 tool and write `target_frame = \"flange\"` in [data]; if they move, `target_frame = \"tool\"`",
+                set.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+            )
+        })
     }
 
     /// Returns the transform from the measured frame to the frame of the tool; identity unless

@@ -30,6 +30,7 @@ mod rows;
 mod source;
 mod station;
 mod table;
+mod target_frame;
 mod turn;
 
 pub use abbe_spec::csv_writer::{Csv, Heading};
@@ -48,6 +49,7 @@ pub use rows::{Data, Summary, Unusable};
 pub use source::{Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
 pub use table::Table;
+pub use target_frame::TargetFrame;
 pub(crate) use turn::EULER_ORDERS;
 pub use turn::{Order, Turn};
 

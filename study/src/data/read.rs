@@ -18,6 +18,7 @@ use super::read_channels::{inputs, joints};
 use super::read_instruments::instruments;
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
+use super::target_frame::TargetFrame;
 use super::turn::{EULER_ORDERS, Turn};
 use crate::acceptance::{Acceptance, FIGURE_NAMES};
 use crate::{RunRecord, check_date, named};
@@ -96,7 +97,8 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
             item.and_then(|item| positive(&item, document, spec, Dimension::LENGTH)).map(Some)
         }
     };
-    let layout = layout(root, stated.flatten(), setup.flatten(), document, spec);
+    let target_frame = TargetFrame::read(&head, document, spec)?;
+    let layout = layout(root, stated.flatten(), setup.flatten(), &target_frame, document, spec);
     let layout = found_places(root, layout, document, spec);
     let length = match (&layout, stated) {
         (Some(Layout::Instruments(all)), Some(None)) => Some(all.uncertainty()),
@@ -116,7 +118,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         None => Base::Known,
     };
     let stations = stations(root, &head, document, spec);
-    let placement = placement(root, &head, document, spec, layout.as_ref());
+    let placement = placement(root, &head, &target_frame, document, spec, layout.as_ref());
     let accept = accept(root, document, spec);
     let record = record(root, document);
     let base = match &layout {
@@ -129,6 +131,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         uncertainty: Uncertainty { length: length?, angle: angle? },
         base,
         stations: stations?,
+        target_frame,
         placement: placement?,
         accept: accept?,
         record: record?,
@@ -150,6 +153,7 @@ fn layout(
     root: &Section<'_>,
     stated: Option<f64>,
     setup: Option<Column>,
+    frame: &TargetFrame,
     document: &mut Document,
     spec: &Spec,
 ) -> Option<Layout> {
@@ -157,7 +161,7 @@ fn layout(
         keys::FORMS.contain(&item.key) && !["target", "instrument"].contains(&item.key.as_str())
     };
     if root.get("instrument").is_some() && !root.items().any(|item| alone(&item)) {
-        let all = instruments(root, stated, setup, document, spec)?;
+        let all = instruments(root, stated, setup, frame, document, spec)?;
         return Some(Layout::Instruments(Box::new(all)));
     }
     let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
@@ -169,7 +173,7 @@ fn layout(
         return None;
     };
     if form.key == "target" {
-        return targets(&form, document, spec);
+        return targets(&form, frame, document, spec);
     }
     let mut section = document.section(&form)?;
     section.name = format!("[{}]", form.key);
@@ -221,7 +225,7 @@ fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<T
     Some(Turn::Euler(Box::new(columns(&section, "columns", document)?), order?, factor?))
 }
 
-fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layout> {
+fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: &Spec) -> Option<Layout> {
     let items = document.array(item, "an array of tables [[target]]")?;
     let mut targets = Vec::new();
     for item in &items {
@@ -236,7 +240,7 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layo
         let position: [Item<'_>; 3] =
             document.entries(&position, "three lengths in the frame of the tool")?;
         let [x, y, z] = position.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-        targets.push(Target { columns: columns?, factor: factor?, position: [x?, y?, z?] });
+        targets.push(Target { columns: columns?, factor: factor?, position: frame.to_tool([x?, y?, z?]) });
     }
     let positions: Vec<[f64; 3]> = targets.iter().map(|target| target.position).collect();
     let mistake = match register(&positions, &positions) {

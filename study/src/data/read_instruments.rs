@@ -14,6 +14,7 @@ use super::column::Column;
 use super::instrument::{Instrument, Instruments, norm};
 use super::keys;
 use super::read_values::{column, columns, constant, positive, unit};
+use super::target_frame::TargetFrame;
 
 /// A target with a name.
 struct Named {
@@ -26,11 +27,12 @@ pub(super) fn instruments(
     root: &Section<'_>,
     stated: Option<f64>,
     setup: Option<Column>,
+    frame: &TargetFrame,
     document: &mut Document,
     spec: &Spec,
 ) -> Option<Instruments> {
     let targets = match root.get("target") {
-        Some(item) => targets(&item, document, spec)?,
+        Some(item) => targets(&item, frame, document, spec)?,
         None => vec![Named { name: String::new(), position: [0.0; 3] }],
     };
     let items = root.get("instrument")?;
@@ -59,7 +61,7 @@ pub(super) fn instruments(
     complete.then_some(all)
 }
 
-fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Named>> {
+fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: &Spec) -> Option<Vec<Named>> {
     let items = document.array(item, "an array of tables [[target]]")?;
     let one = |item: &Item<'_>, document: &mut Document| {
         let mut section = document.section(item)?;
@@ -69,7 +71,7 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<
         let name = section.required("name", document).and_then(|item| document.string(&item));
         let position = match section.get("position") {
             Some(item) if is_unknown(&item, document) => [0.0; 3],
-            Some(item) => vector(&item, document, spec, Dimension::LENGTH)?,
+            Some(item) => frame.to_tool(vector(&item, document, spec, Dimension::LENGTH)?),
             None => section.required("position", document).map(|_| [0.0; 3])?,
         };
         Some(Named { name: name?, position })

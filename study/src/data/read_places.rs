@@ -15,6 +15,7 @@ use super::map::Layout;
 use super::read_values::{column, constant};
 use super::rotation;
 use super::station::{Placement, StatedStation, Stations};
+use super::target_frame::TargetFrame;
 
 /// Reads the column of stations in `[data]`, and the `[[station]]` tables.
 pub(super) fn stations(
@@ -58,6 +59,7 @@ pub(super) fn stations(
 pub(super) fn placement(
     root: &Section<'_>,
     head: &Section<'_>,
+    frame: &TargetFrame,
     document: &mut Document,
     spec: &Spec,
     layout: Option<&Layout>,
@@ -86,7 +88,7 @@ pub(super) fn placement(
     for item in document.array(&list, "positions, each three lengths in the frame of the tool")? {
         let three: [Item<'_>; 3] = document.entries(&item, "three lengths in the frame of the tool")?;
         let [x, y, z] = three.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-        targets.push([x?, y?, z?]);
+        targets.push(frame.to_tool([x?, y?, z?]));
     }
     if targets.len() != count {
         let message = format!("the map has {count} targets, but positions of {}", targets.len());

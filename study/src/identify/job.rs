@@ -113,6 +113,7 @@ impl Identify {
                  cross-validation"
             ));
         }
+        map.carried_targets(machine).iter().for_each(|warning| notes.warn(warning));
         let derived = derived(&machine.spec, map, &self.terms, &data);
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());

@@ -9,7 +9,7 @@ use abbe_spec::literal::quoted;
 use super::derived::{Derived, with_inputs};
 use super::found_model::FoundModel;
 use super::found_placement::FoundPlacement;
-use crate::data::{Map, quaternion};
+use crate::data::{Map, TargetFrame, quaternion};
 
 impl FoundModel {
     /// Returns the map of the data with the identified placement. `path` is the name of its file.
@@ -19,7 +19,7 @@ impl FoundModel {
     pub fn identified_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String, Diagnostics> {
         let (whole, needed) = (with_inputs(spec, &self.derived), self.needed(spec));
         let text = with_from_rows(&without_placement(map.text()), &whole, &needed);
-        let placement = self.placed.text(spec.length.symbol());
+        let placement = self.placed.text(spec.length.symbol(), &map.target_frame);
         let text = format!("{}\n\n{HEAD}# {}\n{placement}", text.trim_end(), self.reference);
         let text = text.trim_end().to_owned() + "\n";
         Map::parse(path, &text, &whole)?;
@@ -51,8 +51,9 @@ fn with_from_rows(text: &str, spec: &Spec, needed: &[&Derived]) -> String {
 }
 
 impl FoundPlacement {
-    /// Formats the placement as tables of a map. `unit` is the length unit.
-    fn text(&self, unit: &str) -> String {
+    /// Formats the placement as tables of a map. `unit` is the length unit, `frame` that of the
+    /// positions of targets.
+    fn text(&self, unit: &str, frame: &TargetFrame) -> String {
         let mut text = String::new();
         let place = |pose: &[[f64; 4]; 4]| {
             let [x, y, z] = [0, 1, 2].map(|axis| pose[axis][3]);
@@ -69,15 +70,16 @@ impl FoundPlacement {
             text += &format!("[[station]]\n{name}{}{covariance}\n", place(&station.pose));
         }
         if !self.exact {
-            let covariance = format_covariance(self.covariance.iter().map(|row| &row[..]));
-            let placement = match &self.mounting {
-                Some(pose) => place(pose),
+            let (placement, covariance) = match &self.mounting {
+                Some(pose) => (place(pose), self.covariance.clone()),
                 None => {
-                    let targets =
-                        self.targets.iter().map(|target| format!("  {},\n", format_lengths(*target, unit)));
-                    format!("targets = [\n{}]\n", targets.collect::<String>())
+                    let targets = self.targets.iter().map(|target| frame.from_tool(*target));
+                    let targets = targets.map(|target| format!("  {},\n", format_lengths(target, unit)));
+                    let targets = format!("targets = [\n{}]\n", targets.collect::<String>());
+                    (targets, frame.covariance_from_tool(&self.covariance))
                 }
             };
+            let covariance = format_covariance(covariance.iter().map(|row| &row[..]));
             text += &format!("[placement]\n{placement}{covariance}");
         }
         for place in &self.instruments {

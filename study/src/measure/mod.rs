@@ -194,6 +194,7 @@ impl Measure {
             Cow::Owned(completed) => completed,
             Cow::Borrowed(_) => data,
         };
+        map.carried_targets(machine).iter().for_each(|warning| notes.warn(warning));
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
         let fitted = check_interpretation(&setup, map, &data)?;
         let base_fitted = setup.find_places(map, &data)?;
