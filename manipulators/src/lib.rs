@@ -41,4 +41,4 @@ abbe::include_manipulators!();
 
 mod shipped;
 
-pub use shipped::{MAPS, PLANS, SHIPPED, Shipped};
+pub use shipped::{MAPS, PLANS, SHIPPED, STUDIES, STUDY_FILES, Shipped};

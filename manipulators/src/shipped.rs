@@ -46,6 +46,12 @@ shipped! {
     wam: Wam,
 }
 
+/// Studies beside those of [`SHIPPED`], by name: section 6 of the paper for `pps`.
+pub const STUDIES: &[(&str, &str)] = &[("pps-section6", include_str!("../studies/pps-section6.toml"))];
+
+/// Files that shipped studies name.
+pub const STUDY_FILES: &[(&str, &str)] = &[("pps-section6.csv", include_str!("../studies/pps-section6.csv"))];
+
 /// Maps of data files, by manipulator: `ur5` and `wam` for a public data set, `pps` for the
 /// measurements described in the paper.
 pub const MAPS: &[(&str, &str)] = &[

@@ -19,8 +19,9 @@ use super::values::whole;
 pub(crate) struct Analyze {
     #[command(flatten)]
     pub(crate) subject: Subject,
-    /// Study file (TOML): workspace, tolerance, published figures. [default: arm.study.toml beside
-    /// arm.toml, or the study shipped with the manipulator, or 1000 joint samples]
+    /// Study file (TOML), or name of a shipped study: workspace, tolerance, published figures.
+    /// [default: arm.study.toml beside arm.toml, or the study shipped with the manipulator, or 1000
+    /// joint samples]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
     /// Number of Monte Carlo draws of all error sources, at the worst configuration and at home,

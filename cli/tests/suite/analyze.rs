@@ -171,7 +171,7 @@ fn files_hold_every_configuration() {
     for name in ["configuration", "d1 (mm)", "q4 (rad)", "x (mm)", "ideal x (mm)", "assembly z (mm)"] {
         column(name);
     }
-    assert!(!headers.iter().any(|header| header.starts_with("tip_load")), "it is the same everywhere");
+    assert!(!headers.iter().any(|header| header.starts_with("couch_mass")), "it is the same everywhere");
     let records = reader.records().collect::<Result<Vec<_>, _>>().unwrap();
     assert_eq!(records.len(), 999);
 
@@ -219,7 +219,8 @@ fn sources_can_be_switched_and_parameters_set() {
     assert!(source(&report, printed)["half_peak_to_peak"]["z"].as_f64().unwrap() > 0.154);
 
     let nominal = json(&["analyze", "pps", "--json"]);
-    let doubled = json(&["analyze", "pps", "--json", "--set", "tip_load=5612N"]);
+    let softer = ["--set", "arm_EI=1.177e13 N*mm^2", "--set", "arm_GJ=1.6225e13 N*mm^2"];
+    let doubled = json(&[&["analyze", "pps", "--json"], &softer[..]].concat());
     let deflection = |report| source(report, "arm deflection")["plain_max"]["norm"].as_f64().unwrap();
     assert!((deflection(&doubled) / deflection(&nominal) - 2.0).abs() < 1e-12);
     let warm = json(&["analyze", "machine3", "--json", "--set", "temperature_rise=10K"]);
@@ -231,13 +232,14 @@ fn a_spec_of_ones_own_is_sampled_within_its_limits() {
     let folder = tempdir().unwrap();
     let spec = write(folder.path(), "mine.toml", shipped("pps"));
     let spec = spec.to_str().unwrap();
-    assert_eq!(json(&["analyze", spec, "--json"])["configurations"], 1000);
+    // Each sample with both ends of the ranges of the three inputs.
+    assert_eq!(json(&["analyze", spec, "--json"])["configurations"], 8 * 1000);
 
     let study = r#"
         [study]
         title = "Spin and reach"
         tolerance = "1 mm"
-        set = { tip_load = "1 kN" }
+        set = { couch_mass = "60 kg", patient = "40 kg", patient_x = 0, patient_z = 700 }
         disable = ["assembly"]
         [workspace.grid]
         q4 = { from = "-90 deg", to = "90 deg", step = "45 deg" }
@@ -256,6 +258,7 @@ fn a_spec_of_ones_own_is_sampled_within_its_limits() {
 const OUT_OF_REACH: &str = r#"
     [study]
     title = "Beyond the travels"
+    set = { patient = "300 lb", patient_x = 0, patient_z = 700 }
     [workspace.presented]
     point = ["1128 mm", "1626 mm", "1846 mm"]
     solve = ["d1", "d2", "d3"]

@@ -192,7 +192,8 @@ fn inputs_and_loads_without_effect_are_noted() {
         notes(&spec("1 um", "")),
         [
             "The input `warming` is not used: no source or load depends on it.",
-            "1 load has no effect: no elastic source at its frame or before it carries it."
+            "1 load has no effect: no elastic source at its frame or before it carries it. `identify` uses \
+             loads for elastic terms."
         ]
     );
     assert_eq!(notes(&spec("1 um/K * warming", elastic)), Vec::<String>::new());

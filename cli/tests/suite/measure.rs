@@ -19,7 +19,12 @@ fn the_papers_plan_has_450_rows() {
     assert_eq!(report["rows"], 450);
     assert_eq!((&report["sets"][0]["rows"], &report["sets"][1]["rows"]), (&112.into(), &338.into()));
     let text = fs::read_to_string(&plan).unwrap();
-    assert_eq!((text.lines().next(), text.lines().count()), (Some("d1,d2,d3,q4"), 451));
+    let heading = "d1,d2,d3,q4,weight,centre_x,centre_z";
+    assert_eq!((text.lines().next(), text.lines().count()), (Some(heading), 451));
+    // Half of the rows without weight, half with 154 lb at the centre of the treatment area.
+    let loaded = text.lines().filter(|line| line.ends_with(",69.85322498,0,850")).count();
+    let empty = text.lines().filter(|line| line.ends_with(",0,0,850")).count();
+    assert_eq!((empty, loaded), (225, 225), "{text}");
     narrow(&full(&["plan", "pps", "--map", "pps", "--sets", "pps"]));
 }
 
@@ -74,7 +79,7 @@ fn accuracy_and_repeatability_are_those_put_in() {
     let plan = folder.path().join("plan.csv");
     // Ten configurations with thirty visits each.
     let configurations = prints(&["simulate", "pps", "--map", "pps", "--samples", "10"]);
-    let commanded = |line: &str| line.split(',').take(4).collect::<Vec<_>>().join(",") + "\n";
+    let commanded = |line: &str| line.split(',').take(7).collect::<Vec<_>>().join(",") + "\n";
     let mut lines = configurations.lines().map(commanded);
     let heading = lines.next().unwrap();
     fs::write(&plan, heading + &lines.collect::<String>().repeat(30)).unwrap();
@@ -153,8 +158,11 @@ fn maps_and_plans_with_mistakes() {
     let plan = write(folder.path(), "plan.toml", "[plan]\nrepeat = 0\n[[set]]\naxes = { d9 = [1] }");
     refused(&["plan", "pps", "--map", "pps", "--sets", path(&plan)], &["integer from 1", "no variable `d9`"]);
     refused(&["measure", "pps", "nowhere.csv", "--map", "pps"], &["nowhere.csv"]);
-    let empty =
-        write(folder.path(), "empty.csv", "d1,d2,d3,q4,p1_x,p1_y,p1_z,p2_x,p2_y,p2_z,p3_x,p3_y,p3_z\n");
+    let empty = write(
+        folder.path(),
+        "empty.csv",
+        "d1,d2,d3,q4,weight,centre_x,centre_z,p1_x,p1_y,p1_z,p2_x,p2_y,p2_z,p3_x,p3_y,p3_z\n",
+    );
     refused(&["measure", "pps", path(&empty), "--map", "pps"], &["no row can be used"]);
     refused(&["simulate", "pps", "--map", "pps", "--noise", "-1mm"], &["must not be negative"]);
     refused(&["simulate", "pps", "--map", "pps", "--outliers", "2"], &["a share must be between 0 and 1"]);

@@ -47,7 +47,7 @@ fn a_box_is_reached_by_inverse_kinematics() {
     assert_eq!(study("puma560", puma, &[])["configurations"], 6);
     let home = study("puma560", &format!("{puma}\norientation = \"home\""), &[]);
     assert!(home["configurations"].as_u64().unwrap() >= 3);
-    let slides = "[workspace.box]\nx = [1000, 1128]\ny = [1626]\nz = [1846, \"9 m\"]\nsolve = [\"d1\", \"d2\", \"d3\"]";
+    let slides = "set = { patient = \"300 lb\", patient_x = 0, patient_z = 700 }\n[workspace.box]\nx = [1000, 1128]\ny = [1626]\nz = [1846, \"9 m\"]\nsolve = [\"d1\", \"d2\", \"d3\"]";
     let report = study("pps", slides, &[]);
     assert_eq!((&report["configurations"], &report["unreachable"]), (&2.into(), &2.into()));
     assert_eq!(report["unreachable_reasons"][0]["reason"], "d3 outside its limits");
@@ -59,7 +59,7 @@ fn a_box_is_reached_by_inverse_kinematics() {
     refused("[workspace.box]\nx = [1]\ny = [1]\nz = [1]\nsolve = [\"q9\"]", &[], &["no variable `q9`"]);
     // A single unreachable point.
     refused(
-        "[workspace.box]\nx = [\"90 m\"]\ny = [1626]\nz = [1568]\nsolve = [\"d1\"]",
+        "set = { patient = \"300 lb\", patient_x = 0, patient_z = 700 }\n[workspace.box]\nx = [\"90 m\"]\ny = [1626]\nz = [1568]\nsolve = [\"d1\"]",
         &[],
         &["no configuration of the workspace is reachable", "d1 outside its limits (1)"],
     );
@@ -68,7 +68,7 @@ fn a_box_is_reached_by_inverse_kinematics() {
 #[test]
 fn a_path_is_read_from_a_file_beside_the_study() {
     let folder = tempdir().unwrap();
-    let text = "[study]\ntitle = \"Path\"\n[workspace.path]\nfile = \"path.csv\"\n";
+    let text = "[study]\ntitle = \"Path\"\nset = { patient = \"300 lb\", patient_x = 0, patient_z = 700 }\n[workspace.path]\nfile = \"path.csv\"\n";
     let path = write(folder.path(), "study.toml", text);
     write(folder.path(), "path.csv", "d1 (m), q4 (deg),x\n0.038,-90,250\n# a remark\n1.128,0,0\n2.3,0,0\n");
     let arguments = ["analyze", "pps", "--study", path.to_str().unwrap()];
@@ -82,7 +82,7 @@ fn a_path_is_read_from_a_file_beside_the_study() {
     let path = "[workspace.path]\nfile = \"path.csv\"";
     refused(path, &[], &["path.csv", "study.toml:4:8"]);
     for (csv, expected) in [
-        ("d9\n1", "no variable or parameter `d9`"),
+        ("d9\n1", "no variable, parameter or input `d9`"),
         ("d1 (deg)\n1", "the unit of the column `d1` must be a length"),
         ("d1\n1\nfar", "line 3: `far` is not a number"),
         ("d1\nnan", "line 2: `nan` is not a number"),

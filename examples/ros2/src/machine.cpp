@@ -21,8 +21,8 @@ Status correct(const std::vector<double> &q, std::vector<double> &drives)
     double corrected[PPS_VARIABLES];
     double before[6];
     double after[6];
-    // This machine has no inputs, such as a temperature.
-    const int status = pps_compensated(q.data(), pps_parameters, nullptr, corrected, before, after);
+    // The nominal inputs: the heaviest patient. A load cell would give those of this patient.
+    const int status = pps_compensated(q.data(), pps_parameters, pps_inputs, corrected, before, after);
     if (status != PPS_OK && status != PPS_NOT_CONVERGED) {
         return Status::failed;
     }

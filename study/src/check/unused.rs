@@ -34,7 +34,10 @@ pub(super) fn notes(spec: &Spec) -> Vec<String> {
     }
     if idle > 0 {
         let loads = if idle == 1 { "1 load has".to_owned() } else { format!("{idle} loads have") };
-        notes.push(format!("{loads} no effect: no elastic source at its frame or before it carries it."));
+        notes.push(format!(
+            "{loads} no effect: no elastic source at its frame or before it carries it. `identify` uses \
+             loads for elastic terms."
+        ));
     }
     notes
 }

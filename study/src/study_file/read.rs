@@ -18,6 +18,7 @@ use super::study::Study;
 use super::tolerance;
 use crate::changes::{Changes, find_symbol};
 use crate::machine::Machine;
+use crate::named;
 use crate::workspace::{Region, constant, read_region};
 
 impl Study {
@@ -26,12 +27,17 @@ impl Study {
     pub fn find(file: Option<&Path>, machine: &Machine) -> Result<Self, Diagnostics> {
         let beside = Self::beside(machine);
         match (file.or(beside.as_deref()), machine.shipped.and_then(|shipped| shipped.study)) {
-            (Some(path), _) => Self::read(Document::read(path)?, &machine.spec),
+            (Some(path), _) => Self::read(Self::document(path)?, &machine.spec),
             (None, Some(text)) => {
                 Self::read(Document::new(format!("studies/{}.toml", machine.origin), text), &machine.spec)
             }
             (None, None) => Ok(Self::joint_samples(&machine.spec)),
         }
+    }
+
+    /// Reads the study in a file, or the shipped one with that name.
+    pub(crate) fn document(argument: &Path) -> Result<Document, Diagnostics> {
+        named::document("--study", argument, abbe_manipulators::STUDIES, "studies", "shipped study")
     }
 
     /// Returns the study file beside a user's spec, if it exists: `arm.study.toml` beside

@@ -8,6 +8,7 @@
 //! Columns are named like variables, parameters and inputs, with a unit in parentheses. Without
 //! a unit they are in the spec's length unit or in rad. Symbols without a column stay at home.
 
+use std::io::Read;
 use std::path;
 
 use abbe::analysis::Configuration;
@@ -47,6 +48,9 @@ struct Column {
     symbol: Symbol,
     unit: f64,
 }
+
+/// Columns, and the values of each line.
+type Table = (Vec<Column>, Vec<Vec<f64>>);
 
 impl Path {
     /// Returns the parameters that have a column.
@@ -113,8 +117,14 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
     let file = document.string(&item)?;
     let folder = path::Path::new(&document.path).parent().unwrap_or(path::Path::new(""));
     let path = folder.join(&file);
-    let found = read_file(&path, spec);
-    document.files.push(path);
+    let found = match shipped(document, &file) {
+        Some(text) => read_configurations(text.as_bytes(), spec),
+        None => {
+            let found = read_file(&path, spec);
+            document.files.push(path);
+            found
+        }
+    };
     let found = found.map_err(|message| {
         let message = format!("{}: {message}", file.escape_debug());
         document.mistake(
@@ -127,8 +137,18 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
     Some(Path { file, columns, configurations })
 }
 
-fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64>>), String> {
+/// Returns the text of a file that a shipped study names.
+fn shipped(document: &Document, file: &str) -> Option<&'static str> {
+    let mut files = abbe_manipulators::STUDY_FILES.iter().filter(|_| document.folder.is_none());
+    files.find(|(name, _)| *name == file).map(|(_, text)| *text)
+}
+
+fn read_file(file: &path::Path, spec: &Spec) -> Result<Table, String> {
     let input = Bounded::open(file, LARGEST_FILE).map_err(|error| describe_error(&error.into()))?;
+    read_configurations(input, spec)
+}
+
+fn read_configurations(input: impl Read, spec: &Spec) -> Result<Table, String> {
     let (watched, mut lines) = RecordedReader::new(input);
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(watched);
     let heading = reader.headers().map_err(|error| describe_error(&error))?;

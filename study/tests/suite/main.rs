@@ -1,5 +1,6 @@
 //! Tests of the jobs as library calls.
 
+mod clinic;
 mod compensated;
 mod extrapolation;
 mod inputs_from_rows;

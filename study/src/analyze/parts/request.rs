@@ -30,9 +30,12 @@ pub struct FileText {
 impl FileText {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
-        let document = Document::read(path)?;
+        Document::read(path).map(Self::new)
+    }
+
+    fn new(document: Document) -> Self {
         let folder = document.folder.map(|folder| folder.to_string_lossy().into_owned());
-        Ok(Self { name: document.path, folder, text: document.text.to_string() })
+        Self { name: document.path, folder, text: document.text.to_string() }
     }
 
     fn document(&self) -> Document {
@@ -99,7 +102,7 @@ impl AnalysisRequest {
         Ok(Self {
             spec: machine.origin.clone(),
             spec_text: file.map(FileText::read).transpose()?,
-            study: study.or(beside.as_deref()).map(FileText::read).transpose()?,
+            study: study.or(beside.as_deref()).map(Study::document).transpose()?.map(FileText::new),
             changes: Vec::new(),
             monte_carlo: None,
             seed: None,
