@@ -18,7 +18,7 @@ UNITS = [
 # What 30 specs use together.
 FORMS = {
     *SOURCES, "product", "matrix", "dh", "mdh", "origin", "fixed", "fixed origin", "coupled to another",
-    "axis x", "axis z", "axis given", "revolute", "prismatic", "home", "no home", "rotation-vector", "euler-yzx",
+    "axis x", "axis z", "axis given", "revolute", "prismatic", "home", "no home", "rotation-vector", "euler-yzx", "iec-61217",
     "no tool", "tool product", "tool matrix", "tool dh", "tool origin", "beam x", "beam y", "beam z", "beam default", "weightless", "mass per length",
     "mass", "force", "force and moment", "load at a point", "load at the tool", "path", "grid", "inputs set", "inputs crossed", "inputs at both ends", "inputs beside", *FUNCTIONS, *UNITS,
     "estimated", "estimated magnitude", "magnitude known", "linear", "cubic", "errors of dh", "errors of mdh",
