@@ -45,5 +45,6 @@ mod not_toml;
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
     DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, MAGNITUDE, Magnitude, Matrix,
-    Parameter, Point, Source, Spec, TABLES, Uncertain, Variable, as_identifier, check_name, rules,
+    Parameter, Point, Source, Spec, TABLES, Uncertain, Undetermined, Variable, as_identifier, check_name,
+    rules,
 };

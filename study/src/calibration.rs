@@ -1,12 +1,138 @@
-//! Independent parts of the errors of a calibration.
+//! Errors of a calibration: what remains between an identified machine and the real one.
+//!
+//! Two independent parts add up. The noise of the measurements gives the found errors the
+//! covariance C of the spec. Errors that the measurements could not determine move points of the
+//! tool that were not measured by the directions U of the spec, so that there the covariance is
+//! `C + U Uᵀ`.
+
+use abbe::analysis::sampling;
+use abbe::identify::{Failure, Measurement, Model, Observation, Role, Scratch, Uncertainty, Unknown};
+use abbe::{Error, Manipulator, Pose};
+use abbe_spec::{Identified, Spec};
 
 /// Share of a variance below which what remains of it is rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// Distance up to which two points of the tool are the same one, as a share of the arm length.
+const SAME_POINT: f64 = 1e-5;
+
+/// Independent errors of a calibration.
+pub(crate) struct CalibrationErrors {
+    /// Identified quantities; one of them can occur twice.
+    pub(crate) of: Vec<Identified>,
+    /// Independent normal errors: each has a standard deviation for every quantity.
+    pub(crate) parts: Vec<Vec<f64>>,
+}
+
+impl CalibrationErrors {
+    /// Returns the errors at points that were measured, from the covariance alone; or at any other
+    /// points of the tool.
+    pub(crate) fn new(spec: &Spec, is_measured: bool) -> Self {
+        let (found, hidden) = (&spec.covariance, &spec.undetermined);
+        let mut of = found.of.clone();
+        let mut parts = independent_parts(&found.rows);
+        if !is_measured {
+            of.extend(&hidden.of);
+            parts.iter_mut().for_each(|part| part.resize(of.len(), 0.0));
+            let behind = |row: &Vec<f64>| [vec![0.0; found.of.len()], row.clone()].concat();
+            parts.extend(hidden.rows.iter().map(behind));
+        }
+        Self { of, parts }
+    }
+}
+
+/// Predicts the errors of a point of the tool from those of a calibration.
+pub(crate) struct Prediction<'a> {
+    model: Model<'a>,
+    scratch: Scratch,
+    errors: &'a CalibrationErrors,
+}
+
+/// Errors of a point at one configuration.
+pub(crate) struct PredictedErrors {
+    /// Pose of the tool in `F_0`.
+    pub(crate) pose: Pose,
+    /// Displacement of the point by each part of the calibration's errors, in the length unit.
+    pub(crate) displacements: Vec<[f64; 3]>,
+}
+
+impl<'a> Prediction<'a> {
+    /// Creates the prediction for a point in the frame of the tool; returns `None` if the spec
+    /// states no covariance.
+    pub(crate) fn new(
+        spec: &'a Spec,
+        manipulator: &'a dyn Manipulator,
+        errors: &'a CalibrationErrors,
+        point: [f64; 3],
+    ) -> Option<Self> {
+        let unknown = |identified: &Identified| match identified {
+            Identified::Error(frame, component) => Some(Unknown::Error(*frame, *component)),
+            Identified::Base(component) => Some(Unknown::Base(0, *component)),
+            Identified::Magnitude(source) => spec.enabled_index(*source).map(Unknown::Magnitude),
+        };
+        let unknowns: Vec<Unknown> = errors.of.iter().map(unknown).collect::<Option<_>>()?;
+        if unknowns.is_empty() {
+            return None;
+        }
+        let ideal = Model::ideal(manipulator, vec![[0.0; 3]], Uncertainty { length: 1.0, angle: 1.0 });
+        let [x, y, z, _] = Pose::IDENTITY.0;
+        let model = Model { mounting: Pose([x, y, z, point]), ..ideal }.with(unknowns);
+        debug_assert!(model.roles.iter().all(|role| *role != Role::Known), "nothing but what is unknown");
+        Some(Self { scratch: model.scratch(), model, errors })
+    }
+
+    /// Returns the standard deviation of the point (√trace of its covariance) at each configuration
+    /// that can be evaluated.
+    pub(crate) fn deviations(
+        &mut self,
+        configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>,
+    ) -> Vec<f64> {
+        let predicted = configurations.filter_map(|(q, u)| self.errors_at(q, u).ok());
+        predicted.map(|errors| errors.standard_deviation()).collect()
+    }
+
+    /// Returns `M l` for each part l, where M is the Jacobian of the point with respect to the
+    /// identified quantities.
+    pub(crate) fn errors_at(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<PredictedErrors, Failure> {
+        let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
+        let zero = vec![0.0; self.errors.of.len()];
+        let (pose, moves) = self.model.tool(&mut self.scratch, &row, &zero)?;
+        let displacement = |part: &Vec<f64>| {
+            let terms = moves.iter().zip(part);
+            terms.fold([0.0; 3], |sum, (moved, size)| std::array::from_fn(|i| sum[i] + size * moved[i]))
+        };
+        Ok(PredictedErrors { pose, displacements: self.errors.parts.iter().map(displacement).collect() })
+    }
+}
+
+impl PredictedErrors {
+    /// Computes `√(Σ_l |M l|²) = √(tr M C Mᵀ)`.
+    fn standard_deviation(&self) -> f64 {
+        self.displacements.as_flattened().iter().map(|v| v * v).sum::<f64>().sqrt()
+    }
+}
+
+/// Returns the pose of the tool in the last frame, from the nominal parameters.
+pub(crate) fn tool_in_last_frame(manipulator: &dyn Manipulator) -> Result<Pose, Error> {
+    let description = manipulator.description();
+    let home: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
+    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
+    manipulator.transforms(&home, &sampling::nominal_parameters(description), &mut transforms)?;
+    Ok(transforms[description.frames.len()])
+}
+
+/// Returns whether the measurements of an identified machine determine the errors of points of the
+/// last frame. Those of a spec that states nothing undetermined do.
+pub(crate) fn is_measured(spec: &Spec, manipulator: &dyn Manipulator, points: &[[f64; 3]]) -> bool {
+    let parameters = sampling::nominal_parameters(manipulator.description());
+    let same = |arm: f64| points.iter().all(|point| spec.undetermined.has_point(*point, SAME_POINT * arm));
+    spec.undetermined.of.is_empty() || sampling::arm_length(manipulator, &parameters).is_ok_and(same)
+}
+
 /// Returns vectors l with `Σ l lᵀ = C`, the columns of a Cholesky factor with pivots: independent
 /// normal errors times these have the covariance C. A covariance that is singular has fewer of
 /// them. Negative eigenvalues, which rounding of written numbers causes, count as 0.
-pub(crate) fn independent_parts(covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
+fn independent_parts(covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let count = covariance.len();
     let mut rest = covariance.to_vec();
     let mut parts = Vec::new();

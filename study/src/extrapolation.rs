@@ -2,11 +2,11 @@
 
 use abbe::Manipulator;
 use abbe::analysis::sampling;
-use abbe::identify::{Failure, Measurement, Model, Observation, Role, Scratch, Uncertainty, Unknown};
+use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Identified, Spec};
 use serde::Serialize;
 
+use crate::calibration::{CalibrationErrors, Prediction};
 use crate::{Notes, number};
 
 /// Largest number of configurations at which uncertainties are evaluated, inside and outside the
@@ -41,10 +41,11 @@ pub struct ToolPointDeviation {
 
 /// Counts the configurations outside the ranges on which the errors of a spec were fitted, and
 /// warns of them with their uncertainty. `what` names the configurations, in the plural: `rows`.
-/// Returns `None` if there are none.
+/// Returns `None` if there are none. `is_measured` is true if the tool is the fitted one.
 pub(crate) fn warn_of_extrapolation<'r>(
     spec: &Spec,
     manipulator: &dyn Manipulator,
+    is_measured: bool,
     what: &str,
     configurations: impl Iterator<Item = (&'r [f64], &'r [f64])>,
     notes: &mut dyn Notes,
@@ -68,7 +69,8 @@ pub(crate) fn warn_of_extrapolation<'r>(
     if outside.is_empty() {
         return None;
     }
-    let known = Prediction::new(spec, manipulator).and_then(|mut prediction| {
+    let errors = CalibrationErrors::new(spec, is_measured);
+    let known = Prediction::new(spec, manipulator, &errors, [0.0; 3]).and_then(|mut prediction| {
         let step = outside.len().div_ceil(SAMPLES);
         let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
         let beyond = prediction.deviations(beyond);
@@ -102,51 +104,6 @@ impl ToolPointDeviation {
              {outside} there (at most {most}), {times} times the {within} within the ranges. \
              Errors that the model does not have are not included"
         )
-    }
-}
-
-/// Predicts the standard deviation of the tool point from the covariance of the identified errors.
-struct Prediction<'a> {
-    model: Model<'a>,
-    scratch: Scratch,
-    covariance: &'a [Vec<f64>],
-}
-
-impl<'a> Prediction<'a> {
-    /// Creates the prediction; returns `None` if the spec states no covariance.
-    fn new(spec: &'a Spec, manipulator: &'a dyn Manipulator) -> Option<Self> {
-        let unknown = |identified: &Identified| match identified {
-            Identified::Error(frame, component) => Some(Unknown::Error(*frame, *component)),
-            Identified::Magnitude(source) => spec.enabled_index(*source).map(Unknown::Magnitude),
-        };
-        let unknowns: Vec<Unknown> = spec.covariance.of.iter().map(unknown).collect::<Option<_>>()?;
-        if unknowns.is_empty() {
-            return None;
-        }
-        let model = Model::ideal(manipulator, vec![[0.0; 3]], Uncertainty { length: 1.0, angle: 1.0 });
-        let model = model.with(unknowns);
-        debug_assert!(model.roles.iter().all(|role| *role != Role::Known), "nothing but what is unknown");
-        Some(Self { scratch: model.scratch(), model, covariance: &spec.covariance.rows })
-    }
-
-    /// Returns `√(tr M C Mᵀ)` of each configuration that can be evaluated. M is the Jacobian of the
-    /// tool point with respect to the identified errors, C their covariance.
-    fn deviations(&mut self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
-        let known = |(q, u): (Vec<f64>, Vec<f64>)| self.deviation(q, u).ok();
-        configurations.filter_map(known).collect()
-    }
-
-    fn deviation(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<f64, Failure> {
-        let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
-        let zero = vec![0.0; self.covariance.len()];
-        let (_, moves) = self.model.tool(&mut self.scratch, &row, &zero)?;
-        let mut variance = 0.0;
-        for (one, row) in moves.iter().zip(self.covariance) {
-            for (other, covariance) in moves.iter().zip(row) {
-                variance += covariance * (0..3).map(|axis| one[axis] * other[axis]).sum::<f64>();
-            }
-        }
-        Ok(variance.max(0.0).sqrt())
     }
 }
 

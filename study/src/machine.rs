@@ -14,7 +14,7 @@ use abbe_spec::document::Document;
 use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::{Factor, Identified, Magnitude, Source, Spec, Uncertain};
 
-use crate::calibration::independent_parts;
+use crate::calibration::{CalibrationErrors, is_measured, tool_in_last_frame};
 use crate::changes::Changes;
 use crate::named;
 use crate::table_paths::with_table_paths;
@@ -109,8 +109,9 @@ impl Machine {
     }
 
     /// Returns the machine with the uncertainty of its calibration as random sources: independent
-    /// normal errors, whose covariance is the spec's `[covariance]`. They replace the uncertainty
-    /// of the magnitudes that were identified. Returns `None` if the spec has no covariance.
+    /// normal errors, whose covariance is the spec's `[covariance]`, and with a tool that was not
+    /// measured the errors in its `[undetermined]`. They replace the uncertainty of the magnitudes
+    /// that were identified. Returns `None` if the spec has no covariance.
     pub fn with_calibration_errors(&self) -> Option<Self> {
         let covariance = &self.spec.covariance;
         if covariance.of.is_empty() {
@@ -127,13 +128,25 @@ impl Machine {
             .filter_map(|(_, source)| Some(magnitude_error(source)?.name))
             .collect();
         spec.sources.retain(|source| !is_magnitude_error(source) || !replaced.contains(&source.name));
-        for part in independent_parts(&covariance.rows) {
-            let quantities = covariance.of.iter().map(|one| Uncertain::Identified(*one)).zip(part);
+        let errors = CalibrationErrors::new(&self.spec, self.tool_point_is_measured());
+        for part in errors.parts {
+            let quantities = errors.of.iter().map(|one| Uncertain::Identified(*one)).zip(part);
             let propagated = quantities.filter(|(_, factor)| *factor != 0.0).collect();
             let description = "Uncertainty of the identified errors".to_owned();
             spec.sources.push(Source::propagating(CALIBRATION.to_owned(), description, propagated));
         }
         Some(Self { spec: Arc::new(spec), changed: true, ..self.clone() })
+    }
+
+    /// Returns false if the errors of the machine were identified at other points of its tool than
+    /// the tool point, and were not determined there.
+    fn tool_point_is_measured(&self) -> bool {
+        if self.spec.undetermined.of.is_empty() {
+            return true;
+        }
+        let manipulator = Interpreter::new(self.spec.clone());
+        let tool = tool_in_last_frame(&manipulator);
+        tool.is_ok_and(|tool| is_measured(&self.spec, &manipulator, &[tool.position()]))
     }
 
     /// Returns the indices of the inputs that changes fix: no workspace varies them.

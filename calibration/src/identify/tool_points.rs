@@ -48,6 +48,11 @@ impl Model<'_> {
 }
 
 impl ToolPoints {
+    /// Returns the derivatives at each configuration: a column for each unknown.
+    pub fn derivatives(&self) -> &[Matrix3xX<f64>] {
+        &self.moves
+    }
+
     /// Returns `B`, the mean of `TᵀT`, for the kept unknowns.
     pub(super) fn mean_square(&self, kept: &[usize]) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(kept.len(), kept.len());

@@ -161,6 +161,7 @@ fn the_result_is_a_spec() {
         covariance.starts_with("[covariance]\n") && text.contains("the covariance of the identified errors"),
         "{text}"
     );
+    assert!(text.contains("Fitted ranges: q1 ") && text.contains(" of its limits), q2 "), "{text}");
     let mut rest = found.lines();
     for line in shipped("ur5").lines() {
         assert!(rest.any(|found| found == line), "{line}");

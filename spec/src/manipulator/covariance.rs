@@ -18,4 +18,6 @@ pub enum Identified {
     Magnitude(usize),
     /// One of the six errors of a frame (from 0), in the length unit or rad.
     Error(usize, Component),
+    /// One of the six errors of `F_0`, the placement of the machine, in the length unit or rad.
+    Base(Component),
 }

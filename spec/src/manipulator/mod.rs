@@ -13,6 +13,7 @@ mod read;
 mod source;
 mod spec;
 mod tunable;
+mod undetermined;
 
 pub use chain_number::{ChainNumber, DhConvention, DhNumber};
 pub use covariance::{Covariance, Identified};
@@ -25,3 +26,4 @@ pub use read::keys::{TABLES, rules};
 pub use source::{Beam, Cause, Compliance, Deviation, DeviationCause, Effect, Magnitude, Source, Uncertain};
 pub use spec::Spec;
 pub use tunable::MAGNITUDE;
+pub use undetermined::Undetermined;

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use abbe::Description;
 use abbe::analysis::{
     Budget, BudgetSweep, Configuration, Correction, Measurand, PartialBudget, Residual, Row, Statement,
     Subset, Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
+use abbe::{Description, Manipulator};
 use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +24,7 @@ use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
+use crate::other_tool::{OtherTool, warn_of_other_tool};
 use crate::study_file::Study;
 use crate::{RunRecord, mistake, number};
 
@@ -142,6 +143,7 @@ impl Sweep<'_> {
             compensation: budget.compensation,
             monte_carlo,
             extrapolated: None,
+            other_tool: None,
             record: RunRecord::default().with_options(self.options.clone()),
             sources,
             spec: spec.clone(),
@@ -153,7 +155,8 @@ impl Sweep<'_> {
             sites,
         };
         self.warn_of_first_order(first_order, notes);
-        let report = Report { extrapolated: self.warn_of_extrapolation(notes), ..report };
+        let (other_tool, extrapolated) = self.warn_of_calibration(notes)?;
+        let report = Report { other_tool, extrapolated, ..report };
         finite(&machine.origin, report)
     }
 
@@ -343,21 +346,26 @@ impl Sweep<'_> {
         }
     }
 
-    /// Warns of extrapolation, checked at some configurations of a large workspace.
-    fn warn_of_extrapolation(&self, notes: &mut dyn Notes) -> Option<Extrapolation> {
+    /// Warns of a tool that was not measured, and of extrapolation, checked at some configurations
+    /// of a large workspace.
+    fn warn_of_calibration(
+        &self,
+        notes: &mut dyn Notes,
+    ) -> Result<(Option<OtherTool>, Option<Extrapolation>), Diagnostics> {
         let Self { machine, workspace, .. } = *self;
-        if machine.spec.fitted.is_empty() {
-            return None;
+        if machine.spec.fitted.is_empty() && machine.spec.undetermined.of.is_empty() {
+            return Ok((None, None));
         }
         let reached = Subset { workspace, count: EXTRAPOLATED }.reached();
-        let configurations = reached.iter().map(|reached| (&reached.q[..], &reached.u[..]));
-        warn_of_extrapolation(
-            &machine.spec,
-            &*machine.evaluator(true),
-            "configurations",
-            configurations,
-            notes,
-        )
+        let configurations = || reached.iter().map(|reached| (&reached.q[..], &reached.u[..]));
+        let evaluator = machine.evaluator(true);
+        let (spec, manipulator): (_, &dyn Manipulator) = (&machine.spec, &*evaluator);
+        let what = "configurations";
+        let other = warn_of_other_tool(spec, manipulator, &[[0.0; 3]], what, &mut configurations(), notes)?;
+        let is_measured = other.is_none();
+        let extrapolated =
+            warn_of_extrapolation(spec, manipulator, is_measured, what, configurations(), notes);
+        Ok((other, extrapolated))
     }
 
     fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use crate::data::{Base, Data, Heading, Map, Summary, Table, Unusable};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
+use crate::other_tool::{OtherTool, warn_of_other_tool};
 use crate::{Machine, Notes, RunRecord, finite, mistake, number};
 
 use base_frame::BaseFramePoses;
@@ -54,6 +55,9 @@ pub struct Report {
     /// Rows outside the fitted ranges, with the uncertainty there; `None` if all rows are within
     /// them.
     pub extrapolated: Option<Extrapolation>,
+    /// Uncertainty of the tool point if it is no point at which the errors of the spec were fitted;
+    /// `None` if it is one.
+    pub other_tool: Option<OtherTool>,
     /// Corrected rows, in file order.
     // Empty if `for_each_row` passed them on.
     pub rows: Vec<Row>,
@@ -187,8 +191,13 @@ impl Compensate {
         }
         let manipulator = machine.evaluator(true);
         let data = self.data.completed(map, &*manipulator, &machine.spec);
-        let configurations = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
-        let extrapolated = warn_of_extrapolation(&machine.spec, &*manipulator, "rows", configurations, notes);
+        let configurations = || data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
+        let (spec, tool_point) = (&machine.spec, [[0.0; 3]]);
+        let other_tool =
+            warn_of_other_tool(spec, &*manipulator, &tool_point, "rows", &mut configurations(), notes)?;
+        let is_measured = other_tool.is_none();
+        let extrapolated =
+            warn_of_extrapolation(spec, &*manipulator, is_measured, "rows", configurations(), notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let base_frame = BaseFramePoses::new(map, &data);
         let (mut row_summary, mut before, mut after) =
@@ -218,6 +227,7 @@ impl Compensate {
             tolerance: *tolerance,
             mobility: task.mobility,
             extrapolated,
+            other_tool,
             before: before.statistics(),
             after: after.statistics(),
             file: Summary { rows: row_summary.rows, unusable: unusable.clone(), ..data.summary() },

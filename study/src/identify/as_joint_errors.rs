@@ -36,6 +36,8 @@ pub(super) struct AsJointErrors {
     pub(super) others: Vec<(usize, f64, f64)>,
     /// Covariance of both, in the order of the kept unknowns.
     pub(super) covariance: Vec<Vec<f64>>,
+    /// Linear forms of the kept unknowns that give the values of both, in the same order.
+    pub(super) forms: Vec<Vec<f64>>,
 }
 
 /// Identified error of a number of the chain.
@@ -72,6 +74,8 @@ pub(super) struct FoundNumber {
     /// Name: `zero of q2`.
     pub(super) name: String,
     pub(super) number: ChainNumber,
+    /// Index of the frame, and its six errors per unit of the number.
+    pub(super) twist: (usize, [f64; 6]),
     /// Index among the kept unknowns of the one it replaces.
     pub(super) index: usize,
     pub(super) value: f64,
@@ -87,7 +91,8 @@ impl AsJointErrors {
         let mut replaced = Vec::new();
         for (name, number) in chain_numbers(spec) {
             let Some((frame, errors)) = constant_errors(&mut graph, spec, number) else { continue };
-            replaced.extend(basis.exchange(frame, errors).map(|index| (index, name, number)));
+            replaced
+                .extend(basis.exchange(frame, errors).map(|index| (index, name, number, (frame, errors))));
         }
         let taken = |index: &usize| replaced.iter().any(|(other, ..)| other == index);
         let others = (0..basis.forms.len()).filter(|index| !taken(index));
@@ -96,13 +101,13 @@ impl AsJointErrors {
             (index, value, standard_deviation)
         };
         let others = others.map(value).collect();
-        let number = |(index, name, number)| {
+        let number = |(index, name, number, twist)| {
             let (value, standard_deviation) = basis.value(index);
             let correlation = basis.correlation(index);
-            FoundNumber { name, number, index, value, standard_deviation, correlation }
+            FoundNumber { name, number, twist, index, value, standard_deviation, correlation }
         };
         let numbers = replaced.into_iter().map(number).collect();
-        Self { numbers, others, covariance: basis.covariance() }
+        Self { numbers, others, covariance: basis.covariance(), forms: basis.forms }
     }
 
     /// Returns the significant errors, with their alternatives and a sentence each.

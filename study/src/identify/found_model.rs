@@ -11,6 +11,7 @@ use super::derived::Derived;
 use super::found_placement::FoundPlacement;
 use super::solve::Solved;
 use super::terms::{Basis, ErrorSite, Term};
+use super::undetermined::UndeterminedDirections;
 use crate::data::Data;
 use crate::number::digits;
 
@@ -36,6 +37,8 @@ pub struct FoundModel {
     pub covariance: Vec<Vec<f64>>,
     /// Significant errors as numbers of the chain, with their alternatives.
     pub(super) meanings: Vec<JointError>,
+    /// Errors that the measurements could not determine.
+    pub(super) undetermined: UndeterminedDirections,
     /// Ranges of joints and inputs covered by the fitted rows.
     pub fitted: Vec<Fitted>,
 }

@@ -36,6 +36,7 @@ use super::setup::Setup;
 use super::solve::{Solved, solve};
 use super::terms::Term;
 use super::train_test_overlap::{overlap_warning, train_test_overlap};
+use super::undetermined::UndeterminedDirections;
 use super::unread::without_unread;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Data, Map, Summary};
@@ -240,6 +241,7 @@ fn report(
     let found = FoundModel {
         derived: derived.to_vec(),
         meanings: meanings.clone(),
+        undetermined: UndeterminedDirections::new(setup, solved, converted, rows).map_err(fail)?,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);

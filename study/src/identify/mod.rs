@@ -12,11 +12,12 @@
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
-//! `covariance_writer` the covariance, and `map_writer` the map. The `report` contains `counts`,
-//! `as_joint_errors` (errors as `chain_numbers`: zeros and lengths) and their `alternatives`, what
-//! is `indistinguishable` or `weakly_determined`, `parameters`, `drift`, `extrapolation`, the
-//! `scale`, and `point_residuals` for plots. `unread` are instruments without a reading. `job` runs
-//! all of it.
+//! `covariance_writer` the covariance, `undetermined_writer` the errors that the data leave
+//! `undetermined`, and `map_writer` the map. The `report` contains `counts`, `as_joint_errors`
+//! (errors as `chain_numbers`: zeros and lengths) and their `alternatives`, what is
+//! `indistinguishable` or `weakly_determined`, `parameters`, `drift`, `extrapolation`, the `scale`,
+//! and `point_residuals` for plots. `unread` are instruments without a reading. `job` runs all of
+//! it.
 
 mod alternatives;
 mod as_joint_errors;
@@ -54,6 +55,8 @@ mod solve;
 mod spec_writer;
 mod terms;
 mod train_test_overlap;
+mod undetermined;
+mod undetermined_writer;
 mod unread;
 mod weakly_determined;
 

@@ -46,7 +46,7 @@ impl FoundModel {
             if kept.starts_with("[[frame]]") { Some(0) } else { kept.find("\n[[frame]]").map(|at| at + 1) };
         let (before, behind) = kept.split_at(at.unwrap_or_default());
         let fitted = self.fitted_table(spec);
-        let covariance = self.covariance_table(spec);
+        let covariance = self.covariance_table(spec) + &self.undetermined_table(spec);
         let mut new = format!("{before}{ground}{}\n{sources}\n{fitted}{covariance}", behind.trim_end());
         let mut added = format!("{changed}{ground}{}\n{fitted}", sources.trim_start());
         if self.terms.iter().any(|found| found.term.basis.is_elastic()) {
@@ -179,9 +179,10 @@ impl FoundModel {
 }
 
 /// Comments above the tables of an identification.
-pub(super) const ABOVE: [&str; 2] = [
+pub(super) const ABOVE: [&str; 3] = [
     "# The ranges of joints and inputs on which the errors were fitted.\n",
     "# The covariance of the errors that were fitted.\n",
+    "# The errors that these measurements could not determine: they move other points of the tool.\n",
 ];
 
 /// Returns the name of the source with the constant errors of a frame.
@@ -316,12 +317,13 @@ fn weight(spec: &Spec) -> [String; 2] {
     ]
 }
 
-/// Removes the ranges and the covariance of an earlier identification from a spec.
+/// Removes the ranges, the covariance and the undetermined errors of an earlier identification from
+/// a spec.
 fn without_fitted(text: &str) -> String {
     let mut inside = false;
     let kept = text.split_inclusive('\n').filter(|line| {
         if line.starts_with('[') {
-            inside = ["[fitted]", "[covariance]"].contains(&line.trim_end());
+            inside = ["[fitted]", "[covariance]", "[undetermined]"].contains(&line.trim_end());
         }
         !inside && !ABOVE.iter().any(|above| line.trim_end() == above.trim_end())
     });

@@ -20,6 +20,7 @@ use serde::Serialize;
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
+use crate::other_tool::{OtherTool, warn_of_other_tool};
 use crate::{Acceptance, AcceptanceVerdict, Machine, Notes, RunRecord, finite, mistake};
 
 pub use errors::RowError;
@@ -66,6 +67,9 @@ pub struct Report {
     /// Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no
     /// such rows.
     pub extrapolated: Option<Extrapolation>,
+    /// Uncertainty of the measured points if the errors of the spec were fitted at other points of
+    /// the tool; none if they were fitted at these.
+    pub other_tool: Option<OtherTool>,
     /// Number of independent configurations.
     pub configurations: usize,
     /// Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single
@@ -204,8 +208,11 @@ impl Measure {
         };
         evaluated.data.note_on_time().iter().for_each(|note| notes.warn(note));
         let rows = &evaluated.data.observations;
-        let places = rows.iter().map(|row| (&row.q[..], &row.u[..]));
-        let extrapolated = warn_of_extrapolation(&machine.spec, &interpreter, "rows", places, notes);
+        let places = || rows.iter().map(|row| (&row.q[..], &row.u[..]));
+        let (spec, points) = (&machine.spec, setup.delivered_points());
+        let other_tool = warn_of_other_tool(spec, &interpreter, &points, "rows", &mut places(), notes)?;
+        let is_measured = other_tool.is_none();
+        let extrapolated = warn_of_extrapolation(spec, &interpreter, is_measured, "rows", places(), notes);
         let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
         if let Some(warning) = too_large(rms, fitted, &setup) {
             notes.warn(&warning);
@@ -229,6 +236,7 @@ impl Measure {
             explained: evaluated.explained,
             accepted,
             extrapolated,
+            other_tool,
             repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets.len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),

@@ -8,7 +8,7 @@ use abbe_study::{Acceptance, Machine};
 use abbe_tests::sample_size;
 
 /// An arm with a spherical wrist; the tool point is on the axis of q6, 206 mm from the wrist.
-const ARM: &str = r#"
+pub(super) const ARM: &str = r#"
 [manipulator]
 name = "arm"
 title = "Six axes and a spherical wrist"
@@ -48,37 +48,53 @@ variable = { name = "q6", kind = "revolute", limits = ["-180 deg", "180 deg"], h
 dh = { theta = "q6", d = "80 mm", a = 0, alpha = 0 }
 "#;
 
-const ZERO_OF_Q5: &str =
+pub(super) const ZERO_OF_Q5: &str =
     "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\njoint = \"q5\"\nerror = \"1 mrad\"\n";
 
 /// Returns the arm with a target beside the axis of q6 by `tool` mm.
-fn arm(tool: f64, sources: &str) -> Machine {
+pub(super) fn arm(tool: f64, sources: &str) -> Machine {
     let text = format!("{}{sources}", ARM.replace("TOOL", &tool.to_string()));
     Machine::of_spec(Spec::parse("arm.toml", &text).expect("a spec"), "arm.toml")
 }
 
 fn identified(tool: f64, seed: u64) -> Report {
+    identified_from(arm(tool, ZERO_OF_Q5), arm(tool, ""), "", 0.01, seed)
+}
+
+/// Returns the map of a point measured with 0.02 mm; `data` are more keys of `[data]`.
+pub(super) fn point_map(machine: &Machine, data: &str) -> Map {
     let joints: String =
         (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"rad\" }}\n")).collect();
     let text = format!(
-        "[data]\nuncertainty = \"0.02 mm\"\n\n[joints]\n{joints}\n\
+        "[data]\nuncertainty = \"0.02 mm\"\n{data}\n[joints]\n{joints}\n\
          [point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n"
     );
-    let map = Map::parse("map.toml", &text, &arm(tool, "").spec).expect("a map");
-    let (machine, at) = (arm(tool, ZERO_OF_Q5), Places::Samples(60));
+    Map::parse("map.toml", &text, &machine.spec).expect("a map")
+}
+
+/// Identifies the errors of a machine from 60 simulated points, with the nominal machine and priors
+/// of this share.
+pub(super) fn identified_from(
+    machine: Machine,
+    nominal: Machine,
+    data: &str,
+    share: f64,
+    seed: u64,
+) -> Report {
+    let (map, at) = (point_map(&nominal, data), Places::Samples(60));
     let job = Simulate { machine, map: map.clone(), at, noise: None, outliers: 0.0, random: false, seed };
     let observations = job.run(&mut ()).expect("it is simulated").observations;
     let data = Data { file: "data.csv".to_owned(), observations, ..Data::default() };
     let settings = Settings {
         loss: abbe::identify::Loss::Squares,
-        prior: Prior::Share(0.01),
+        prior: Prior::Share(share),
         folds: 5,
         time: None,
         points: false,
     };
-    let (machine, terms, harmonics) = (arm(tool, ""), Vec::new(), Vec::new());
+    let (terms, harmonics) = (Vec::new(), Vec::new());
     let job = Identify {
-        machine,
+        machine: nominal,
         map,
         data,
         test: None,

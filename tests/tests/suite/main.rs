@@ -35,6 +35,7 @@ mod laws;
 mod long_chains;
 mod machine_tool;
 mod operations;
+mod other_tool;
 mod paths;
 mod proof;
 mod random;

@@ -64,6 +64,8 @@ fn facts(description: &Description, report: &Report) -> Vec<(String, String)> {
             ),
         );
     }
+    let other = report.other_tool.iter();
+    facts.extend(other.map(|tool| ("Tool".to_owned(), super::other_tool(tool, report.length))));
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside".to_owned(), super::outside(rows))));
     facts.extend(super::data(&report.file).into_iter().map(|(name, text)| (name.to_owned(), text)));
     facts

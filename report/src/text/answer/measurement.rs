@@ -103,6 +103,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     ));
     facts.extend(region(report).map(|sentence| ("Region", sentence)));
     facts.extend(report.drift.iter().map(|order| ("Drift", order.sentence.clone())));
+    facts.extend(report.other_tool.iter().map(|tool| ("Tool", super::other_tool(tool, report.length))));
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside", super::outside(rows))));
     if report.base_fitted {
         facts.push(("Station", "fitted to these rows; errors that it absorbs are not included".to_owned()));

@@ -13,9 +13,9 @@ mod measurement;
 mod monitoring;
 mod plan;
 
-use abbe_study::Extrapolation;
 use abbe_study::data::Summary;
-use abbe_study::number::unbroken;
+use abbe_study::number::{digits, unbroken};
+use abbe_study::{Extrapolation, OtherTool};
 
 use super::{full, wrapped};
 
@@ -67,6 +67,13 @@ fn data(file: &Summary) -> Vec<(&'static str, String)> {
     let lines = file.lines();
     let names = std::iter::once("Data").chain(std::iter::repeat(""));
     names.zip(lines.iter().take(3)).map(|(name, line)| (name, line.trim().to_owned())).collect()
+}
+
+/// Returns the uncertainty with a tool that is not the measured one.
+fn other_tool(tool: &OtherTool, length: &str) -> String {
+    let (factor, unit) = error_unit(length);
+    let [all, noise] = [tool.standard_deviation, tool.by_noise].map(|value| digits(factor * value, 3));
+    format!("not the measured one: σ {all} {unit}, {noise} {unit} by noise; not all errors are determined")
 }
 
 /// Returns the number of rows outside the fitted ranges.

@@ -32,6 +32,7 @@ pub(in crate::text) fn compensation(description: &Description, report: &Report) 
     if !description.sources.iter().any(|source| source.class == Class::Repeatable) {
         parts.push("The spec has no repeatable source: there is nothing to compensate.\n".to_owned());
     }
+    parts.extend(report.other_tool.iter().map(|tool| wrapped(&tool.sentence, 0) + "\n"));
     parts.extend(report.extrapolated.iter().map(|extrapolated| wrapped(&extrapolated.sentence, 0) + "\n"));
     let from = "Corrections cover the errors of the machine in its frame F_0, not the placement of the \
      instrument or of targets.";

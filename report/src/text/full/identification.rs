@@ -1,8 +1,9 @@
 //! Every error that was found, what acts alike, and how well each is known: `--full`.
 
-use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Fitted, Spec};
 use abbe_study::identify::{Gain, Kind, Parameter, Report, Sizes, WeaklyDetermined, shown_lines};
-use abbe_study::number::{self, counted, digits, fixed};
+use abbe_study::number::{self, counted, digits, fixed, percent};
 
 use super::{Table, indistinguishable, wrapped};
 
@@ -196,6 +197,7 @@ fn errors(spec: &Spec, report: &Report) -> String {
         }
     };
     text += &format!("{}\n{}\n", wrapped(&line, 0), wrapped(&behind(report), 0));
+    text += &format!("{}\n", wrapped(&fitted_ranges(spec, report), 0));
     text += &extrapolation(report);
     text += &instruments(report);
     text += &(wrapped(&residuals(report), 0)
@@ -210,6 +212,26 @@ fn errors(spec: &Spec, report: &Report) -> String {
     }
     text += &limits_and_outliers(spec, report);
     text
+}
+
+/// Lists the ranges of joints and inputs over the fitted rows, with the share of the joint limits.
+fn fitted_ranges(spec: &Spec, report: &Report) -> String {
+    let share = |fitted: &Fitted| {
+        let Symbol::Variable(i) = fitted.symbol else { return String::new() };
+        let [[from, to], [lower, upper]] = [fitted.range, spec.variables[i].limits];
+        let share = (to - from) / (upper - lower);
+        if share.is_finite() && upper - lower < f64::INFINITY {
+            format!(" ({} of its limits)", percent(share, 1.0))
+        } else {
+            String::new()
+        }
+    };
+    let range = |fitted: &Fitted| {
+        let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
+        format!("{} {lower} … {upper}{}", spec.name_of(fitted.symbol), share(fitted))
+    };
+    let ranges: Vec<String> = report.found.fitted.iter().map(range).collect();
+    format!("Fitted ranges: {}. Results beyond them are extrapolations.", ranges.join(", "))
 }
 
 /// Test rows beyond the ranges that were fitted, if there are any.

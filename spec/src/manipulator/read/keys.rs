@@ -33,6 +33,7 @@ crate::tables! {
         "fitted": Names("table of `NAME = [LOWER, UPPER]`", &List("two numbers", Some(2), &NUMBER)), "-", "none",
             "Ranges of joints and inputs in which `identify` fitted the errors; `measure`, `compensate` and `analyze` warn beyond them";
         "covariance": Table("[covariance]"), "-", "not known", "Covariance of the errors that `identify` fitted";
+        "undetermined": Table("[undetermined]"), "-", "none", "Errors that the measurements of `identify` could not determine";
     ]
     MANIPULATOR: ["[manipulator]"], [
         "name": Text("name in lower case"), "-", "required", "Name of the module and the type in generated code";
@@ -203,6 +204,17 @@ crate::tables! {
     COVARIANCE_OF: ["[covariance.of]"], [
         "source": Text("name of a source"), "-", "required", "Source; without `error`, the factor of the whole source, nominally 1";
         "error": Choice(|| Component::ALL.map(Component::name).to_vec()), "-", "all of the source", "Error of a frame that the source has";
+    ]
+    UNDETERMINED: ["[undetermined]"], [
+        "points": List("rows of three numbers", None, &List("three numbers", Some(3), &NUMBER)), "length unit", "required",
+            "Measured points in the last frame, nominal and as they were found; the directions have no effect there";
+        "of": Tables("[undetermined.of]"), "-", "required", "Errors of the columns";
+        "rows": ROWS, "length unit, rad, and 1", "required", "Independent directions of these errors, each of one standard deviation";
+    ]
+    UNDETERMINED_OF: ["[undetermined.of]"], [
+        "frame": Text("name of a frame"), "-", "`F_0`", "Frame that has the error";
+        "error": Choice(|| Component::ALL.map(Component::name).to_vec()), "-", "required without `source`", "Error of the frame";
+        "source": Text("name of a source"), "-", "none", "Source, for the factor of all its errors";
     ]
     LOAD: ["[[load]]"], [
         "name": Text("text"), "-", "none", "Name of the load, for people";

@@ -2,9 +2,9 @@
 //!
 //! `spec` reads the file from top to bottom: `declarations` the names, `tables` (with `points`) the
 //! functions defined by points, `frames` the transforms, `sources`, `effects`, `elastic`,
-//! `deviations` and `loads` the physical errors, `fitted` and `covariance` the results of
-//! identification. `positive` checks the signs of masses and stiffnesses, and `rigid` that every
-//! matrix is a rigid motion, at `samples`.
+//! `deviations` and `loads` the physical errors, `fitted`, `covariance` and
+//! `undetermined` the results of identification. `positive` checks the signs of masses and
+//! stiffnesses, and `rigid` that every matrix is a rigid motion, at `samples`.
 
 mod choices;
 mod covariance;
@@ -23,3 +23,4 @@ mod samples;
 mod sources;
 mod spec;
 mod tables;
+mod undetermined;

@@ -18,6 +18,7 @@ use super::positive::check_signs;
 use super::rigid::check_rigid;
 use super::samples::depends;
 use super::sources::{input_uncertainties, read_sources};
+use super::undetermined::read_undetermined;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
@@ -113,6 +114,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     check_signs(&sources, &loads, &declarations, document);
     let fitted = read_fitted(root, &declarations, document);
     let covariance = read_covariance(root, &sources, &declarations.scope, document);
+    let undetermined = read_undetermined(root, &frames, &sources, &declarations.scope, document);
     sources.extend(input_uncertainties(&declarations, &sources, document));
     raw_frames?;
     complete.then_some(())?;
@@ -141,6 +143,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         gravity,
         fitted,
         covariance: covariance?,
+        undetermined: undetermined?,
         tables: scope.tables,
         file,
         beside,

@@ -45,7 +45,7 @@ use super::first_order::FirstOrder;
 use super::unreachable::UnreachableReason;
 use crate::bound::CertifiedNorms;
 use crate::study_file::{CombinedFigure, PublishedResidual, Study, Subject};
-use crate::{Extrapolation, RunRecord, number};
+use crate::{Extrapolation, OtherTool, RunRecord, number};
 
 /// Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`;
 /// angles are in rad.
@@ -113,6 +113,10 @@ pub struct Report {
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub extrapolated: Option<Extrapolation>,
+    /// Uncertainty of the tool point if it is no point at which the errors of the spec were fitted;
+    /// `None` if it is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub other_tool: Option<OtherTool>,
     /// Stated date; absent if there is none.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,

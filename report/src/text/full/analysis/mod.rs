@@ -44,6 +44,7 @@ pub(in crate::text) fn analysis(report: &Report) -> String {
         }
         parts.push(paragraphs(&report.conclusions()));
     }
+    parts.extend(report.other_tool.iter().map(|tool| wrapped(&tool.sentence, 0) + "\n"));
     parts.extend(report.extrapolated.iter().map(|extrapolated| wrapped(&extrapolated.sentence, 0) + "\n"));
     if !report.study.not_reproducible.is_empty() {
         let notes = report.study.not_reproducible.iter().map(|note| format!("- {}\n", wrapped(note, 2)));

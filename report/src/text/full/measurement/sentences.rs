@@ -13,6 +13,7 @@ pub(crate) fn sentences(report: &Report) -> Vec<String> {
     all.extend(report.drift.iter().map(|drift| drift.sentence.clone()));
     all.push(explained(report));
     all.extend(region(report));
+    all.extend(report.other_tool.iter().map(|tool| tool.sentence.clone()));
     all.extend(report.extrapolated.iter().map(|extrapolated| extrapolated.sentence.clone()));
     all.extend(report.accepted.iter().map(|accepted| accepted.sentence(report.unit)));
     all

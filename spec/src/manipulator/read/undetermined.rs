@@ -1,0 +1,90 @@
+//! `[undetermined]`: the errors of an identified machine that its measurements could not determine.
+
+use abbe_core::Component;
+
+use super::keys::{UNDETERMINED, UNDETERMINED_OF};
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, Scope};
+use crate::manipulator::{Frame, Identified, Source, Undetermined};
+use crate::value::find_name;
+
+/// Reads the table; nothing is undetermined without one.
+pub(super) fn read_undetermined(
+    root: &Section<'_>,
+    frames: &[Frame],
+    sources: &[Source],
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Undetermined> {
+    let Some(item) = root.get("undetermined") else { return Some(Undetermined::default()) };
+    let mut section = document.section(&item)?;
+    section.name = "[undetermined]".to_owned();
+    section.check_keys(&[&UNDETERMINED], document);
+    let [points, of, rows] = ["points", "of", "rows"].map(|key| section.required(key, document));
+    let (points_item, of, rows_item) = (points?, of?, rows?);
+    let points = numbers(&points_item, Dimension::LENGTH, "a coordinate", scope, document)?;
+    let rows = numbers(&rows_item, Dimension::NONE, "a standard deviation", scope, document)?;
+    let mut all = Vec::new();
+    for item in document.array(&of, "an array of tables `{ frame = \"…\", error = \"…\" }`")? {
+        all.push(undetermined(&item, frames, sources, document)?);
+    }
+    let count = all.len();
+    let help = "`abbe identify --out` writes this table; remove it if everything is determined";
+    if rows.iter().any(|row| row.len() != count) {
+        let message = format!("each of these directions must have {count} numbers");
+        document.mistake(Diagnostic::new(rows_item.span(), message).help(help));
+        return None;
+    }
+    let points: Option<Vec<[f64; 3]>> = points.into_iter().map(|point| point.try_into().ok()).collect();
+    if points.is_none() {
+        let message = "a point must have three coordinates";
+        document.mistake(Diagnostic::new(points_item.span(), message).help(help));
+    }
+    Some(Undetermined { points: points?, of: all, rows })
+}
+
+fn numbers(
+    item: &Item<'_>,
+    dimension: Dimension,
+    what: &'static str,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<Vec<f64>>> {
+    let mut rows = Vec::new();
+    for row in document.array(item, "rows of numbers")? {
+        let mut numbers = Vec::new();
+        for number in document.array(&row, "numbers")? {
+            let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
+            numbers.push(document.constant(&number, scope, entry)?.0);
+        }
+        rows.push(numbers);
+    }
+    Some(rows)
+}
+
+/// Reads an error of a frame, an error of `F_0`, or the magnitude of a source.
+fn undetermined(
+    item: &Item<'_>,
+    frames: &[Frame],
+    sources: &[Source],
+    document: &mut Document,
+) -> Option<Identified> {
+    let mut section = document.section(item)?;
+    section.name = "this entry of [undetermined]".to_owned();
+    section.span = item.span();
+    section.check_keys(&[&UNDETERMINED_OF], document);
+    if let Some(source) = section.get("source") {
+        let names: Vec<&str> = sources.iter().map(|source| source.name.as_str()).collect();
+        let text = document.string(&source)?;
+        return find_name(document, source.span(), &text, &names, "source").map(Identified::Magnitude);
+    }
+    let error = section.required("error", document)?;
+    let component =
+        document.choice(&error, &Component::ALL.map(|component| (component.name(), component)))?;
+    let Some(frame) = section.get("frame") else { return Some(Identified::Base(component)) };
+    let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
+    let text = document.string(&frame)?;
+    let frame = find_name(document, frame.span(), &text, &names, "frame")?;
+    Some(Identified::Error(frame, component))
+}
