@@ -1031,12 +1031,15 @@ class FoundInstrument(Fields):
     zero: float | None
     """Offset of its readings, in the length unit or rad; for a sphere, minus its radius. None if it was known."""
 
+    intrinsics: list[float] | None = None
+    """Fitted intrinsic parameters `fx fy cx cy k1 k2 p1 p2 k3` of a camera, in pixels and 1; none if they were known."""
+
     is_angle: bool
     """Is true if the readings are angles."""
 
     covariance: list[list[float]]
-    """Covariance of x, y, z of the position or of the two tilts of the direction, followed by the zero, in products
-    of the units.
+    """Covariance of x, y, z of the position or of the two tilts of the direction, followed by the zero, or of the
+    intrinsic parameters, in products of the units.
     """
 
 
@@ -1407,7 +1410,7 @@ class InstrumentFit(Fields):
     """Standard deviation used in the fit, in `unit`."""
 
     unit: str
-    """Unit: the length unit, or rad."""
+    """Unit: the length unit, rad or px."""
 
     estimated: bool
     """Is true if the uncertainty was estimated from these data."""

@@ -5,6 +5,8 @@
 //!
 //! - One point per configuration, without repeated visits: all numbers are independent,
 //!   `σ² = rᵀr/(n − p)`, and `C = (N/σ² + P)⁻¹`.
+//! - Views of a camera: the same, if the noise of single pixels [explains](super::views) the
+//!   residuals; otherwise as poses.
 //! - Points visited repeatedly: visits share the error of the model at the configuration,
 //!   `V_c = τ² 1 1ᵀ + σ_w² I` along each axis. With `S_c` the sum of the rows of `J` of a
 //!   configuration, and means `r̄_c`: `σ_w² = Σ (r − r̄_c)²/(n − m)` for `m` means;
@@ -77,7 +79,13 @@ impl Solver<'_> {
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
             return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
         }
-        let groups = configurations.rows().with_indices(&used().collect::<Vec<_>>());
+        let used: Vec<usize> = used().collect();
+        if self.has_independent_pixels(&used)? {
+            let freedom = n as f64 - p as f64;
+            let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
+            return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
+        }
+        let groups = configurations.rows().with_indices(&used);
         let groups = groups.slices();
         if several {
             let (covariance, sigma) = self.sandwich(&groups, n)?;

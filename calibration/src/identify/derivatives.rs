@@ -24,6 +24,7 @@ impl Model<'_> {
             targets: &scratch.targets,
             fixtures: &self.fixtures,
             displacements: &scratch.fixtures,
+            camera: scratch.camera.as_ref(),
             previous: scratch.previous.as_ref().map(|previous| (in_f0(previous), &previous.targets[..])),
         }
     }
@@ -50,6 +51,7 @@ impl Model<'_> {
         let observable = &self.observables[i];
         match self.unknowns[k] {
             Unknown::Zero(zero) => [f64::from(u8::from(zero == i)), 0.0],
+            Unknown::Intrinsic(parameter) => [evaluation.by_intrinsics[parameter], 0.0],
             Unknown::Fixture(f, coordinate) if observable.fixture == Some(f) => {
                 let derivative = match self.fixtures[f].geometry {
                     FixtureGeometry::Point(_) => evaluation.by_fixture[coordinate],
@@ -66,7 +68,8 @@ impl Model<'_> {
                 let change = |scratch: &Scratch, target: usize| match observable.kind.is_angle {
                     true => dot(along, self.turn(scratch, k)),
                     false => {
-                        let position = scratch.tool().apply(scratch.targets[target]);
+                        let of_target = || (target, scratch.tool().apply(scratch.targets[target]));
+                        let (target, position) = evaluation.at.map_or_else(of_target, |at| (usize::MAX, at));
                         dot(along, self.point(scratch, k, target, position))
                     }
                 };
@@ -93,7 +96,11 @@ impl Model<'_> {
             Unknown::Error(frame, component) => scratch.frames[frame + 1].point(component, point),
             Unknown::Tool(component) => scratch.frames[last].point(component, point),
             Unknown::Target(target, axis) if target == j => scratch.frames[last].after.0[axis],
-            Unknown::Base(..) | Unknown::Target(..) | Unknown::Fixture(..) | Unknown::Zero(_) => [0.0; 3],
+            Unknown::Base(..)
+            | Unknown::Target(..)
+            | Unknown::Fixture(..)
+            | Unknown::Zero(_)
+            | Unknown::Intrinsic(_) => [0.0; 3],
             Unknown::Magnitude(source) => {
                 self.by_magnitude(scratch, source, |frame, c| frame.point(c, point))
             }
@@ -109,7 +116,11 @@ impl Model<'_> {
             }
             Unknown::Error(frame, component) => scratch.frames[frame + 1].turn(component),
             Unknown::Tool(component) => scratch.frames[scratch.errors.len() + 1].turn(component),
-            Unknown::Base(..) | Unknown::Target(..) | Unknown::Fixture(..) | Unknown::Zero(_) => [0.0; 3],
+            Unknown::Base(..)
+            | Unknown::Target(..)
+            | Unknown::Fixture(..)
+            | Unknown::Zero(_)
+            | Unknown::Intrinsic(_) => [0.0; 3],
             Unknown::Magnitude(source) => self.by_magnitude(scratch, source, Frame::turn),
         }
     }

@@ -5,14 +5,16 @@ use core::borrow::Borrow;
 use super::blocks::by_blocks;
 use super::scratch::Scratch;
 use super::vectors::difference;
-use super::{Distances, Failure, Figures, Measurement, Model, Observation};
+use super::{Camera, Distances, Failure, Figures, Measurement, Model, Observation};
 use abbe_analysis::sampling;
+use abbe_core::Pose;
 
 impl Model<'_> {
     /// Returns position errors, model minus measurement: one vector for each measured point, in the
     /// axes of the instrument and the length unit.
     ///
-    /// A reading of a length has an error along its gradient; angles have none.
+    /// A reading of a length has an error along its gradient; angles have none. A corner that a
+    /// camera sees has its vector from the line of sight of its pixel.
     pub fn deviations(
         &self,
         scratch: &mut Scratch,
@@ -43,6 +45,10 @@ impl Model<'_> {
             }
             Measurement::Pose(measured) => take(difference(last.position(), measured.position())),
             Measurement::Readings(readings) => {
+                if let Some(camera) = &scratch.camera {
+                    self.each_off_sight(camera, &last, readings, take);
+                    return Ok(());
+                }
                 let geometry = self.geometry(scratch);
                 for (i, measured) in readings.iter().enumerate().take(self.observables.len()) {
                     let Some(measured) = measured.filter(|_| !self.observables[i].kind.is_angle) else {
@@ -55,6 +61,22 @@ impl Model<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Passes the vector of each corner from its line of sight to `take`; if the camera is on the
+    /// tool, that of the line of sight from the corner.
+    fn each_off_sight(
+        &self,
+        camera: &Camera,
+        tool: &Pose,
+        readings: &[Option<f64>],
+        mut take: impl FnMut([f64; 3]),
+    ) {
+        for (pixel, corner) in readings.chunks_exact(2).zip(self.observables.chunks_exact(2)) {
+            let ([Some(u), Some(v)], corner) = (pixel, corner[0].corner) else { continue };
+            let off = camera.off_sight(camera.seen(tool, corner), [*u, *v]);
+            take(if camera.is_on_tool { tool.turn(off).map(|v| -v) } else { off });
+        }
     }
 
     /// Returns whether a row has any [deviations](Self::deviations).

@@ -130,7 +130,7 @@ fn determined(
 
 /// Returns the unknowns in order of preference.
 fn by_preference(model: &Model) -> Vec<usize> {
-    use super::Unknown::{Base, Error, Fixture, Magnitude, Target, Tool, Zero};
+    use super::Unknown::{Base, Error, Fixture, Intrinsic, Magnitude, Target, Tool, Zero};
     let frames = model.manipulator.description().frames.len();
     let mut order: Vec<usize> = (0..model.unknowns.len()).collect();
     let last = model.unknowns.iter().rposition(|unknown| matches!(unknown, Error(..)));
@@ -141,6 +141,7 @@ fn by_preference(model: &Model) -> Vec<usize> {
         Zero(reading) => (1, 3 * model.fixtures.len() + reading),
         Target(target, axis) => (2, 3 * target + axis),
         Tool(component) => (2, component.index()),
+        Intrinsic(parameter) => (2, 6 + parameter),
         Magnitude(source) if named(*k) => (3, source),
         Error(frame, component) => (4 + frames - frame, component.index()),
         Magnitude(source) => (frames + 5, source),

@@ -50,7 +50,8 @@ impl Candidates {
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, Failure> {
         let (p, count) = (model.unknowns.len(), list.len());
-        let rows = list.iter().map(Observation::count).max().unwrap_or_default();
+        let most = list.iter().map(Observation::count).max().unwrap_or_default();
+        let rows = model.camera.map_or(most, |camera| most.min(camera.rank()));
         let arm = sampling::arm_length(model.manipulator, &model.s).map_err(Failure::Machine)?;
         let x = vec![0.0; p];
         let block = |first: usize, part: &[Observation]| {
@@ -58,13 +59,15 @@ impl Candidates {
             let mut scratch = model.scratch();
             for (i, observation) in part.iter().enumerate() {
                 let observation = model.nominally_seen(&mut scratch, observation)?;
-                let mut at = rows * i;
+                let (mut own, mut at) = (DMatrix::zeros(most, p), 0);
                 model.linear(&mut scratch, &observation, &x, |_, row| {
-                    row.iter().enumerate().for_each(|(k, value)| stack[(at, k)] = *value);
+                    row.iter().enumerate().for_each(|(k, value)| own[(at, k)] = *value);
                     at += 1;
                 })?;
-                let mut scaled = stack.rows_mut(rows * i, at - rows * i);
-                whiten(model, &observation, model_error, arm, &mut scaled);
+                whiten(model, &observation, model_error, arm, &mut own.rows_mut(0, at));
+                let own = if rows < most { compressed(own) } else { own };
+                let shared = rows.min(own.nrows());
+                stack.rows_mut(rows * i, shared).copy_from(&own.rows(0, shared));
             }
             Ok((first, stack))
         };
@@ -276,6 +279,10 @@ fn whiten(
     let b = share(model.uncertainty.length);
     let rows = scaled.nrows();
     match &observation.measured {
+        // All corners that a camera sees share the error of the model.
+        Measurement::Readings(_) if model.camera.is_some() => {
+            without_common(scaled, 2, b);
+        }
         // For an angle, the length divided by the arm.
         Measurement::Readings(values) => {
             let shown = model.observables.iter().zip(values).filter(|(_, value)| value.is_some());
@@ -285,14 +292,7 @@ fn whiten(
             }
         }
         Measurement::Points(_) => {
-            let k = rows / 3;
-            let factor = 1.0 - 1.0 / (1.0 + k as f64 * b).sqrt();
-            for mut column in scaled.column_iter_mut() {
-                for axis in 0..3 {
-                    let mean = (0..k).map(|j| column[3 * j + axis]).sum::<f64>() / k as f64;
-                    (0..k).for_each(|j| column[3 * j + axis] -= factor * mean);
-                }
-            }
+            without_common(scaled, 3, b);
         }
         Measurement::Pose(_) => {
             let turn = share(arm * model.uncertainty.angle);
@@ -301,5 +301,42 @@ fn whiten(
                 scaled.row_mut(i).scale_mut(1.0 / (1.0 + b).sqrt());
             }
         }
+    }
+}
+
+/// Returns `R P` of `J P⁻¹ = Q R`, which has the same `JᵀJ`; its last rows are zero beyond the rank
+/// of `J`.
+fn compressed(rows: DMatrix<f64>) -> DMatrix<f64> {
+    let decomposed = rows.col_piv_qr();
+    let mut r = decomposed.r();
+    decomposed.p().inv_permute_columns(&mut r);
+    r
+}
+
+/// Whitens rows of `axes` coordinates of each target for an error that all targets share.
+fn without_common(scaled: &mut nalgebra::DMatrixViewMut<'_, f64>, axes: usize, b: f64) {
+    let k = scaled.nrows() / axes;
+    let factor = 1.0 - 1.0 / (1.0 + k as f64 * b).sqrt();
+    for mut column in scaled.column_iter_mut() {
+        for axis in 0..axes {
+            let mean = (0..k).map(|j| column[axes * j + axis]).sum::<f64>() / k as f64;
+            (0..k).for_each(|j| column[axes * j + axis] -= factor * mean);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::compressed;
+    use nalgebra::DMatrix;
+
+    /// Rows of rank two keep their information in two rows.
+    #[test]
+    fn compressed_rows_have_the_same_information() {
+        let left = DMatrix::from_fn(9, 2, |i, j| ((3 * i + j) as f64).sin());
+        let right = DMatrix::from_fn(2, 5, |i, j| ((2 * i + 7 * j) as f64).cos());
+        let rows = left * right;
+        let few = compressed(rows.clone()).rows(0, 2).into_owned();
+        assert!((few.tr_mul(&few) - rows.tr_mul(&rows)).amax() < 1e-12);
     }
 }

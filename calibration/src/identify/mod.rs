@@ -8,7 +8,7 @@
 //! error on unseen data, [`select()`] adds terms that reduce it, and [`fit_profiles()`] errors of
 //! joints with up to 64 periods per turn. [`optimal`] chooses configurations to measure, and
 //! [`simulate()`] measures a machine with known errors. [`INSTRUMENTS`] lists the instruments that
-//! are read one number at a time.
+//! are read one number at a time; a [`Camera`] reads two for each corner of a board.
 //!
 //! ```
 //! # use abbe::*;
@@ -69,6 +69,7 @@
 
 mod acceleration;
 mod blocks;
+mod board_pose;
 mod clustered;
 mod columns;
 mod configurations;
@@ -81,6 +82,7 @@ mod figures;
 mod fit;
 mod folds;
 mod groups;
+mod hand_eye;
 mod identifiable;
 mod information;
 mod instrument;
@@ -109,12 +111,14 @@ mod unknown;
 mod values;
 mod variance;
 mod vectors;
+mod views;
 
 #[cfg(test)]
 mod coverage;
 #[cfg(test)]
 mod tests;
 
+pub use board_pose::BoardView;
 pub use clustered::Independent;
 pub use configurations::Configurations;
 pub use design::{Design, Objective, optimal, whole};
@@ -127,8 +131,8 @@ pub use groups::{Group, Reason, groups};
 pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
 pub use information::Criterion;
 pub use instrument::{
-    CONTACT, Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable, Reference, SizeInformation,
-    tangents,
+    CAMERA, CONTACT, Camera, Fixture, FixtureGeometry, INSTRUMENTS, INTRINSICS, InstrumentKind, Observable,
+    Reference, SizeInformation, tangents,
 };
 pub use joints_at_values::joints_at_values;
 pub use model::Model;

@@ -2,11 +2,13 @@
 //!
 //! The chain is `B E_0 · A_1 E_1 … A_n E_n · T M E_T`. `B` is the nominal pose of `F_0` in the
 //! frame of the instrument at a station, and `E_0` its unknown error. `E_T` is the unknown error of
-//! the tool where whole poses are measured; where points are measured, target j is at `d_j` in the
-//! frame of the tool. [Fixtures](Fixture) stand in `F_0`, before `B E_0`. ε is the sum of known
-//! sources, unknown constants, and sources of unknown magnitude.
+//! the tool where whole poses are measured, or a camera sees a board; where points are measured,
+//! target j is at `d_j` in the frame of the tool. [Fixtures](Fixture) stand in `F_0`, before `B
+//! E_0`. ε is the sum of known sources, unknown constants, and sources of unknown magnitude.
 
-use super::{Failure, Fixture, FixtureGeometry, Observable, Role, Station, Uncertainty, Unknown};
+use super::{
+    Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, Observable, Role, Station, Uncertainty, Unknown,
+};
 use abbe_analysis::sampling;
 use abbe_core::{Class, Component, Manipulator, Pose};
 
@@ -26,8 +28,11 @@ pub struct Model<'a> {
     pub fixtures: Vec<Fixture>,
     /// Observables of the [readings](super::Measurement::Readings) of an observation.
     pub observables: Vec<Observable>,
+    /// Camera on the tool, or in the room with a board on the tool; its pixels are the observables.
+    pub camera: Option<Camera>,
     /// `M`: transform from the measured frame to the frame of the tool where whole poses are
-    /// measured, before any unknown.
+    /// measured, before any unknown. The measured frame is that of the camera or board on the tool,
+    /// if there is a camera.
     pub mounting: Pose,
     /// Uncertainty of points and poses; observables have their own.
     pub uncertainty: Uncertainty,
@@ -49,6 +54,7 @@ impl<'a> Model<'a> {
             targets,
             fixtures: Vec::new(),
             observables: Vec::new(),
+            camera: None,
             mounting: Pose::IDENTITY,
             uncertainty,
             unknowns: Vec::new(),
@@ -75,14 +81,15 @@ impl<'a> Model<'a> {
         Self { roles: self.roles.iter().map(off).collect(), ..self.clone() }
     }
 
-    /// Returns the unknowns of stations, fixtures, zeros and tool; `pose` where whole poses are
-    /// measured.
+    /// Returns the unknowns of stations, fixtures, zeros, tool and camera; `pose` where whole poses
+    /// are measured.
     pub fn base_and_tool(&self, pose: bool) -> Vec<Unknown> {
-        self.base_unknowns().chain(self.fixture_unknowns()).chain(self.tool_unknowns(pose)).collect()
+        let unknowns = self.base_unknowns().chain(self.fixture_unknowns()).chain(self.tool_unknowns(pose));
+        unknowns.chain(self.intrinsic_unknowns()).collect()
     }
 
-    /// Returns the unknowns of stations, all six errors of each frame, fixtures, zeros and tool, in
-    /// this order.
+    /// Returns the unknowns of stations, all six errors of each frame, fixtures, zeros, tool and
+    /// camera, in this order.
     pub fn constants(&self, pose: bool) -> Vec<Unknown> {
         let frames = 0..self.manipulator.description().frames.len();
         let errors =
@@ -91,7 +98,13 @@ impl<'a> Model<'a> {
             .chain(errors)
             .chain(self.fixture_unknowns())
             .chain(self.tool_unknowns(pose))
+            .chain(self.intrinsic_unknowns())
             .collect()
+    }
+
+    fn intrinsic_unknowns(&self) -> impl Iterator<Item = Unknown> {
+        let camera = self.camera.filter(|camera| !camera.is_known);
+        camera.into_iter().flat_map(|_| (0..INTRINSICS).map(Unknown::Intrinsic))
     }
 
     /// Returns all six errors of each station that is not exact.
@@ -120,14 +133,16 @@ impl<'a> Model<'a> {
     /// some `share` of a radian.
     ///
     /// They are standard deviations about zero for [`Options::priors`](super::Options::priors).
-    /// Directions of fixtures have about one degree; base, tool and magnitudes have none. They
-    /// regularize weakly determined unknowns; other unknowns hardly depend on them.
+    /// Directions of fixtures have about one degree, intrinsic parameters what lenses have; base,
+    /// tool and magnitudes have none. They regularize weakly determined unknowns; other unknowns
+    /// hardly depend on them.
     pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>, Failure> {
         let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
         let prior = |unknown: &Unknown| match unknown {
             Unknown::Error(_, component) if component.is_rotation() => Some(share),
             Unknown::Error(..) => Some(share * length),
             Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture),
+            Unknown::Intrinsic(parameter) => self.camera.map(|camera| camera.expected(*parameter)),
             _ => None,
         };
         Ok(self.unknowns.iter().map(prior).collect())
@@ -148,7 +163,7 @@ impl<'a> Model<'a> {
                 Unknown::Base(_, component) | Unknown::Tool(component) => of(0.01, component.is_rotation()),
                 Unknown::Target(..) => of(0.01, false),
                 Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture),
-                Unknown::Magnitude(_) | Unknown::Zero(_) => None,
+                Unknown::Magnitude(_) | Unknown::Zero(_) | Unknown::Intrinsic(_) => None,
             })
         };
         Ok(self.unknowns.iter().enumerate().map(expected).collect())
@@ -194,6 +209,10 @@ impl<'a> Model<'a> {
                 format!("{name}_{}", coordinates[coordinate])
             }
             Unknown::Zero(reading) => format!("{}_zero", self.observables[reading].name),
+            Unknown::Intrinsic(parameter) => {
+                let camera = self.observables.first().map_or("camera", |reading| &reading.name);
+                format!("{camera}_{}", Camera::NAMES[parameter])
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 //! zeros.
 
 use super::columns::{Displaced, Frame};
-use super::{Failure, Model, Observation, Role, Unknown};
+use super::{Camera, Failure, Model, Observation, Role, Unknown};
 use abbe_core::{Error, Pose, Quantity};
 
 /// Reusable memory for the evaluation of one configuration.
@@ -19,6 +19,8 @@ pub struct Scratch {
     pub(super) targets: Vec<[f64; 3]>,
     pub(super) fixtures: Vec<[f64; 3]>,
     pub(super) zeros: Vec<f64>,
+    /// Camera with its current intrinsic parameters.
+    pub(super) camera: Option<Camera>,
     pub(super) station: usize,
     base: [f64; 6],
     tool: [f64; 6],
@@ -54,6 +56,7 @@ impl Model<'_> {
             station: 0,
             fixtures: vec![[0.0; 3]; self.fixtures.len()],
             zeros: vec![0.0; self.observables.len()],
+            camera: self.camera,
             base: [0.0; 6],
             tool: [0.0; 6],
             previous: None,
@@ -68,6 +71,7 @@ impl Model<'_> {
         scratch.station = observation.station as usize;
         scratch.targets.copy_from_slice(&self.targets);
         scratch.fixtures.fill([0.0; 3]);
+        scratch.camera = self.camera;
         for (zero, reading) in scratch.zeros.iter_mut().zip(&self.observables) {
             *zero = reading.zero;
         }
@@ -91,6 +95,11 @@ impl Model<'_> {
                 Unknown::Target(target, axis) => scratch.targets[target][axis] += value,
                 Unknown::Fixture(fixture, coordinate) => scratch.fixtures[fixture][coordinate] += value,
                 Unknown::Zero(reading) => scratch.zeros[reading] += value,
+                Unknown::Intrinsic(parameter) => {
+                    if let Some(camera) = &mut scratch.camera {
+                        camera.intrinsics[parameter] += value;
+                    }
+                }
                 Unknown::Magnitude(source) => {
                     for (effect, size) in description.effects.iter().zip(&scratch.effects) {
                         if effect.source == source {

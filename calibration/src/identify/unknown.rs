@@ -21,13 +21,17 @@ pub enum Unknown {
     Fixture(usize, usize),
     /// Deviation of the zero of an observable from its nominal value.
     Zero(usize),
+    /// Deviation of an intrinsic parameter of the camera from its nominal value, in the order of
+    /// [`Camera::intrinsics`](super::Camera::intrinsics).
+    Intrinsic(usize),
 }
 
 impl Unknown {
-    /// Returns whether it describes the placement of machine, fixtures or targets instead of an
-    /// error of the machine.
+    /// Returns whether it describes the placement of machine, fixtures or targets, or the
+    /// instrument, instead of an error of the machine.
     pub fn is_placement(self) -> bool {
-        matches!(self, Self::Base(..) | Self::Fixture(..) | Self::Zero(_)) || self.is_tool()
+        matches!(self, Self::Base(..) | Self::Fixture(..) | Self::Zero(_) | Self::Intrinsic(_))
+            || self.is_tool()
     }
 
     /// Returns whether it describes the mounting on the tool.

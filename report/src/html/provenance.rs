@@ -101,7 +101,7 @@ pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
         _ => format!(
             "{}{} (one standard deviation)",
             number::quantity(map.uncertainty.length, spec.length.symbol()),
-            if map.is_pose() { &angle } else { "" }
+            if matches!(map.layout, Layout::Pose(..)) { &angle } else { "" }
         ),
     };
     let base = match map.base {

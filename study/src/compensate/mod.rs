@@ -9,7 +9,7 @@ mod rows;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use crate::data::{Base, Data, Heading, Map, Summary, Table, Unusable};
+use crate::data::{Base, Data, Heading, Layout, Map, Summary, Table, Unusable};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::other_tool::{OtherTool, warn_of_other_tool};
 use crate::{Machine, Notes, RunRecord, finite, mistake, number};
@@ -244,7 +244,7 @@ impl Compensate {
 /// Checks that a map describes poses in a known base frame.
 pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
     let is_base_known = map.base != Base::Unknown || !map.stations.stated.is_empty();
-    if map.is_pose() && is_base_known {
+    if matches!(map.layout, Layout::Pose(..)) && is_base_known {
         return Ok(());
     }
     let help = "name the columns of position and orientation; or omit `--poses` to correct joints";

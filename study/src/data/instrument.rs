@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use abbe::identify::{Fixture, InstrumentKind, Observable, Reference};
+use abbe::identify::{Camera, Fixture, InstrumentKind, Observable, Reference};
 
 use super::column::Column;
 
@@ -45,14 +45,21 @@ pub struct Instruments {
     pub observables: Vec<Observable>,
     /// Indices of the instruments whose fixture and zero were identified before.
     pub found: Vec<usize>,
+    /// The camera, if it is the instrument.
+    pub camera: Option<Camera>,
     /// Column of the setup of a row.
     pub setup: Option<Column>,
 }
 
 impl Instruments {
-    /// Returns the names of all observables: that of the instrument, with the axis if it has three.
+    /// Returns the names of all observables: that of the instrument, with the axis if it has three,
+    /// or with the name of the column of a camera.
     pub(crate) fn names(&self) -> Vec<String> {
         let of = |instrument: &Instrument| match instrument.observables.len() {
+            _ if self.camera.is_some() => {
+                let column = |column: &Column| format!("{}_{}", instrument.name, column.name);
+                instrument.columns.iter().map(column).collect()
+            }
             3 => ["x", "y", "z"].map(|axis| format!("{}_{axis}", instrument.name)).to_vec(),
             _ => vec![instrument.name.clone()],
         };
@@ -87,8 +94,13 @@ impl Instruments {
         readings
     }
 
-    /// Returns the standard deviation of the first observable that is a length.
+    /// Returns the standard deviation of the first observable that is a length; that of a camera
+    /// for a board that fills the width of the image.
     pub(super) fn uncertainty(&self) -> f64 {
+        if let (Some(camera), Some(first)) = (&self.camera, self.observables.first()) {
+            let across = self.observables.iter().map(|one| norm(one.corner)).fold(0.0, f64::max);
+            return first.uncertainty * across / camera.image[0];
+        }
         let lengths = self.observables.iter().find(|reading| !reading.kind.is_angle);
         lengths.map_or(1.0, |reading| reading.uncertainty)
     }
@@ -157,6 +169,9 @@ impl Instruments {
         if readings.iter().all(Option::is_none) {
             return Err(NOTHING_READ.to_owned());
         }
+        if let Some(camera) = &self.camera {
+            check_view(camera, &readings)?;
+        }
         Ok(readings)
     }
 
@@ -189,6 +204,32 @@ impl Instruments {
         }
         distinct
     }
+}
+
+/// Smallest number of corners from which the pose of a board is computed.
+const FEWEST: usize = 4;
+
+/// Checks the pixels of one view; returns the reason if it cannot be used.
+fn check_view(camera: &Camera, readings: &[Option<f64>]) -> Result<(), String> {
+    let mut found = 0;
+    for (i, pixel) in readings.chunks_exact(2).enumerate() {
+        let corner = i + 1;
+        match pixel {
+            [Some(u), Some(v)] if camera.is_inside([*u, *v]) => found += 1,
+            [Some(u), Some(v)] => {
+                let [width, height] = camera.image;
+                return Err(format!(
+                    "corner {corner} at ({u}, {v}) px is outside the image of {width} × {height} px"
+                ));
+            }
+            [None, None] => {}
+            _ => return Err(format!("only one of the two pixels of corner {corner}")),
+        }
+    }
+    if found < FEWEST {
+        return Err(format!("{found} corners in this view; {FEWEST} are needed for the pose of the board"));
+    }
+    Ok(())
 }
 
 pub(super) fn norm(v: [f64; 3]) -> f64 {

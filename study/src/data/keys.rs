@@ -4,7 +4,7 @@ use abbe::identify::INSTRUMENTS;
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, Tables, Text};
 use abbe_spec::keys::{Rule, Then, When, words};
 
-use super::choices::{BASES, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
+use super::choices::{BASES, INTRINSIC_CHOICES, MOUNTS, PLACEMENTS, QUATERNION_ORDERS, UNKNOWN};
 use super::target_frame::TARGET_FRAMES;
 use super::turn::EULER_ORDERS;
 
@@ -19,7 +19,18 @@ const MATRIX: Value = List("rows of numbers", None, &List("", None, &NUMBER));
 const MAYBE: Value = Either("number, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]);
 
 /// Keys of an instrument that can be left out.
-pub const OPTIONAL: [&str; 4] = ["target", "zero", "nominal_radius", "range"];
+pub const OPTIONAL: [&str; 10] = [
+    "target",
+    "zero",
+    "nominal_radius",
+    "range",
+    "board",
+    "pitch",
+    "corners",
+    "center",
+    "distortion",
+    "intrinsics",
+];
 
 abbe_spec::tables! {
     FILE: ["the file"], [
@@ -129,9 +140,28 @@ abbe_spec::tables! {
         "range": List("two numbers", Some(2), &NUMBER), "unit of its readings", "none: it can be read anywhere",
             "Least and largest reading for which `plan` and `simulate` use it";
     ]
+    BOARD: ["[[instrument]]"], [
+        "mount": Choice(|| words(&MOUNTS)), "-", "required for `\"camera\"`",
+            "Place of the camera: on the tool, with the board in the room; or in the room, with the board on the tool";
+        "pixels": List("two texts", Some(2), &TEXT), "-", "required for `\"camera\"`",
+            "Beginnings of the headings of its pixels: `u1`, `v1` of the first corner, and so on; cells of corners that were not found are empty";
+        "board": List("two numbers", Some(2), &NUMBER), "1", "one of the two",
+            "Inner corners of a chessboard: number in a row, and number of rows; the corners are numbered row by row, as OpenCV does";
+        "pitch": NUMBER, "length unit", "required for `board`", "Distance of neighbouring corners";
+        "corners": List("two numbers for each corner", None, &List("", Some(2), &NUMBER)), "length unit", "one of the two",
+            "Positions of the corners on a flat board, such as those of its tags";
+        "image": List("two numbers", Some(2), &NUMBER), "px", "required for `\"camera\"`",
+            "Width and height of the image; a row with a corner outside is not used";
+        "focal": List("two numbers", Some(2), &NUMBER), "px", "required for `\"camera\"`", "Focal lengths fx and fy";
+        "center": List("two numbers", Some(2), &NUMBER), "px", "the middle of the image",
+            "Principal point cx and cy; the center of the first pixel is at (0, 0), as for OpenCV";
+        "distortion": List("five numbers", Some(5), &NUMBER), "1", "none", "Distortion k1 k2 p1 p2 k3, in the order of OpenCV";
+        "intrinsics": Choice(|| words(&INTRINSIC_CHOICES)), "-", "`\"known\"`",
+            "`focal`, `center` and `distortion`: as stated, or near the stated values and fitted with the machine";
+    ]
     EVERY_INSTRUMENT: ["[[instrument]]"], [
         "setup": NUMBER, "1", "none: it is read in all rows", "Number in the column `setup` of the rows in which it is read";
-        "uncertainty": Either("number, positive, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]), "length unit or rad", "required without that of `[data]`",
+        "uncertainty": Either("number, positive, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]), "length unit, rad or px", "required without that of `[data]`",
             "Standard deviation of a reading, or of the distance when it touches; `\"unknown\"`: estimated from the data";
     ]
     POSE: ["[pose]"], [
@@ -172,6 +202,8 @@ abbe_spec::tables! {
         "position": VECTOR, "length unit", "required of an instrument that observes a point", "Position of that point in `F_0`";
         "direction": VECTOR, "1", "required of an instrument that observes a direction", "Direction in `F_0`";
         "zero": NUMBER, "length unit or rad", "required where the zero is not known", "Reading minus true value; minus the radius of a sphere";
+        "intrinsics": List("nine numbers", Some(9), &NUMBER), "px and 1", "required of a camera with `intrinsics = \"fitted\"`",
+            "Fitted fx fy cx cy k1 k2 p1 p2 k3";
         "covariance": MATRIX, "length unit and rad", "none",
             "Covariance of x, y, z of the position or of the two tilts of the direction, and of the zero; not used by any command";
     ]
@@ -221,7 +253,8 @@ pub fn rules() -> Vec<Rule> {
             When::Has("pose"),
             Then::Needs(vec!["data.angle_uncertainty", "placement.position", "placement.quaternion"]),
         ),
-        rule("the file", When::Lacks(vec!["pose"]), Then::Needs(vec!["placement.targets"])),
+        // A camera has the pose of the measured frame there, as `[pose]` has.
+        rule("the file", When::Lacks(vec!["pose", "instrument"]), Then::Needs(vec!["placement.targets"])),
         rule("[joints.NAME]", When::Lacks(vec!["value"]), Then::Needs(vec!["column", "unit"])),
         rule(
             "[inputs.NAME]",
@@ -236,7 +269,7 @@ pub fn rules() -> Vec<Rule> {
     for kind in INSTRUMENTS {
         let of_kind = || When::Is("kind", kind.name);
         let required = kind.keys.iter().copied().filter(|key| !OPTIONAL.contains(key)).collect();
-        let others = INSTRUMENT.names().filter(|key| !kind.has(key)).collect();
+        let others = INSTRUMENT.names().chain(BOARD.names()).filter(|key| !kind.has(key)).collect();
         rules.push(rule("[[instrument]]", of_kind(), Then::Needs(required)));
         rules.push(rule("[[instrument]]", of_kind(), Then::Refuses(others)));
     }

@@ -14,6 +14,7 @@ use super::instrument::Instruments;
 use super::station::{Placement, Stations};
 use super::target_frame::TargetFrame;
 use super::turn::Turn;
+use crate::number::short;
 use crate::workspace::has_range;
 use crate::{Acceptance, Machine, RunRecord};
 
@@ -52,6 +53,17 @@ pub enum Layout {
     Pose([Column; 3], f64, Turn),
     /// Readings of several instruments.
     Instruments(Box<Instruments>),
+}
+
+impl Layout {
+    /// Returns whether whole poses are measured, by a camera or as such.
+    pub(super) fn is_pose(&self) -> bool {
+        match self {
+            Self::Pose(..) => true,
+            Self::Instruments(all) => all.camera.is_some(),
+            _ => false,
+        }
+    }
 }
 
 /// A map, read and checked.
@@ -139,9 +151,9 @@ impl Map {
         crate::hash::text(&self.text)
     }
 
-    /// Returns whether whole poses are measured.
+    /// Returns whether whole poses are measured, by a camera or as such.
     pub fn is_pose(&self) -> bool {
-        matches!(self.layout, Layout::Pose(..))
+        self.layout.is_pose()
     }
 
     /// Returns the positions of the targets in the frame of the tool; the tool point if there are
@@ -178,6 +190,23 @@ impl Map {
     /// poses are measured and it is known.
     pub fn mounting(&self) -> Pose {
         self.placement.mounting.unwrap_or(Pose::IDENTITY)
+    }
+
+    /// Returns whether it states the pose of the base and of the measured frame on the tool, or
+    /// that they are as designed.
+    pub(crate) fn is_placed(&self) -> bool {
+        let is_base_placed = self.base != Base::Unknown || !self.stations.stated.is_empty();
+        is_base_placed && (self.placement.exact || self.placement.mounting.is_some())
+    }
+
+    /// Returns the uncertainty of its instrument with its unit: pixels of a camera, otherwise a
+    /// length in `unit`, of which the length unit has `factor`.
+    pub fn noise(&self, factor: f64, unit: &str) -> String {
+        let camera = self.instruments().filter(|all| all.camera.is_some());
+        match camera.and_then(|all| all.observables.first()) {
+            Some(pixel) => format!("{} px", short(pixel.uncertainty)),
+            None => format!("{} {unit}", short(factor * self.uncertainty.length)),
+        }
     }
 
     /// Returns the names of the stated stations, or a single empty one.

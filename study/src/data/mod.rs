@@ -20,6 +20,7 @@ mod map;
 mod missing;
 mod raw_table;
 mod read;
+mod read_camera;
 mod read_channels;
 mod read_instruments;
 mod read_places;

@@ -115,6 +115,8 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     };
     let base = match head.get("base") {
         Some(item) => document.choice(&item, &BASES)?,
+        // No camera and no board stands in F_0 by design.
+        None if layout.as_ref().is_some_and(is_camera) => Base::Unknown,
         None => Base::Known,
     };
     let stations = stations(root, &head, document, spec);
@@ -147,6 +149,10 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         text: Arc::clone(&document.text),
         files: document.files.clone(),
     })
+}
+
+fn is_camera(layout: &Layout) -> bool {
+    matches!(layout, Layout::Instruments(all) if all.camera.is_some())
 }
 
 fn layout(

@@ -2,18 +2,18 @@
 //!
 //! The keys of an instrument are those of its [kind](InstrumentKind); each key has one reader here.
 
-use abbe::identify::{Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable};
+use abbe::identify::{CAMERA, Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
 
-use super::choices::UNKNOWN;
 use super::column::Column;
 use super::instrument::{Instrument, Instruments, norm};
 use super::keys;
-use super::read_values::{column, columns, constant, positive, unit};
+use super::read_camera::camera;
+use super::read_values::{column, columns, constant, is_unknown, positive, unit};
 use super::target_frame::TargetFrame;
 
 /// A target with a name.
@@ -93,6 +93,16 @@ fn instrument(
     let known: Vec<&str> = known.chain(keys::EVERY_INSTRUMENT.names()).collect();
     section.check_names(&known, document);
     let name = section.required("name", document).and_then(|item| document.string(&item));
+    if kind.name == CAMERA.name {
+        let setup = setup(section, all, document, spec)?;
+        return camera(section, name?, setup, all, document, spec);
+    }
+    if all.camera.is_some() {
+        let message = "a camera must be the only instrument of its map";
+        let help = "describe the other instruments in a map of their own";
+        document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
+        return None;
+    }
     let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
     let columns = match kind.has("columns") {
         true => columns::<3>(section, "columns", document).map(Vec::from),
@@ -124,6 +134,7 @@ fn instrument(
         fixture: None,
         at,
         mirror,
+        corner: [0.0; 3],
         zero,
         zero_known,
         uncertainty: uncertainty?.unwrap_or(guess),
@@ -167,11 +178,6 @@ fn instrument(
         uncertainty: uncertainty?,
         observables: first..all.observables.len(),
     })
-}
-
-/// Returns whether a number is to be estimated from the data.
-fn is_unknown(item: &Item<'_>, document: &mut Document) -> bool {
-    item.is_text() && document.string(item).as_deref() == Some(UNKNOWN[0].0)
 }
 
 /// Reads the indices of the targets of an instrument; the first target if it names none.

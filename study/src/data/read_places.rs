@@ -1,7 +1,7 @@
 //! Readers of `[[station]]`, `[placement]` and `[[place]]`.
 
 use abbe::Pose;
-use abbe::identify::FixtureGeometry;
+use abbe::identify::{FixtureGeometry, INTRINSICS};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
@@ -73,7 +73,7 @@ pub(super) fn placement(
     let mut section = document.section(&item)?;
     section.name = "[placement]".to_owned();
     section.check_keys(&[&keys::PLACEMENT], document);
-    if let Some(Layout::Pose(..)) = layout {
+    if layout.is_some_and(Layout::is_pose) {
         placement.mounting = Some(place(&section, document, spec)?);
         covariance(&section, document, 6)?;
         return Some(placement);
@@ -148,6 +148,17 @@ pub(super) fn found_places(
             let zero = section.required("zero", document)?;
             let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
             all.observables[first].zero = constant(&zero, document, spec, dimension)?;
+        }
+        if let Some(camera) = &mut all.camera {
+            let item = section.required("intrinsics", document)?;
+            let nine: [Item<'_>; INTRINSICS] =
+                document.entries(&item, "nine numbers: fx fy cx cy k1 k2 p1 p2 k3")?;
+            for (value, item) in camera.intrinsics.iter_mut().zip(nine) {
+                *value = constant(&item, document, spec, Dimension::NONE)?;
+            }
+            covariance(&section, document, INTRINSICS)?;
+            all.found.push(instrument);
+            continue;
         }
         let place = fixture.map_or(0, |fixture| all.fixtures[fixture].geometry.unknowns());
         covariance(&section, document, place + usize::from(!zero_known))?;

@@ -6,6 +6,7 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::{Allowed, Dimension, Entry, LARGEST, Scope};
 use abbe_spec::value::parse_value;
 
+use super::choices::UNKNOWN;
 use super::column::Column;
 
 /// Reads a positive number whose square and reciprocal are finite.
@@ -35,6 +36,11 @@ pub(super) fn constant(
     let what = format!("`{}`", item.key);
     let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
     document.constant(item, &scope, entry).map(|(value, _)| value)
+}
+
+/// Returns whether a number is to be estimated from the data.
+pub(super) fn is_unknown(item: &Item<'_>, document: &mut Document) -> bool {
+    item.is_text() && document.string(item).as_deref() == Some(UNKNOWN[0].0)
 }
 
 pub(super) fn column(item: &Item<'_>, document: &mut Document) -> Option<Column> {

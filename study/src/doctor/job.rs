@@ -42,7 +42,8 @@ impl Doctor<'_> {
             let count = columns.pose.first().map_or(0, Vec::len);
             let message = format!("there are {count} columns of numbers besides the joints");
             let help = "a position has 3 columns; a pose has 6 with angles, 7 with a quaternion, \
-                12 with a 3×4 matrix or 16 with a 4×4 matrix; remove the others";
+                12 with a 3×4 matrix or 16 with a 4×4 matrix; remove the others. Pixels of a camera need a \
+                map: `abbe identify` with it tests units, signs and orders of the joints as well";
             return Err(mistake::with_help(self.data.name(), message, help));
         }
         let tolerance = Tolerance { within: self.within, share: WITHIN, enough: 1.0 };

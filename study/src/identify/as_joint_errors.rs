@@ -228,9 +228,12 @@ impl<'a> ExchangedBasis<'a> {
         let count = kept.len();
         let forms = (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
         let mut basis = Self { model, fit, forms, free: vec![true; count] };
-        // A direction of an instrument that is held at its expected value excludes no entry.
+        // A direction or an intrinsic parameter of an instrument that is held at its expected value
+        // excludes no entry.
         let held = |k: usize| fit.identifiable.inexact.contains(&k);
-        let is_free = |k: usize, unknown: &Unknown| matches!(unknown, Unknown::Fixture(..)) && held(k);
+        let is_free = |k: usize, unknown: &Unknown| {
+            matches!(unknown, Unknown::Fixture(..) | Unknown::Intrinsic(_)) && held(k)
+        };
         for (k, unknown) in model.unknowns.iter().enumerate() {
             if !matches!(unknown, Unknown::Error(..)) && !is_free(k, unknown) {
                 let coordinates = fit.identifiable.kept_coordinates(k);

@@ -1,10 +1,10 @@
 //! Identified placement of the machine and of what is mounted on its tool.
 
-use abbe::identify::{Fit, FixtureGeometry, Model, Observation, Unknown};
+use abbe::identify::{Fit, FixtureGeometry, INTRINSICS, Model, Observation, Unknown};
 use abbe::{Component, Pose};
 use serde::Serialize;
 
-use super::setup::{error_pose, fitted_fixture, fitted_stations, fitted_zero};
+use super::setup::{error_pose, fitted_fixture, fitted_intrinsics, fitted_stations, fitted_zero};
 use super::unread::read;
 
 /// Identified placement of stations, tool and instruments.
@@ -41,10 +41,14 @@ pub struct FoundInstrument {
     /// Offset of its readings, in the length unit or rad; for a sphere, minus its radius. None if
     /// it was known.
     pub zero: Option<f64>,
+    /// Fitted intrinsic parameters `fx fy cx cy k1 k2 p1 p2 k3` of a camera, in pixels and 1; none
+    /// if they were known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intrinsics: Option<[f64; 9]>,
     /// Is true if the readings are angles.
     pub is_angle: bool,
     /// Covariance of x, y, z of the position or of the two tilts of the direction, followed by the
-    /// zero, in products of the units.
+    /// zero, or of the intrinsic parameters, in products of the units.
     pub covariance: Vec<Vec<f64>>,
 }
 
@@ -102,7 +106,10 @@ impl FoundPlacement {
             let of_place = place.iter().flat_map(|(fixture, place)| {
                 (0..place.unknowns()).map(|coordinate| Unknown::Fixture(*fixture, coordinate))
             });
-            let unknowns: Vec<Unknown> = of_place.chain(zero.map(|_| Unknown::Zero(i))).collect();
+            let intrinsics = fitted_intrinsics(model, &fit.x);
+            let of_camera = intrinsics.into_iter().flat_map(|_| (0..INTRINSICS).map(Unknown::Intrinsic));
+            let unknowns = of_place.chain(zero.map(|_| Unknown::Zero(i))).chain(of_camera);
+            let unknowns: Vec<Unknown> = unknowns.collect();
             let (position, direction) = match place {
                 Some((_, FixtureGeometry::Point(point))) => (Some(point), None),
                 Some((_, FixtureGeometry::Direction(direction))) => (None, Some(unit(direction))),
@@ -113,6 +120,7 @@ impl FoundPlacement {
                 position,
                 direction,
                 zero,
+                intrinsics,
                 is_angle: reading.kind.is_angle,
                 covariance: matrix(&unknowns),
             }
@@ -121,7 +129,8 @@ impl FoundPlacement {
         let first = |i: &usize| {
             let reading = &model.observables[*i];
             let is_first = *i == 0 || model.observables[i - 1].instrument != reading.instrument;
-            is_first && read[*i] && (reading.fixture.is_some() || !reading.zero_known)
+            let is_fitted = model.camera.is_some_and(|camera| !camera.is_known);
+            is_first && read[*i] && (reading.fixture.is_some() || !reading.zero_known || is_fitted)
         };
         Self {
             stations: stations.collect(),

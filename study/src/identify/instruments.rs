@@ -21,7 +21,7 @@ pub struct InstrumentFit {
     pub freedom: f64,
     /// Standard deviation used in the fit, in `unit`.
     pub uncertainty: f64,
-    /// Unit: the length unit, or rad.
+    /// Unit: the length unit, rad or px.
     pub unit: &'static str,
     /// Is true if the uncertainty was estimated from these data.
     pub estimated: bool,
@@ -81,7 +81,7 @@ pub(super) fn instrument_fits(
             numbers,
             freedom,
             uncertainty: reading.uncertainty,
-            unit: if reading.kind.is_angle { "rad" } else { length },
+            unit: reading.kind.unit(length),
             estimated: instrument.uncertainty.is_none(),
             factor,
         }

@@ -42,12 +42,15 @@ pub(crate) fn check_interpretation(
     data: &Data,
 ) -> Result<Option<f64>, Diagnostics> {
     let rows = subsample(&data.observations, ROWS);
+    let rows = setup.ideal.as_poses(&rows).into_owned();
     let here = FitResidual::fitted(setup, &rows);
     let rms = here.map(|here| here.rms);
     if rms.is_some_and(|rms| rms < NEAR * setup.arm) {
         return Ok(rms);
     }
-    let Some((there, questions)) = better_interpretation(setup, map, &rows, here) else { return Ok(rms) };
+    let better = with_other_mount(setup, &rows, here);
+    let better = better.or_else(|| better_interpretation(setup, map, &rows, here));
+    let Some((there, questions)) = better else { return Ok(rms) };
     let unit = setup.description.length;
     let there = number::length(there.rms, unit);
     let message = match rms {
@@ -62,6 +65,25 @@ pub(crate) fn check_interpretation(
         ),
     };
     Err(mistake::with_help(&data.file, message, questions.join("; ")))
+}
+
+/// Returns the residual with camera and board exchanged, if it is far better, as a question.
+fn with_other_mount(
+    setup: &Setup,
+    rows: &[Observation],
+    here: Option<FitResidual>,
+) -> Option<(FitResidual, Vec<String>)> {
+    let camera = setup.ideal.camera?;
+    let inverse = |row: &Observation| match &row.measured {
+        Measurement::Pose(pose) => {
+            Observation { measured: Measurement::Pose(Box::new(pose.inverse())), ..row.clone() }
+        }
+        _ => row.clone(),
+    };
+    let there = FitResidual::fitted(setup, &rows.iter().map(inverse).collect::<Vec<_>>())?;
+    let is_better = there.rms < FAR * setup.arm && here.is_none_or(|here| there.rms < here.rms / BETTER);
+    let (place, mount) = if camera.is_on_tool { ("in the room", "room") } else { ("on the tool", "tool") };
+    is_better.then(|| (there, vec![format!("is the camera {place}? write `mount = \"{mount}\"`")]))
 }
 
 /// Returns the interpretation with the fewest differences among those that fit far better than the

@@ -1,7 +1,8 @@
 //! Configurations at which the instruments of a map can be read.
 
 use abbe::identify::{
-    CONTACT, Failure, Fixture, FixtureGeometry, Measurement, Model, Observable, Observation, joints_at_values,
+    CONTACT, Camera, Failure, Fixture, FixtureGeometry, Measurement, Model, Observable, Observation,
+    joints_at_values,
 };
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -42,12 +43,56 @@ pub(crate) fn readable_configurations(
         // The golden ratio spreads the readings evenly over their ranges.
         let share = (0.5 + (i / sights.len()) as f64 * 0.618_033_988_749_895).fract();
         let wanted: Vec<Option<f64>> = sight.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
+        if let Some(camera) = all.camera {
+            let measured = Measurement::Readings(sight.unread.clone());
+            let view = Observation { measured, ..configuration };
+            readable.extend(with_board_in_view(setup, all, &camera, view, i, &moved)?);
+            continue;
+        }
         if let Some(q) = joints_at_values(&sight.model, &configuration, &[], &wanted, &moved)? {
             let measured = Measurement::Readings(sight.unread.clone());
             readable.push(Observation { q: q.into(), measured, ..configuration });
         }
     }
     Ok(readable)
+}
+
+/// Largest angle between the normal of a board and the line of sight for which corners are found.
+const STEEPEST: f64 = 60.0;
+
+/// Moves a configuration to where the ideal camera sees the board; none if it does not reach such a
+/// view. Number `i` chooses place, size and rotation of the board in the image.
+fn with_board_in_view(
+    setup: &Setup,
+    all: &Instruments,
+    camera: &Camera,
+    view: Observation,
+    i: usize,
+    moved: &[usize],
+) -> Result<Option<Observation>, Failure> {
+    let mut corners = all.observables.chunks_exact(2);
+    let (Some(first), Some(last)) = (corners.next(), corners.next_back()) else { return Ok(None) };
+    let [width, height] = camera.image;
+    // The generalized golden ratio of four dimensions (Roberts, 2018).
+    let share = |base: f64| ((i as f64 + 0.5) * base).fract();
+    let [x, y, size, angle] = [0.856_674_883_9, 0.733_891_856_6, 0.628_706_721, 0.538_596_978_6].map(share);
+    let half = (0.15 + 0.2 * size) * width.min(height);
+    let (sine, cosine) = (std::f64::consts::TAU * angle).sin_cos();
+    let center = [width * (0.375 + 0.25 * x), height * (0.375 + 0.25 * y)];
+    let ends = [-half, half].map(|half| [center[0] + half * cosine, center[1] + half * sine]);
+    let model = Model { observables: [first, last].concat(), ..setup.ideal.clone() };
+    let wanted: Vec<Option<f64>> = ends.as_flattened().iter().map(|pixel| Some(*pixel)).collect();
+    let Some(q) = joints_at_values(&model, &view, &[], &wanted, moved)? else { return Ok(None) };
+    let view = Observation { q: q.into(), ..view };
+    let tool = setup.ideal.pose(&mut setup.ideal.scratch(), &view, &[])?;
+    let board = if camera.is_on_tool { tool.inverse() } else { tool };
+    let is_in_view = all.observables.chunks_exact(2).all(|corner| {
+        let point = board.apply(corner[0].corner);
+        let distance = point.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let facing = (0..3).map(|k| board.0[2][k] * point[k]).sum::<f64>() / distance;
+        point[2] > 0.0 && camera.is_inside(camera.pixel(point)) && facing > STEEPEST.to_radians().cos()
+    });
+    Ok(is_in_view.then_some(view))
 }
 
 /// Conditions under which the instruments of a setup can be read.

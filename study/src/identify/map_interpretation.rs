@@ -50,6 +50,7 @@ impl<'a> MapInterpretation<'a> {
         );
         let layout = match &map.layout {
             Layout::Pose(_, _, turn) => format_of(turn),
+            Layout::Instruments(all) if all.camera.is_some() => PoseFormat::Matrix { by_rows: true },
             _ => PoseFormat::Position,
         };
         let interpretation = Interpretation {
@@ -114,6 +115,8 @@ impl<'a> MapInterpretation<'a> {
                 Turn::Quaternion(..) | Turn::Matrix(_) => 1.0,
             };
             numbers.extend(to_numbers(turn, &[x, y, z]).into_iter().map(|number| number * unit));
+        } else if self.interpretation.layout.is_oriented() {
+            numbers.extend((0..3).flat_map(|row| [x[row], y[row], z[row]]));
         }
         numbers
     }

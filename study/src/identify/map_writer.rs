@@ -95,6 +95,10 @@ impl FoundPlacement {
                 let unit = if place.is_angle { "rad" } else { unit };
                 text += &format!("zero = \"{} {unit}\"\n", format_number(zero));
             }
+            if let Some(intrinsics) = place.intrinsics {
+                let numbers = intrinsics.map(format_number).join(", ");
+                text += &format!("intrinsics = [{numbers}]\n");
+            }
             text += &format_covariance(place.covariance.iter().map(|row| &row[..]));
         }
         text

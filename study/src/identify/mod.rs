@@ -2,8 +2,9 @@
 //!
 //! `options` are the user's settings. `setup` places the machine relative to the instrument,
 //! `line_of_sight` moves it to where instruments can be read, and `instruments` estimates their
-//! uncertainties. `interpretation_check` tests the `map_interpretation`, `plausibility` finds
-//! errors too large for a machine, and `train_test_overlap` counts test rows that were fitted.
+//! uncertainties. `board_check` tests the corners of a camera's board, `interpretation_check` the
+//! `map_interpretation`, `plausibility` finds errors too large for a machine, and
+//! `train_test_overlap` counts test rows that were fitted.
 //!
 //! `solve` fits and cross-validates with `priors`, `outliers` warns of gross errors, and
 //! `magnitude` are sources of the spec fitted with the constants. `terms` are errors of richer
@@ -21,6 +22,7 @@
 
 mod alternatives;
 mod as_joint_errors;
+mod board_check;
 mod candidates;
 mod chain_numbers;
 mod choose;

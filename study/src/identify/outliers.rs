@@ -24,7 +24,7 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
     let priors = model.priors(0.01).ok()?;
     let robust = fit(model, &part, &Options { loss: Loss::Tukey, priors, ..Options::default() }).ok()?;
     // With several instruments, the largest uncertainty counts.
-    let lengths = model.observables.iter().filter(|reading| !reading.kind.is_angle);
+    let lengths = model.observables.iter().filter(|reading| !reading.kind.is_angle && model.camera.is_none());
     let length = lengths.map(|reading| reading.uncertainty).reduce(f64::max);
     let bound = 10.0 * robust.sigma * length.unwrap_or(model.uncertainty.length);
     let mut scratch = model.scratch();

@@ -1,7 +1,7 @@
 //! Values of the identified unknowns, for the report.
 
 use abbe::LengthUnit;
-use abbe::identify::{FixtureGeometry, Unknown};
+use abbe::identify::{Camera, FixtureGeometry, Unknown};
 use abbe_spec::Spec;
 
 use super::indistinguishable::combination;
@@ -71,7 +71,7 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> 
                 (None, matches!(model.fixtures[fixture].geometry, FixtureGeometry::Direction(_)))
             }
             Unknown::Zero(reading) => (None, model.observables[reading].kind.is_angle),
-            Unknown::Target(..) | Unknown::Magnitude(_) => (None, false),
+            Unknown::Target(..) | Unknown::Magnitude(_) | Unknown::Intrinsic(_) => (None, false),
         };
         let frame_name =
             |frame: usize| frame.checked_sub(1).map_or("base", |i| &setup.description.frames[i].name);
@@ -88,7 +88,8 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> 
             value: fit.x[*k] + solved.own_magnitude(*k).map_or(0.0, |own| own.declared.value) + 0.0,
             standard_deviation: deviations[*k].unwrap_or_default(),
             unit: match unknown {
-                Unknown::Magnitude(_) => "",
+                Unknown::Intrinsic(parameter) if Camera::is_pixel(parameter) => "px",
+                Unknown::Magnitude(_) | Unknown::Intrinsic(_) => "",
                 _ if rotation => "rad",
                 _ => length.symbol(),
             },

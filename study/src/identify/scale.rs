@@ -14,6 +14,10 @@ use crate::number::digits;
 ///
 /// `moved` are the joints that move in these rows.
 fn scale_uncertainty(ideal: &Model, rows: &[Observation], moved: &[usize]) -> Result<f64, Failure> {
+    // A board has a known size.
+    if ideal.camera.is_some() {
+        return Ok(0.0);
+    }
     let variables = &ideal.manipulator.description().variables;
     if moved.iter().any(|j| variables[*j].kind == VariableKind::Prismatic) {
         return Ok(0.0);

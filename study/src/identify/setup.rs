@@ -2,12 +2,13 @@
 
 use abbe::analysis::sampling;
 use abbe::identify::{
-    Failure, Fixture, FixtureGeometry, Measurement, Model, Observable, Observation, Options, Role, Station,
-    Unknown, fit, register, register_pairs,
+    Failure, Fixture, FixtureGeometry, INTRINSICS, Measurement, Model, Observable, Observation, Options,
+    Role, Station, Unknown, fit, register, register_pairs,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_spec::diagnostic::Diagnostics;
 
+use super::board_check::check_board;
 use crate::data::{Base, Data, Map};
 use crate::mistake;
 
@@ -42,6 +43,8 @@ impl<'a> Setup<'a> {
         terms: usize,
     ) -> Result<Self, Diagnostics> {
         let mut setup = Self::without_stations(manipulator, map, terms)?;
+        check_board(&setup.real, data)?;
+        let measured = setup.real.as_poses(&data.observations);
         let unnamed = [String::new()];
         let names = if data.stations.is_empty() { &unnamed[..] } else { &data.stations };
         let stations = names.iter().enumerate().map(|(i, name)| {
@@ -51,7 +54,7 @@ impl<'a> Setup<'a> {
                     return Err(missing_station(map, data, name));
                 }
                 (None, Base::Known | Base::Exact) => Pose::IDENTITY,
-                (None, Base::Unknown) => registered(&setup.real, &data.observations, i)
+                (None, Base::Unknown) => registered(&setup.real, &measured, i)
                     .map_err(|failure| mistake::whole(&data.file, &failure))?
                     .ok_or_else(|| collinear(data, name))?,
             };
@@ -88,6 +91,9 @@ impl<'a> Setup<'a> {
         names: Vec<String>,
     ) -> Result<Self, Diagnostics> {
         let mut setup = Self::without_stations(manipulator, map, 0)?;
+        if setup.ideal.camera.is_some() && !map.is_placed() {
+            return Err(unplaced(map));
+        }
         let station = |name: String| Station {
             pose: map.stations.pose(&name).unwrap_or(Pose::IDENTITY),
             name,
@@ -127,12 +133,19 @@ impl<'a> Setup<'a> {
     /// The station poses and the placement on the tool are registered in turn: each is the rigid
     /// motion that explains the data best given the other.
     pub(crate) fn come_near(&mut self, data: &Data) -> Result<(), Failure> {
-        let rows = &data.observations;
-        let far = |model: &Model| Ok(model.figures(rows, &[])?.rms > FAR * self.arm);
+        let far = |model: &Model| Ok(model.figures(&data.observations, &[])?.rms > FAR * self.arm);
         if !far(&self.real)? {
             return Ok(());
         }
+        let rows = &*self.real.as_poses(&data.observations);
         let mut near = self.real.clone();
+        if near.camera.is_some()
+            && !self.placement
+            && !near.stations[0].exact
+            && let Some([base, mounting]) = near.hand_eye(rows, 0)?
+        {
+            (near.stations[0].pose, near.mounting) = (base, mounting);
+        }
         for _ in 0..ROUNDS {
             for i in 0..near.stations.len() {
                 if !near.stations[i].exact
@@ -156,30 +169,57 @@ impl<'a> Setup<'a> {
         Ok(())
     }
 
-    /// Fits the stations that the map does not state and the fixtures and zeros that were not
-    /// identified before, for the machine as specified. Returns false if there was nothing to fit.
+    /// Fits the stations that the map does not state, the fixtures and zeros that were not
+    /// identified before, and likewise the mounting and the intrinsic parameters of a camera, for
+    /// the machine as specified. Returns false if there was nothing to fit.
     pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<bool, Diagnostics> {
         let open =
             |station: &Station| map.base == Base::Unknown && map.stations.pose(&station.name).is_none();
         let names = self.real.stations.iter().enumerate().filter(|(_, station)| open(station));
         let stations = names.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component)));
-        let unknowns: Vec<Unknown> = stations.chain(self.fixtures_to_find(map)).collect();
+        let stations: Vec<Unknown> = stations.collect();
+        let camera = self.camera_to_find(map);
+        let unknowns = [stations, camera, self.fixtures_to_find(map)].concat();
         if unknowns.is_empty() {
             return Ok(false);
         }
+        let fail = |failure: Failure| mistake::whole(&data.file, &failure);
+        if unknowns.iter().any(|unknown| unknown.is_tool()) {
+            self.come_near(data).map_err(fail)?;
+        }
         let model = self.real.with(unknowns);
-        let fit = fit(&model, &data.observations, &Options::default());
-        let fit = fit.map_err(|failure| mistake::whole(&data.file, &failure))?;
+        let fit = fit(&model, &data.observations, &Options::default()).map_err(fail)?;
         self.set_stations(&fitted_stations(&model, &fit.x));
         let fixtures = (0..model.fixtures.len())
             .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });
         let fixtures: Vec<Fixture> = fixtures.collect();
         let zeros: Vec<f64> = (0..model.observables.len()).map(|i| fitted_zero(&model, &fit.x, i)).collect();
+        let mounting = model.mounting.then(&error_pose(&model, &fit.x, Unknown::Tool));
+        let intrinsics = fitted_intrinsics(&model, &fit.x);
         for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
             model.fixtures.clone_from(&fixtures);
             model.observables.iter_mut().zip(&zeros).for_each(|(reading, zero)| reading.zero = *zero);
+            model.mounting = mounting;
+            if let (Some(camera), Some(intrinsics)) = (&mut model.camera, intrinsics) {
+                camera.intrinsics = intrinsics;
+            }
         }
         Ok(true)
+    }
+
+    /// Returns the unknowns of a camera that were not identified before: no drawing states where it
+    /// is on the tool.
+    fn camera_to_find(&self, map: &Map) -> Vec<Unknown> {
+        let Some(all) = map.instruments().filter(|all| all.camera.is_some()) else { return Vec::new() };
+        let is_placed = map.placement.mounting.is_some() || self.placement;
+        let is_found = !all.found.is_empty();
+        let mut unknowns = self.real.base_and_tool(true);
+        unknowns.retain(|unknown| match unknown {
+            Unknown::Tool(_) => !is_placed,
+            Unknown::Intrinsic(_) => !is_found,
+            _ => false,
+        });
+        unknowns
     }
 
     /// Returns the unknowns of fixtures and zeros that were not identified before.
@@ -243,7 +283,12 @@ impl<'a> Setup<'a> {
 fn ideal_model<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
     let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
     match map.instruments() {
-        Some(all) => Model { fixtures: all.fixtures.clone(), observables: all.observables.clone(), ..ideal },
+        Some(all) => Model {
+            fixtures: all.fixtures.clone(),
+            observables: all.observables.clone(),
+            camera: all.camera,
+            ..ideal
+        },
         None => ideal,
     }
 }
@@ -327,6 +372,12 @@ pub(super) fn fitted_zero(model: &Model, x: &[f64], reading: usize) -> f64 {
     model.observables[reading].zero + value(model, x, Unknown::Zero(reading))
 }
 
+/// Returns the identified intrinsic parameters of the camera, if it has unknown ones.
+pub(super) fn fitted_intrinsics(model: &Model, x: &[f64]) -> Option<[f64; INTRINSICS]> {
+    let camera = model.camera.filter(|camera| !camera.is_known)?;
+    Some(std::array::from_fn(|i| camera.intrinsics[i] + value(model, x, Unknown::Intrinsic(i))))
+}
+
 /// Returns the value of an unknown; 0 if the model does not have it.
 fn value(model: &Model, x: &[f64], unknown: Unknown) -> f64 {
     model.unknowns.iter().position(|one| *one == unknown).map_or(0.0, |k| x[k])
@@ -402,6 +453,14 @@ fn missing_station(map: &Map, data: &Data, name: &str) -> Diagnostics {
          \"unknown\"` (in `abbe measure` by `--station new`)"
     );
     mistake::with_help(&data.file, message, help)
+}
+
+/// Returns the error that a map does not state where its camera and its board are.
+fn unplaced(map: &Map) -> Diagnostics {
+    let message = "this map does not state where the camera and the board are";
+    let help = "add `[[station]]` and `[placement]`, or take the map that `abbe identify --out` writes from \
+        about ten first views";
+    mistake::with_help(map.path(), message, help)
 }
 
 fn collinear(data: &Data, name: &str) -> Diagnostics {

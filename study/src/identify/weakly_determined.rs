@@ -21,7 +21,9 @@ pub struct WeaklyDetermined {
 impl WeaklyDetermined {
     pub(crate) fn all(model: &Model, identifiable: &Identifiable, length: LengthUnit) -> Vec<Self> {
         // A fixture or a zero need not be known better than its prior.
-        let matters = |k: usize| !matches!(model.unknowns[k], Unknown::Fixture(..) | Unknown::Zero(_));
+        let matters = |k: usize| {
+            !matches!(model.unknowns[k], Unknown::Fixture(..) | Unknown::Zero(_) | Unknown::Intrinsic(_))
+        };
         let weak = identifiable.weak.iter();
         let weak = weak.filter(|weak| weak.expected.is_finite() && matters(weak.unknown));
         let determined_weakly = weak.map(|weak| {
@@ -30,9 +32,11 @@ impl WeaklyDetermined {
                 Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
                     component.is_rotation()
                 }
-                Unknown::Target(..) | Unknown::Magnitude(_) | Unknown::Fixture(..) | Unknown::Zero(_) => {
-                    false
-                }
+                Unknown::Target(..)
+                | Unknown::Magnitude(_)
+                | Unknown::Fixture(..)
+                | Unknown::Zero(_)
+                | Unknown::Intrinsic(_) => false,
             };
             Self {
                 name: model.name(unknown),

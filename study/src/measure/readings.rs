@@ -114,17 +114,21 @@ fn differences(model: &Model, rows: &[Observation]) -> Result<Vec<Vec<Option<f64
 }
 
 /// Returns the differences of one instrument in its unit, with their configurations; the norm where
-/// it has three.
+/// it has three, and for each corner that a camera sees.
 fn of_instrument(instrument: &Instrument, rows: &[Observation], of: &[Vec<Option<f64>>]) -> Distances {
     let one = |(row, numbers): (&Observation, &Vec<Option<f64>>)| {
-        let own = &numbers[instrument.observables.clone()];
-        let size = match own {
-            [number] => (*number)?,
-            several => several.iter().map(|number| Some((*number)?.powi(2))).sum::<Option<f64>>()?.sqrt(),
+        let size = |own: &[Option<f64>]| match own {
+            [number] => *number,
+            several => {
+                let square = several.iter().map(|number| Some((*number)?.powi(2))).sum::<Option<f64>>();
+                square.map(f64::sqrt)
+            }
         };
-        Some((row.configuration, size / instrument.factor))
+        let own = numbers[instrument.observables.clone()].chunks(instrument.kind.numbers);
+        let sizes = own.filter_map(|own| Some((row.configuration, size(own)? / instrument.factor)));
+        sizes.collect::<Vec<_>>()
     };
-    rows.iter().zip(of).filter_map(one).collect()
+    rows.iter().zip(of).flat_map(one).collect()
 }
 
 impl InstrumentErrors {

@@ -98,7 +98,11 @@ impl UndeterminedError {
             Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
                 component.is_rotation()
             }
-            Unknown::Magnitude(_) | Unknown::Target(..) | Unknown::Fixture(..) | Unknown::Zero(_) => false,
+            Unknown::Magnitude(_)
+            | Unknown::Target(..)
+            | Unknown::Fixture(..)
+            | Unknown::Zero(_)
+            | Unknown::Intrinsic(_) => false,
         };
         let length = model.manipulator.description().length.symbol();
         let (moves, per) = if turn { (moves * 1e-3, "mrad") } else { (moves, length) };

@@ -21,6 +21,9 @@ use crate::{Machine, Notes, finite, mistake};
 /// Number of random configurations tried for each one at which instruments can be read.
 const TRIES: usize = 20;
 
+/// Number of random configurations that are tried for each view of a camera: few see the board.
+const TRIES_OF_VIEW: usize = 100;
+
 /// Options of `simulate`.
 pub struct Simulate {
     /// The machine; its repeatable sources are its errors.
@@ -239,7 +242,11 @@ impl Simulate {
         setup: &Setup,
         count: usize,
     ) -> Result<Data, Diagnostics> {
-        let tries = if self.map.instruments().is_some() { TRIES * count } else { count };
+        let tries = match self.map.instruments() {
+            Some(all) if all.camera.is_some() => TRIES_OF_VIEW * count,
+            Some(_) => TRIES * count,
+            None => count,
+        };
         let stations = self.map.station_names();
         let tried = Planned::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
         let rows = (0..tried.len()).map(|i| tried.row(i, &self.map).into_owned());

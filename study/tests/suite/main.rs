@@ -1,5 +1,6 @@
 //! Tests of the jobs as library calls.
 
+mod camera;
 mod clinic;
 mod compensated;
 mod extrapolation;

@@ -10,6 +10,7 @@ mod batches;
 mod beams;
 mod book;
 mod bound;
+mod cameras;
 mod cheat_sheet;
 mod chosen;
 mod compensate;

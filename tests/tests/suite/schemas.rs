@@ -94,7 +94,8 @@ const CLASSES: [(&str, Recognize); 4] = [
 ];
 
 /// Missing keys that depend on the kind of another table's instrument.
-const DEPEND_ON_ANOTHER_TABLE: [&str; 2] = ["place_without_position.toml", "place_without_zero.toml"];
+const DEPEND_ON_ANOTHER_TABLE: [&str; 3] =
+    ["place_of_camera.toml", "place_without_position.toml", "place_without_zero.toml"];
 
 #[test]
 fn structural_mistakes_are_rejected() {

@@ -24,5 +24,5 @@ pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluati
     let sine = dot(n, m).clamp(-1.0, 1.0);
     let cosine = (1.0 - sine * sine).sqrt().max(f64::MIN_POSITIVE);
     let scaled = |v: [f64; 3]| v.map(|v| v / cosine);
-    Evaluation { value: sine.asin(), along: scaled(cross(m, n)), by_fixture: scaled(m) }
+    Evaluation { value: sine.asin(), along: scaled(cross(m, n)), by_fixture: scaled(m), ..Evaluation::ZERO }
 }

@@ -18,5 +18,5 @@ pub(super) static BETWEEN: InstrumentKind = InstrumentKind {
 pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluation {
     let [first, second] = observable.targets.map(|target| geometry.target(target));
     let apart = difference(first, second);
-    Evaluation { value: dot(apart, apart).sqrt(), along: unit(apart), by_fixture: [0.0; 3] }
+    Evaluation { value: dot(apart, apart).sqrt(), along: unit(apart), ..Evaluation::ZERO }
 }

@@ -22,5 +22,6 @@ pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluati
         value: geometry.target(observable.targets[0])[k] - geometry.fixture(observable.fixture)[k],
         along,
         by_fixture: along.map(|v| -v),
+        ..Evaluation::ZERO
     }
 }

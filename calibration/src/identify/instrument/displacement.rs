@@ -18,5 +18,5 @@ pub(super) static DISPLACEMENT: InstrumentKind = InstrumentKind {
 pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluation {
     let target = observable.targets[0];
     let apart = difference(geometry.target(target), geometry.previous_target(target));
-    Evaluation { value: dot(apart, apart).sqrt(), along: unit(apart), by_fixture: [0.0; 3] }
+    Evaluation { value: dot(apart, apart).sqrt(), along: unit(apart), ..Evaluation::ZERO }
 }

@@ -17,5 +17,5 @@ pub(super) static DISTANCE: InstrumentKind = InstrumentKind {
 pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluation {
     let apart = difference(geometry.target(observable.targets[0]), geometry.fixture(observable.fixture));
     let along = unit(apart);
-    Evaluation { value: dot(apart, apart).sqrt(), along, by_fixture: along.map(|v| -v) }
+    Evaluation { value: dot(apart, apart).sqrt(), along, by_fixture: along.map(|v| -v), ..Evaluation::ZERO }
 }

@@ -1,6 +1,7 @@
 //! Positions and orientations at one configuration, from which observables are computed.
 
 use super::fixture::Fixture;
+use super::lens::Camera;
 use abbe_core::Pose;
 
 /// The tool, the targets and the fixtures at one configuration.
@@ -17,6 +18,8 @@ pub(in super::super) struct Geometry<'a> {
     pub(in super::super) fixtures: &'a [Fixture],
     /// Displacements of the fixtures, by their unknowns.
     pub(in super::super) displacements: &'a [[f64; 3]],
+    /// The camera with its current intrinsic parameters, if there is one.
+    pub(in super::super) camera: Option<&'a Camera>,
     /// Pose of the tool in `F_0` and the targets, in the previous row.
     pub(in super::super) previous: Option<(Pose, &'a [[f64; 3]])>,
 }

@@ -20,5 +20,5 @@ pub(super) static INDICATOR: InstrumentKind = InstrumentKind {
 pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluation {
     let n = geometry.fixture(observable.fixture);
     let apart = difference(geometry.target(observable.targets[0]), observable.at);
-    Evaluation { value: dot(n, apart), along: n, by_fixture: apart }
+    Evaluation { value: dot(n, apart), along: n, by_fixture: apart, ..Evaluation::ZERO }
 }

@@ -1,6 +1,7 @@
 //! Description of an instrument, and the observables it reads.
 
 use super::geometry::Geometry;
+use super::lens::INTRINSICS;
 
 /// A kind of instrument: its keys in a map, its observables and their gradients.
 ///
@@ -18,7 +19,8 @@ pub struct InstrumentKind {
     /// until it touches. `at` and `direction` are the nominal [geometry](super::FixtureGeometry) of
     /// its fixture.
     pub keys: &'static [&'static str],
-    /// Number of observables: 1, or 3 for the coordinates x, y and z.
+    /// Number of observables: 1, 3 for the coordinates x, y and z, or 2 for each corner that a
+    /// camera sees.
     pub numbers: usize,
     /// The observable is an angle: a function of the rotation of the tool, in rad.
     pub is_angle: bool,
@@ -68,7 +70,7 @@ pub struct Observable {
     pub kind: &'static InstrumentKind,
     /// Index of its instrument; the observables of one instrument share a variance factor.
     pub instrument: usize,
-    /// Coordinate 0, 1 or 2 where the instrument reads three.
+    /// Coordinate 0, 1 or 2 where the instrument reads three; 0 or 1 for the pixel u or v.
     pub axis: usize,
     /// Indices of the targets; the second counts for [`Reference::Target`] alone.
     pub targets: [usize; 2],
@@ -79,11 +81,13 @@ pub struct Observable {
     pub at: [f64; 3],
     /// Unit normal of a mirror, in the frame of the tool.
     pub mirror: [f64; 3],
+    /// Corner of a board, in the frame of the board; the length unit.
+    pub corner: [f64; 3],
     /// Offset of the reading from the observable; minus its radius for a sphere.
     pub zero: f64,
     /// The offset is known.
     pub zero_known: bool,
-    /// Standard deviation of the reading; the length unit, or rad for an angle.
+    /// Standard deviation of the reading; the length unit, rad for an angle, pixels for a camera.
     pub uncertainty: f64,
 }
 
@@ -99,6 +103,22 @@ pub(in super::super) struct Evaluation {
     pub(in super::super) along: [f64; 3],
     /// Gradient with respect to the point or the unit direction of the fixture.
     pub(in super::super) by_fixture: [f64; 3],
+    /// Point of the tool whose motion `along` refers to, in the frame of the instrument; the first
+    /// target if none.
+    pub(in super::super) at: Option<[f64; 3]>,
+    /// Gradient with respect to the intrinsic parameters of the camera.
+    pub(in super::super) by_intrinsics: [f64; INTRINSICS],
+}
+
+impl Evaluation {
+    /// Nothing depends on anything.
+    pub(super) const ZERO: Self = Self {
+        value: 0.0,
+        along: [0.0; 3],
+        by_fixture: [0.0; 3],
+        at: None,
+        by_intrinsics: [0.0; INTRINSICS],
+    };
 }
 
 impl InstrumentKind {
@@ -113,7 +133,7 @@ impl InstrumentKind {
         has_unknown_zero: false,
         reference: Reference::None,
         size: SizeInformation::Length,
-        evaluate: |_, _| Evaluation { value: 0.0, along: [0.0; 3], by_fixture: [0.0; 3] },
+        evaluate: |_, _| Evaluation::ZERO,
     };
 
     /// Returns whether its table in a map has a key.
@@ -123,6 +143,15 @@ impl InstrumentKind {
 
     /// Returns whether the machine is moved until it touches, so that only its joints are read.
     pub fn is_touched(&self) -> bool {
-        !self.has("column") && !self.has("columns")
+        !["column", "columns", "pixels"].iter().any(|key| self.has(key))
+    }
+
+    /// Returns the unit of a reading: rad for an angle, px for a camera, otherwise `length`.
+    pub fn unit(&self, length: &'static str) -> &'static str {
+        match self.is_angle {
+            true => "rad",
+            false if self.has("pixels") => "px",
+            false => length,
+        }
     }
 }

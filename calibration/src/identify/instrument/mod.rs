@@ -9,6 +9,7 @@
 
 mod angle;
 mod between;
+mod camera;
 mod contact;
 mod displacement;
 mod distance;
@@ -16,6 +17,7 @@ mod fixture;
 mod geometry;
 mod indicator;
 mod kind;
+mod lens;
 mod plane;
 mod point;
 mod rotation;
@@ -26,10 +28,12 @@ pub(super) use geometry::Geometry;
 pub(super) use kind::Evaluation;
 pub use kind::{InstrumentKind, Observable, Reference, SizeInformation};
 
+pub use camera::CAMERA;
 pub use contact::CONTACT;
+pub use lens::{Camera, INTRINSICS};
 
 /// The kinds, in the order in which documentation and messages list them.
-pub static INSTRUMENTS: [&InstrumentKind; 10] = [
+pub static INSTRUMENTS: [&InstrumentKind; 11] = [
     &point::POINT,
     &distance::DISTANCE,
     &contact::CONTACT,
@@ -40,4 +44,5 @@ pub static INSTRUMENTS: [&InstrumentKind; 10] = [
     &displacement::DISPLACEMENT,
     &angle::ANGLE,
     &rotation::ROTATION,
+    &camera::CAMERA,
 ];

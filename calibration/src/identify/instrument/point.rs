@@ -22,6 +22,6 @@ pub(super) fn evaluate(observable: &Observable, geometry: &Geometry) -> Evaluati
     Evaluation {
         value: geometry.target_seen(observable.targets[0])[k],
         along: core::array::from_fn(|i| geometry.base.0[i][k]),
-        by_fixture: [0.0; 3],
+        ..Evaluation::ZERO
     }
 }

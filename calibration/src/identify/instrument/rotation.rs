@@ -27,5 +27,5 @@ fn evaluate(_: &Observable, geometry: &Geometry) -> Evaluation {
     let mut turn = geometry.tool_in_f0.then(&geometry.previous_tool().inverse());
     turn.0[3] = [0.0; 3];
     let r = rotation_vector(&turn);
-    Evaluation { value: dot(r, r).sqrt(), along: unit(r), by_fixture: [0.0; 3] }
+    Evaluation { value: dot(r, r).sqrt(), along: unit(r), ..Evaluation::ZERO }
 }

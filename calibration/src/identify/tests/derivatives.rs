@@ -45,6 +45,13 @@ fn derivatives_are_those_of_the_exact_chain() {
     differences(&pose, &Observation { measured: Measurement::Pose(Box::new(near)), ..observation(&q, 0) });
 }
 
+const CAMERA_IN_ROOM: Camera = Camera {
+    intrinsics: [800.0, 790.0, 320.0, 240.0, -0.02, 0.01, 1e-3, -2e-3, 0.003],
+    image: [640.0, 480.0],
+    is_known: false,
+    is_on_tool: false,
+};
+
 /// Returns a model with all observables of every instrument.
 fn every_instrument(robot: &dyn Manipulator) -> Model<'_> {
     let targets = vec![[100.0, 20.0, -30.0], [-80.0, 10.0, 50.0]];
@@ -63,6 +70,7 @@ fn every_instrument(robot: &dyn Manipulator) -> Model<'_> {
             fixture: if kind.has("direction") { Some(1) } else { kind.has("at").then_some(0) },
             at: [800.0, -150.0, 300.0],
             mirror: [0.6, 0.0, 0.8],
+            corner: [40.0, -25.0, 0.0],
             zero: 0.5,
             zero_known: false,
             uncertainty: 1.0,
@@ -74,6 +82,7 @@ fn every_instrument(robot: &dyn Manipulator) -> Model<'_> {
         observables: observables.collect(),
         fixtures,
         stations: vec![Station::at(base)],
+        camera: Some(CAMERA_IN_ROOM),
         ..Model::ideal(robot, targets, EXACT)
     }
 }
@@ -105,6 +114,29 @@ fn derivatives_of_observables_are_exact() {
     for (k, _) in base {
         let moved = rows.iter().zip(&model.observables).filter(|(_, observable)| !observable.kind.sees_base);
         moved.for_each(|(row, _)| assert_eq!(row[k], 0.0));
+    }
+}
+
+/// The pixels of a camera on the tool, and of one in the room: derivatives with respect to the
+/// placement of both, the errors of the machine and the intrinsic parameters.
+#[test]
+fn derivatives_of_pixels_are_exact_on_tool_and_in_room() {
+    let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];
+    for is_on_tool in [true, false] {
+        let model = every_instrument(&Pps);
+        let observables: Vec<Observable> =
+            model.observables.iter().filter(|one| one.kind.name == "camera").cloned().collect();
+        assert_eq!(observables.len(), 2);
+        let camera = Some(Camera { is_on_tool, ..CAMERA_IN_ROOM });
+        let model = Model { observables, fixtures: Vec::new(), camera, ..model };
+        let all = model.constants(true).into_iter();
+        let model = model.with(all.chain(model.repeatable().into_iter().map(Unknown::Magnitude)).collect());
+        assert_eq!(
+            model.unknowns.iter().filter(|one| matches!(one, Unknown::Intrinsic(_))).count(),
+            INTRINSICS
+        );
+        let measured = Measurement::Readings(vec![Some(300.0), Some(200.0)]);
+        differences(&model, &Observation { measured, ..observation(&q, 1) });
     }
 }
 

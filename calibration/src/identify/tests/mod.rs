@@ -46,6 +46,13 @@ fn disturbed(model: &Model) -> Vec<f64> {
                 }
             }
             Unknown::Target(..) | Unknown::Zero(_) => 3.0,
+            Unknown::Intrinsic(parameter) => {
+                if Camera::is_pixel(*parameter) {
+                    5.0
+                } else {
+                    0.01
+                }
+            }
             Unknown::Fixture(fixture, _) => match model.fixtures[*fixture].geometry {
                 FixtureGeometry::Point(_) => 20.0,
                 FixtureGeometry::Direction(_) => 0.3,

@@ -101,6 +101,10 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
             ),
         },
     ));
+    if report.instruments.iter().any(|one| one.unit == "px") {
+        let (mean, max) = (show(explained.left_mean), show(explained.left_max));
+        facts.push(("Distance", format!("corner to line of sight {mean} mean, {max} max")));
+    }
     facts.extend(region(report).map(|sentence| ("Region", sentence)));
     facts.extend(report.drift.iter().map(|order| ("Drift", order.sentence.clone())));
     facts.extend(report.other_tool.iter().map(|tool| ("Tool", super::other_tool(tool, report.length))));

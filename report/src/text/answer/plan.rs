@@ -2,7 +2,7 @@
 
 use abbe_spec::Spec;
 use abbe_study::data::Map;
-use abbe_study::number::{digits, short};
+use abbe_study::number::digits;
 use abbe_study::plan::Report;
 
 use super::{Answer, aligned, error_unit, first};
@@ -20,7 +20,7 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
     let row = [format!("at {} configurations of use", report.used), mean, rms, p95, max];
     answer.block(&aligned(&[head.map(str::to_owned), row], [false, true, true, true, true]));
     let names = |names: Vec<&str>| first(&names, 8);
-    let instrument = format!("{} {unit}", short(factor * map.uncertainty.length));
+    let instrument = map.noise(factor, unit);
     let model = match report.model_error {
         0.0 => "; errors that the model does not have come on top".to_owned(),
         error => format!("; model error {} {unit} (rms)", digits(factor * error, 3)),

@@ -2,7 +2,7 @@
 
 use abbe_spec::Spec;
 use abbe_study::data::Map;
-use abbe_study::number::{digits, quantity, short};
+use abbe_study::number::{digits, quantity};
 use abbe_study::plan::{Input, Report, UndeterminedError};
 
 use super::{indistinguishable, wrapped};
@@ -36,10 +36,10 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
         ),
     };
     let sentence = format!(
-        "With an instrument uncertainty of {} {unit}{model}, the predicted standard deviation of \
+        "With an instrument uncertainty of {}{model}, the predicted standard deviation of \
          the tool point of the identified machine is {} on average over {} configurations of use, \
          and {} at most.",
-        short(map.uncertainty.length),
+        map.noise(1.0, unit),
         fine(report.predicted.mean),
         report.used,
         fine(report.predicted.max)

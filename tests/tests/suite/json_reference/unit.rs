@@ -4,6 +4,7 @@
 /// occurs decides.
 const PHRASES: [(&str, &str); 44] = [
     ("in the squared length unit", "length unit²"),
+    ("in pixels and 1", "px, 1"),
     ("in products of these units", "products of the units"),
     ("in products of the units", "products of the units"),
     ("homogeneous matrix", "length unit, 1"),

@@ -1,0 +1,97 @@
+//! Closed form of the placement of robot and tool, where whole poses are measured.
+//!
+//! With `T_i` the pose of the tool in `F_0`, `S_i = B T_i M` is measured: of the rotations,
+//! `R_Bᵀ R_S = R_T R_M`. With `K = Σ R_S ⊗ R_T`, `vec(R_Bᵀ)` and `vec(R_M)` are the first singular
+//! vectors of `K`: Shah, *Solving the robot-world/hand-eye calibration problem using the Kronecker
+//! product*, 2013. The translations then follow from `t_S = R_B (R_T t_M + t_T) + t_B`.
+
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
+
+use super::{Failure, Measurement, Model, Observation};
+use abbe_analysis::decompose::{svd3, symmetric_eigen};
+use abbe_core::Pose;
+
+impl Model<'_> {
+    /// Returns the pose of `F_0` at a station and the transform from the measured frame to that of
+    /// the tool that explain measured poses best, without any start value.
+    ///
+    /// Returns none if the tool does not turn about two axes in these rows.
+    pub fn hand_eye(&self, rows: &[Observation], station: usize) -> Result<Option<[Pose; 2]>, Failure> {
+        let mut bare = Self { mounting: Pose::IDENTITY, ..self.clone() };
+        bare.stations[station].pose = Pose::IDENTITY;
+        let (mut scratch, x) = (bare.scratch(), vec![0.0; self.unknowns.len()]);
+        let mut pairs = Vec::new();
+        for row in rows.iter().filter(|row| row.station as usize == station) {
+            if let Measurement::Pose(measured) = &row.measured {
+                pairs.push((bare.pose(&mut scratch, row, &x)?, **measured));
+            }
+        }
+        Ok(closed_form(&pairs))
+    }
+}
+
+/// Solves `S = B T M` for `B` and `M`, from pairs `(T, S)`.
+fn closed_form(pairs: &[(Pose, Pose)]) -> Option<[Pose; 2]> {
+    let mut k = SMatrix::<f64, 9, 9>::zeros();
+    for (tool, measured) in pairs {
+        k += rotation(measured).kronecker(&rotation(tool));
+    }
+    let eigen = symmetric_eigen(k.transpose() * k)?;
+    let first = eigen.eigenvalues.imax();
+    let m: SVector<f64, 9> = eigen.eigenvectors.column(first).into();
+    let b = k * m;
+    // The sign of the singular vectors is that of a proper rotation.
+    let as_rotation = |v: SVector<f64, 9>| {
+        let matrix = Matrix3::from_column_slice(v.as_slice());
+        let svd = svd3(matrix * matrix.determinant().signum())?;
+        Some(svd.u? * svd.v_t?)
+    };
+    let (r_b, r_m) = (as_rotation(b)?.transpose(), as_rotation(m)?);
+    let n = pairs.len();
+    let (mut a, mut right) = (DMatrix::zeros(3 * n, 6), DVector::zeros(3 * n));
+    for (i, (tool, measured)) in pairs.iter().enumerate() {
+        a.view_mut((3 * i, 0), (3, 3)).copy_from(&(r_b * rotation(tool)));
+        a.view_mut((3 * i, 3), (3, 3)).copy_from(&Matrix3::identity());
+        let t = Vector3::from(measured.position()) - r_b * Vector3::from(tool.position());
+        right.rows_mut(3 * i, 3).copy_from(&t);
+    }
+    let normal = a.tr_mul(&a);
+    let eigen = symmetric_eigen(normal.clone())?;
+    if eigen.eigenvalues.min() < 1e-6 * eigen.eigenvalues.max() {
+        return None;
+    }
+    let t = normal.cholesky()?.solve(&a.tr_mul(&right));
+    let pose =
+        |r: Matrix3<f64>, t: [f64; 3]| Pose([r.column(0).into(), r.column(1).into(), r.column(2).into(), t]);
+    Some([pose(r_b, [t[3], t[4], t[5]]), pose(r_m, [t[0], t[1], t[2]])])
+}
+
+fn rotation(pose: &Pose) -> Matrix3<f64> {
+    Matrix3::from_columns(&[pose.0[0].into(), pose.0[1].into(), pose.0[2].into()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::closed_form;
+    use abbe_core::{Pose, displacement};
+
+    #[test]
+    fn it_solves_for_placements_of_any_size() {
+        let b = displacement(&[900.0, -300.0, 500.0, 1.2, -2.5, 0.4]);
+        let m = displacement(&[40.0, 10.0, 90.0, 2.8, 0.3, -1.6]);
+        let tool = |i: usize| {
+            let v = |k: usize| ((i * 6 + k) as f64 * 1.7).sin();
+            displacement(&[300.0 * v(0), 300.0 * v(1), 300.0 * v(2), v(3), v(4), v(5)])
+        };
+        let pairs: Vec<(Pose, Pose)> = (0..12).map(|i| (tool(i), b.then(&tool(i)).then(&m))).collect();
+        let found = closed_form(&pairs).unwrap();
+        for (found, expected) in found.iter().zip([b, m]) {
+            let apart = found.0.as_flattened().iter().zip(expected.0.as_flattened());
+            assert!(apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-8);
+        }
+        // Turned about one axis, the height of the tool is that of the base.
+        let flat = |i: usize| displacement(&[10.0 * i as f64, 0.0, 0.0, 0.0, 0.3 * i as f64, 0.0]);
+        let pairs: Vec<(Pose, Pose)> = (0..12).map(|i| (flat(i), b.then(&flat(i)).then(&m))).collect();
+        assert!(closed_form(&pairs).is_none());
+    }
+}

@@ -1,0 +1,209 @@
+//! Reader of an instrument of the kind `camera`.
+
+use abbe::identify::{CAMERA, Camera, INTRINSICS, Observable, register};
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
+
+use super::choices::{INTRINSIC_CHOICES, MOUNTS};
+use super::column::Column;
+use super::instrument::{Instrument, Instruments};
+use super::read_values::{constant, is_unknown, positive};
+
+/// Initial value of an uncertainty to be estimated: 0.2 pixels.
+const GUESS: f64 = 0.2;
+
+/// Smallest breadth of the corners of a board, as a share of its length.
+const NARROWEST: f64 = 1e-3;
+
+/// Reads a camera; its observables are two pixels for each corner.
+pub(super) fn camera(
+    section: &Section<'_>,
+    name: String,
+    setup: Option<f64>,
+    all: &mut Instruments,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<Instrument> {
+    let mount = section.required("mount", document).and_then(|item| document.choice(&item, &MOUNTS));
+    let image = pixels(section, "image", document, spec);
+    let focal = pixels(section, "focal", document, spec);
+    let center = center(section, image, document, spec);
+    let distortion = distortion(section, document, spec);
+    let is_known = match section.get("intrinsics") {
+        Some(item) => document.choice(&item, &INTRINSIC_CHOICES),
+        None => Some(true),
+    };
+    let corners = corners(section, document, spec);
+    let prefixes = prefixes(section, document);
+    let uncertainty = section.required("uncertainty", document)?;
+    let uncertainty = match is_unknown(&uncertainty, document) {
+        true => None,
+        false => Some(positive(&uncertainty, document, spec, Dimension::NONE)?),
+    };
+    let (corners, prefixes, [fx, fy], [cx, cy]) = (corners?, prefixes?, focal?, center?);
+    let mut intrinsics = [0.0; INTRINSICS];
+    intrinsics[..4].copy_from_slice(&[fx, fy, cx, cy]);
+    intrinsics[4..].copy_from_slice(&distortion?);
+    for corner in &corners {
+        all.observables.extend((0..2).map(|axis| Observable {
+            name: name.clone(),
+            kind: &CAMERA,
+            instrument: 0,
+            axis,
+            targets: [0; 2],
+            fixture: None,
+            at: [0.0; 3],
+            mirror: [0.0; 3],
+            corner: *corner,
+            zero: 0.0,
+            zero_known: true,
+            uncertainty: uncertainty.unwrap_or(GUESS),
+        }));
+    }
+    all.camera = Some(Camera { intrinsics, image: image?, is_known: is_known?, is_on_tool: mount? });
+    let column = |i: usize, k: usize| {
+        let Column { name, span } = &prefixes[k];
+        Column { name: format!("{name}{}", i + 1), span: span.clone() }
+    };
+    Some(Instrument {
+        name,
+        kind: &CAMERA,
+        columns: (0..corners.len()).flat_map(|i| [column(i, 0), column(i, 1)]).collect(),
+        factor: 1.0,
+        unit: "px".to_owned(),
+        setup,
+        range: None,
+        uncertainty,
+        observables: 0..all.observables.len(),
+    })
+}
+
+/// Reads two positive numbers of pixels.
+fn pixels(section: &Section<'_>, key: &str, document: &mut Document, spec: &Spec) -> Option<[f64; 2]> {
+    let item = section.required(key, document)?;
+    let two: [Item<'_>; 2] = document.entries(&item, "two numbers of pixels")?;
+    let [x, y] = two.map(|item| constant(&item, document, spec, Dimension::NONE));
+    let (x, y) = (x?, y?);
+    if x.min(y) >= 1.0 {
+        return Some([x, y]);
+    }
+    let mistake = Diagnostic::new(item.span(), format!("`{key}` must be at least one pixel"));
+    let help = match key {
+        "focal" => {
+            "write fx and fy in pixels: the focal length over the size of a pixel, such as 8 mm / 0.005 mm = 1600"
+        }
+        _ => "write the width and the height of the image in pixels",
+    };
+    document.mistake(mistake.help(help));
+    None
+}
+
+/// Reads the principal point, which must be in the image; its middle if it is not stated.
+///
+/// The center of the first pixel is at (0, 0), as for OpenCV.
+fn center(
+    section: &Section<'_>,
+    image: Option<[f64; 2]>,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<[f64; 2]> {
+    let Some(item) = section.get("center") else {
+        return image.map(|image| image.map(|size| (size - 1.0) / 2.0));
+    };
+    let two: [Item<'_>; 2] = document.entries(&item, "two numbers of pixels")?;
+    let [x, y] = two.map(|item| constant(&item, document, spec, Dimension::NONE));
+    let (center, image) = ([x?, y?], image?);
+    if (0..2).all(|k| (0.0..image[k]).contains(&center[k])) {
+        return Some(center);
+    }
+    let mistake = Diagnostic::new(item.span(), "the principal point is outside the image");
+    let help = "write cx and cy of the camera matrix, and the size of the image it was calibrated with";
+    document.mistake(mistake.help(help));
+    None
+}
+
+/// Reads the distortion; none if it is not stated.
+fn distortion(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<[f64; INTRINSICS - 4]> {
+    let Some(item) = section.get("distortion") else { return Some([0.0; INTRINSICS - 4]) };
+    let five: [Item<'_>; INTRINSICS - 4] = document.entries(&item, "five numbers: k1 k2 p1 p2 k3")?;
+    let five = five.map(|item| constant(&item, document, spec, Dimension::NONE));
+    let [k1, k2, p1, p2, k3] = five;
+    Some([k1?, k2?, p1?, p2?, k3?])
+}
+
+/// Reads the beginnings of the headings of `u` and `v`, which must differ.
+fn prefixes(section: &Section<'_>, document: &mut Document) -> Option<[Column; 2]> {
+    let item = section.required("pixels", document)?;
+    let two: [Item<'_>; 2] = document.entries(&item, "the beginnings of two headings")?;
+    let prefix = |item: Item<'_>| {
+        Some(Column { name: document.string(&item)?.trim().to_owned(), span: Some(item.span()) })
+    };
+    let [u, v] = two.map(prefix);
+    let (u, v) = (u?, v?);
+    if u.name != v.name {
+        return Some([u, v]);
+    }
+    let mistake = Diagnostic::new(item.span(), "both pixels have the same headings");
+    document.mistake(mistake.help("write `pixels = [\"u\", \"v\"]` for the columns u1, v1, u2, v2 …"));
+    None
+}
+
+/// Reads the corners of the board: a grid, row by row, or a list.
+fn corners(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<[f64; 3]>> {
+    match (section.get("board"), section.get("corners")) {
+        (Some(board), None) => {
+            let two: [Item<'_>; 2] = document.entries(&board, "two numbers: corners in a row, and rows")?;
+            let [columns, rows] = two.map(|item| constant(&item, document, spec, Dimension::NONE));
+            let (columns, rows) = (columns?, rows?);
+            let is_count = |count: f64| count.fract() == 0.0 && (2.0..=100.0).contains(&count);
+            if !is_count(columns) || !is_count(rows) {
+                let mistake =
+                    Diagnostic::new(board.span(), "`board` must be two whole numbers from 2 to 100");
+                document.mistake(mistake.help("count the inner corners, as for `cv2.findChessboardCorners`"));
+                return None;
+            }
+            let item = section.required("pitch", document)?;
+            let pitch = constant(&item, document, spec, Dimension::LENGTH)?;
+            if pitch < 1e-9 {
+                let mistake = Diagnostic::new(item.span(), "`pitch` must be positive");
+                document.mistake(mistake.help("write the side of a square of the chessboard"));
+                return None;
+            }
+            let (columns, rows) = (columns as usize, rows as usize);
+            let at = |i: usize| [(i % columns) as f64 * pitch, (i / columns) as f64 * pitch, 0.0];
+            Some((0..columns * rows).map(at).collect())
+        }
+        (None, Some(list)) => {
+            let mut corners = Vec::new();
+            for item in document.array(&list, "corners, each two lengths on the board")? {
+                let two: [Item<'_>; 2] = document.entries(&item, "two lengths on the board: x, y")?;
+                let [x, y] = two.map(|item| constant(&item, document, spec, Dimension::LENGTH));
+                corners.push([x?, y?, 0.0]);
+            }
+            if let Some(pitch) = section.get("pitch") {
+                let message = "`pitch` belongs to `board`, and this board lists its `corners`";
+                document.mistake(Diagnostic::new(pitch.key_span.clone(), message).help("remove it"));
+                return None;
+            }
+            let (message, help) = match corners.len() {
+                0..4 => ("a camera needs at least four corners", "a tag has four"),
+                _ if register(&corners, &corners).is_none_or(|found| found.breadth < NARROWEST) => (
+                    "these corners are collinear: they do not determine the pose of the board",
+                    "add corners beside that line",
+                ),
+                _ => return Some(corners),
+            };
+            document.mistake(Diagnostic::new(list.span(), message).help(help));
+            None
+        }
+        _ => {
+            let message = "a camera needs either `board` with `pitch`, or `corners`";
+            let help =
+                "write `board = [9, 6]` and `pitch = \"25 mm\"` for a chessboard with 9 × 6 inner corners";
+            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
+            None
+        }
+    }
+}
