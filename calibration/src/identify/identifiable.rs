@@ -83,8 +83,9 @@ pub struct Weak {
 ///
 /// Among indistinguishable unknowns, the preference is: base, fixtures and tool; magnitudes that
 /// precede the errors of frames in [`Model::unknowns`]; errors of frames, from the tool towards the
-/// base; other magnitudes. An error is attributed to the machine only if neither the placement of
-/// the machine nor the mounting on its tool explains it.
+/// base, and the error of the [reference length](super::ReferenceLength); other magnitudes. An
+/// error is attributed to the machine only if neither the placement of the machine nor the mounting
+/// on its tool explains it.
 pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable, Failure> {
     determined(model, data, x, &[], 1.0)
 }
@@ -134,6 +135,7 @@ fn by_preference(model: &Model) -> Vec<usize> {
     let frames = model.manipulator.description().frames.len();
     let mut order: Vec<usize> = (0..model.unknowns.len()).collect();
     let last = model.unknowns.iter().rposition(|unknown| matches!(unknown, Error(..)));
+    let reference = model.reference_length.map(|reference| reference.error);
     let named = |k: usize| last.is_some_and(|last| k < last);
     order.sort_by_key(|k| match model.unknowns[*k] {
         Base(station, component) => (0, 6 * station + component.index()),
@@ -143,6 +145,8 @@ fn by_preference(model: &Model) -> Vec<usize> {
         Tool(component) => (2, component.index()),
         Intrinsic(parameter) => (2, 6 + parameter),
         Magnitude(source) if named(*k) => (3, source),
+        // Where the size of the machine is free, all lengths are relative to this one.
+        error @ Error(..) if reference == Some(error) => (4 + frames, 6),
         Error(frame, component) => (4 + frames - frame, component.index()),
         Magnitude(source) => (frames + 5, source),
     });

@@ -135,7 +135,7 @@ pub use instrument::{
     Reference, SizeInformation, tangents,
 };
 pub use joints_at_values::joints_at_values;
-pub use model::Model;
+pub use model::{Model, ReferenceLength};
 pub use observation::{Approach, Measurement, Observation, Uncertainty};
 pub use offer::{Factored, Offer};
 pub use options::Options;

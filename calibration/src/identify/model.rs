@@ -15,6 +15,19 @@ use abbe_core::{Class, Component, Manipulator, Pose};
 /// Prior standard deviation of the tilts of a direction, in rad.
 const DIRECTION: f64 = 0.02;
 
+/// Length of the machine that represents its size where readings do not depend on the size.
+///
+/// The residual `r` of a [blind](Observable::is_blind_to_size) reading shrinks with the machine, so
+/// that least squares would fit a point. `r / (1 + e/l)` does not, with the nominal length `l` and
+/// its error `e`, because both scale alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReferenceLength {
+    /// The error of that length.
+    pub error: Unknown,
+    /// Nominal length, signed; the length unit.
+    pub length: f64,
+}
+
 /// A manipulator with unknown errors, as seen by an instrument.
 #[derive(Clone)]
 pub struct Model<'a> {
@@ -42,6 +55,8 @@ pub struct Model<'a> {
     pub roles: Vec<Role>,
     /// Structural parameters.
     pub s: Vec<f64>,
+    /// Length to which residuals of readings that are blind to size are relative, if there are any.
+    pub reference_length: Option<ReferenceLength>,
 }
 
 impl<'a> Model<'a> {
@@ -60,6 +75,7 @@ impl<'a> Model<'a> {
             unknowns: Vec::new(),
             roles: vec![Role::Off; description.sources.len()],
             s: sampling::nominal_parameters(description),
+            reference_length: None,
         }
     }
 
@@ -152,8 +168,8 @@ impl<'a> Model<'a> {
     /// compares the data.
     ///
     /// It is the prior where there is one. Without a prior, an error of a frame can be as large as
-    /// the machine, and errors of base and tool a hundredth of that. Magnitudes and zeros have no
-    /// expectation.
+    /// the machine, errors of base and tool a hundredth of that, and the places of instruments a
+    /// tenth. Magnitudes and zeros have no expectation.
     pub fn expected(&self, priors: &[Option<f64>]) -> Result<Vec<Option<f64>>, Failure> {
         let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
         let expected = |(k, unknown): (usize, &Unknown)| {

@@ -2,7 +2,7 @@
 
 use super::columns::turned;
 use super::scratch::Scratch;
-use super::{Failure, Measurement, Model, Observation};
+use super::{Failure, Measurement, Model, Observation, ReferenceLength};
 use abbe_core::{Error, Pose, Quantity, rotation_vector};
 
 impl Model<'_> {
@@ -106,9 +106,12 @@ impl Model<'_> {
             }
             Measurement::Readings(values) => {
                 let geometry = self.geometry(scratch);
+                let size = self.relative_size(x);
                 for (i, measured) in values.iter().enumerate().take(self.observables.len()) {
                     let Some(measured) = measured else { continue };
-                    let unit = weight / self.observables[i].uncertainty;
+                    let size = size.filter(|_| self.observables[i].is_blind_to_size());
+                    let share = size.map_or(1.0, |size| size.share);
+                    let unit = weight / (self.observables[i].uncertainty * share);
                     let evaluation = self.evaluate(scratch, &geometry, i);
                     let along = geometry.base.turn(evaluation.along);
                     let derivative = |k| self.observable_derivative(scratch, i, &evaluation, along, k);
@@ -116,12 +119,25 @@ impl Model<'_> {
                         let [here, there] = derivative(k);
                         [(here - there) * unit, -there * unit, 0.0]
                     });
-                    row((evaluation.value - measured) * unit, &lines[0], &lines[1]);
+                    let residual = (evaluation.value - measured) * unit;
+                    if let (true, Some(size)) = (DERIVED, size) {
+                        // d(r/g) = dr/g − r dg/g², with g = 1 + e/l.
+                        lines[0][size.unknown] -= residual / (size.share * size.length);
+                    }
+                    row(residual, &lines[0], &lines[1]);
                 }
             }
         }
         scratch.lines = lines;
         Ok(())
+    }
+
+    /// Returns the size of the machine relative to the nominal one; none if it is not among the
+    /// unknowns.
+    fn relative_size(&self, x: &[f64]) -> Option<RelativeSize> {
+        let ReferenceLength { error, length } = self.reference_length?;
+        let unknown = self.unknowns.iter().position(|unknown| *unknown == error)?;
+        Some(RelativeSize { unknown, share: 1.0 + x.get(unknown)? / length, length })
     }
 
     /// Returns the position of target `j` in the frame of the tool.
@@ -177,6 +193,17 @@ impl Model<'_> {
         let moves = (0..self.unknowns.len()).map(|k| self.point(scratch, k, usize::MAX, pose.position()));
         Ok((pose, moves.collect()))
     }
+}
+
+/// Size of the machine by its [reference length](ReferenceLength).
+#[derive(Clone, Copy)]
+struct RelativeSize {
+    /// Index of the error of the length.
+    unknown: usize,
+    /// `1 + e/l`.
+    share: f64,
+    /// `l`.
+    length: f64,
 }
 
 /// Fills the derivatives of three numbers with respect to `count` unknowns.

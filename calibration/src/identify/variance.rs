@@ -3,7 +3,7 @@
 use super::linearize::{linearize, with_priors};
 use super::{Failure, Fit, Measurement, Model, Observation};
 
-/// Variance component of one instrument.
+/// Variance component of one instrument, or of positions or rotations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VarianceComponent {
     /// Number of its readings.
@@ -15,8 +15,8 @@ pub struct VarianceComponent {
     pub factor: f64,
 }
 
-/// Estimates the variance component of each [instrument](super::Observable::instrument) at a fit.
-/// Points and poses count as instrument 0.
+/// Estimates the variance component of each [instrument](super::Observable::instrument) at a fit;
+/// of positions and of rotations, in this order, where points or poses are measured.
 ///
 /// Förstner, *Ein Verfahren zur Schätzung von Varianz- und Kovarianzkomponenten*, 1979: repetition
 /// with the new uncertainties until the factors are 1 converges to Helmert's estimates.
@@ -31,7 +31,7 @@ pub fn variance_components(
     let p = x.len();
     let problem = with_priors(linearize(&kept, data, &x, Some(&fit.weights))?, &priors, &x);
     let root = problem.a.rows(0, p.min(problem.a.nrows())).transpose();
-    let count = model.observables.iter().map(|reading| reading.instrument + 1).max().unwrap_or(1);
+    let count = model.observables.iter().map(|reading| reading.instrument + 1).max().unwrap_or(2);
     let mut components = vec![VarianceComponent::default(); count];
     let mut squares = vec![0.0; count];
     let mut scratch = kept.scratch();
@@ -41,7 +41,8 @@ pub fn variance_components(
                 let read = values.iter().zip(&model.observables).filter(|(value, _)| value.is_some());
                 read.map(|(_, observable)| observable.instrument).collect()
             }
-            _ => vec![0; observation.count()],
+            Measurement::Pose(_) => vec![0, 0, 0, 1, 1, 1],
+            Measurement::Points(_) => vec![0; observation.count()],
         };
         let mut instruments = instruments.into_iter();
         kept.linear(&mut scratch, observation, &x, |residual, row| {

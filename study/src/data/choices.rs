@@ -18,4 +18,4 @@ pub(super) const MOUNTS: [(&str, bool); 2] = [("tool", true), ("room", false)];
 pub(super) const INTRINSIC_CHOICES: [(&str, bool); 2] = [("known", true), ("fitted", false)];
 
 /// Word of a number that is estimated from the data.
-pub(super) const UNKNOWN: [(&str, ()); 1] = [("unknown", ())];
+pub(crate) const UNKNOWN: [(&str, ()); 1] = [("unknown", ())];

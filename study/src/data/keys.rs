@@ -17,6 +17,7 @@ const VECTOR: Value = List("three numbers", Some(3), &NUMBER);
 const QUATERNION_VALUE: Value = List("four numbers, w x y z", Some(4), &NUMBER);
 const MATRIX: Value = List("rows of numbers", None, &List("", None, &NUMBER));
 const MAYBE: Value = Either("number, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]);
+const DEVIATION: Value = Either("number, positive, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]);
 
 /// Keys of an instrument that can be left out.
 pub const OPTIONAL: [&str; 10] = [
@@ -66,10 +67,10 @@ abbe_spec::tables! {
         "title": TEXT, "-", "empty", "Name of the data in reports";
         "description": TEXT, "-", "empty", "Description of the data, for people";
         "reference": TEXT, "-", "empty", "Origin of the data";
-        "uncertainty": Number("number, positive"), "length unit", "required without `[[instrument]]`",
-            "Standard deviation of one measured coordinate, as the data sheet of the instrument states it";
-        "angle_uncertainty": Number("number, positive"), "rad", "required for `[pose]`",
-            "Standard deviation of a measured rotation";
+        "uncertainty": DEVIATION, "length unit", "required without `[[instrument]]`",
+            "Standard deviation of one measured coordinate, as the data sheet of the instrument states it; `\"unknown\"`: `identify` estimates it from the data";
+        "angle_uncertainty": DEVIATION, "rad", "required for `[pose]`",
+            "Standard deviation of a measured rotation; `\"unknown\"`: `identify` estimates it from the data";
         "base": Choice(|| words(&BASES)), "-", "`\"known\"`",
             "Pose of the instrument: in `F_0` but for small errors, anywhere, or exactly in `F_0`";
         "group": COLUMN, "-", "rows with the same joints and inputs",
@@ -161,7 +162,7 @@ abbe_spec::tables! {
     ]
     EVERY_INSTRUMENT: ["[[instrument]]"], [
         "setup": NUMBER, "1", "none: it is read in all rows", "Number in the column `setup` of the rows in which it is read";
-        "uncertainty": Either("number, positive, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]), "length unit, rad or px", "required without that of `[data]`",
+        "uncertainty": DEVIATION, "length unit, rad or px", "required without that of `[data]`",
             "Standard deviation of a reading, or of the distance when it touches; `\"unknown\"`: estimated from the data";
     ]
     POSE: ["[pose]"], [

@@ -7,6 +7,7 @@ use abbe::Pose;
 use abbe::analysis::Configuration;
 use abbe::identify::{Measurement, Observation, Uncertainty};
 use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::column::{Channel, Column, Scale};
 use super::configurations::resolution;
@@ -16,7 +17,7 @@ use super::target_frame::TargetFrame;
 use super::turn::Turn;
 use crate::number::short;
 use crate::workspace::has_range;
-use crate::{Acceptance, Machine, RunRecord};
+use crate::{Acceptance, Machine, RunRecord, mistake};
 
 /// A target on the end effector.
 #[derive(Clone, Debug)]
@@ -73,6 +74,9 @@ pub struct Map {
     pub title: String,
     /// Standard deviations of the instrument.
     pub uncertainty: Uncertainty,
+    /// The standard deviation of positions, and of rotations, is estimated from the data;
+    /// `uncertainty` is then an initial value.
+    pub is_estimated: [bool; 2],
     /// Knowledge of the pose of the base.
     pub base: Base,
     /// Stations of the machine.
@@ -121,6 +125,7 @@ impl Map {
         Self {
             title: String::new(),
             uncertainty: Uncertainty { length: 1.0, angle: 1.0 },
+            is_estimated: [false; 2],
             base: Base::Known,
             stations: Stations::default(),
             target_frame: TargetFrame::default(),
@@ -233,6 +238,34 @@ impl Map {
         };
         let base = if sees_the_base(&layout) { Base::Unknown } else { self.base };
         Self { base, stations, layout, is_newly_stationed: true, ..self }
+    }
+
+    /// Returns the part of the measurements whose uncertainty the map does not state, if there is
+    /// one.
+    fn without_uncertainty(&self) -> Option<String> {
+        let [length, angle] = self.is_estimated;
+        let unknown =
+            self.instruments().and_then(|all| all.list.iter().find(|one| one.uncertainty.is_none()));
+        match unknown {
+            Some(instrument) => Some(format!("the instrument `{}`", instrument.name.escape_debug())),
+            None if length => Some("positions".to_owned()),
+            None => angle.then(|| "rotations".to_owned()),
+        }
+    }
+
+    /// Returns whether the map states the uncertainty of all measurements.
+    pub(crate) fn states_uncertainty(&self) -> bool {
+        self.without_uncertainty().is_none()
+    }
+
+    /// Returns an error if the map states no uncertainty for a part of the measurements, which
+    /// `task` needs.
+    pub(crate) fn require_uncertainty(&self, task: &str) -> Result<(), Diagnostics> {
+        let Some(part) = self.without_uncertainty() else { return Ok(()) };
+        let message = format!("{task} needs the uncertainty of {part}, which this map calls unknown");
+        let help = "state it as the data sheet of the instrument does, or use the map that `abbe identify` \
+             writes: it has the estimate";
+        Err(mistake::with_help(&self.path, message, help))
     }
 
     /// Returns the text of its file.

@@ -36,6 +36,7 @@ mod turn;
 
 pub use abbe_spec::csv_writer::{Csv, Heading};
 pub use cells::Cells;
+pub(crate) use choices::UNKNOWN;
 pub use column::{Channel, Column, Scale};
 pub use date::Calendar;
 pub(crate) use date::{in_name, parse_date};

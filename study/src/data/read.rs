@@ -17,7 +17,7 @@ use super::map::{Base, Layout, Map, Target};
 use super::read_channels::{inputs, joints};
 use super::read_instruments::instruments;
 use super::read_places::{found_places, placement, stations};
-use super::read_values::{column, columns, constant, positive, unit};
+use super::read_values::{column, columns, constant, deviation, initial_deviation, unit};
 use super::target_frame::TargetFrame;
 use super::turn::{EULER_ORDERS, Turn};
 use crate::acceptance::{Acceptance, FIGURE_NAMES};
@@ -91,28 +91,30 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     };
     let (group, direction, time, setup) = (named("group"), named("direction"), named("time"), named("setup"));
     let stated = match (head.get("uncertainty"), root.get("instrument")) {
-        (None, Some(_)) => Some(None),
+        (None, Some(_)) => None,
         _ => {
             let item = head.required("uncertainty", document);
-            item.and_then(|item| positive(&item, document, spec, Dimension::LENGTH)).map(Some)
+            item.and_then(|item| deviation(&item, document, spec, Dimension::LENGTH))
         }
     };
     let target_frame = TargetFrame::read(&head, document, spec)?;
-    let layout = layout(root, stated.flatten(), setup.flatten(), &target_frame, document, spec);
+    let layout = layout(root, stated, setup.flatten(), &target_frame, document, spec);
     let layout = found_places(root, layout, document, spec);
-    let length = match (&layout, stated) {
-        (Some(Layout::Instruments(all)), Some(None)) => Some(all.uncertainty()),
-        (_, stated) => stated.flatten(),
+    let length = match &layout {
+        Some(Layout::Instruments(all)) if stated.flatten().is_none() => Some(Some(all.uncertainty())),
+        _ => stated,
     };
     let is_pose = matches!(layout, Some(Layout::Pose(..)));
     let angle = match head.get("angle_uncertainty") {
-        Some(item) => positive(&item, document, spec, Dimension::NONE),
+        Some(item) => deviation(&item, document, spec, Dimension::NONE),
         None if is_pose => {
             head.required("angle_uncertainty", document);
             None
         }
-        None => Some(1.0),
+        None => Some(Some(1.0)),
     };
+    let uncertainty =
+        |sigma: Option<f64>, is_angle| sigma.unwrap_or_else(|| initial_deviation(is_angle, spec));
     let base = match head.get("base") {
         Some(item) => document.choice(&item, &BASES)?,
         // No camera and no board stands in F_0 by design.
@@ -130,7 +132,8 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     };
     Some(Map {
         title: head.optional_text("title", document),
-        uncertainty: Uncertainty { length: length?, angle: angle? },
+        uncertainty: Uncertainty { length: uncertainty(length?, false), angle: uncertainty(angle?, true) },
+        is_estimated: [length?.is_none(), angle?.is_none()],
         base,
         stations: stations?,
         target_frame,
@@ -157,7 +160,7 @@ fn is_camera(layout: &Layout) -> bool {
 
 fn layout(
     root: &Section<'_>,
-    stated: Option<f64>,
+    stated: Option<Option<f64>>,
     setup: Option<Column>,
     frame: &TargetFrame,
     document: &mut Document,

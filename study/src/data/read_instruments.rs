@@ -13,7 +13,7 @@ use super::column::Column;
 use super::instrument::{Instrument, Instruments, norm};
 use super::keys;
 use super::read_camera::camera;
-use super::read_values::{column, columns, constant, is_unknown, positive, unit};
+use super::read_values::{column, columns, constant, deviation, initial_deviation, is_unknown, unit};
 use super::target_frame::TargetFrame;
 
 /// A target with a name.
@@ -22,10 +22,11 @@ struct Named {
     position: [f64; 3],
 }
 
-/// Reads all instruments; `stated` is the uncertainty of `[data]`, the default for lengths.
+/// Reads all instruments; `stated` is the uncertainty of `[data]`, the default for lengths, and has
+/// none if that is to be estimated.
 pub(super) fn instruments(
     root: &Section<'_>,
-    stated: Option<f64>,
+    stated: Option<Option<f64>>,
     setup: Option<Column>,
     frame: &TargetFrame,
     document: &mut Document,
@@ -82,7 +83,7 @@ fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: 
 fn instrument(
     section: &Section<'_>,
     targets: &[Named],
-    stated: Option<f64>,
+    stated: Option<Option<f64>>,
     all: &mut Instruments,
     document: &mut Document,
     spec: &Spec,
@@ -113,13 +114,10 @@ fn instrument(
     };
     let factor = if kind.is_touched() { Some(1.0) } else { unit(section, document, spec, dimension) };
     let uncertainty = match section.get("uncertainty") {
-        Some(item) if is_unknown(&item, document) => Some(None),
-        Some(item) => positive(&item, document, spec, dimension).map(Some),
+        Some(item) => deviation(&item, document, spec, dimension),
         None if kind.is_angle || stated.is_none() => section.required("uncertainty", document).map(|_| None),
-        None => Some(stated),
+        None => stated,
     };
-    // Initial value of an uncertainty to be estimated: 10 µm or 10 µrad.
-    let guess = if kind.is_angle { 1e-5 } else { 1e-5 / spec.length.in_metres() };
     let (zero, zero_known) = zero(section, kind, document, spec)?;
     let targets = targets_of(section, kind, targets, document)?;
     let at = own_vector(section, kind, "at", document, spec, Dimension::LENGTH)?;
@@ -137,7 +135,7 @@ fn instrument(
         corner: [0.0; 3],
         zero,
         zero_known,
-        uncertainty: uncertainty?.unwrap_or(guess),
+        uncertainty: uncertainty?.unwrap_or_else(|| initial_deviation(kind.is_angle, spec)),
     };
     let setup = setup(section, all, document, spec)?;
     let unit = section.get("unit").and_then(|item| document.string(&item));

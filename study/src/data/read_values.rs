@@ -26,6 +26,29 @@ pub(super) fn positive(
     None
 }
 
+/// Returns whether a number is to be estimated from the data.
+pub(super) fn is_unknown(item: &Item<'_>, document: &mut Document) -> bool {
+    item.is_text() && document.string(item).as_deref() == Some(UNKNOWN[0].0)
+}
+
+/// Reads a standard deviation; `Some(None)` if it is to be estimated from the data.
+pub(super) fn deviation(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<Option<f64>> {
+    match is_unknown(item, document) {
+        true => Some(None),
+        false => positive(item, document, spec, dimension).map(Some),
+    }
+}
+
+/// Returns the initial value of a standard deviation that is estimated: 10 µm or 10 µrad.
+pub(super) fn initial_deviation(is_angle: bool, spec: &Spec) -> f64 {
+    if is_angle { 1e-5 } else { 1e-5 / spec.length.in_metres() }
+}
+
 pub(super) fn constant(
     item: &Item<'_>,
     document: &mut Document,
@@ -36,11 +59,6 @@ pub(super) fn constant(
     let what = format!("`{}`", item.key);
     let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
     document.constant(item, &scope, entry).map(|(value, _)| value)
-}
-
-/// Returns whether a number is to be estimated from the data.
-pub(super) fn is_unknown(item: &Item<'_>, document: &mut Document) -> bool {
-    item.is_text() && document.string(item).as_deref() == Some(UNKNOWN[0].0)
 }
 
 pub(super) fn column(item: &Item<'_>, document: &mut Document) -> Option<Column> {

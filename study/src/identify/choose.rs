@@ -8,6 +8,7 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::extended::extended;
+use super::instruments::estimate;
 use super::interpretation_check::check_interpretation;
 use super::magnitude::own_magnitudes;
 use super::options::Settings;
@@ -75,6 +76,7 @@ pub(super) fn choose(
     check_interpretation(&setup, map, data)?;
     setup.come_near(data).map_err(|failure| diagnose(&failure, data))?;
     check_plausibility(&setup, map, data, notes).map_err(|failure| diagnose(&failure, data))?;
+    estimate(&mut setup, map, data, settings)?;
     let solved = solve(&setup, data, &own, &[], settings, notes)?;
 
     let fitted = solved.model.unknowns.len();

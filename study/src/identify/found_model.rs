@@ -9,6 +9,7 @@ use abbe_spec::{Fitted, Spec};
 use super::as_joint_errors::{AsJointErrors, JointError};
 use super::derived::Derived;
 use super::found_placement::FoundPlacement;
+use super::instruments::InstrumentFit;
 use super::solve::Solved;
 use super::terms::{Basis, ErrorSite, Term};
 use super::undetermined::UndeterminedDirections;
@@ -41,6 +42,8 @@ pub struct FoundModel {
     pub(super) undetermined: UndeterminedDirections,
     /// Ranges of joints and inputs covered by the fitted rows.
     pub fitted: Vec<Fitted>,
+    /// Uncertainties that were estimated from the data.
+    pub(super) estimated: Vec<InstrumentFit>,
 }
 
 /// Constant generalized error.

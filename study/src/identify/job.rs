@@ -23,7 +23,7 @@ use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
 use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
-use super::instruments::{estimate, instrument_fits};
+use super::instruments::{coordinate_fits, estimate, instrument_fits, unequal_note};
 use super::interpretation_check::check_interpretation;
 use super::magnitude::own_magnitudes;
 use super::options::{LOSSES, Settings, TERMS};
@@ -139,8 +139,7 @@ impl Identify {
             check_plausibility(&setup, map, &data, notes)
                 .map_err(|failure| mistake::whole(&data.file, &failure))?;
         }
-        estimate(&mut setup, map, &data, settings.prior)
-            .map_err(|failure| mistake::whole(&data.file, &failure))?;
+        estimate(&mut setup, map, &data, settings)?;
         let mut solved = solve(&setup, &data, &own, &terms, settings, notes)?;
         check_lengths(&setup, &solved.model, &solved.fit, settings.prior, &data, notes)?;
         solved.notes.extend(data.note_on_time().map(|note| format!("note: {note}")));
@@ -214,13 +213,16 @@ fn report(
     let name = |k: usize| model.name(model.unknowns[k]);
     let rows = &data.observations;
     let fail = |failure: Failure| mistake::whole(&data.file, &failure);
-    let scale = scale_note(&setup.ideal, rows, &setup.moved(rows)).map_err(fail)?;
+    let scale = scale_note(&setup.real, rows, &setup.moved(rows)).map_err(fail)?;
     let groups = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, &error))?;
     let compared_fit = compare(solved, &setup.delivered, data, |i| fit.is_kept(i))?;
-    refuse_worse(&compared_fit, data, setup, map)?;
+    refuse_worse(&compared_fit, data, setup)?;
+    let instruments = instrument_fits(model, map, data, fit).map_err(fail)?;
+    let coordinates = coordinate_fits(model, map, data, fit).map_err(fail)?;
+    let unequal = unequal_note(&coordinates);
     let o = identifiable.observability;
-    let length = map.uncertainty.length;
+    let length = setup.real.uncertainty.length;
     let test = test.map(|test| comparable(test, data, model)).transpose()?;
     let test = test.as_deref();
     let assess = |test: &Data| compare(solved, &setup.delivered, test, |_| true);
@@ -242,6 +244,7 @@ fn report(
         derived: derived.to_vec(),
         meanings: meanings.clone(),
         undetermined: UndeterminedDirections::new(setup, solved, converted, rows).map_err(fail)?,
+        estimated: instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect(),
         ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
@@ -290,7 +293,8 @@ fn report(
             .collect(),
         uncertainty_factor: fit.sigma,
         certainty: Certainty::new(fit),
-        instruments: instrument_fits(model, map, data, fit).map_err(fail)?,
+        instruments,
+        coordinates,
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
         test: test_sizes,
@@ -313,7 +317,16 @@ fn report(
         drift: drift_test.map(|drift| ResidualDrift::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,
-        notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).chain(no_drift).collect(),
+        notes: solved
+            .notes
+            .iter()
+            .chain(&chosen.notes[..])
+            .cloned()
+            .chain(scale)
+            .chain(unequal)
+            
+            .chain(no_drift)
+            .collect(),
         record: map.record.with_options(job.options()),
         points,
         files,
@@ -324,9 +337,9 @@ fn report(
 
 /// Returns an error if the fit ends worse than it began: the model then does not describe these
 /// data.
-fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup, map: &Map) -> Result<(), Diagnostics> {
+fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup) -> Result<(), Diagnostics> {
     let (before, after) = (compared.before.rms, compared.after.rms);
-    if after <= 1.5 * before || after <= 10.0 * map.uncertainty.length {
+    if after <= 1.5 * before || after <= 10.0 * setup.real.uncertainty.length {
         return Ok(());
     }
     let length = |value| number::length(value, setup.description.length);

@@ -9,22 +9,58 @@ use abbe_spec::literal::quoted;
 use super::derived::{Derived, with_inputs};
 use super::found_model::FoundModel;
 use super::found_placement::FoundPlacement;
-use crate::data::{Map, TargetFrame, quaternion};
+use super::instruments::InstrumentFit;
+use crate::data::{Map, TargetFrame, UNKNOWN, quaternion};
+use crate::number::digits;
 
 impl FoundModel {
-    /// Returns the map of the data with the identified placement. `path` is the name of its file.
-    /// Results of an earlier identification are replaced.
+    /// Returns the map of the data with the identified placement and the uncertainties estimated
+    /// from the data. `path` is the name of its file. Results of an earlier identification are
+    /// replaced.
     ///
     /// The text is parsed again; the function fails if it is not a map of the identified spec.
     pub fn identified_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String, Diagnostics> {
         let (whole, needed) = (with_inputs(spec, &self.derived), self.needed(spec));
-        let text = with_from_rows(&without_placement(map.text()), &whole, &needed);
+        let text = with_uncertainties(&without_placement(map.text()), map, &self.estimated);
+        let text = with_from_rows(&text, &whole, &needed);
         let placement = self.placed.text(spec.length.symbol(), &map.target_frame);
         let text = format!("{}\n\n{HEAD}# {}\n{placement}", text.trim_end(), self.reference);
         let text = text.trim_end().to_owned() + "\n";
         Map::parse(path, &text, &whole)?;
         Ok(text)
     }
+}
+
+/// Replaces each `"unknown"` uncertainty of a map by its estimate.
+fn with_uncertainties(text: &str, map: &Map, estimated: &[InstrumentFit]) -> String {
+    let mut document = Document::new("", text);
+    let Some(tables) = document.tables(text) else { return text.to_owned() };
+    let root = Section::root(&tables);
+    let estimate = |name: &str| estimated.iter().find(|one| one.name == name);
+    let mut changes = Vec::new();
+    let mut change = |section: &Section<'_>, key: &str, one: Option<&InstrumentFit>| {
+        let value =
+            section.get(key).filter(|item| text[item.span()].trim_matches(['"', '\'']) == UNKNOWN[0].0);
+        if let (Some(item), Some(one)) = (value, one) {
+            changes.push((item.span(), format!("\"{} {}\"", digits(one.uncertainty, 3), one.unit)));
+        }
+    };
+    if let Some(head) = root.get("data").and_then(|item| document.section(&item)) {
+        change(&head, "uncertainty", estimate("positions"));
+        change(&head, "angle_uncertainty", estimate("rotations"));
+    }
+    if let (Some(all), Some(item)) = (map.instruments(), root.get("instrument")) {
+        let items = document.array(&item, "").unwrap_or_default();
+        for (item, instrument) in items.iter().zip(&all.list) {
+            if let Some(section) = document.section(item) {
+                change(&section, "uncertainty", estimate(&instrument.name));
+            }
+        }
+    }
+    changes.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+    let mut text = text.to_owned();
+    changes.into_iter().for_each(|(span, value)| text.replace_range(span, &value));
+    text
 }
 
 /// Adds inputs derived from rows to a map.

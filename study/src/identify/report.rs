@@ -63,6 +63,9 @@ pub struct Report {
     pub certainty: Certainty,
     /// Instruments that are read one by one, with statistics of their residuals.
     pub instruments: Vec<InstrumentFit>,
+    /// Positions and rotations, with statistics of their residuals, where poses are measured or
+    /// their uncertainty was estimated from the data; otherwise empty.
+    pub coordinates: Vec<InstrumentFit>,
     /// Initial pose of `F_0` in the frame of the instrument at the first station, without
     /// identified errors of the base, as rows of a homogeneous matrix.
     pub base: [[f64; 4]; 4],

@@ -2,13 +2,14 @@
 
 use abbe::analysis::sampling;
 use abbe::identify::{
-    Failure, Fixture, FixtureGeometry, INTRINSICS, Measurement, Model, Observable, Observation, Options,
+    Failure, Fit, Fixture, FixtureGeometry, INTRINSICS, Measurement, Model, Observable, Observation, Options,
     Role, Station, Unknown, fit, register, register_pairs,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::board_check::check_board;
+use super::scale::reference_length;
 use crate::data::{Base, Data, Map};
 use crate::mistake;
 
@@ -62,6 +63,13 @@ impl<'a> Setup<'a> {
         });
         let stations = stations.collect::<Result<Vec<_>, Diagnostics>>()?;
         setup.set_stations(&stations);
+        if let Some(row) = data.observations.first() {
+            let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));
+            let length = length.map_err(|error| mistake::whole(&data.file, &error))?;
+            for model in [&mut setup.ideal, &mut setup.real, &mut setup.delivered] {
+                model.reference_length = length;
+            }
+        }
         Ok(setup)
     }
 
@@ -171,8 +179,8 @@ impl<'a> Setup<'a> {
 
     /// Fits the stations that the map does not state, the fixtures and zeros that were not
     /// identified before, and likewise the mounting and the intrinsic parameters of a camera, for
-    /// the machine as specified. Returns false if there was nothing to fit.
-    pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<bool, Diagnostics> {
+    /// the machine as specified. Returns their fit; none if there was nothing to fit.
+    pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<Option<Fit>, Diagnostics> {
         let open =
             |station: &Station| map.base == Base::Unknown && map.stations.pose(&station.name).is_none();
         let names = self.real.stations.iter().enumerate().filter(|(_, station)| open(station));
@@ -181,7 +189,7 @@ impl<'a> Setup<'a> {
         let camera = self.camera_to_find(map);
         let unknowns = [stations, camera, self.fixtures_to_find(map)].concat();
         if unknowns.is_empty() {
-            return Ok(false);
+            return Ok(None);
         }
         let fail = |failure: Failure| mistake::whole(&data.file, &failure);
         if unknowns.iter().any(|unknown| unknown.is_tool()) {
@@ -204,7 +212,7 @@ impl<'a> Setup<'a> {
                 camera.intrinsics = intrinsics;
             }
         }
-        Ok(true)
+        Ok(Some(fit))
     }
 
     /// Returns the unknowns of a camera that were not identified before: no drawing states where it

@@ -24,7 +24,7 @@ pub struct Explained {
     /// Share of the rows within the 95 % prediction region of the spec: random sources drawn anew
     /// in each row, and the noise of the instrument.
     ///
-    /// None for readings.
+    /// None for readings, or if the map states no uncertainty.
     pub inside: Option<f64>,
     /// 99 % interval of that share of the points for a machine as specified, with as many rows.
     pub likely: Option<[f64; 2]>,

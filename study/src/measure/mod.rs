@@ -2,12 +2,13 @@
 //!
 //! `errors` computes ΔX of each row; `iso9283` the characteristics of repeated visits; `explained`
 //! compares with the prediction; `readings` does the same for instruments that are read one number
-//! at a time.
+//! at a time; `residual_test` compares what remains with the stated uncertainty.
 
 mod errors;
 mod explained;
 mod iso9283;
 mod readings;
+mod residual_test;
 
 use std::borrow::Cow;
 
@@ -30,6 +31,7 @@ use readings::{Readings, readings};
 pub use explained::Explained;
 pub use iso9283::{Directions, Distances, Drift, MeanAndMax, Repeated};
 pub use readings::{InstrumentErrors, ReadingErrors, RowReadings};
+pub use residual_test::ResidualTest;
 
 /// Options of `measure`.
 pub struct Measure {
@@ -60,6 +62,9 @@ pub struct Report {
     pub instruments: Vec<InstrumentErrors>,
     /// Comparison with the prediction by the sources of the spec.
     pub explained: Explained,
+    /// Test of the errors minus the repeatable sources against the stated uncertainty; none if the
+    /// map states none, or for too few rows.
+    pub residual_test: Option<ResidualTest>,
     /// Characteristics of repeated visits.
     pub repeated: Repeated,
     /// Verdict on the declared limits, if any.
@@ -201,7 +206,7 @@ impl Measure {
         map.carried_targets(machine).iter().for_each(|warning| notes.warn(warning));
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
         let fitted = check_interpretation(&setup, map, &data)?;
-        let base_fitted = setup.find_places(map, &data)?;
+        let placed = setup.find_places(map, &data)?;
         let mut evaluated = match map.instruments() {
             Some(all) => Evaluated::of_readings(&setup, all, data)?,
             None => Evaluated::of_points(&setup, data, keep, notes)?,
@@ -221,6 +226,11 @@ impl Measure {
             evaluated.explained;
         let accepted = accept.verdict("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
         notes.go_on()?;
+        let residual_test = ResidualTest::new(&setup, map, rows, placed.as_ref())
+            .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
+        if !map.states_uncertainty() {
+            (evaluated.explained.inside, evaluated.explained.likely) = (None, None);
+        }
         let residual_drift = drift(&setup.real, rows, &[]);
         let residual_drift =
             residual_drift.map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
@@ -234,6 +244,7 @@ impl Measure {
             errors: std::mem::take(&mut evaluated.errors),
             instruments: std::mem::take(&mut evaluated.instruments),
             explained: evaluated.explained,
+            residual_test,
             accepted,
             extrapolated,
             other_tool,
@@ -244,7 +255,7 @@ impl Measure {
             unusable: evaluated.data.unusable.len(),
             record: map.record.with_options(self.options()),
             file: evaluated.data.summary(),
-            base_fitted,
+            base_fitted: placed.is_some(),
             about_barycentres: if keep { iso9283::about_barycentres(&evaluated.visits) } else { Vec::new() },
             row_errors: evaluated.rows,
             row_readings: evaluated.row_readings,

@@ -78,6 +78,7 @@ impl Plan {
     /// Selects the configurations and predicts the uncertainty after the measurement.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, .. } = self;
+        map.require_uncertainty("a plan")?;
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
         let setup = Setup::at_home(&interpreter, map)?;

@@ -112,6 +112,7 @@ impl Simulate {
         mut take: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<usize, E> {
         let Self { machine, map, .. } = self;
+        map.require_uncertainty("a simulation")?;
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
         let setup = match &self.at {

@@ -14,6 +14,7 @@ mod parts;
 mod plausibility;
 mod round_trips;
 mod selection;
+mod unknown_uncertainty;
 mod verdict;
 
 #[path = "../../../tests/src/thorough.rs"]

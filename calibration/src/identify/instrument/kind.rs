@@ -91,6 +91,16 @@ pub struct Observable {
     pub uncertainty: f64,
 }
 
+impl Observable {
+    /// Returns whether the reading is the same for a machine whose lengths, fixtures and unknown
+    /// zeros are all larger by the same share, except that its residual grows by that share.
+    pub fn is_blind_to_size(&self) -> bool {
+        !self.kind.is_angle
+            && self.kind.is_touched()
+            && (self.kind.size == SizeInformation::None || !self.zero_known)
+    }
+}
+
 /// Value of an observable and its gradient, in the axes of `F_0`.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Evaluation {

@@ -140,6 +140,32 @@ fn derivatives_of_pixels_are_exact_on_tool_and_in_room() {
     }
 }
 
+/// Readings that are blind to size count in proportion to a length of the machine: their
+/// derivatives are exact, and a machine that is smaller by the same share everywhere fits no
+/// better.
+#[test]
+fn blind_readings_are_relative_to_a_length() {
+    let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];
+    let mut model = every_instrument(&Pps);
+    model.observables.retain(Observable::is_blind_to_size);
+    assert_eq!(model.observables.len(), 3 + 1 + 1, "contact, plane, sphere");
+    model.reference_length = Some(ReferenceLength { error: Unknown::Error(3, Component::Z), length: -730.0 });
+    let model = model.with(model.constants(false));
+    let count = model.observables.len();
+    let row = Observation { measured: Measurement::Readings(vec![Some(0.0); count]), ..observation(&q, 1) };
+    differences(&model, &row);
+    let k = model.unknowns.iter().position(|one| *one == Unknown::Error(3, Component::Z)).unwrap();
+    let mut x = vec![0.0; model.unknowns.len()];
+    let (nominal, _) = residuals(&model, &row, &x);
+    x[k] = -730.0;
+    let absolute = Model { reference_length: None, ..model.clone() };
+    let ((relative, _), (absolute, _)) = (residuals(&model, &row, &x), residuals(&absolute, &row, &x));
+    assert!(nominal.iter().any(|residual| residual.abs() > 1.0));
+    for (relative, absolute) in relative.iter().zip(&absolute) {
+        assert!((relative - absolute / 2.0).abs() < 1e-12 * absolute.abs());
+    }
+}
+
 #[test]
 fn the_chain_is_that_of_equation_6() {
     let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];

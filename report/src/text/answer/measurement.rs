@@ -4,7 +4,7 @@ use abbe_spec::Spec;
 use abbe_study::measure::Report;
 use abbe_study::number::{counted, digits, fixed, percent};
 
-use super::full::measurement::region;
+use super::full::measurement::agreement;
 use super::{Answer, aligned, error_unit};
 
 /// Number of instruments shown.
@@ -105,7 +105,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         let (mean, max) = (show(explained.left_mean), show(explained.left_max));
         facts.push(("Distance", format!("corner to line of sight {mean} mean, {max} max")));
     }
-    facts.extend(region(report).map(|sentence| ("Region", sentence)));
+    facts.extend(agreement(report));
     facts.extend(report.drift.iter().map(|order| ("Drift", order.sentence.clone())));
     facts.extend(report.other_tool.iter().map(|tool| ("Tool", super::other_tool(tool, report.length))));
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside", super::outside(rows))));

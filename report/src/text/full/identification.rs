@@ -254,31 +254,37 @@ fn extrapolation(report: &Report) -> String {
 
 /// Compares the residuals with the uncertainty of the instrument.
 pub(in crate::text) fn residuals(report: &Report) -> String {
-    let factor = report.uncertainty_factor;
-    let is_chance = report.certainty.p_of_factor > 0.01;
-    let estimated =
-        !report.instruments.is_empty() && report.instruments.iter().all(|instrument| instrument.estimated);
-    match factor {
-        _ if estimated => {
-            "The noise of the instruments was estimated from the residuals, so the residuals cannot \
+    let mut parts = report.instruments.iter().chain(&report.coordinates).peekable();
+    let estimated = parts.peek().is_some() && parts.all(|part| part.estimated);
+    if estimated {
+        return "The uncertainty of the instruments was estimated from the residuals, so the residuals cannot \
          show errors that the model does not have."
-                .to_owned()
-        }
+            .to_owned();
+    }
+    residual_verdict(report.uncertainty_factor, report.certainty.p_of_factor, "the model does not have", "")
+}
+
+/// States the result of the χ² test of residuals: `factor` of the stated uncertainty with the
+/// probability `p`. `missing` names errors that a larger factor shows, `or` is another cause of a
+/// smaller one.
+pub(in crate::text) fn residual_verdict(factor: f64, p: f64, missing: &str, or: &str) -> String {
+    let is_chance = p > 0.01;
+    match factor {
         _ if is_chance => "The residuals agree with the stated uncertainty of the instrument.".to_owned(),
         _ if factor > 1.5 => format!(
             "The residuals are {} times the stated uncertainty of the instrument: the machine has \
-             errors that the model does not have.",
+             errors that {missing}.",
             digits(factor, 3)
         ),
         _ if factor > 1.0 => format!(
             "The residuals are {} times the stated uncertainty of the instrument, more than chance \
-             explains: the machine has errors that the model does not have, or the instrument is worse \
+             explains: the machine has errors that {missing}, or the instrument is worse \
              than stated.",
             digits(factor, 3)
         ),
         _ => format!(
             "The residuals are {} times the uncertainty stated in the map: the instrument is \
-             better than stated.",
+             better than stated{or}.",
             digits(factor, 3)
         ),
     }
@@ -341,13 +347,14 @@ fn comparison(gain: Gain, unit: &str) -> String {
     }
 }
 
-/// Tabulates the noise of each instrument, if they are read one by one.
+/// Tabulates the uncertainty of each instrument, or of positions and rotations.
 fn instruments(report: &Report) -> String {
-    if report.instruments.is_empty() {
+    let parts = report.instruments.iter().chain(&report.coordinates);
+    if parts.clone().next().is_none() {
         return String::new();
     }
     let mut table = Table::new(&["instrument", "numbers", "standard deviation", "", "residual / σ", ""]);
-    for instrument in &report.instruments {
+    for instrument in parts {
         let (unit, factor) = if instrument.unit == "rad" { ("mrad", 1e3) } else { (instrument.unit, 1.0) };
         table.row(vec![
             instrument.name.clone(),

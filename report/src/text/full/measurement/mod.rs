@@ -7,8 +7,8 @@ use abbe_study::measure::{InstrumentErrors, Report, Size};
 use abbe_study::number::{digits, fixed};
 
 use super::{Table, wrapped};
+pub(in crate::text) use sentences::agreement;
 use sentences::decimals;
-pub(in crate::text) use sentences::region;
 pub(crate) use sentences::sentences;
 
 /// Returns what `abbe measure` prints.

@@ -3,6 +3,8 @@
 use abbe_study::measure::{InstrumentErrors, MeanAndMax, Report};
 use abbe_study::number::{fixed, percent};
 
+use crate::text::full::identification::residual_verdict;
+
 /// Repeatability and prediction in words.
 pub(crate) fn sentences(report: &Report) -> Vec<String> {
     let mut all = vec![behind(report)];
@@ -12,7 +14,7 @@ pub(crate) fn sentences(report: &Report) -> Vec<String> {
     }
     all.extend(report.drift.iter().map(|drift| drift.sentence.clone()));
     all.push(explained(report));
-    all.extend(region(report));
+    all.extend(agreement(report).map(|(_, sentence)| sentence));
     all.extend(report.other_tool.iter().map(|tool| tool.sentence.clone()));
     all.extend(report.extrapolated.iter().map(|extrapolated| extrapolated.sentence.clone()));
     all.extend(report.accepted.iter().map(|accepted| accepted.sentence(report.unit)));
@@ -149,16 +151,25 @@ fn explained(report: &Report) -> String {
     }
 }
 
+/// Compares the remaining errors with the stated uncertainty, by the test of `identify`; with
+/// random sources, states the share of the rows within the predicted 95 % region.
+pub(in crate::text) fn agreement(report: &Report) -> Option<(&'static str, String)> {
+    match report.explained.random {
+        0 => {
+            let test = report.residual_test?;
+            let or = ", or these rows were used to identify the spec";
+            let verdict = residual_verdict(test.factor, test.p, "the spec does not have", or);
+            Some(("Residuals", verdict))
+        }
+        random => region(report, random).map(|sentence| ("Region", sentence)),
+    }
+}
+
 /// States the share of the rows within the predicted 95 % region; none of single readings.
-pub(in crate::text) fn region(report: &Report) -> Option<String> {
+fn region(report: &Report, random: usize) -> Option<String> {
     let explained = &report.explained;
     let (inside, [low, high]) = (explained.inside?, explained.likely?);
-    let chance = match explained.random {
-        0 => "the noise of the instrument".to_owned(),
-        random => {
-            format!("{random} random sources, independent in each row, and the noise of the instrument")
-        }
-    };
+    let chance = format!("{random} random sources, independent in each row, and the noise of the instrument");
     let verdict = match inside {
         inside if inside < low => {
             "there may be errors that the spec does not have, or the instrument is worse than \
