@@ -178,7 +178,9 @@ impl<'a> Model<'a> {
                 Unknown::Error(_, component) => of(1.0, component.is_rotation()),
                 Unknown::Base(_, component) | Unknown::Tool(component) => of(0.01, component.is_rotation()),
                 Unknown::Target(..) => of(0.01, false),
-                Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture),
+                Unknown::Fixture(fixture, _) => {
+                    self.direction_uncertainty(*fixture).or_else(|| of(0.1, false))
+                }
                 Unknown::Magnitude(_) | Unknown::Zero(_) | Unknown::Intrinsic(_) => None,
             })
         };

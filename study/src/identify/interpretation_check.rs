@@ -9,6 +9,7 @@ use abbe::{Error, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::map_interpretation::MapInterpretation;
+use super::reading_units::check_reading_units;
 use super::setup::{Setup, for_each_point, registered};
 use crate::data::{Data, Map};
 use crate::interpretations::{
@@ -41,6 +42,7 @@ pub(crate) fn check_interpretation(
     map: &Map,
     data: &Data,
 ) -> Result<Option<f64>, Diagnostics> {
+    check_reading_units(setup, map, data)?;
     let rows = subsample(&data.observations, ROWS);
     let rows = setup.ideal.as_poses(&rows).into_owned();
     let here = FitResidual::fitted(setup, &rows);

@@ -28,7 +28,7 @@ use super::interpretation_check::check_interpretation;
 use super::magnitude::own_magnitudes;
 use super::options::{LOSSES, Settings, TERMS};
 use super::parameters::{magnitudes, parameters};
-use super::plausibility::{check_lengths, check_plausibility};
+use super::plausibility::{check_lengths, check_plausibility, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
@@ -324,7 +324,7 @@ fn report(
             .cloned()
             .chain(scale)
             .chain(unequal)
-            
+            .chain(tool_note(setup, model, fit))
             .chain(no_drift)
             .collect(),
         record: map.record.with_options(job.options()),

@@ -50,6 +50,7 @@ mod parameters;
 mod plausibility;
 mod point_residuals;
 mod priors;
+mod reading_units;
 mod report;
 mod scale;
 mod setup;

@@ -124,3 +124,38 @@ pub(super) fn check_lengths(
     notes.warn(&format!("{statement}: {help}"));
     Ok(())
 }
+
+/// Standard deviation of a place on the tool, as a share of the arm length, from which it is noted.
+const VAGUE: f64 = 1e-3;
+
+/// Returns a note if the position of a target on the tool, or of the measured frame, is determined
+/// poorly: errors of the machine then stand for a part of it.
+pub(super) fn tool_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<String> {
+    let kept = &fit.identifiable.kept;
+    let sizes = |is_own: &dyn Fn(Unknown) -> bool| {
+        let own = kept.iter().enumerate().filter(|(_, k)| is_own(model.unknowns[**k]));
+        let squares = own.map(|(i, k)| (fit.x[*k].powi(2), fit.covariance[(i, i)]));
+        let (value, variance) =
+            squares.fold((0.0, 0.0), |(a, b), (value, variance)| (a + value, b + variance));
+        (value.sqrt(), f64::sqrt(variance))
+    };
+    let targets = (0..model.targets.len()).map(|j| {
+        let name =
+            if model.targets.len() > 1 { format!("target {}", j + 1) } else { "the target".to_owned() };
+        (name, sizes(&|unknown| matches!(unknown, Unknown::Target(target, _) if target == j)))
+    });
+    let frame = sizes(&|unknown| matches!(unknown, Unknown::Tool(component) if !component.is_rotation()));
+    let all = targets.chain([("the measured frame".to_owned(), frame)]);
+    let (name, (value, deviation)) = all.max_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b))?;
+    let length = |value: f64| number::length(value, setup.description.length);
+    (deviation > VAGUE * setup.arm).then(|| {
+        format!(
+            "note: the position of {name} on the tool is determined poorly: {} from the stated one, with a \
+             standard deviation of {}. Errors of the machine stand for a part of it, so they are wrong with \
+             another tool. Measure with more orientations of the tool, or state the position: \
+             `placement = \"exact\"`",
+            length(value),
+            length(deviation)
+        )
+    })
+}

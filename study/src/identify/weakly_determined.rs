@@ -1,7 +1,7 @@
 //! Errors that the data determine too weakly; they are fixed at zero.
 
 use abbe::LengthUnit;
-use abbe::identify::{Identifiable, Model, Unknown};
+use abbe::identify::{FixtureGeometry, Identifiable, Model, Unknown};
 use serde::Serialize;
 
 /// Error whose standard deviation exceeds half of the prior's. It is fixed at zero and not written
@@ -20,9 +20,13 @@ pub struct WeaklyDetermined {
 
 impl WeaklyDetermined {
     pub(crate) fn all(model: &Model, identifiable: &Identifiable, length: LengthUnit) -> Vec<Self> {
-        // A fixture or a zero need not be known better than its prior.
-        let matters = |k: usize| {
-            !matches!(model.unknowns[k], Unknown::Fixture(..) | Unknown::Zero(_) | Unknown::Intrinsic(_))
+        // A direction or a zero need not be known better than its prior.
+        let matters = |k: usize| match model.unknowns[k] {
+            Unknown::Fixture(fixture, _) => {
+                matches!(model.fixtures[fixture].geometry, FixtureGeometry::Point(_))
+            }
+            Unknown::Zero(_) | Unknown::Intrinsic(_) => false,
+            _ => true,
         };
         let weak = identifiable.weak.iter();
         let weak = weak.filter(|weak| weak.expected.is_finite() && matters(weak.unknown));

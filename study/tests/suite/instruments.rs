@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Report, Settings};
 use abbe_study::measure::Measure;
@@ -122,6 +123,10 @@ fn identified(map: &Map, data: Data, prior: f64) -> Report {
 }
 
 fn identified_with(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Report {
+    identification(map, data, test, prior).unwrap_or_else(|mistake| panic!("{mistake}"))
+}
+
+fn identification(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Result<Report, Diagnostics> {
     let settings = Settings {
         loss: abbe::identify::Loss::Squares,
         prior: Prior::Share(prior),
@@ -139,7 +144,7 @@ fn identified_with(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Rep
         settings,
         accept: Acceptance::default(),
     };
-    job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"))
+    job.run(&mut ())
 }
 
 /// Returns identified minus true value in standard deviations. True errors that are held at zero
@@ -243,6 +248,78 @@ fn uncertainties_are_estimated() {
             .iter()
             .all(|instrument| instrument.estimated && (instrument.factor - 1.0).abs() < 0.01)
     );
+}
+
+/// Readings in inches or metres in a map that says mm are refused with the unit that explains them;
+/// the fit would take them for another size of the machine. The right unit passes.
+#[test]
+fn readings_in_another_unit_are_refused() {
+    for (name, map) in
+        [("wire", distance("\"unknown\"", "")), ("bar", distance("0", "range = [\"299 mm\", \"301 mm\"]"))]
+    {
+        let data = simulated(&map, 120, 3);
+        for (unit, factor) in [("inch", 1.0 / 25.4), ("m", 1e-3), ("um", 1e3)] {
+            let mut data = data.clone();
+            for row in &mut data.observations {
+                let abbe::identify::Measurement::Readings(readings) = &mut row.measured else {
+                    unreachable!()
+                };
+                readings.iter_mut().flatten().for_each(|reading| *reading *= factor);
+            }
+            let refused = identification(&map, data, None, 0.01).unwrap_err().to_string();
+            assert!(refused.contains(&format!("are they in {unit}, not mm?")), "{name} {unit}: {refused}");
+        }
+        assert!(identification(&map, data, None, 0.01).is_ok(), "{name}");
+    }
+}
+
+/// A ballbar whose rows lie on a line through its ball determines only one coordinate of its place.
+/// The others stay as stated and are listed as poorly determined, instead of having a standard
+/// deviation of kilometres.
+#[test]
+fn places_that_rows_on_a_line_cannot_determine_stay_as_stated() {
+    let first = &BARS[..BARS.rfind("[[instrument]]").unwrap()];
+    let map = Map::parse("bar.toml", first, &mill().spec).unwrap();
+    let simulate = |at| Simulate {
+        machine: mill(),
+        map: map.clone(),
+        at,
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed: 3,
+    };
+    let observations = simulate(Places::Samples(30)).run(&mut ()).unwrap().observations;
+    let of = |observations| Data {
+        file: "simulated".to_owned(),
+        observations,
+        stations: vec![String::new()],
+        ..Data::default()
+    };
+    let mut data = of(observations);
+    for (i, row) in data.observations.iter_mut().enumerate() {
+        // The tool tip is at (x − 300, y − 200, z + 150), the ball at (−100, 3, 250); y is 0.1 µm
+        // off.
+        let beside = 1e-4 * (i as f64).sin();
+        row.q = vec![250.0 + 5.0 * i as f64, 203.0 + beside, 100.0 - beside].into();
+    }
+    let data = of(simulate(Places::Rows(data)).run(&mut ()).unwrap().observations);
+    let settings = Settings::default();
+    let job = Identify {
+        machine: mill(),
+        map: map.clone(),
+        data,
+        test: None,
+        terms: Vec::new(),
+        harmonics: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    };
+    let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
+    let far = report.parameters.iter().filter(|one| one.unit == "mm" && one.standard_deviation > 50.0);
+    assert_eq!(far.count(), 0, "{:?}", report.parameters);
+    let named = |name: &str| report.not_known.iter().any(|one| one.name == name);
+    assert!(named("left_y") && named("left_z"), "{:?} {:?}", report.not_known, report.held);
 }
 
 /// A note says how well the readings determine the scale of the machine.
