@@ -68,6 +68,7 @@
 //! ```
 
 mod acceleration;
+mod between_stations;
 mod blocks;
 mod board_pose;
 mod clustered;
@@ -119,6 +120,7 @@ mod coverage;
 mod tests;
 
 pub use board_pose::BoardView;
+pub use between_stations::{BetweenStations, between_stations};
 pub use clustered::Independent;
 pub use configurations::Configurations;
 pub use design::{Design, Objective, optimal, whole};

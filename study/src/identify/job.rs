@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use abbe::identify::{
     Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Selection,
-    deviation_beyond, drift, student_factor,
+    between_stations, deviation_beyond, drift, student_factor,
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
@@ -30,6 +30,7 @@ use super::options::{LOSSES, Settings, TERMS};
 use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, check_plausibility, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
+use super::priors::Prior;
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
@@ -40,6 +41,7 @@ use super::undetermined::UndeterminedDirections;
 use super::unread::without_unread;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Data, Map, Summary};
+use crate::number::digits;
 use crate::{Acceptance, Machine, Notes, finite, mistake, number};
 
 /// Identification of the errors of a machine from measurements.
@@ -142,6 +144,7 @@ impl Identify {
         estimate(&mut setup, map, &data, settings)?;
         let mut solved = solve(&setup, &data, &own, &terms, settings, notes)?;
         check_lengths(&setup, &solved.model, &solved.fit, settings.prior, &data, notes)?;
+        include_between_stations(&mut solved, &setup, &data)?;
         solved.notes.extend(data.note_on_time().map(|note| format!("note: {note}")));
         let cross_validated =
             CrossValidated::new(std::mem::take(&mut solved.cross_validated), &solved, &chosen, &data);
@@ -156,6 +159,32 @@ impl Identify {
         };
         finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
+}
+
+/// Largest probability of a difference between stations by chance at which it is included in the
+/// covariance.
+const CHANCE: f64 = 0.05;
+
+/// Adds the variance component between the stations of the rows to the covariance of the fit, with
+/// a note.
+fn include_between_stations(solved: &mut Solved, setup: &Setup, data: &Data) -> Result<(), Diagnostics> {
+    let found = || -> Result<_, Failure> {
+        let sizes = solved.model.priors(Prior::DEFAULT_SHARE)?;
+        between_stations(&solved.model, &data.observations, &solved.fit, &sizes)
+    };
+    let found = found().map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let Some(between) = found.filter(|between| between.p < CHANCE) else { return Ok(()) };
+    solved.fit.covariance = between.covariance;
+    let share = between.share * Prior::DEFAULT_SHARE;
+    solved.notes.push(format!(
+        "note: the machine differs between its {} stations by more than the noise explains, by {} and {} mrad \
+         in each error (one standard deviation, p {}). All standard deviations include this difference",
+        between.stations,
+        number::length(share * setup.arm, setup.description.length),
+        digits(1e3 * share, 2),
+        digits(between.p, 2)
+    ));
+    Ok(())
 }
 
 /// Result of the fit and of the selection.

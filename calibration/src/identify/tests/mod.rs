@@ -4,6 +4,7 @@
 mod derivatives;
 mod designs;
 mod ranks;
+mod sessions;
 mod statistics;
 
 use rand::RngExt;
