@@ -19,7 +19,7 @@ use crate::workspace::Span;
 /// Largest number of names that may move. The search for the remainder moves one more.
 const MOST_NAMES: usize = MOST_MOVING - 1;
 
-/// Box of joints, parameters and inputs that encloses the workspace of a study.
+/// Box of joints, parameters and inputs that encloses the configurations of a study.
 pub(super) struct Domain {
     pub(super) spec: Arc<Spec>,
     pub(super) spans: Vec<Span>,
@@ -29,7 +29,7 @@ impl Domain {
     /// Creates the box of a machine and a study; changes are already applied. Fails if a span is
     /// unlimited or too many names move.
     pub(super) fn new(machine: &Machine, study: &Study) -> Result<Self, Diagnostics> {
-        let spans = study.region.spans(&machine.spec, &machine.origin)?;
+        let spans = study.region.spans(&machine.spec, &*machine.evaluator(true), &machine.origin)?;
         let domain = Self { spec: machine.spec.clone(), spans };
         let moving = domain.moving_count();
         if moving > MOST_NAMES {

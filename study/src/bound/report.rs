@@ -331,8 +331,9 @@ impl Report {
         }
         if self.contains_more {
             notes.note(
-                "the enclosing joint box is larger than the workspace of the study: the bounds \
-                 hold for the workspace, but its own maximum may be smaller",
+                "the box has the ranges of the joints over the configurations of the study, and \
+                 contains other configurations: the bounds hold for the study, whose own maximum \
+                 may be smaller",
             );
         }
         if !self.complete {

@@ -1,5 +1,6 @@
 //! Computes the box that encloses a workspace.
 
+use abbe::Manipulator;
 use abbe::analysis::{Axis, BaseBox, Presentation};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
@@ -7,6 +8,10 @@ use abbe_spec::expr::Symbol;
 
 use super::region::{Form, Region};
 use crate::mistake;
+
+/// Largest number of configurations from which the ranges of joints that are solved for are
+/// computed.
+const SOLVED: usize = 10_000;
 
 /// Range of a variable, parameter or input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,21 +26,31 @@ impl Region {
     /// Returns the box of joints, parameters and inputs that contains every configuration. Symbols
     /// without a span stay at home or nominal.
     ///
-    /// Joints that are solved for span their whole limits, because their values are not known in
-    /// advance. Returns an error if such a joint, or one that is sampled, has no limits. `origin`
-    /// is the name of the spec in messages.
-    pub fn spans(&self, spec: &Spec, origin: &str) -> Result<Vec<Span>, Diagnostics> {
+    /// Joints that are solved for span the values at which the configurations are reached; their
+    /// whole limits if none are, or if there are more than [`SOLVED`] to solve for. Returns an
+    /// error if such a joint, or one that is sampled, has no limits. `origin` is the name of the
+    /// spec in messages.
+    pub fn spans(
+        &self,
+        spec: &Spec,
+        manipulator: &dyn Manipulator,
+        origin: &str,
+    ) -> Result<Vec<Span>, Diagnostics> {
         let limits = |i: &usize| Span { symbol: Symbol::Variable(*i), range: spec.variables[*i].limits };
         let over = |symbol: fn(usize) -> Symbol| move |axis: &Axis| hull(symbol(axis.index), &axis.values);
+        let reached = |solved: &[usize]| {
+            let reached = self.reached(manipulator, solved);
+            reached.unwrap_or_else(|| solved.iter().map(limits).collect())
+        };
         let mut spans: Vec<Span> = match &self.form {
             Form::Presented(Presentation { tool_points, approaches, solved, .. }) => {
                 let points = tool_points.iter().map(over(Symbol::Parameter));
                 let held = approaches.iter().map(over(Symbol::Variable));
-                points.chain(held).chain(solved.iter().map(limits)).collect()
+                points.chain(held).chain(reached(solved)).collect()
             }
             Form::Grid(axes) => axes.iter().map(over(Symbol::Variable)).collect(),
             Form::Samples { moved, .. } => moved.iter().map(limits).collect(),
-            Form::Box(BaseBox { solved, .. }) => solved.iter().map(limits).collect(),
+            Form::Box(BaseBox { solved, .. }) => reached(solved),
             Form::Path(path) => path.columns().map(|(symbol, values)| hull(symbol, &values)).collect(),
         };
         spans.extend(self.inputs.iter().map(over(Symbol::Input)));
@@ -52,6 +67,21 @@ impl Region {
                 "add `limits` in the spec, or use a study whose workspace is a `grid`",
             )),
         }
+    }
+
+    /// Returns the ranges of joints that are solved for over the configurations that are reached.
+    fn reached(&self, manipulator: &dyn Manipulator, solved: &[usize]) -> Option<Vec<Span>> {
+        let nominal = Self { inputs: Vec::new(), ..self.clone() };
+        if nominal.count()? > SOLVED {
+            return None;
+        }
+        let reached = nominal.workspace(manipulator, None).ok()?.reached();
+        reached.first()?;
+        let span = |i: &usize| {
+            let values = reached.iter().map(|configuration| configuration.q[*i]).collect::<Vec<_>>();
+            hull(Symbol::Variable(*i), &values)
+        };
+        Some(solved.iter().map(span).collect())
     }
 
     /// Returns true if the workspace fills its box: every value of the box is in the workspace, or

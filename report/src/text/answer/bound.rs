@@ -70,7 +70,7 @@ fn verdict(report: &Report, margin: &Margin, largest: &ErrorBound, unit: &str, f
     match margin.certified {
         Some(left) if left >= 0.0 => format!("{tolerance} MET everywhere in the box, to first order"),
         _ if margin.found < 0.0 && report.contains_more => {
-            format!("{tolerance} exceeded in the enclosing joint box, which is larger than the workspace")
+            format!("{tolerance} UNDECIDED: it is exceeded in the joint box, which is larger than the study")
         }
         _ if margin.found < 0.0 => {
             format!("{tolerance} EXCEEDED: {} {unit} found", number::digits(factor * largest.found, 3))
@@ -101,6 +101,9 @@ fn domain(report: &Report) -> String {
     let names: Vec<&String> = report.spans.keys().collect();
     let joints = match names.as_slice() {
         [] => "nothing moves".to_owned(),
+        names if report.contains_more => {
+            format!("{} over their ranges in the study", super::first(names, 8))
+        }
         names => format!("{} over their ranges", super::first(names, 8)),
     };
     let complete = match report.complete {

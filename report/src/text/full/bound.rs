@@ -67,9 +67,9 @@ pub(in crate::text) fn bound(report: &Report) -> String {
         (report.margin, &report.radius.norm, report.length, 1.0),
         (report.orientation_margin, &report.radius.orientation, "mrad", 1e3),
     ];
-    let margins = margins
-        .into_iter()
-        .filter_map(|(margin, largest, unit, factor)| Some(of_tolerance(&margin?, largest, unit, factor)));
+    let margins = margins.into_iter().filter_map(|(margin, largest, unit, factor)| {
+        Some(of_tolerance(&margin?, largest, report.contains_more, (unit, factor)))
+    });
     for sentence in
         [first_order_remainder(report), after_one_step(report)].into_iter().flatten().chain(margins)
     {
@@ -161,7 +161,12 @@ pub(in crate::text) fn after_one_step(report: &Report) -> Option<String> {
 }
 
 /// States whether a tolerance is kept.
-fn of_tolerance(margin: &Margin, largest: &ErrorBound, unit: &str, factor: f64) -> String {
+fn of_tolerance(
+    margin: &Margin,
+    largest: &ErrorBound,
+    contains_more: bool,
+    (unit, factor): (&str, f64),
+) -> String {
     let show = |value: f64| number::digits(factor * value, 3);
     let left = |value: f64| number::rounded_down(factor * value, number::decimals(factor * value, 3));
     let tolerance = show(margin.tolerance);
@@ -169,6 +174,11 @@ fn of_tolerance(margin: &Margin, largest: &ErrorBound, unit: &str, factor: f64) 
         Some(certified) if certified >= 0.0 => {
             format!("is met everywhere in the box, with a margin of at least {} {unit}.", left(certified))
         }
+        _ if margin.found < 0.0 && contains_more => format!(
+            "is undecided for the study: {} {unit} found in the box, which contains configurations \
+             that the study does not have.",
+            show(largest.found)
+        ),
         _ if margin.found < 0.0 => {
             format!("is exceeded in the box: {} {unit} found.", show(largest.found))
         }
