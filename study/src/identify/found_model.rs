@@ -40,6 +40,9 @@ pub struct FoundModel {
     pub(super) meanings: Vec<JointError>,
     /// Errors that the measurements could not determine.
     pub(super) undetermined: UndeterminedDirections,
+    /// Standard deviation along each axis of the position errors that the model does not explain,
+    /// in the length unit; 0 if it explains all.
+    pub unexplained: f64,
     /// Ranges of joints and inputs covered by the fitted rows.
     pub fitted: Vec<Fitted>,
     /// Uncertainties that were estimated from the data.

@@ -38,6 +38,7 @@ use super::solve::{Solved, solve};
 use super::terms::Term;
 use super::train_test_overlap::{overlap_warning, train_test_overlap};
 use super::undetermined::UndeterminedDirections;
+use super::unexplained::unexplained;
 use super::unread::without_unread;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Data, Map, Summary};
@@ -274,6 +275,7 @@ fn report(
         meanings: meanings.clone(),
         undetermined: UndeterminedDirections::new(setup, solved, converted, rows).map_err(fail)?,
         estimated: instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect(),
+        unexplained: unexplained(setup, solved, rows, left).map_err(fail)?,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);

@@ -14,11 +14,11 @@
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
 //! `covariance_writer` the covariance, `undetermined_writer` the errors that the data leave
-//! `undetermined`, and `map_writer` the map. The `report` contains `counts`, `as_joint_errors`
-//! (errors as `chain_numbers`: zeros and lengths) and their `alternatives`, what is
-//! `indistinguishable` or `weakly_determined`, `parameters`, `drift`, `extrapolation`, the `scale`,
-//! and `point_residuals` for plots. `unread` are instruments without a reading. `job` runs all of
-//! it.
+//! `undetermined`, `unexplained` the errors that the model does not have, and `map_writer` the map.
+//! The `report` contains `counts`, `as_joint_errors` (errors as `chain_numbers`: zeros and lengths)
+//! and their `alternatives`, what is `indistinguishable` or `weakly_determined`, `parameters`,
+//! `drift`, `extrapolation`, the `scale`, and `point_residuals` for plots. `unread` are instruments
+//! without a reading. `job` runs all of it.
 
 mod alternatives;
 mod as_joint_errors;
@@ -60,6 +60,7 @@ mod terms;
 mod train_test_overlap;
 mod undetermined;
 mod undetermined_writer;
+mod unexplained;
 mod unread;
 mod weakly_determined;
 
@@ -98,3 +99,4 @@ pub(crate) use line_of_sight::{nothing_readable, readable_configurations};
 pub(crate) use plausibility::{check_plausibility, too_large};
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;
+pub(crate) use unexplained::random_sources;

@@ -36,7 +36,7 @@ impl FoundModel {
         path: &str,
     ) -> Result<IdentifiedSpec, Diagnostics> {
         let base = free_name(spec, "ground");
-        let sources = self.sources(spec, &base) + &self.inputs(spec);
+        let sources = self.sources(spec, &base) + &self.unexplained_sources(spec) + &self.inputs(spec);
         let (kept, changed) = with_magnitudes(&without_fitted(text), spec, &self.magnitudes);
         let ground = match self.terms.iter().any(|found| matches!(found.term.site, ErrorSite::Base(_))) {
             true => format!("[[frame]]\nname = {}\norigin = {{ xyz = [0, 0, 0] }}\n\n", quoted(&base)),

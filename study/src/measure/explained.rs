@@ -5,7 +5,7 @@ use abbe::identify::{Chance, Failure, Figures, Observation, Unknown, simulate};
 use serde::Serialize;
 
 use super::errors::{Errors, at_single_target, pose};
-use crate::identify::Setup;
+use crate::identify::{Setup, random_sources};
 
 /// Agreement of measurement and prediction. Lengths are in the length unit.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -40,13 +40,7 @@ const CONTENT: f64 = 0.95;
 const SIMULATED: usize = 20_000;
 
 pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained, Failure> {
-    let sources = setup.description.sources.iter().enumerate();
-    let random: Vec<(usize, f64)> = sources
-        .filter_map(|(i, source)| match source.class {
-            Class::Random(distribution) => Some((i, 1.0 / distribution.divisor_squared())),
-            Class::Repeatable => None,
-        })
-        .collect();
+    let random = random_sources(setup);
     let region = PredictionRegion { setup, random: &random };
     let boundary = region.boundary(rows)?;
     let (mut before, mut left, mut inside) = (0.0, Vec::new(), 0);
