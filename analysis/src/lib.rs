@@ -6,7 +6,7 @@
 //! | `workspace` | [`Workspace`]: configurations by index, as grids and samples of joints, a presented volume, a box, a list |
 //! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool; [`obstacle()`] explains a remaining error |
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and visits every [`Row`] in order; nothing is stored |
-//! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), of all together ([`Combined`]), after compensation ([`RemainingErrors`]), and the admissible sizes for a tolerance ([`Admissible`]) |
+//! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), of all together ([`Combined`]), and the admissible sizes for a tolerance ([`Admissible`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
 //! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met |
 //! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |
@@ -60,8 +60,7 @@ mod thorough;
 pub use abbe_core::lanes::Sweepable;
 pub use budget::{
     Admissible, Budget, BudgetOptions, BudgetSweep, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures,
-    Gap, OrientationErrors, PartialBudget, RemainingErrors, Residual, SourceErrors, Sphere, Watch,
-    covariance, error_budget, variance,
+    Gap, OrientationErrors, PartialBudget, SourceErrors, Sphere, Watch, covariance, error_budget, variance,
 };
 pub use identifiable::{
     Identifiability, Measurement, Parts, RANK_THRESHOLD, identifiable, identifiable_in_parts,
@@ -73,7 +72,7 @@ use reach::Inverse;
 pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
 pub use sweep::{BLOCK, Row, Unevaluated, in_order, in_order_until, sweep};
 pub use uncertainty::{
-    COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Statement,
+    COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Residual, Statement,
     compliance, errors_at, normal_compliance, student_95,
 };
 pub use workspace::{

@@ -145,10 +145,8 @@ class AnalyzeReport(Report):
     budget: ErrorAllowance | None
     """Errors that the position tolerance allows; None without one."""
 
-    compensation: Named[float] | None
-    """Errors that remain after compensation, largest over the workspace, in the length unit: `residual`,
-    `residual_sum`, and `total` with the random sources. None if the study does not request it.
-    """
+    compensation: RemainingErrors | None
+    """Errors that remain after the compensation that the study states; None if it states none."""
 
     monte_carlo: MonteCarloReport | None
     """Monte Carlo draws; None if they were not requested."""
@@ -2329,6 +2327,23 @@ class Remainder(Fields):
 
     boxes: int
     """Number of evaluated boxes."""
+
+
+class RemainingErrors(Fields):
+    """Errors that remain after compensation: the largest norms over the evaluated configurations, in the length unit."""
+
+    residual: float
+    """Norm of the sum of the repeatable errors that are not compensated, + the root sum of squares of the residuals
+    of the others.
+
+    Unit: length unit.
+    """
+
+    total: float
+    """Residual + norm of the random bounds.
+
+    Unit: length unit.
+    """
 
 
 class Repeated(Fields):

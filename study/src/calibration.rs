@@ -5,10 +5,15 @@
 //! tool that were not measured by the directions U of the spec, so that there the covariance is
 //! `C + U Uᵀ`.
 
+use std::sync::Arc;
+
 use abbe::analysis::sampling;
 use abbe::identify::{Failure, Measurement, Model, Observation, Role, Scratch, Uncertainty, Unknown};
 use abbe::{Error, Manipulator, Pose};
-use abbe_spec::{Identified, Spec};
+use abbe_spec::{Identified, Source, Spec, Uncertain};
+
+/// Name of all random sources of a calibration together.
+const CALIBRATION: &str = "calibration";
 
 /// Share of a variance below which what remains of it is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -127,6 +132,51 @@ pub(crate) fn is_measured(spec: &Spec, manipulator: &dyn Manipulator, points: &[
     let parameters = sampling::nominal_parameters(manipulator.description());
     let same = |arm: f64| points.iter().all(|point| spec.undetermined.has_point(*point, SAME_POINT * arm));
     spec.undetermined.of.is_empty() || sampling::arm_length(manipulator, &parameters).is_ok_and(same)
+}
+
+/// Returns the uncertainty of a calibration as independent normal sources: their covariance is the
+/// spec's `[covariance]`, and with a tool point that was not measured they include its
+/// `[undetermined]`. There are none without a covariance.
+pub(crate) fn calibration_errors(spec: &Spec, is_measured: bool) -> Vec<Source> {
+    if spec.covariance.of.is_empty() {
+        return Vec::new();
+    }
+    let CalibrationErrors { of, parts } = CalibrationErrors::new(spec, is_measured);
+    let count = parts.len();
+    let source = |(k, part): (usize, Vec<f64>)| {
+        let quantities = of.iter().map(|one| Uncertain::Identified(*one)).zip(part);
+        let propagated = quantities.filter(|(_, factor)| *factor != 0.0).collect();
+        let name = format!("{CALIBRATION} {}", k + 1);
+        let description = format!("Part {} of {count} of the uncertainty of the identified errors", k + 1);
+        Source::propagating(name, description, propagated)
+    };
+    parts.into_iter().enumerate().map(source).collect()
+}
+
+/// Returns true for the sources that [`calibration_errors`] returns. No source of a file is one.
+pub(crate) fn is_calibration_error(source: &Source) -> bool {
+    source.propagated.iter().any(|(uncertain, _)| matches!(uncertain, Uncertain::Identified(_)))
+}
+
+/// Returns the index, among the enabled sources, of the first that [`calibration_errors`] added;
+/// they are the last ones. Returns `None` if there are none.
+pub(crate) fn first_part(spec: &Spec) -> Option<usize> {
+    spec.enabled_sources().position(is_calibration_error)
+}
+
+/// Returns the spec with the first part of the calibration named as all of it, for reports in which
+/// it stands for all.
+pub(crate) fn named_as_one(spec: &Arc<Spec>) -> Arc<Spec> {
+    let mut named = spec.clone();
+    if let Some(first) = spec.sources.iter().position(is_calibration_error) {
+        CALIBRATION.clone_into(&mut Arc::make_mut(&mut named).sources[first].name);
+    }
+    named
+}
+
+/// Returns true if the covariance contains the magnitude of a source.
+pub(crate) fn has_magnitude(spec: &Spec, source: usize) -> bool {
+    spec.covariance.of.contains(&Identified::Magnitude(source))
 }
 
 /// Returns vectors l with `Σ l lᵀ = C`, the columns of a Cholesky factor with pivots: independent

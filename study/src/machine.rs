@@ -12,15 +12,14 @@ use abbe_manipulators::{SHIPPED, Shipped};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::{Expression, Symbol};
-use abbe_spec::{Factor, Identified, Magnitude, Source, Spec, Uncertain};
+use abbe_spec::{Factor, Magnitude, Source, Spec};
 
-use crate::calibration::{CalibrationErrors, is_measured, tool_in_last_frame};
+use crate::calibration::{
+    calibration_errors, has_magnitude, is_calibration_error, is_measured, tool_in_last_frame,
+};
 use crate::changes::Changes;
 use crate::named;
 use crate::table_paths::with_table_paths;
-
-/// Name of the sources that are the uncertainty of a calibration.
-const CALIBRATION: &str = "calibration";
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
 #[derive(Clone)]
@@ -96,46 +95,27 @@ impl Machine {
         self.stated_changes.extend_from_slice(changes.stated());
     }
 
-    /// Adds the uncertainty of magnitudes: for each repeatable source with a standard deviation σ
-    /// of its magnitude, a normal random source with σ times the errors of magnitude 1.
-    pub fn add_magnitude_errors(&mut self) {
-        let errors = self.spec.sources.iter().filter_map(magnitude_error).collect::<Vec<_>>();
-        if self.spec.sources.iter().any(is_magnitude_error) || !errors.is_empty() {
+    /// Adds the uncertainty of the repeatable errors as normal random sources, after all others: σ
+    /// times the errors of magnitude 1 for each source with a standard deviation σ of its
+    /// magnitude, and the covariance of a calibration, which includes that of the magnitudes that
+    /// it identified.
+    pub fn add_uncertainties(&mut self) {
+        let spec = &self.spec;
+        let own = spec.sources.iter().enumerate().filter(|(i, _)| !has_magnitude(spec, *i));
+        let magnitudes = own.filter_map(|(_, source)| magnitude_error(source));
+        let added: Vec<Source> = magnitudes.chain(calibration_errors(spec, self.tool_point_is_measured())).collect();
+        let is_added = |source: &Source| is_magnitude_error(source) || is_calibration_error(source);
+        if spec.sources.iter().any(is_added) || !added.is_empty() {
             let sources = &mut Arc::make_mut(&mut self.spec).sources;
-            sources.retain(|source| !is_magnitude_error(source));
-            sources.extend(errors);
+            sources.retain(|source| !is_added(source));
+            sources.extend(added);
             self.changed = true;
         }
     }
 
-    /// Returns the machine with the uncertainty of its calibration as random sources: independent
-    /// normal errors, whose covariance is the spec's `[covariance]`, and with a tool that was not
-    /// measured the errors in its `[undetermined]`. They replace the uncertainty of the magnitudes
-    /// that were identified. Returns `None` if the spec has no covariance.
-    pub fn with_calibration_errors(&self) -> Option<Self> {
-        let covariance = &self.spec.covariance;
-        if covariance.of.is_empty() {
-            return None;
-        }
-        let mut spec = Spec::clone(&self.spec);
-        let identified = |source: usize| covariance.of.contains(&Identified::Magnitude(source));
-        let replaced: Vec<String> = self
-            .spec
-            .sources
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| identified(*i))
-            .filter_map(|(_, source)| Some(magnitude_error(source)?.name))
-            .collect();
-        spec.sources.retain(|source| !is_magnitude_error(source) || !replaced.contains(&source.name));
-        let errors = CalibrationErrors::new(&self.spec, self.tool_point_is_measured());
-        for part in errors.parts {
-            let quantities = errors.of.iter().map(|one| Uncertain::Identified(*one)).zip(part);
-            let propagated = quantities.filter(|(_, factor)| *factor != 0.0).collect();
-            let description = "Uncertainty of the identified errors".to_owned();
-            spec.sources.push(Source::propagating(CALIBRATION.to_owned(), description, propagated));
-        }
-        Some(Self { spec: Arc::new(spec), changed: true, ..self.clone() })
+    /// Returns true if the spec has the covariance of a calibration.
+    pub(crate) fn is_calibrated(&self) -> bool {
+        !self.spec.covariance.of.is_empty()
     }
 
     /// Returns false if the errors of the machine were identified at other points of its tool than

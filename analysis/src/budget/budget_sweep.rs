@@ -4,7 +4,7 @@ use core::ops::{ControlFlow, Range};
 
 use super::partial_budget::PartialBudget;
 use super::partial_errors::{self, InitialErrors, PartialErrors, SampleErrors};
-use super::{Budget, BudgetOptions, OrientationErrors, RemainingErrors, Residual, Watch, remaining_errors};
+use super::{Budget, BudgetOptions, OrientationErrors, Watch};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::workspace::One;
 use crate::{Measurand, ReachError, Subset, Workspace};
@@ -25,7 +25,7 @@ const LARGEST_CHUNK: usize = 64;
 pub fn error_budget(
     manipulator: &dyn Sweepable,
     workspace: &dyn Workspace,
-    options: BudgetOptions<'_>,
+    options: BudgetOptions,
     watch: &mut dyn Watch,
 ) -> Result<Budget, Unevaluated> {
     let sweep = BudgetSweep::new(manipulator, workspace, options)?;
@@ -56,7 +56,6 @@ pub struct BudgetSweep<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
     classes: Vec<Class>,
-    residuals: Option<&'a [Option<Residual>]>,
     position: InitialErrors,
     orientation: InitialErrors,
     oriented_at_home: bool,
@@ -70,7 +69,7 @@ impl<'a> BudgetSweep<'a> {
     pub fn new(
         manipulator: &'a dyn Sweepable,
         workspace: &'a dyn Workspace,
-        options: BudgetOptions<'a>,
+        options: BudgetOptions,
     ) -> Result<Self, Unevaluated> {
         ready(manipulator, workspace)?;
         let (mut home, mut oriented_at_home) = (Vec::new(), true);
@@ -97,7 +96,6 @@ impl<'a> BudgetSweep<'a> {
             position: first.finish(&classes, &home, options.tolerances[0]),
             orientation: second.finish(&classes, &home, options.tolerances[1]),
             classes,
-            residuals: options.residuals,
             oriented_at_home,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
         })
@@ -138,29 +136,18 @@ impl<'a> BudgetSweep<'a> {
 
     /// Returns whether a part can belong to this sweep. It may come from a file.
     pub fn fits(&self, part: &PartialBudget) -> bool {
-        let PartialBudget {
-            chunks,
-            position,
-            orientation,
-            compensation,
-            configurations,
-            oriented,
-            unreachable,
-        } = part;
+        let PartialBudget { chunks, position, orientation, configurations, oriented, unreachable } = part;
         let description = self.manipulator.description();
         let sources = self.classes.len();
         let mut indices = [position, orientation].into_iter().flat_map(PartialErrors::indices);
-        let mut remaining = compensation.iter().flat_map(RemainingErrors::indices);
         chunks.start <= chunks.end
             && chunks.end <= self.chunks()
             && position.is_valid_for(sources, chunks.clone())
             && orientation.is_valid_for(sources, chunks.clone())
-            && compensation.is_some() == self.residuals.is_some()
             && configurations.checked_add(unreachable.count) == Some(self.configurations(chunks).len())
             && oriented <= configurations
             && unreachable.is_sound(description.variables.len())
             && indices.all(|index| index < self.workspace.len())
-            && remaining.all(|index| index < self.workspace.len())
     }
 
     /// Returns the budget of the complete sweep.
@@ -182,14 +169,13 @@ impl<'a> BudgetSweep<'a> {
             gains,
             orientation,
             least_likely: [least_likely, turn_least_likely],
-            compensation: part.compensation,
             configurations: count,
             unreachable: part.unreachable.finish(),
         }
     }
 
     fn none(&self, chunk: usize) -> PartialBudget {
-        PartialBudget::none(chunk, self.classes.len(), self.residuals.is_some())
+        PartialBudget::none(chunk, self.classes.len())
     }
 }
 
@@ -206,13 +192,12 @@ impl<'a> Kernel for Chunk<'_, 'a> {
 
     #[inline(always)]
     fn run<R: Register>(self) -> Self::Output {
-        let BudgetSweep { manipulator, workspace, ref classes, residuals, .. } = *self.sweep;
+        let BudgetSweep { manipulator, workspace, ref classes, .. } = *self.sweep;
         let (mut part, mut blocks) = (self.sweep.none(self.number), Vec::new());
         part.chunks.end += 1;
         let range = self.sweep.configurations(&part.chunks);
         let mut position = partial_errors::ErrorsAccumulator::<R>::new(&self.sweep.position);
         let mut orientation = partial_errors::ErrorsAccumulator::<R>::new(&self.sweep.orientation);
-        let mut compensated = remaining_errors::RemainingErrorsAccumulator::<R>::new();
         let (mut indices, mut oriented) = (Vec::with_capacity(range.len()), Vec::new());
         let mut block = Block::new(manipulator, workspace, BLOCK.min(range.len()));
         for first in range.clone().step_by(BLOCK) {
@@ -222,10 +207,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
             let displacements = &block.displacements;
             position.add_sources(displacements, before);
             for tile in 0..displacements.tiles() {
-                let sums = position.add_sums(classes, displacements, tile, before, |place| indices[place]);
-                if let Some(residuals) = residuals {
-                    compensated.add(residuals, &position.norm_of, &sums);
-                }
+                position.add_sums(classes, displacements, tile, before, |place| indices[place]);
             }
             let before = oriented.len();
             let (kept, displacements) = block.oriented();
@@ -245,7 +227,6 @@ impl<'a> Kernel for Chunk<'_, 'a> {
         part.position = position.finish(self.number, index);
         part.oriented = oriented.len();
         part.orientation = orientation.finish(self.number, |place| oriented[place]);
-        part.compensation = residuals.map(|_| compensated.finish(index));
         Ok((part, blocks))
     }
 }

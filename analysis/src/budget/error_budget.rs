@@ -1,6 +1,6 @@
 //! The error budget of a workspace, its options, and its progress callbacks.
 
-use super::{Combined, RemainingErrors, Residual, SourceErrors};
+use super::{Combined, SourceErrors};
 use crate::sweep::Row;
 use crate::{Measurand, UnreachableSummary};
 
@@ -20,8 +20,6 @@ pub struct Budget {
     /// likely to be met, by an approximation, the least likely first. At most 32, none without a
     /// tolerance.
     pub least_likely: [Vec<usize>; 2],
-    /// Remaining errors after compensation, if requested.
-    pub compensation: Option<RemainingErrors>,
     /// Number of configurations reached and evaluated.
     pub configurations: usize,
     /// Unreachable configurations.
@@ -49,10 +47,7 @@ impl Budget {
 
 /// Options of a budget.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct BudgetOptions<'a> {
-    /// Residual of each source after compensation, `None` for random sources. `None` without
-    /// compensation.
-    pub residuals: Option<&'a [Option<Residual>]>,
+pub struct BudgetOptions {
     /// Tolerances for the norms of the errors of position (length unit) and orientation (rad).
     pub tolerances: [Option<f64>; 2],
 }

@@ -17,7 +17,6 @@ mod outline;
 mod partial_budget;
 mod partial_errors;
 mod peak;
-mod remaining_errors;
 mod source_errors;
 mod sums;
 
@@ -28,5 +27,4 @@ pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use enclosing_sphere::Sphere;
 pub use error_budget::{Budget, BudgetOptions, OrientationErrors, Watch};
 pub use partial_budget::{Gap, PartialBudget};
-pub use remaining_errors::{RemainingErrors, Residual};
 pub use source_errors::{Figures, SourceErrors};

@@ -3,7 +3,6 @@
 use core::fmt;
 use core::ops::Range;
 
-use super::RemainingErrors;
 use super::partial_errors::PartialErrors;
 use crate::UnreachableSummary;
 
@@ -14,7 +13,6 @@ pub struct PartialBudget {
     pub(super) chunks: Range<usize>,
     pub(super) position: PartialErrors,
     pub(super) orientation: PartialErrors,
-    pub(super) compensation: Option<RemainingErrors>,
     pub(super) configurations: usize,
     /// Number of configurations at which rows 4–6 exist.
     pub(super) oriented: usize,
@@ -39,14 +37,12 @@ impl fmt::Display for Gap {
 impl core::error::Error for Gap {}
 
 impl PartialBudget {
-    /// Creates the empty part that begins at a chunk. `compensated` says whether remaining errors
-    /// are computed.
-    pub(super) fn none(chunk: usize, sources: usize, compensated: bool) -> Self {
+    /// Creates the empty part that begins at a chunk.
+    pub(super) fn none(chunk: usize, sources: usize) -> Self {
         Self {
             chunks: chunk..chunk,
             position: PartialErrors::new(sources),
             orientation: PartialErrors::new(sources),
-            compensation: compensated.then(RemainingErrors::none),
             configurations: 0,
             oriented: 0,
             unreachable: UnreachableSummary::default(),
@@ -81,9 +77,6 @@ impl PartialBudget {
     pub(super) fn put(&mut self, next: Self) {
         self.position.append(next.position);
         self.orientation.append(next.orientation);
-        if let (Some(here), Some(next)) = (&mut self.compensation, &next.compensation) {
-            here.merge(next);
-        }
         self.configurations += next.configurations;
         self.oriented += next.oriented;
         self.unreachable.append(next.unreachable);

@@ -173,7 +173,7 @@ pub(super) struct ErrorsAccumulator<R: Register> {
     shrunk: gains::GainsAccumulator<R>,
     least_likely: Option<least_likely::LeastLikelyAccumulator>,
     /// Norm of each source in the tile added last.
-    pub(super) norm_of: Vec<Lanes<R>>,
+    norm_of: Vec<Lanes<R>>,
 }
 
 impl<R: Register> ErrorsAccumulator<R> {
@@ -226,7 +226,7 @@ impl<R: Register> ErrorsAccumulator<R> {
         tile: usize,
         before: usize,
         index: impl Fn(usize) -> usize,
-    ) -> Sums<R> {
+    ) {
         let (place, weight) = (place(before, tile), weight(displacements.count(), tile));
         let rows = displacements.tile::<R>(tile);
         // Without sources there are no rows.
@@ -237,7 +237,6 @@ impl<R: Register> ErrorsAccumulator<R> {
             least_likely.add(&sums, index);
         }
         self.shrunk.add(classes, rows, &self.norm_of, &sums);
-        sums
     }
 
     /// Returns the partial result of chunk number `chunk`.

@@ -136,30 +136,3 @@ fn nothing_limits_a_source_that_does_nothing() {
     assert!(admissible.alone.iter().chain(&admissible.equal).all(Option::is_none));
     assert_eq!((admissible.together, admissible.share), (None, None));
 }
-
-#[test]
-fn compensation_leaves_what_it_is_said_to() {
-    let workspace = presented_volume(&Pps, &presentation()).unwrap();
-    let left = |residual: Residual| {
-        let sources = Pps.description().sources.iter();
-        let residuals = sources.map(|source| (source.class == Class::Repeatable).then_some(residual));
-        let residuals = residuals.collect::<Vec<_>>();
-        let budget = error_budget(
-            &OneByOne(Pps),
-            &workspace,
-            BudgetOptions { residuals: Some(&residuals), ..BudgetOptions::default() },
-            &mut (),
-        )
-        .unwrap();
-        (budget.compensation.unwrap(), budget.combined)
-    };
-    let (perfect, combined) = left(Residual::Share(0.0));
-    assert_eq!((perfect.residual.value, perfect.total.value), (0.0, combined.random_radius.value));
-    let (bounded, _) = left(Residual::Bound(0.1));
-    assert!((bounded.residual_sum.value - 0.3).abs() < 1e-12);
-    assert!((bounded.residual.value - 0.03_f64.sqrt()).abs() < 1e-12);
-    assert!((bounded.total.value - 0.03_f64.sqrt() - combined.random_radius.value).abs() < 1e-12);
-    let (half, _) = left(Residual::Share(0.5));
-    let (whole, _) = left(Residual::Share(1.0));
-    assert!((whole.residual_sum.value - 2.0 * half.residual_sum.value).abs() < 1e-12);
-}

@@ -3,11 +3,12 @@
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
+use super::correction::{Correction, Residual};
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
+use crate::Measurand;
 use crate::normal::{NormalVector, PROBABILITY_ERROR};
 use crate::sampling::{norm, stream};
 use crate::sweep::in_order;
-use crate::{Measurand, Residual};
 use abbe_core::{Class, Description};
 
 /// Coverage probability of an expanded uncertainty.
@@ -31,17 +32,6 @@ pub struct Compliance {
     pub error: f64,
     /// Number of draws. `None` for an integral.
     pub draws: Option<usize>,
-}
-
-/// Correction of the repeatable errors by compensation.
-#[derive(Clone, Copy, Debug)]
-pub struct Correction<'a> {
-    /// Residual of each source, `None` for random ones. A share of 1 is not compensated: the error
-    /// keeps its value and sign.
-    pub residuals: &'a [Option<Residual>],
-    /// Norm of the position error that remains of all repeatable sources together, in the length
-    /// unit, in place of their residuals.
-    pub together: Option<f64>,
 }
 
 /// Distribution of the position error or of rows 4–6 at one configuration, to first order: the sum
@@ -105,12 +95,15 @@ impl ErrorDistribution {
         is_normal(&self.random) && self.signed.is_empty() && self.undirected.is_empty()
     }
 
-    /// Returns `‖bias‖ + √(Σ ρ²) + √(Σ b²)` with the norms ρ of the residuals and the bounds b of
-    /// the random sources, as the paper adds them.
+    /// Returns `‖bias‖ + √(Σ ρ²)` with the norms ρ of the residuals.
+    pub fn repeatable_radius(&self) -> f64 {
+        norm(self.bias) + root_sum_of_squares(self.residuals())
+    }
+
+    /// Returns `‖bias‖ + √(Σ ρ²) + √(Σ b²)` with the bounds b of the random sources, as the paper
+    /// adds them.
     pub fn radius(&self) -> f64 {
-        let squares =
-            |norms: &mut dyn Iterator<Item = f64>| norms.map(|norm| norm * norm).sum::<f64>().sqrt();
-        norm(self.bias) + squares(&mut self.residuals()) + squares(&mut self.bounds())
+        self.repeatable_radius() + root_sum_of_squares(self.bounds())
     }
 
     /// Returns the largest possible norm, `‖bias‖ + Σ ρ + Σ b`; `None` if a random source is not
@@ -215,6 +208,10 @@ impl ErrorDistribution {
     fn bounds(&self) -> impl Iterator<Item = f64> {
         self.random.iter().map(|one| one.distribution.bound() * norm(one.magnitude))
     }
+}
+
+fn root_sum_of_squares(norms: impl Iterator<Item = f64>) -> f64 {
+    norms.map(|norm| norm * norm).sum::<f64>().sqrt()
 }
 
 impl ErrorsAt<'_> {

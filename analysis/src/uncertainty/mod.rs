@@ -2,6 +2,7 @@
 //! statement of the GUM (JCGM 100).
 
 mod compliance;
+mod correction;
 mod error_distribution;
 mod errors_at;
 mod statement;
@@ -9,6 +10,7 @@ mod statement;
 mod tests;
 
 pub use compliance::{compliance, normal_compliance};
-pub use error_distribution::{COVERAGE, Compliance, Correction, DRAWS, ErrorDistribution};
+pub use correction::{Correction, Residual};
+pub use error_distribution::{COVERAGE, Compliance, DRAWS, ErrorDistribution};
 pub use errors_at::{ErrorsAt, errors_at};
 pub use statement::{Contribution, Statement, student_95};

@@ -104,6 +104,8 @@ fn compensation_leaves_shares_and_bounds() {
     assert!((number(&report["compensation"]["residual"]) - 0.02).abs() < 1e-12);
     let random = number(&report["combined"]["random_radius"]);
     assert!((number(&report["compensation"]["total"]) - 0.02 - random).abs() < 1e-12);
+    let verdict = &report["verdict"]["compensated"]["position"];
+    assert_eq!(report["compensation"]["total"], verdict["radius"]);
     let compensation =
         |line: &str, expected: &[&str]| refused(&format!("{workspace}[compensation]\n{line}"), &[], expected);
     compensation("default = 2", &["a residual must be a share from 0 to 1, or a length"]);

@@ -20,6 +20,9 @@ pub(super) struct CompensatedSweep {
 /// Errors of one measurand over the evaluated configurations.
 #[derive(Default)]
 pub(super) struct CompensatedExtremes {
+    /// Largest norm of what remains of the repeatable errors,
+    /// [`ErrorDistribution::repeatable_radius`].
+    pub(super) repeatable: Extreme,
     /// Largest radius, [`ErrorDistribution::radius`].
     pub(super) radius: Extreme,
     /// Largest possible norm; `None` if it is not bounded.
@@ -33,7 +36,8 @@ pub(super) struct CompensatedExtremes {
 }
 
 impl CompensatedSweep {
-    /// Evaluates a workspace; at most [`CHECKED`] configurations of it, evenly spaced.
+    /// Evaluates a workspace; at most [`CHECKED`] configurations of it, evenly spaced. Only the
+    /// errors of position are evaluated without a tolerance.
     pub(super) fn new(
         manipulator: &dyn Sweepable,
         workspace: &dyn Workspace,
@@ -48,8 +52,8 @@ impl CompensatedSweep {
             let index = subset.place(row.index);
             all.checked += 1;
             for (measurand, extremes) in Measurand::ALL.into_iter().zip(&mut all.extremes) {
-                let Some(tolerance) = tolerances[measurand as usize] else { continue };
-                if measurand == Measurand::Orientation && !row.oriented {
+                let tolerance = tolerances[measurand as usize];
+                if measurand == Measurand::Orientation && (tolerance.is_none() || !row.oriented) {
                     continue;
                 }
                 let error = ErrorDistribution::at(description, row.sources, measurand, Some(correction));
@@ -66,14 +70,16 @@ impl CompensatedSweep {
 }
 
 impl CompensatedExtremes {
-    fn add(&mut self, error: &ErrorDistribution, index: usize, tolerance: f64) {
+    fn add(&mut self, error: &ErrorDistribution, index: usize, tolerance: Option<f64>) {
         let put = |extreme: &mut Extreme, value: f64| {
             if extreme.configuration.is_none() || value > extreme.value {
                 *extreme = Extreme { value, configuration: Some(index) };
             }
         };
+        put(&mut self.repeatable, error.repeatable_radius());
         put(&mut self.radius, error.radius());
         self.largest = self.largest.zip(error.largest()).map(|(most, here)| most.max(here));
+        let Some(tolerance) = tolerance else { return };
         let [farthest, deviations] = error.approximate(tolerance);
         put(&mut self.farthest, farthest);
         let after = self.least_likely.partition_point(|kept| kept.0 <= deviations);

@@ -1,9 +1,9 @@
 //! Results in sentences: tolerance, enclosing sphere, compensation, first-order error.
 
-use abbe::analysis::{Measurand, RemainingErrors};
+use abbe::analysis::Measurand;
 
 use super::norm_comparison;
-use super::report::{AfterCompensation, Report};
+use super::report::{AfterCompensation, RemainingErrors, Report};
 use super::unit;
 use crate::number::{self, percent, short};
 
@@ -115,12 +115,12 @@ fn published_residual(report: &Report) -> Option<String> {
 
 fn residual(report: &Report, compensation: &RemainingErrors) -> String {
     format!(
-        "With the compensation of the study, {} of the repeatable errors remain (root sum of \
-         squares; {} as a sum), and the total accuracy with random errors is {}{}.",
-        report.show(compensation.residual.value),
-        report.show(compensation.residual_sum.value),
-        report.show(compensation.total.value),
-        report.share_of_tolerance(compensation.total.value),
+        "With the compensation of the study, at most {} of the repeatable errors remain, and {} with \
+         the random errors{} (residuals as root sum of squares, errors that are not compensated \
+         with their signs).",
+        report.show(compensation.residual),
+        report.show(compensation.total),
+        report.share_of_tolerance(compensation.total),
     )
 }
 

@@ -40,11 +40,10 @@ impl Reads for Analyze {
 
 impl Analyze {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
-    /// The uncertainty of each repeatable source's magnitude becomes a random source, after all
-    /// others.
+    /// The uncertainty of the repeatable errors becomes random sources, after all others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
         machine.change(&study.changes);
-        machine.add_magnitude_errors();
+        machine.add_uncertainties();
         study.fix(machine.fixed_inputs());
         Self { machine, study, monte_carlo: None, seed: None, interpret: false, figures: false }
     }
@@ -58,7 +57,7 @@ impl Analyze {
             );
         }
         self.machine.change(changes);
-        self.machine.add_magnitude_errors();
+        self.machine.add_uncertainties();
         self.study.fix(self.machine.fixed_inputs());
     }
 
@@ -128,8 +127,7 @@ impl Analyze {
         self.with_sweep(notes, |sweep, notes| {
             let mut all: Option<SweepData> = None;
             for (name, shard, part) in parts {
-                let fits = part.budget.chunks() == shard.chunks(sweep.budget.chunks())
-                    && sweep.budget.fits(&part.budget);
+                let fits = part.budget.chunks() == shard.chunks(sweep.budget.chunks()) && sweep.fits(&part);
                 let put = match &mut all {
                     Some(all) => fits && sweep.append(all, part),
                     None => {
@@ -156,15 +154,12 @@ impl Analyze {
     ) -> Result<T, Diagnostics> {
         let Self { machine, study, monte_carlo, seed, figures, .. } = self;
         let manipulator = &*machine.evaluator(!self.interpret);
-        let calibrated = machine.with_calibration_errors().map(|machine| machine.evaluator(false));
         let description = manipulator.description();
         let workspace = study.region.workspace(manipulator, *seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
         notes.progress(0, workspace.len());
-        let by_source = study.compensation.as_ref().filter(|stated| stated.together.is_none());
-        let residuals = by_source.map(|stated| stated.residuals(description));
         let tolerances = [study.tolerance, study.orientation_tolerance];
-        let options = BudgetOptions { residuals: residuals.as_deref(), tolerances };
+        let options = BudgetOptions { tolerances };
         let budget = BudgetSweep::new(manipulator, workspace, options)
             .map_err(|refused| not_evaluated(machine, workspace, &refused, description))?;
         let sweep = Sweep {
@@ -177,7 +172,6 @@ impl Analyze {
             manipulator,
             workspace,
             budget,
-            calibrated: calibrated.as_deref(),
         };
         work(&sweep, notes)
     }

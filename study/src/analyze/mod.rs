@@ -6,10 +6,12 @@
 //!
 //! The other files turn the report into text: `summary` and `verdict` (first sentences), `ledger`
 //! and `uncertainty` (tables), `norm_comparison` (certified bounds), `agreement` (published
-//! figures), `unreachable` (reasons), `singular` (Euler angles), `compensated` (the machine after
-//! compensation), `conclusions` (closing sentences), and `unit` (units).
+//! figures), `unreachable` (reasons), `singular` (Euler angles), `conclusions` (closing sentences),
+//! and `unit` (units). `calibration` is its uncertainty, `compensated` the machine after
+//! compensation.
 
 mod agreement;
+mod calibration;
 mod compensated;
 mod conclusions;
 pub mod figures;
@@ -35,8 +37,9 @@ pub use norm_comparison::{NormComparison, norm_comparison_table};
 pub use report::{
     AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis,
     ErrorAllowance, Ledger, LedgerEntry, LongestEllipsoid, MachineVerdicts, MonteCarloErrors,
-    MonteCarloReport, OrientationReport, OrientationSource, Quantity, Radii, Report, RootMeanSquares,
-    SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict, UncertaintyBudget, Verdict, Verdicts,
+    MonteCarloReport, OrientationReport, OrientationSource, Quantity, Radii, RemainingErrors, Report,
+    RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict, UncertaintyBudget,
+    Verdict, Verdicts,
 };
 pub use uncertainty::{uncertainty_contributions, uncertainty_sentences, uncertainty_totals};
 pub use unreachable::{

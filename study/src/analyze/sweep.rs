@@ -7,19 +7,22 @@ use abbe::analysis::{
     Subset, Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
 use abbe::{Description, Manipulator};
+use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
+use super::calibration::LargestCalibrationErrors;
 use super::compensated::CompensatedSweep;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, ErrorAllowance,
     ErrorSites, JudgedErrors, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport,
-    Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget, Verdicts,
+    RemainingErrors, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget, Verdicts,
 };
 use super::unreachable;
 use crate::bound::CertifiedNorms;
+use crate::calibration::{first_part, named_as_one};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::finite::finite;
 use crate::machine::Machine;
@@ -36,6 +39,8 @@ const EXTRAPOLATED: usize = 2000;
 pub(super) struct SweepData {
     /// Data of the error sources.
     pub(super) budget: PartialBudget,
+    /// Errors of the calibration; `None` if the spec has no covariance.
+    calibration: Option<LargestCalibrationErrors>,
     /// Data of the figures; `None` if they were not requested.
     figures: Option<Vec<PartialFigure>>,
 }
@@ -53,8 +58,6 @@ pub(super) struct Sweep<'a> {
     pub(super) manipulator: &'a dyn Sweepable,
     pub(super) workspace: &'a dyn Workspace,
     pub(super) budget: BudgetSweep<'a>,
-    /// The manipulator with the uncertainty of its calibration as random sources, if it is known.
-    pub(super) calibrated: Option<&'a dyn Sweepable>,
 }
 
 impl Sweep<'_> {
@@ -68,14 +71,30 @@ impl Sweep<'_> {
         let range = self.budget.configurations(&chunks);
         let builder = self.figures.then(|| FiguresBuilder::new(self.study, self.manipulator.description()));
         notes.progress(0, range.len());
-        let mut observer = SweepObserver { rows, builder, notes, range: range.clone() };
+        let calibration = self.first_part().map(|first| (LargestCalibrationErrors::new(), first));
+        let mut observer = SweepObserver { rows, calibration, builder, notes, range: range.clone() };
         let budget = self.budget.part(chunks, &mut observer);
-        let SweepObserver { builder, notes, .. } = observer;
+        let SweepObserver { calibration, builder, notes, .. } = observer;
         notes.progress(range.len(), range.len());
         let budget = budget.map_err(|refused| self.not_evaluated(&refused))?;
         // An interrupted sweep returns an incomplete part; do not use it.
         notes.go_on()?;
-        Ok(SweepData { budget, figures: builder.map(FiguresBuilder::data) })
+        let calibration = calibration.map(|(errors, _)| errors);
+        Ok(SweepData { budget, calibration, figures: builder.map(FiguresBuilder::data) })
+    }
+
+    /// Returns the index of the first of the sources that are the calibration, if there are any.
+    fn first_part(&self) -> Option<usize> {
+        first_part(&self.machine.spec)
+    }
+
+    /// Returns whether data can belong to this sweep. They may come from a file.
+    pub(super) fn fits(&self, data: &SweepData) -> bool {
+        let calibration = match &data.calibration {
+            None => self.first_part().is_none(),
+            Some(errors) => self.first_part().is_some() && errors.fits(self.workspace.len()),
+        };
+        calibration && self.budget.fits(&data.budget)
     }
 
     /// Appends the data of the chunks that follow. Returns false if they do not follow or have
@@ -91,14 +110,20 @@ impl Sweep<'_> {
         };
         let Some(figures) = figures else { return false };
         all.figures = figures;
+        if let (Some(all), Some(next)) = (&mut all.calibration, &next.calibration) {
+            all.append(next);
+        }
         all.budget.append(next.budget).is_ok()
     }
 
     /// Returns the report on all gathered data.
     pub(super) fn report(&self, data: SweepData, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
-        let spec = &machine.spec;
-        let budget = self.budget.finish(data.budget);
+        let spec = &named_as_one(&machine.spec);
+        let mut budget = self.budget.finish(data.budget);
+        if let Some((errors, first)) = data.calibration.zip(self.first_part()) {
+            errors.replace_parts(&mut budget, first);
+        }
         self.require_reached(&budget)?;
         self.require_oriented(&budget)?;
         notes.go_on()?;
@@ -110,9 +135,11 @@ impl Sweep<'_> {
         let others = compensated.iter().flat_map(|(_, swept)| swept.indices());
         let varying = study.region.varying(spec);
         let sites = ErrorSites::new(&budget, workspace, spec, &varying, &moving_inputs, others);
+        let stated = compensated.as_ref().filter(|(basis, _)| *basis == CompensationBasis::Stated);
+        let compensation = stated.map(|(_, swept)| RemainingErrors::new(swept));
         let verdicts = self.verdicts(&budget, &sites, compensated)?;
-        let uncertainty = self.uncertainty(&budget, &sites, Measurand::Position)?;
-        let turned = self.uncertainty(&budget, &sites, Measurand::Orientation)?;
+        let uncertainty = self.uncertainty(&budget, &sites, (spec, Measurand::Position))?;
+        let turned = self.uncertainty(&budget, &sites, (spec, Measurand::Orientation))?;
         let monte_carlo = self.draw_errors(&budget, &sites, notes)?;
         let certified = CertifiedNorms::certify(machine, study, notes);
         notes.go_on()?;
@@ -140,7 +167,7 @@ impl Sweep<'_> {
             ledger: Ledger::new(&budget, &sources, tolerance),
             allowance: tolerance
                 .map(|tolerance| ErrorAllowance::new(&budget, spec, Measurand::Position, tolerance)),
-            compensation: budget.compensation,
+            compensation,
             monte_carlo,
             extrapolated: None,
             other_tool: None,
@@ -160,19 +187,14 @@ impl Sweep<'_> {
         finite(&machine.origin, report)
     }
 
-    /// Returns the manipulator whose errors include the uncertainty of the calibration.
-    fn uncertain(&self) -> &dyn Sweepable {
-        self.calibrated.unwrap_or(self.manipulator)
-    }
-
     /// Returns what says how much compensation leaves, and the correction of the sources; `None` if
     /// nothing does.
     fn correction(&self) -> Option<(CompensationBasis, Vec<Option<Residual>>, Option<f64>)> {
-        let description = self.uncertain().description();
+        let description = self.manipulator.description();
         if let Some(stated) = &self.study.compensation {
             return Some((CompensationBasis::Stated, stated.residuals(description), stated.together));
         }
-        if self.calibrated.is_some() {
+        if self.machine.is_calibrated() {
             let corrected = vec![Some(Residual::Share(0.0)); description.sources.len()];
             return Some((CompensationBasis::Identified, corrected, None));
         }
@@ -180,15 +202,16 @@ impl Sweep<'_> {
         Some((CompensationBasis::Published, Vec::new(), Some(published.residual)))
     }
 
-    /// Evaluates the compensated machine over the workspace, if there is a tolerance.
+    /// Evaluates the compensated machine over the workspace, if the study has a tolerance or states
+    /// what compensation leaves.
     fn compensated(&self) -> Result<Option<(CompensationBasis, CompensatedSweep)>, Diagnostics> {
         let tolerances = [self.study.tolerance, self.study.orientation_tolerance];
         let Some((basis, residuals, together)) = self.correction() else { return Ok(None) };
-        if tolerances == [None; 2] {
+        if tolerances == [None; 2] && basis != CompensationBasis::Stated {
             return Ok(None);
         }
         let correction = Correction { residuals: &residuals, together };
-        let swept = CompensatedSweep::new(self.uncertain(), self.workspace, correction, tolerances);
+        let swept = CompensatedSweep::new(self.manipulator, self.workspace, correction, tolerances);
         Ok(Some((basis, swept.map_err(|refused| self.not_evaluated(&refused))?)))
     }
 
@@ -200,13 +223,12 @@ impl Sweep<'_> {
     ) -> Result<Option<Verdicts>, Diagnostics> {
         let Study { tolerance, orientation_tolerance, probability, judged, .. } = *self.study;
         let distribution = |index, measurand, correction: Option<Correction<'_>>| {
-            let errors = self.at(index, |configuration| errors_at(self.uncertain(), configuration))?;
+            let errors = self.at(index, |configuration| errors_at(self.manipulator, configuration))?;
             Ok::<_, Diagnostics>(errors.distribution(measurand, correction))
         };
         let as_built = |measurand, tolerance: Option<f64>| {
             let verdict = tolerance.map(|tolerance| {
-                let bounded = self.calibrated.is_none();
-                let errors = JudgedErrors::as_built(budget, measurand, (tolerance, bounded), |index| {
+                let errors = JudgedErrors::as_built(budget, measurand, tolerance, |index| {
                     distribution(index, measurand, None)
                 })?;
                 Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, (tolerance, probability)))
@@ -256,7 +278,7 @@ impl Sweep<'_> {
         &self,
         budget: &Budget,
         sites: &ErrorSites,
-        measurand: Measurand,
+        (spec, measurand): (&Spec, Measurand),
     ) -> Result<Option<UncertaintyBudget>, Diagnostics> {
         let largest = budget.errors(measurand).1.standard_radius;
         if largest.value == 0.0 {
@@ -265,7 +287,7 @@ impl Sweep<'_> {
         let errors =
             self.at(largest.configuration, |configuration| errors_at(self.manipulator, configuration))?;
         let statement = Statement::new(&errors, measurand, SEED);
-        Ok(Some(UncertaintyBudget::new(&statement, largest.configuration, &self.machine.spec, sites)))
+        Ok(Some(UncertaintyBudget::new(&statement, largest.configuration, spec, sites)))
     }
 
     /// Draws errors at the configuration with the largest radius and at home; `None` if no draws
@@ -390,6 +412,8 @@ pub(super) fn not_evaluated(
 /// Observer of the sweep: passes each configuration on, and reports progress.
 struct SweepObserver<'r, 'n, 'g> {
     rows: Option<&'r mut dyn FnMut(&Row)>,
+    /// Errors of the calibration, and the index of the first of its sources.
+    calibration: Option<(LargestCalibrationErrors, usize)>,
     builder: Option<FiguresBuilder<'g>>,
     notes: &'n mut dyn Notes,
     /// Indices of the configurations of this sweep.
@@ -398,11 +422,12 @@ struct SweepObserver<'r, 'n, 'g> {
 
 impl Watch for SweepObserver<'_, '_, '_> {
     fn rows(&self) -> bool {
-        self.rows.is_some() || self.builder.is_some()
+        self.rows.is_some() || self.calibration.is_some() || self.builder.is_some()
     }
 
     fn row(&mut self, row: &Row) {
         self.rows.iter_mut().for_each(|show| show(row));
+        self.calibration.iter_mut().for_each(|(errors, first)| errors.add(row, *first));
         self.builder.iter_mut().for_each(|builder| builder.add(row));
     }
 

@@ -72,7 +72,7 @@ impl Report {
                 "what the study says compensation leaves of the repeatable sources, with unknown signs"
             }
             Some(CompensationBasis::Identified) => {
-                "all repeatable sources corrected, with the uncertainty of the identified errors"
+                "all repeatable sources of the spec corrected, with the uncertainty of the identified errors"
             }
             Some(CompensationBasis::Published) => {
                 "the published residual of the repeatable sources, in an unknown direction"
@@ -87,7 +87,7 @@ impl Report {
         };
         if let (Verdict::Met, Some(largest)) = (verdict.verdict, verdict.largest) {
             return format!(
-                "{name}: met. All random sources are bounded, and with {} the \
+                "{name}: met. All random sources are bounded, and with {}, the \
                  error is at most {} of {tolerance} at each of the {} configurations, to first \
                  order.{left_out}",
                 compensated.map_or("the repeatable ones", |_| repeatable),

@@ -52,9 +52,10 @@ impl Reads for Bound {
 
 impl Bound {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
+    /// The uncertainty of the repeatable errors becomes random sources, after all others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
         machine.change(&study.changes);
-        machine.add_magnitude_errors();
+        machine.add_uncertainties();
         study.fix(machine.fixed_inputs());
         Self { machine, study, effort: Effort::default(), least: false, time: None }
     }
@@ -62,7 +63,7 @@ impl Bound {
     /// Makes further changes.
     pub fn change(&mut self, changes: &Changes) {
         self.machine.change(changes);
-        self.machine.add_magnitude_errors();
+        self.machine.add_uncertainties();
         self.study.fix(self.machine.fixed_inputs());
     }
 

@@ -3,6 +3,7 @@
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
 use abbe_study::analyze::{Analyze, CompensationBasis, Report, ToleranceVerdict, Verdict};
+use abbe_study::bound::Bound;
 use abbe_study::study_file::JudgedMachine;
 use abbe_study::{Machine, Study};
 
@@ -131,6 +132,126 @@ fn calibration_leaves_its_covariance() {
     assert_eq!(analyzed("\"0.025 mm\"", "", found).verdict(), Some(Verdict::NotMet));
 }
 
+/// The covariance of a calibration is one source of every figure: two offsets along x with σ =
+/// 0.0075 mm and a correlation of −0.92 leave `σ² (2 − 1.84) = (0.003 mm)²`, one along y 0.004 mm.
+/// With the play: `u = √(0.01² + 0.005²) mm`, bounds of 3 u.
+#[test]
+fn calibration_is_a_source_of_budget_ledger_draws_and_bound() {
+    let found = "[[source]]\nname = \"more\"\nclass = \"repeatable\"\nframe = \"slide\"\n\
+                 e_x = \"0.02 mm\"\ne_y = \"0.05 mm\"\n\
+                 [covariance]\nof = [{ source = \"offset\", error = \"e_x\" }, { source = \"more\", error = \"e_y\" },\n\
+                 { source = \"more\", error = \"e_x\" }]\n\
+                 rows = [[5.625e-5, 0, -5.175e-5], [0, 1.6e-5, 0], [-5.175e-5, 0, 5.625e-5]]\n";
+    let slide = SLIDE.replace(", uncertainty = \"0.5 kg\"", "");
+    let spec = Spec::parse("slide.toml", &format!("{slide}{found}")).unwrap();
+    let study = "[study]\ntitle = \"t\"\ntolerance = \"0.2 mm\"\n[workspace.joints]\nsamples = 5\n";
+    let study = Study::read(Document::new("study.toml", study), &spec).unwrap();
+    let machine = Machine::of_spec(spec, "slide.toml");
+    let mut job = Analyze::new(machine.clone(), study.clone());
+    job.monte_carlo = Some(50_000);
+    let report = job.run(&mut ()).unwrap();
+
+    let (calibration, play) = (0.005, 0.01_f64);
+    let both = f64::hypot(calibration, play);
+    let budget = report.uncertainty.as_ref().unwrap();
+    close(budget.standard_uncertainty[3], both, 1e-12);
+    let [first, second] = &budget.sources[..] else { panic!("{:?}", budget.sources) };
+    assert_eq!([&*first.source, &*second.source], ["play", "calibration"]);
+    for (row, expected) in [0.003, 0.004, 0.0, calibration].into_iter().enumerate() {
+        close(second.standard_uncertainty[row], expected, 1e-12);
+    }
+    close(second.share, (calibration / both).powi(2), 1e-12);
+
+    let names: Vec<&str> = report.ledger.sources.iter().map(|entry| &*entry.name).collect();
+    assert_eq!(names, ["offset", "more", "play", "calibration"]);
+    close(report.ledger.sources[3].max, 3.0 * calibration, 1e-12);
+    close(report.ledger.sources[3].rms.unwrap(), 3.0 * calibration, 1e-12);
+    assert_eq!((report.sources.len(), report.orientation.sources.len()), (4, 4));
+    close(report.sources[3].plain_max.y, 0.012, 1e-12);
+    close(report.combined.radii.random_radius, 3.0 * both, 1e-12);
+    let allowance = report.allowance.as_ref().unwrap();
+    let allowed = allowance.sources.iter().find(|one| one.name == "calibration").unwrap();
+    close(allowed.alone.unwrap(), 0.2 / 0.015, 1e-9);
+
+    let drawn = &report.monte_carlo.as_ref().unwrap().worst.errors;
+    close(drawn.covariance[1][1], 1.6e-5, 4.0 * drawn.standard_error[1][1]);
+    close(drawn.covariance[0][0], 1.09e-4, 4.0 * drawn.standard_error[0][0]);
+
+    let certified = report.certified.as_ref().unwrap().random.as_ref().unwrap().certified.unwrap();
+    assert!((3.0 * both..3.0 * both * 1.011).contains(&certified), "{certified}");
+    let bound = Bound::new(machine, study).run(&mut ()).unwrap();
+    let random = bound.random.norm.certified.unwrap();
+    assert!((3.0 * both..3.0 * both * 1.011).contains(&random), "{random}");
+}
+
+/// A bound counts an uncertain input by the slope of the errors: 0.002 mm/kg² × p² has 0.04 mm/kg
+/// at 10 kg, times 0.5 kg, times 3; without it nothing is random.
+#[test]
+fn bound_counts_the_uncertainty_of_an_input() {
+    let sag = "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"0.002 mm/kg^2 * payload^2\"\n";
+    let text =
+        SLIDE.replace("uncertainty = \"0.5 kg\"", "range = [\"0 kg\", \"10 kg\"], uncertainty = \"0.5 kg\"");
+    let (text, _) = text.split_once("[[source]]\nname = \"play\"").unwrap();
+    let bound = |text: &str| {
+        let spec = Spec::parse("slide.toml", text).unwrap();
+        let study = Study::joint_samples(&spec);
+        Bound::new(Machine::of_spec(spec, "slide.toml"), study).run(&mut ()).unwrap()
+    };
+    let report = bound(&format!("{text}{sag}"));
+    let random = &report.random.norm;
+    close(random.found, 0.06, 1e-9);
+    assert!((0.06..0.0607).contains(&random.certified.unwrap()), "{random:?}");
+    close(random.at["payload"], 10.0, 1e-9);
+    let exact = bound(&format!("{text}{sag}").replace(", uncertainty = \"0.5 kg\"", ""));
+    assert_eq!(exact.random.norm.certified, Some(0.0));
+}
+
+/// A bound for a study of points in space covers the joint values that reach them, not the limits
+/// of the joints: the error of 0.001 mm/mm is 0.2 mm at the end of the study and 1 mm at that of
+/// the slide. What lies outside the study is no verdict on it.
+#[test]
+fn box_of_a_bound_is_that_of_the_study() {
+    let gantry = r#"
+[manipulator]
+name = "gantry"
+length = "mm"
+[[frame]]
+name = "x"
+variable = { name = "x", kind = "prismatic", limits = ["0 mm", "1000 mm"] }
+transform = "Tx(x)"
+[[frame]]
+name = "y"
+variable = { name = "y", kind = "prismatic", limits = ["0 mm", "1000 mm"] }
+transform = "Ty(y)"
+[[frame]]
+name = "z"
+variable = { name = "z", kind = "prismatic", limits = ["0 mm", "1000 mm"] }
+transform = "Tz(z)"
+[[source]]
+name = "scale"
+class = "repeatable"
+frame = "x"
+e_x = "1e-3 * x"
+"#;
+    let spec = Spec::parse("gantry.toml", gantry).unwrap();
+    let bound = |tolerance: &str| {
+        let ranges = ["x", "y", "z"]
+            .map(|axis| format!("{axis} = {{ from = \"100 mm\", to = \"200 mm\", count = 3 }}\n"));
+        let study = format!(
+            "[study]\ntitle = \"t\"\ntolerance = \"{tolerance}\"\n[workspace.box]\n{}",
+            ranges.concat()
+        );
+        let study = Study::read(Document::new("study.toml", study), &spec).unwrap();
+        Bound::new(Machine::of_spec(spec.clone(), "gantry.toml"), study).run(&mut ()).unwrap()
+    };
+    let report = bound("0.25 mm");
+    let [low, high] = report.spans["x"];
+    close(low, 100.0, 1e-6);
+    close(high, 200.0, 1e-6);
+    let margin = report.margin.unwrap();
+    assert!((0.049..0.0500001).contains(&margin.certified.unwrap()), "{margin:?}");
+}
+
 /// The uncertainty of an input that the correction uses remains: 0.02 mm/kg × 0.5 kg.
 #[test]
 fn uncertainty_of_an_input_remains() {
@@ -138,6 +259,20 @@ fn uncertainty_of_an_input_remains() {
     let report = analyzed("\"0.03 mm\"", "[compensation]\ndefault = 0\n", sag);
     let [_, compensated] = positions(&report);
     close(compensated.u95, 0.01 * 2_f64.sqrt() * 1.959_963_984_540_054, 1e-9);
+}
+
+/// Inputs with a range that the study does not name are at the ends of it, with sampled joints,
+/// too: the machine as built has the error of the heaviest payload.
+#[test]
+fn sampled_joints_meet_the_ends_of_inputs() {
+    let sag = "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"0.02 mm/kg * payload\"\n";
+    let text = SLIDE.replace("value = \"2 kg\"", "value = \"2 kg\", range = [\"1 kg\", \"10 kg\"]");
+    for form in ["joints", "random"] {
+        let study = format!("tolerance = \"1 mm\"\n[workspace.{form}]\nsamples = 5\n");
+        let report = read(&format!("{text}{sag}"), &study).unwrap();
+        close(report.combined.radii.repeatable_radius, 0.3, 1e-12);
+        assert_eq!(report.configurations, 10);
+    }
 }
 
 /// A verdict on a compensated machine needs something that says what compensation leaves.

@@ -12,18 +12,50 @@ use crate::thorough::sample_size;
 const FIGURES: &str = "[[figure]]\nkind = \"travel\"\nover = \"d1\"\n[[figure]]\nkind = \"surface\"\n\
                        over = [\"d1\", \"q4\"]\n[[figure]]\nkind = \"cloud\"\n[[figure]]\nkind = \"histogram\"\n";
 
-/// Returns two analyses that use all content of parts: repeatable and random sources, residuals,
-/// tolerances, figures and unreachable configurations.
-fn questions() -> [AnalysisRequest; 2] {
+/// A turning arm whose two errors were identified.
+const CALIBRATED: &str = r#"
+[manipulator]
+name = "arm"
+length = "mm"
+[[frame]]
+name = "turn"
+variable = { name = "d1", kind = "prismatic", limits = ["0 mm", "100 mm"] }
+transform = "Tx(d1)"
+[[frame]]
+name = "arm"
+variable = { name = "q4", kind = "revolute", limits = ["-90 deg", "90 deg"] }
+transform = "Rz(q4)"
+[tool]
+transform = "Tx(300)"
+[[source]]
+name = "identified"
+class = "repeatable"
+frame = "arm"
+e_y = "0.1 mm"
+e_r = "0.5 mrad"
+[covariance]
+of = [{ source = "identified", error = "e_y" }, { source = "identified", error = "e_r" }]
+rows = [[1e-4, -2e-7], [-2e-7, 4e-9]]
+"#;
+
+/// Returns analyses that use all content of parts: repeatable and random sources, residuals,
+/// tolerances, figures, unreachable configurations, and a calibration.
+fn questions() -> [AnalysisRequest; 3] {
     let sampled = format!(
         "[study]\ntitle = \"t\"\ntolerance = {{ position = \"5 mm\", orientation = \"2 mrad\" }}\n\
          [workspace.random]\nsamples = 300\n[compensation]\ndefault = 0.1\n{FIGURES}"
     );
     let reached = "[study]\ntitle = \"t\"\n[workspace.box]\nx = { from = \"-1 m\", to = \"1 m\", count = 6 }\n\
                    y = { from = \"0 m\", to = \"1 m\", count = 6 }\nz = { from = \"0 m\", to = \"1.2 m\", count = 6 }\n";
-    [("pps", sampled), ("puma560", reached.to_owned())].map(|(spec, text)| AnalysisRequest {
+    let calibrated = "[study]\ntitle = \"t\"\ntolerance = \"0.2 mm\"\n[workspace.random]\nsamples = 300\n";
+    let all = [("pps", sampled), ("puma560", reached.to_owned()), ("arm.toml", calibrated.to_owned())];
+    all.map(|(spec, text)| AnalysisRequest {
         spec: spec.to_owned(),
-        spec_text: None,
+        spec_text: (spec == "arm.toml").then(|| FileText {
+            name: spec.to_owned(),
+            folder: None,
+            text: CALIBRATED.to_owned(),
+        }),
         study: Some(FileText { name: "study.toml".to_owned(), folder: None, text }),
         changes: Vec::new(),
         monte_carlo: Some(10),
@@ -70,9 +102,28 @@ fn parts_survive_a_round_trip() {
     }
 }
 
+/// Holds that parts merge to the report of a single run; the calibration is one source of it.
+#[test]
+fn halves_merge_to_the_whole() {
+    for question in questions() {
+        let merged = |parts: Vec<Part>| {
+            let parts = parts.into_iter().enumerate().map(|(i, part)| (i.to_string(), part)).collect();
+            serde_json::to_value(merge(parts, &mut ()).unwrap().1).unwrap()
+        };
+        let whole = merged(vec![Part::new(question.clone(), "1/1".parse().unwrap(), &mut ()).unwrap()]);
+        assert_eq!(merged(halves(&question).into()), whole);
+        let ledger = &whole["ledger"]["sources"];
+        let is_calibrated = question.spec_text.is_some();
+        assert_eq!(
+            ledger.as_array().unwrap().len() == 2 && ledger[1]["name"] == "calibration",
+            is_calibrated
+        );
+    }
+}
+
 #[test]
 fn shards_and_draws_are_limited() {
-    let [question, _] = questions();
+    let [question, ..] = questions();
     let [part, _] = halves(&question);
     let with = |path: &str, value: Value| {
         let mut content = content(&part);

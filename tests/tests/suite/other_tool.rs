@@ -56,7 +56,8 @@ fn tool_point(machine: &Interpreter, q: &[f64], magnitude: impl Fn(usize) -> f64
 /// Returns `eᵀ C⁻¹ e` of the error e of a tool point of an identified machine, with its stated
 /// covariance C.
 fn mahalanobis(found: &Machine, real: &Machine, q: &[f64]) -> f64 {
-    let calibrated = found.with_calibration_errors().expect("a covariance");
+    let mut calibrated = found.clone();
+    calibrated.add_uncertainties();
     let [found, real] = [&calibrated, real].map(|machine| Interpreter::new(machine.spec.clone()));
     let here = tool_point(&found, q, |_| 0.0);
     let there = tool_point(&real, q, |_| 0.0);
@@ -191,7 +192,8 @@ fn undetermined_errors_of_the_base_move_the_machine() {
          [undetermined]\npoints = [[0, 0, 0]]\nof = [{of}]\nrows = [{rows}]\n",
         ARM.replace(MEASURED, OTHER)
     );
-    let calibrated = machine(&text).with_calibration_errors().expect("a covariance");
+    let mut calibrated = machine(&text);
+    calibrated.add_uncertainties();
     let interpreter = Interpreter::new(calibrated.spec);
     let first = interpreter.description().sources.len() - 6;
     let q = [0.3, -0.9, 0.4, 0.7, -0.5, 1.1];

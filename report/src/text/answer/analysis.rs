@@ -93,7 +93,7 @@ fn figures(report: &Report) -> String {
         let probability = position_of(compensated);
         rows.push(position("compensated", verdict.radius, probability, basis(report)));
     } else if let Some(left) = &report.compensation {
-        rows.push(position("compensated", left.total.value, Default::default(), String::new()));
+        rows.push(position("compensated", left.total, Default::default(), String::new()));
     } else if let Some(left) = &report.after_compensation {
         let note = format!("residual {} of {}", number::short(factor * left.residual), report.publisher());
         rows.push(position("compensated", left.total, Default::default(), note));

@@ -20,9 +20,9 @@ mod uncertainty_budget;
 
 use std::sync::Arc;
 
-use abbe::analysis::{Budget, Configuration, Measurand, RemainingErrors};
+use abbe::analysis::{Budget, Configuration, Measurand};
 use abbe_spec::Spec;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 pub use combined::{CombinedReport, LongestEllipsoid, Radii, RootMeanSquares};
 pub use comparison::{Agreement, Comparison};
@@ -40,6 +40,7 @@ pub use tolerance_verdict::{
 };
 pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 
+use super::compensated::CompensatedSweep;
 use super::figures::Figures;
 use super::first_order::FirstOrder;
 use super::unreachable::UnreachableReason;
@@ -101,10 +102,8 @@ pub struct Report {
     /// Errors that the position tolerance allows; `None` without one.
     #[serde(rename = "budget", skip_serializing_if = "Option::is_none")]
     pub allowance: Option<ErrorAllowance>,
-    /// Errors that remain after compensation, largest over the workspace, in the length unit:
-    /// `residual`, `residual_sum`, and `total` with the random sources. `None` if the study does
-    /// not request it.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_values")]
+    /// Errors that remain after the compensation that the study states; `None` if it states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub compensation: Option<RemainingErrors>,
     /// Monte Carlo draws; `None` if they were not requested.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -143,6 +142,24 @@ pub struct Report {
     pub(super) sites: ErrorSites,
 }
 
+/// Errors that remain after compensation: the largest norms over the evaluated configurations, in
+/// the length unit.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RemainingErrors {
+    /// Norm of the sum of the repeatable errors that are not compensated, + the root sum of squares
+    /// of the residuals of the others.
+    pub residual: f64,
+    /// Residual + norm of the random bounds.
+    pub total: f64,
+}
+
+impl RemainingErrors {
+    pub(super) fn new(swept: &CompensatedSweep) -> Self {
+        let position = &swept.extremes[Measurand::Position as usize];
+        Self { residual: position.repeatable.value, total: position.radius.value }
+    }
+}
+
 /// Published residual after compensation, combined with the computed random errors. In the length
 /// unit.
 #[derive(Clone, Debug, Serialize)]
@@ -162,13 +179,6 @@ impl AfterCompensation {
         let (residual, random) = (published.residual, budget.combined.random_radius.value);
         Self { residual, random, total: residual + random, published: published.clone() }
     }
-}
-
-fn serialize_values<S: Serializer>(left: &Option<RemainingErrors>, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(left.iter().flat_map(|left| {
-        [("residual", left.residual), ("residual_sum", left.residual_sum), ("total", left.total)]
-            .map(|(name, extreme)| (name, extreme.value))
-    }))
 }
 
 impl Report {

@@ -166,17 +166,15 @@ pub(in crate::analyze) struct JudgedErrors {
 
 impl JudgedErrors {
     /// Returns the errors of the machine as built. `distribution` gives the error at a
-    /// configuration; `bounded` is false if its errors have a part that the budget does not have
-    /// and that is not bounded.
+    /// configuration.
     pub(in crate::analyze) fn as_built<E>(
         budget: &Budget,
         measurand: Measurand,
-        (tolerance, bounded): (f64, bool),
+        tolerance: f64,
         distribution: impl Fn(Option<usize>) -> Result<ErrorDistribution, E>,
     ) -> Result<Self, E> {
         let (sources, combined, _) = budget.errors(measurand);
-        let bounded =
-            bounded && sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
+        let bounded = sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
         let radius = combined.radius;
         let listed = budget.least_likely_for(measurand).iter().map(|index| Some(*index));
         let mut candidates = Vec::new();

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::error_sites::ErrorSites;
 use super::source_value::{Quantity, SourceValue};
+use crate::calibration::is_calibration_error;
 use crate::number::Named;
 
 /// Uncertainty budget at the configuration with the largest combined standard uncertainty of the
@@ -78,8 +79,8 @@ impl UncertaintyBudget {
         sites: &ErrorSites,
     ) -> Self {
         let all = spec.enabled_sources().collect::<Vec<_>>();
-        let sources =
-            statement.contributions.iter().map(|one| SourceUncertainty::new(one, all[one.source], spec));
+        let contributions = with_calibration_as_one(&statement.contributions, &all);
+        let sources = contributions.iter().map(|one| SourceUncertainty::new(one, all[one.source], spec));
         Self {
             measurand: statement.measurand,
             configuration,
@@ -101,6 +102,30 @@ impl UncertaintyBudget {
     pub(in crate::analyze) fn is_estimated(&self) -> bool {
         self.sources.iter().any(|one| one.degrees_of_freedom.is_finite())
     }
+}
+
+/// Returns the contributions with the independent parts of the calibration as one, largest share
+/// first.
+fn with_calibration_as_one(contributions: &[Contribution], sources: &[&Source]) -> Vec<Contribution> {
+    let (parts, mut all): (Vec<_>, Vec<_>) =
+        contributions.iter().cloned().partition(|one| is_calibration_error(sources[one.source]));
+    if let (Some(part), Some(source)) =
+        (parts.first(), sources.iter().position(|one| is_calibration_error(one)))
+    {
+        let standard = [0, 1, 2, 3].map(|i| parts.iter().map(|part| part.standard[i].powi(2)).sum::<f64>());
+        let standard = standard.map(f64::sqrt);
+        let share = parts.iter().map(|part| part.share).sum();
+        all.push(Contribution {
+            source,
+            value: None,
+            sensitivity: standard,
+            standard,
+            share,
+            ..part.clone()
+        });
+        all.sort_by(|a, b| b.share.total_cmp(&a.share));
+    }
+    all
 }
 
 impl SourceUncertainty {
