@@ -14,6 +14,7 @@ mod cameras;
 mod cheat_sheet;
 mod chosen;
 mod compensate;
+mod coverage;
 mod deviations;
 mod doctor;
 mod drawings;

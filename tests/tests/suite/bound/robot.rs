@@ -22,8 +22,16 @@ const ANGLES: [&str; 12] = [
     "linear(q) + cubic(q)",
 ];
 
-/// Returns a random spec, whose tables hold beyond their ends.
+/// Returns a random spec, whose tables hold beyond their ends. Inputs have an uncertainty in a
+/// third of them, so that the derivative of every error is a random source.
 pub(crate) fn spec(random: &mut impl Rng) -> String {
+    let text = exact_inputs(random);
+    let uncertain = text.replace("\"5 kg\"] }", "\"5 kg\"], uncertainty = \"0.3 kg\" }");
+    let uncertain = uncertain.replace("\"10 K\"] }", "\"10 K\"], uncertainty = \"0.5 K\" }");
+    if random.random_bool(1.0 / 3.0) { uncertain } else { text }
+}
+
+fn exact_inputs(random: &mut impl Rng) -> String {
     let frames = random.random_range(2..=6);
     let euler = random.random_bool(0.2);
     let mut text = format!(
