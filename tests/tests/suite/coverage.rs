@@ -8,7 +8,7 @@ use abbe::analysis::{
 use abbe::identify::{Criterion, Loss};
 use abbe::{Class, Manipulator, drawn_pose};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
+use abbe_spec::{Cause, Spec};
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Settings};
 use abbe_study::plan::{Choice, Plan};
@@ -128,20 +128,20 @@ fn planned(count: usize) -> Data {
     Data { file: "plan.csv".to_owned(), observations, ..Data::default() }
 }
 
-/// Calibrates a machine and returns the written spec.
-fn calibrated(truth: &str, plan: &Data, seed: u64) -> Machine {
+/// Calibrates a machine by measurements at planned or random configurations, and returns the
+/// written spec.
+fn calibrated(truth: &str, at: Places, seed: u64) -> Machine {
     let real = machine(truth);
     let map = Map::parse("map.toml", MAP, &real.spec).expect("a map");
-    let at = Places::Rows(plan.clone());
     let simulate = Simulate { machine: real, map, at, noise: None, outliers: 0.0, random: true, seed };
     let observations = simulate.run(&mut ()).expect("it is simulated").observations;
     let data = Data { file: "data.csv".to_owned(), observations, ..Data::default() };
-    let machine_ = machine(ARM);
-    let map = Map::parse("map.toml", MAP, &machine_.spec).expect("a map");
+    let nominal = machine(ARM);
+    let map = Map::parse("map.toml", MAP, &nominal.spec).expect("a map");
     let settings =
         Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
     let (terms, harmonics, accept) = (Vec::new(), Vec::new(), Acceptance::default());
-    let job = Identify { machine: machine_, map, data, test: None, terms, harmonics, settings, accept };
+    let job = Identify { machine: nominal, map, data, test: None, terms, harmonics, settings, accept };
     let report = job.run(&mut ()).expect("it is identified");
     let spec = Spec::parse("arm.toml", ARM).expect("a spec");
     machine(&report.found.identified_spec(&spec, ARM, "found.toml").expect("it is written").text)
@@ -216,12 +216,12 @@ impl Holds {
     }
 }
 
-fn simulated(machines: u64, rows: usize, tolerance: f64, added: &str) -> Holds {
+fn simulated(machines: u64, rows: usize, tolerance: f64) -> Holds {
     let plan = planned(rows);
     let one = |seed| {
         let mut numbers = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let truth = drawn(&mut numbers, added);
-        let found = calibrated(&truth, &plan, seed);
+        let truth = drawn(&mut numbers, "");
+        let found = calibrated(&truth, Places::Rows(plan.clone()), seed);
         coverage(&truth, &found, tolerance, &mut numbers)
     };
     let all: Vec<Coverage> = (0..machines).map(one).collect();
@@ -238,23 +238,51 @@ fn simulated(machines: u64, rows: usize, tolerance: f64, added: &str) -> Holds {
 const HARMONIC: &str = "\n[[source]]\nname = \"harmonic\"\nclass = \"repeatable\"\njoint = \"q3\"\n\
                         error = \"0.2 mrad * sin(7*q3)\"\n";
 
-/// Holds P and U95 of compensated machines within 1 % in 50 simulated calibrations; an ordinary run
-/// has six of them, and holds them within four standard errors.
+/// Holds P and U95 of compensated machines within 1 % in 200 simulated calibrations, whose standard
+/// error is about 0.3 %; an ordinary run has six, and holds them within four standard errors.
 #[test]
 fn claims_on_compensated_machines_hold() {
-    let machines = if thorough() { 50 } else { 6 };
-    let holds = simulated(machines, 30, 0.07, "");
+    let machines = if thorough() { 200 } else { 6 };
+    let holds = simulated(machines, 30, 0.07);
     holds.within(0.01);
     // The tolerance is one that decides.
     assert!((0.6..0.98).contains(&holds.claimed), "{holds:?}");
 }
 
-/// Holds that an error that the model does not have is counted: it is larger than the uncertainty
-/// of the calibration, and P and U95 hold as closely.
+/// Returns a spec without the random sources of what the model does not explain.
+fn without_unexplained(found: &Machine) -> Machine {
+    let mut spec = Spec::clone(&found.spec);
+    spec.sources.retain(|source| !source.name.starts_with("not identified"));
+    Machine::of_spec(spec, "found.toml")
+}
+
+/// Holds that a position error that the model does not have is written as random sources of its
+/// size, and that the claims are closer to what happens by them. At 60 random configurations, the
+/// harmonic moves the tool point by 0.2 mrad × 422 mm/√2 = 0.060 mm, 0.034 mm along each axis, of
+/// which constant errors imitate a part. Without it nothing is written.
 #[test]
 fn errors_that_the_model_does_not_have_are_counted() {
-    let machines = if thorough() { 50 } else { 6 };
-    let holds = simulated(machines, 30, 0.12, HARMONIC);
-    holds.within(0.02);
-    assert!((0.6..0.98).contains(&holds.claimed), "{holds:?}");
+    let machines = if thorough() { 20 } else { 3 };
+    let mut counted = Vec::new();
+    for seed in 0..machines {
+        let mut numbers = Xoshiro256PlusPlus::seed_from_u64(100 + seed);
+        let truth = drawn(&mut numbers, HARMONIC);
+        let found = calibrated(&truth, Places::Samples(60), seed);
+        let written: Vec<_> =
+            found.spec.sources.iter().filter(|source| source.name.starts_with("not identified")).collect();
+        assert_eq!(written.len(), 3, "{seed}");
+        let Cause::Errors(errors) = &written[0].effects[0].cause else { panic!("an error") };
+        let size = errors[0].1.constant().expect("a constant");
+        assert!((0.015..0.045).contains(&size), "{seed}: {size}");
+        let with = coverage(&truth, &found, 0.1, &mut numbers);
+        let without = coverage(&truth, &without_unexplained(&found), 0.1, &mut numbers);
+        counted.push([with.covered, without.covered]);
+    }
+    let [with, without] = [0, 1].map(|i| mean(counted.iter().map(|covered| covered[i])));
+    println!("{machines} machines: U95 covers {with:?}, without these sources {without:?}");
+    assert!(with[0] > without[0] + 0.05 && (0.85..0.99).contains(&with[0]), "{with:?} {without:?}");
+
+    let mut numbers = Xoshiro256PlusPlus::seed_from_u64(7);
+    let found = calibrated(&drawn(&mut numbers, ""), Places::Samples(60), 7);
+    assert!(found.spec.sources.iter().all(|source| !source.name.starts_with("not identified")));
 }
