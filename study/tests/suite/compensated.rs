@@ -261,20 +261,6 @@ fn uncertainty_of_an_input_remains() {
     close(compensated.u95, 0.01 * 2_f64.sqrt() * 1.959_963_984_540_054, 1e-9);
 }
 
-/// Inputs with a range that the study does not name are at the ends of it, with sampled joints,
-/// too: the machine as built has the error of the heaviest payload.
-#[test]
-fn sampled_joints_meet_the_ends_of_inputs() {
-    let sag = "[[source]]\nname = \"sag\"\nclass = \"repeatable\"\nframe = \"slide\"\ne_x = \"0.02 mm/kg * payload\"\n";
-    let text = SLIDE.replace("value = \"2 kg\"", "value = \"2 kg\", range = [\"1 kg\", \"10 kg\"]");
-    for form in ["joints", "random"] {
-        let study = format!("tolerance = \"1 mm\"\n[workspace.{form}]\nsamples = 5\n");
-        let report = read(&format!("{text}{sag}"), &study).unwrap();
-        close(report.combined.radii.repeatable_radius, 0.3, 1e-12);
-        assert_eq!(report.configurations, 10);
-    }
-}
-
 /// A verdict on a compensated machine needs something that says what compensation leaves.
 #[test]
 fn compensated_machine_must_be_known() {
