@@ -9,4 +9,4 @@ Format: TypeAlias = Literal["dh", "urdf", "ur-calibration", "isg-csv", "linuxcnc
 Language: TypeAlias = Literal["rust", "c", "js", "python", "matlab", "fmu"]
 Real: TypeAlias = Literal["double", "float"]
 Robust: TypeAlias = Literal["none", "huber", "tukey"]
-Terms: TypeAlias = Literal["auto", "joint", "load", "elastic", "backlash", "product", "drift"]
+Terms: TypeAlias = Literal["auto", "joint", "load", "elastic", "backlash", "product", "drift", "profile"]

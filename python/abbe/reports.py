@@ -1253,6 +1253,9 @@ class IdentifyReport(Report):
     tried: int
     """Number of groups of terms that were tried."""
 
+    profiles: JointProfiles | None
+    """Profiles of joints; none if they were not tried, or do not reduce the cross-validation error significantly."""
+
     drift: ResidualDrift | None
     """Drift of the residuals with the row order; none if there are too few rows for the test."""
 
@@ -1456,6 +1459,55 @@ class JointError(Fields):
 
     sentence: str
     """Statement of the result in one sentence, with the alternatives."""
+
+
+class JointProfile(Fields):
+    """Profile of a joint."""
+
+    joint: str
+    """Name of the joint."""
+
+    unit: str
+    """Unit of the error: rad, or the length unit."""
+
+    range: list[float]
+    """Range of the joint that the profile covers, in `unit`; beyond it the value at the end holds."""
+
+    rms: float
+    """Error by the profile, root mean square over the fitted rows, in `unit`."""
+
+    standard_deviation: float
+    """Standard deviation of that error, root mean square over the fitted rows, in `unit`."""
+
+    without: float
+    """Factor of the root mean square of the cross-validation without this profile."""
+
+
+class JointProfiles(Fields):
+    """Profiles of joints, and the accuracy with and without them."""
+
+    before: Sizes
+    """Position errors of the cross-validation without profiles."""
+
+    after: Sizes
+    """Position errors of the cross-validation with them."""
+
+    gain: Gain
+    """Improvement by the profiles at the same held-out rows."""
+
+    effective: float
+    """Number of coefficients that the data determine, of all profiles together."""
+
+    standard_deviation: float
+    """Standard deviation of the tool point by the profiles alone, root mean square over the fitted rows, in the
+    length unit.
+    """
+
+    joints: list[JointProfile]
+    """Profile of each joint that has one."""
+
+    sentence: str
+    """Statement of the result in one sentence."""
 
 
 class Law(Fields):

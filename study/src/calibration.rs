@@ -21,6 +21,9 @@ const ROUNDING: f64 = 1e-12;
 /// Distance up to which two points of the tool are the same one, as a share of the arm length.
 const SAME_POINT: f64 = 1e-5;
 
+/// Step of a joint for differences, in rad or the length unit.
+const STEP: f64 = 1e-5;
+
 /// Independent errors of a calibration.
 pub(crate) struct CalibrationErrors {
     /// Identified quantities; one of them can occur twice.
@@ -71,12 +74,13 @@ impl<'a> Prediction<'a> {
         point: [f64; 3],
     ) -> Option<Self> {
         let unknown = |identified: &Identified| match identified {
-            Identified::Error(frame, component) => Some(Unknown::Error(*frame, *component)),
-            Identified::Base(component) => Some(Unknown::Base(0, *component)),
-            Identified::Magnitude(source) => spec.enabled_index(*source).map(Unknown::Magnitude),
+            Identified::Error(frame, component) => Some(Some(Unknown::Error(*frame, *component))),
+            Identified::Base(component) => Some(Some(Unknown::Base(0, *component))),
+            Identified::Magnitude(source) => Some(spec.enabled_index(*source).map(Unknown::Magnitude)),
+            Identified::Joint(_) => None,
         };
-        let unknowns: Vec<Unknown> = errors.of.iter().map(unknown).collect::<Option<_>>()?;
-        if unknowns.is_empty() {
+        let unknowns: Vec<Unknown> = errors.of.iter().filter_map(unknown).collect::<Option<_>>()?;
+        if errors.of.is_empty() {
             return None;
         }
         let ideal = Model::ideal(manipulator, vec![[0.0; 3]], Uncertainty { length: 1.0, angle: 1.0 });
@@ -100,13 +104,35 @@ impl<'a> Prediction<'a> {
     /// identified quantities.
     pub(crate) fn errors_at(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<PredictedErrors, Failure> {
         let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
-        let zero = vec![0.0; self.errors.of.len()];
-        let (pose, moves) = self.model.tool(&mut self.scratch, &row, &zero)?;
+        let zero = vec![0.0; self.model.unknowns.len()];
+        let (pose, of_unknowns) = self.model.tool(&mut self.scratch, &row, &zero)?;
+        let mut of_unknowns = of_unknowns.into_iter();
+        let errors = self.errors;
+        let moves = errors.of.iter().map(|one| match one {
+            Identified::Joint(joint) => self.moves_of_joint(&row, *joint),
+            _ => Ok(of_unknowns.next().unwrap_or_default()),
+        });
+        let moves: Vec<[f64; 3]> = moves.collect::<Result<_, Failure>>()?;
         let displacement = |part: &Vec<f64>| {
             let terms = moves.iter().zip(part);
             terms.fold([0.0; 3], |sum, (moved, size)| std::array::from_fn(|i| sum[i] + size * moved[i]))
         };
         Ok(PredictedErrors { pose, displacements: self.errors.parts.iter().map(displacement).collect() })
+    }
+}
+
+impl Prediction<'_> {
+    /// Returns the derivative of the point with respect to a joint, by central differences.
+    fn moves_of_joint(&mut self, row: &Observation, joint: usize) -> Result<[f64; 3], Failure> {
+        let zero = vec![0.0; self.model.unknowns.len()];
+        let mut at = |step: f64| {
+            let mut q = row.q.to_vec();
+            q[joint] += step;
+            let row = Observation::new(0, q, row.u.to_vec(), Measurement::Points(Vec::new().into()));
+            Ok::<_, Failure>(self.model.pose(&mut self.scratch, &row, &zero)?.position())
+        };
+        let (before, after) = (at(-STEP)?, at(STEP)?);
+        Ok(std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * STEP)))
     }
 }
 

@@ -141,7 +141,7 @@ pub use model::{Model, ReferenceLength};
 pub use observation::{Approach, Measurement, Observation, Uncertainty};
 pub use offer::{Factored, Offer};
 pub use options::Options;
-pub use profile::{Profile, ProfileBasis, ProfileJoint, Profiles, fit_profiles, profiles_can_be_known};
+pub use profile::{Profile, ProfileBasis, ProfileData, ProfileJoint, Profiles, fit_profiles};
 pub use registration::{Registration, register, register_pairs};
 pub use robust::{Loss, robust_scale};
 pub use scratch::Scratch;

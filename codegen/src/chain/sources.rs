@@ -215,6 +215,13 @@ fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node;
                     add_scaled(graph, &all[of]);
                 }
             }
+            Uncertain::Identified(Identified::Joint(joint)) => {
+                let mut unit = vec![[graph.zero(); 6]; spec.frames.len()];
+                for twist in frame_twists(graph, spec, ChainNumber::Joint(*joint)) {
+                    add(graph, &mut unit[twist.frame], six(twist.velocity, twist.rotation));
+                }
+                add_scaled(graph, &unit);
+            }
             Uncertain::Identified(Identified::Error(frame, component)) => {
                 let mut unit = vec![[graph.zero(); 6]; spec.frames.len()];
                 unit[*frame][*component as usize] = graph.constant(1.0);

@@ -1,9 +1,12 @@
 //! Page of an identification: the errors of the machine, their uncertainties and the residuals.
 
 use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 use abbe_study::AcceptanceVerdict;
 use abbe_study::data::Map;
-use abbe_study::identify::{Indistinguishable, Kind, Parameter, Report, Sizes, WeaklyDetermined};
+use abbe_study::identify::{
+    Indistinguishable, JointProfiles, Kind, Parameter, Report, Sizes, WeaklyDetermined,
+};
 use abbe_study::number::{self, digits, fixed};
 
 use super::figure::figures;
@@ -29,6 +32,7 @@ pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Prov
         placed(spec, report),
         folded("Indistinguishable errors", &groups(report)),
         terms(spec, report),
+        report.profiles.as_ref().map_or_else(String::new, |found| profiles(spec, found)),
         section("Instrument", &instrument(spec, map)),
         folded("Fitted ranges", &ranges(spec, report)),
         folded("Rows", &format!("<p>{lines}</p>\n")),
@@ -219,6 +223,25 @@ fn terms(spec: &Spec, report: &Report) -> String {
     let columns = ["term", "before", "after", "p of the F-test"];
     let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
     section("Additional terms", &ledger(&caption, &columns, &[0], &body))
+}
+
+fn profiles(spec: &Spec, found: &JointProfiles) -> String {
+    let rows = found.joints.iter().map(|one| {
+        let [from, to] = one.range.map(|end| number::of_symbol(end, Symbol::Variable(one.variable), spec));
+        let (factor, unit) = if one.unit == "rad" { (1e3, "mrad") } else { (1.0, one.unit) };
+        let [rms, deviation] = [one.rms, one.standard_deviation].map(|value| digits(factor * value, 2));
+        format!(
+            "<tr>{}<td class=\"words\">{from} … {to}</td><td>{rms}</td><td>{deviation}</td><td \
+             class=\"words\">{unit}</td><td>{}</td></tr>\n",
+            row_header(&escaped(&one.joint)),
+            fixed(one.without, 2)
+        )
+    });
+    let columns = ["joint", "range covered", "rms", "σ", "unit", "error without it"];
+    let body = format!("<tbody>{}</tbody>\n", rows.collect::<String>());
+    let caption = "Profiles; the last column is the factor of the cross-validation error (root mean \
+                   square) without the profile";
+    section("Joint profiles", &ledger(caption, &columns, &[0, 1, 4], &body))
 }
 
 fn pictures(spec: &Spec, report: &Report) -> String {

@@ -10,7 +10,7 @@
 
 use std::ops::{Add, Div, Mul};
 
-use super::{Binary, Dimension, Expression, Function, Kind, Symbol, Term};
+use super::{Binary, Dimension, Expression, Function, Kind, Lookup, Symbol, Table, Term};
 
 impl Expression {
     /// Creates a number in coherent units.
@@ -28,6 +28,14 @@ impl Expression {
         let value = self.constant().map(|value| function.evaluate(value));
         let operand = self.terms().len() - 1;
         self.with(Kind::Call(function, operand), Some(Dimension::NONE), value)
+    }
+
+    /// Looks up a table, given by its index in the spec, at this argument.
+    pub fn looked_up(self, index: u16, table: &Table) -> Self {
+        let value = self.constant().map(|value| table.derivative(0, value));
+        let operand = self.terms().len() - 1;
+        let kind = Kind::Lookup(Lookup { table: index, order: 0 }, operand);
+        self.with(kind, Some(table.dimensions[1]), value)
     }
 
     /// Raises to a power.

@@ -47,7 +47,7 @@ pub struct Table {
 
 impl Table {
     /// Creates a table from at least two points with ascending x.
-    pub(crate) fn new(
+    pub fn new(
         name: String,
         description: String,
         dimensions: [Dimension; 2],

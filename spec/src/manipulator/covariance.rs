@@ -20,4 +20,6 @@ pub enum Identified {
     Error(usize, Component),
     /// One of the six errors of `F_0`, the placement of the machine, in the length unit or rad.
     Base(Component),
+    /// Error of a joint, by its index among the variables, in rad or the length unit.
+    Joint(usize),
 }

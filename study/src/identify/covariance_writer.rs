@@ -5,7 +5,7 @@ use abbe_spec::Spec;
 use abbe_spec::literal::quoted;
 
 use super::found_model::FoundModel;
-use super::spec_writer::{ABOVE, constant_name};
+use super::spec_writer::{ABOVE, constant_name, source_name};
 
 /// Identified value: its name in the spec, its row in the covariance, and the divisor that makes it
 /// relative to a magnitude.
@@ -59,6 +59,11 @@ impl FoundModel {
             .magnitudes
             .iter()
             .filter_map(|found| whole(&spec.sources[found.source].name, found.row, found.magnitude));
-        constants.chain(terms).chain(magnitudes).collect()
+        let profiles = self.profiles.iter().map(|(row, one)| {
+            let source = quoted(&source_name(spec, &one.source_name()));
+            let text = format!("source = {source}, joint = {}", quoted(&one.joint));
+            Entry { text, row: *row, size: 1.0 }
+        });
+        constants.chain(terms).chain(magnitudes).chain(profiles).collect()
     }
 }

@@ -19,12 +19,14 @@ pub enum Family {
     Product,
     /// Errors of frames that drift or settle from row to row.
     Drift,
+    /// Errors of joints as functions of their own values, by up to 64 cycles per turn.
+    Profile,
 }
 
 impl Family {
     /// Every family.
-    pub const ALL: [Self; 6] =
-        [Self::Joint, Self::Load, Self::Elastic, Self::Backlash, Self::Product, Self::Drift];
+    pub const ALL: [Self; 7] =
+        [Self::Joint, Self::Load, Self::Elastic, Self::Backlash, Self::Product, Self::Drift, Self::Profile];
 }
 
 /// Additional numbers of periods per turn of a joint, beside 1 to 4, such as gear ratios.

@@ -10,6 +10,7 @@ use super::as_joint_errors::{AsJointErrors, JointError};
 use super::derived::Derived;
 use super::found_placement::FoundPlacement;
 use super::instruments::InstrumentFit;
+use super::joint_profiles::JointProfile;
 use super::solve::Solved;
 use super::terms::{Basis, ErrorSite, Term};
 use super::undetermined::UndeterminedDirections;
@@ -31,6 +32,8 @@ pub struct FoundModel {
     pub magnitudes: Vec<FoundMagnitude>,
     /// Richer terms.
     pub terms: Vec<FoundTerm>,
+    /// Profiles of joints, with their rows of the covariance.
+    pub(super) profiles: Vec<(usize, JointProfile)>,
     /// Derived inputs; terms index them after those of the spec.
     pub derived: Vec<Derived>,
     /// Covariance of the identified values, in the order of the kept unknowns; the `row` of a value
@@ -138,6 +141,10 @@ impl FoundModel {
         let count = kept.len();
         let of_fit = || (0..count).map(|i| (0..count).map(|j| fit.covariance[(i, j)]).collect()).collect();
         found.covariance = joint_errors.map_or_else(of_fit, |one| one.covariance.clone());
+        let profiles = solved.profiles.iter().flat_map(|profiles| profiles.joints.clone());
+        found.profiles = (count..).zip(profiles).collect();
+        let deviations: Vec<f64> = found.profiles.iter().map(|(_, one)| one.standard_deviation).collect();
+        append_independent(&mut found.covariance, &deviations);
         let unit = spec.length.symbol();
         found.reference = format!(
             "Identified from {} rows{} of {} by abbe {}: rms {} {unit} on these rows, {} {unit} \
@@ -153,6 +160,17 @@ impl FoundModel {
             digits(left[1], 4),
         );
         found
+    }
+}
+
+/// Appends independent values with these standard deviations to a covariance matrix.
+fn append_independent(covariance: &mut Vec<Vec<f64>>, deviations: &[f64]) {
+    let size = covariance.len() + deviations.len();
+    covariance.iter_mut().for_each(|row| row.resize(size, 0.0));
+    for deviation in deviations {
+        let mut row = vec![0.0; size];
+        row[covariance.len()] = deviation * deviation;
+        covariance.push(row);
     }
 }
 

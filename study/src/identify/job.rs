@@ -31,6 +31,7 @@ use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, check_plausibility, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::priors::Prior;
+use super::profiles::find_profiles;
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
@@ -143,7 +144,18 @@ impl Identify {
                 .map_err(|failure| mistake::whole(&data.file, &failure))?;
         }
         estimate(&mut setup, map, &data, settings)?;
-        let mut solved = solve(&setup, &data, &own, &terms, settings, notes)?;
+        let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
+        let profiles = find_profiles(&self.terms, &spec, (&setup, &solved), &data, settings, notes)?;
+        let profiled = profiles.found.as_ref().map(|found| {
+            Interpreter::new(extended(&found.added_to(&spec), &[&terms[..], &numbers].concat()))
+        });
+        let (setup, mut solved) = match (profiles.found, &profiled) {
+            (Some(found), Some(profiled)) => {
+                found.refit(profiled, (setup, solved), (&spec, map, &data), settings, notes)?
+            }
+            _ => (setup, solved),
+        };
+        solved.notes.extend(profiles.note);
         check_lengths(&setup, &solved.model, &solved.fit, settings.prior, &data, notes)?;
         include_between_stations(&mut solved, &setup, &data)?;
         solved.notes.extend(data.note_on_time().map(|note| format!("note: {note}")));
@@ -345,6 +357,7 @@ fn report(
             .map(|(terms, selection)| gain(spec, &found, terms, selection, length))
             .collect(),
         tried: chosen.tried,
+        profiles: solved.profiles.clone(),
         drift: drift_test.map(|drift| ResidualDrift::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,

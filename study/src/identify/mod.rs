@@ -9,7 +9,9 @@
 //! `solve` fits and cross-validates with `priors`, `outliers` warns of gross errors, and
 //! `magnitude` are sources of the spec fitted with the constants. `terms` are errors of richer
 //! models, `families` and `candidates` those that are tried, and `derived` the inputs computed from
-//! the row order. `choose` selects the terms that help, `extended` adds them to the spec.
+//! the row order. `choose` selects the terms that help, `extended` adds them to the spec. `profiles`
+//! adds errors of joints by many cycles per turn, each as a `profile_table`; `joint_profiles` are
+//! their results.
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
@@ -17,8 +19,8 @@
 //! `undetermined`, `unexplained` the errors that the model does not have, and `map_writer` the map.
 //! The `report` contains `counts`, `as_joint_errors` (errors as `chain_numbers`: zeros and lengths)
 //! and their `alternatives`, what is `indistinguishable` or `weakly_determined`, `parameters`,
-//! `drift`, `extrapolation`, the `scale`, and `point_residuals` for plots. `unread` are instruments
-//! without a reading. `job` runs all of it.
+//! `drift`, `extrapolation`, the `scale`, the `gain` over other models, and `point_residuals` for
+//! plots. `unread` are instruments without a reading. `job` runs all of it.
 
 mod alternatives;
 mod as_joint_errors;
@@ -36,10 +38,12 @@ mod extrapolation;
 mod families;
 mod found_model;
 mod found_placement;
+mod gain;
 mod indistinguishable;
 mod instruments;
 mod interpretation_check;
 mod job;
+mod joint_profiles;
 mod line_of_sight;
 mod magnitude;
 mod map_interpretation;
@@ -50,6 +54,8 @@ mod parameters;
 mod plausibility;
 mod point_residuals;
 mod priors;
+mod profile_table;
+mod profiles;
 mod reading_units;
 mod report;
 mod scale;
@@ -75,16 +81,18 @@ pub use extrapolation::TestExtrapolation;
 pub use families::{Family, Harmonics};
 pub use found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use found_placement::{FoundInstrument, FoundPlacement, FoundStation};
+pub use gain::Gain;
 pub use indistinguishable::Indistinguishable;
 pub use instruments::InstrumentFit;
 pub use job::Identify;
+pub use joint_profiles::{JointProfile, JointProfiles};
 pub use options::Settings;
 pub use outliers::shown_lines;
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter,
-    Report, TermGain,
+    Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
+    TermGain,
 };
 pub use spec_writer::IdentifiedSpec;
 pub use terms::{Angle, Basis, ErrorSite, Term, Wave};

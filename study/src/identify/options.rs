@@ -44,6 +44,13 @@ pub const TERMS: Choices<&[Family]> = Choices(&[
         "drift",
         "Errors that vary with time along the file; they are not written to the spec",
     ),
+    (
+        &[Family::Profile],
+        "profile",
+        "Joint errors as functions of the joint, such as transmission errors of gears: up to 64 \
+         cycles per turn, as tables; they need 128 points for each joint, at least 512, over whole \
+         turns",
+    ),
 ]);
 
 /// Settings of an identification.

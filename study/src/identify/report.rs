@@ -1,6 +1,6 @@
 //! Report of an identification.
 
-use abbe::identify::{Comparison, student_factor};
+use abbe::identify::student_factor;
 use serde::Serialize;
 
 use super::as_joint_errors::JointError;
@@ -9,8 +9,10 @@ use super::drift::ResidualDrift;
 use super::extrapolation::TestExtrapolation;
 use super::found_model::FoundModel;
 use super::found_placement::FoundPlacement;
+use super::gain::Gain;
 use super::indistinguishable::Indistinguishable;
 use super::instruments::InstrumentFit;
+use super::joint_profiles::JointProfiles;
 use super::point_residuals::PointResidual;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Summary, Unusable};
@@ -87,6 +89,9 @@ pub struct Report {
     pub terms: Vec<TermGain>,
     /// Number of groups of terms that were tried.
     pub tried: usize,
+    /// Profiles of joints; none if they were not tried, or do not reduce the cross-validation error
+    /// significantly.
+    pub profiles: Option<JointProfiles>,
     /// Drift of the residuals with the row order; none if there are too few rows for the test.
     pub drift: Option<ResidualDrift>,
     /// Rows that cannot be used.
@@ -239,19 +244,6 @@ pub struct Compared {
     pub gain: Gain,
 }
 
-/// Difference between the position errors of two models at the same points.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Gain {
-    /// Mean reduction of the error, in the length unit; negative if the second model is worse.
-    pub mean: f64,
-    /// Standard error of the mean, in the length unit, with configurations as independent samples;
-    /// none for a single configuration.
-    pub standard_error: Option<f64>,
-    /// Probability of a mean at least as far from 0 by chance if both models are equally good:
-    /// paired t-test.
-    pub p: f64,
-}
-
 /// Position errors of k-fold cross-validation.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct CrossValidation {
@@ -298,12 +290,6 @@ pub struct LeftOut {
     pub line: u64,
     /// Reason, in words.
     pub reason: String,
-}
-
-impl From<Comparison> for Gain {
-    fn from(Comparison { gain, standard_error, p, .. }: Comparison) -> Self {
-        Self { mean: gain + 0.0, standard_error: Some(standard_error).filter(|error| error.is_finite()), p }
-    }
 }
 
 impl LeftOut {

@@ -6,6 +6,7 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
 
+use super::joint_profiles::JointProfiles;
 use super::magnitude::OwnMagnitude;
 use super::options::Settings;
 use super::outliers;
@@ -30,6 +31,8 @@ pub(super) struct Solved<'a> {
     pub(super) own: Vec<OwnMagnitude>,
     /// Terms whose magnitudes are the last unknowns of the model.
     pub(super) terms: Vec<Term>,
+    /// Profiles of joints, which the manipulator has as known sources.
+    pub(super) profiles: Option<JointProfiles>,
     /// Notes for the report.
     pub(super) notes: Vec<String>,
 }
@@ -93,6 +96,7 @@ pub(super) fn solve<'a>(
         fit,
         own: own.to_vec(),
         terms: terms.to_vec(),
+        profiles: None,
         notes: warning.into_iter().map(|warning| format!("note: {warning}")).collect(),
     };
     if let (Prior::Auto, Prior::Share(share)) = (settings.prior, prior) {

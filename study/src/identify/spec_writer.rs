@@ -12,6 +12,7 @@ use abbe_spec::{Fitted, Spec};
 
 use super::derived::{Derived, with_inputs};
 use super::found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
+use super::profile_table::table_name;
 use super::terms::{Basis, ErrorSite, Term};
 use crate::number::digits;
 
@@ -66,7 +67,25 @@ impl FoundModel {
         let terms = self.terms.iter().filter(|found| self.is_expressible(spec, found));
         let terms = terms.filter(|found| !self.is_in_full_compliance(found));
         let terms = numbers.chain(constants).chain(terms.map(|found| self.term_source(spec, found, base)));
-        terms.chain([self.full_compliances(spec, base)]).collect()
+        terms.chain([self.full_compliances(spec, base)]).chain(self.profile_sources(spec)).collect()
+    }
+
+    /// Returns the table and the source of each profile of a joint.
+    fn profile_sources(&self, spec: &Spec) -> impl Iterator<Item = String> {
+        self.profiles.iter().map(|(_, one)| {
+            let (table, joint) = (table_name(spec, &one.joint), &one.joint);
+            let name = source_name(spec, &one.source_name());
+            let description = quoted(&one.description());
+            let reference = quoted(&self.reference);
+            format!(
+                "{}\n[[source]]\nname = {}\ndescription = {description}\nclass = \"repeatable\"\njoint = {}\nerror \
+                 = {}\nreference = {reference}\n",
+                one.table.text(&table, &description, &reference),
+                quoted(&name),
+                quoted(joint),
+                quoted(&format!("{table}({joint})")),
+            )
+        })
     }
 
     /// Returns the derived input of a term, if it has one.

@@ -12,6 +12,7 @@ mod measurements;
 mod monitor;
 mod parts;
 mod plausibility;
+mod profiles;
 mod round_trips;
 mod selection;
 mod unknown_uncertainty;

@@ -94,25 +94,43 @@ const NUMBERS: usize = 3;
 /// Configurations per function of one profile, below which no profile is tried.
 const CONFIGURATIONS: usize = 4;
 
-/// Returns whether there are enough data for profiles of these joints: three independent numbers
-/// for each function, and four configurations for each function of one joint.
-///
-/// False for readings that refer to the row before, such as displacements: profiles of them are not
-/// supported.
-pub fn profiles_can_be_known(data: &[Observation], joints: &[ProfileJoint]) -> bool {
-    if data.iter().any(|row| row.from().is_some()) {
-        return false;
+/// Size of a set of measurements: that of some rows, or the least for profiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ProfileData {
+    /// Number of independent numbers.
+    pub numbers: usize,
+    /// Number of configurations.
+    pub configurations: usize,
+}
+
+impl ProfileData {
+    /// Returns the size of some rows.
+    pub fn of_rows(data: &[Observation]) -> Self {
+        let (numbers, configurations) = Configurations::independent(data);
+        Self { numbers, configurations }
     }
-    let (numbers, configurations) = Configurations::independent(data);
-    let each = || joints.iter().map(|joint| joint.basis.count());
-    numbers >= NUMBERS * each().sum::<usize>()
-        && configurations >= CONFIGURATIONS * each().max().unwrap_or_default()
+
+    /// Returns the least size for profiles of these joints: three independent numbers for each
+    /// function, and four configurations for each function of one joint.
+    pub fn needed(joints: &[ProfileJoint]) -> Self {
+        let each = || joints.iter().map(|joint| joint.basis.count());
+        Self {
+            numbers: NUMBERS * each().sum::<usize>(),
+            configurations: CONFIGURATIONS * each().max().unwrap_or_default(),
+        }
+    }
+
+    /// Returns whether this size is at least another one.
+    pub fn suffices(self, needed: Self) -> bool {
+        self.numbers >= needed.numbers && self.configurations >= needed.configurations
+    }
 }
 
 /// Fits profiles of joints beside the unknowns of a fit, whose priors they share.
 ///
 /// Keeps those that reduce the squared cross-validation error by half a percent each; none if there
-/// are none. `model` and `data` are those of the fit. Each trial calls `proceed`, which returns
+/// are none, if the data are not [enough](ProfileData), or if a row refers to the one before it,
+/// such as a displacement. `model` and `data` are those of the fit. Each trial calls `proceed`, which returns
 /// false to stop.
 pub fn fit_profiles(
     model: &Model,
@@ -122,7 +140,8 @@ pub fn fit_profiles(
     folds: &Folds,
     proceed: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Profiles>, Failure> {
-    if joints.is_empty() || !profiles_can_be_known(data, joints) {
+    let is_enough = ProfileData::of_rows(data).suffices(ProfileData::needed(joints));
+    if joints.is_empty() || !is_enough || data.iter().any(|row| row.from().is_some()) {
         return Ok(None);
     }
     let normal = Normal::new(model, data, fit, joints, folds)?;

@@ -114,6 +114,18 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
             format!("{} of {} groups of terms accepted: {}", names.len(), report.tried, first(&names, 3)),
         ));
     }
+    if let Some(profiles) = &report.profiles {
+        let joints: Vec<&str> = profiles.joints.iter().map(|one| one.joint.as_str()).collect();
+        let [before, after] = [&profiles.before, &profiles.after].map(|sizes| fixed(factor * sizes.mean, 4));
+        facts.push((
+            "Profiles",
+            format!(
+                "{}: cross-validation {before} → {after} {unit}, σ of the tool point + {} {unit}",
+                first(&joints, 7),
+                digits(factor * profiles.standard_deviation, 2)
+            ),
+        ));
+    }
     let mut known = format!("{} of {} unknowns identifiable", report.rank, report.unknowns);
     if !report.not_known.is_empty() {
         let names: Vec<&str> = report.not_known.iter().map(|one| one.name.as_str()).collect();

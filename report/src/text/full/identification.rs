@@ -2,7 +2,9 @@
 
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Fitted, Spec};
-use abbe_study::identify::{Gain, Kind, Parameter, Report, Sizes, WeaklyDetermined, shown_lines};
+use abbe_study::identify::{
+    Gain, JointProfiles, Kind, Parameter, Report, Sizes, WeaklyDetermined, shown_lines,
+};
 use abbe_study::number::{self, counted, digits, fixed, percent};
 
 use super::{Table, indistinguishable, wrapped};
@@ -19,6 +21,9 @@ pub(in crate::text) fn identification(spec: &Spec, report: &Report) -> String {
     parts.push(errors(spec, report));
     if !report.terms.is_empty() || report.cross_validation.constant.is_some() {
         parts.push(terms(spec, report));
+    }
+    if let Some(profiles) = &report.profiles {
+        parts.push(joint_profiles(spec, profiles));
     }
     let notes = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect::<String>();
     if !notes.is_empty() {
@@ -366,6 +371,32 @@ fn instruments(report: &Report) -> String {
         ]);
     }
     format!("\n{}", table.right(&[1, 2, 4]))
+}
+
+/// Tabulates the profiles of joints.
+fn joint_profiles(spec: &Spec, profiles: &JointProfiles) -> String {
+    let mut table =
+        Table::new(&["joint profile", "range covered", "rms", "standard deviation", "", "error without it"]);
+    for one in &profiles.joints {
+        let [from, to] = one.range.map(|end| number::of_symbol(end, Symbol::Variable(one.variable), spec));
+        let (factor, unit) = if one.unit == "rad" { (1e3, "mrad") } else { (1.0, one.unit) };
+        let [rms, deviation] = [one.rms, one.standard_deviation].map(|value| digits(factor * value, 2));
+        table.row(vec![
+            one.joint.clone(),
+            format!("{from} … {to}"),
+            rms,
+            deviation,
+            unit.to_owned(),
+            format!("× {}", fixed(one.without, 2)),
+        ]);
+    }
+    let line = format!(
+        "{} The last column is the factor of the cross-validation error (root mean square) without \
+         this profile. The rows determine {} coefficients of the profiles.",
+        profiles.sentence,
+        fixed(profiles.effective, 0)
+    );
+    format!("{}{}\n", table.right(&[2, 3, 5]), wrapped(&line, 0))
 }
 
 fn terms(spec: &Spec, report: &Report) -> String {

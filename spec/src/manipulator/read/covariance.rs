@@ -5,8 +5,8 @@ use abbe_core::Component;
 use super::keys::{COVARIANCE, COVARIANCE_OF};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Scope};
-use crate::manipulator::{Cause, Covariance, Identified, Source};
+use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
+use crate::manipulator::{Cause, ChainNumber, Covariance, Identified, Source};
 use crate::value::find_name;
 
 /// Reads the table; the covariance is empty without one.
@@ -24,7 +24,7 @@ pub(super) fn read_covariance(
     let (of, rows_item) = (of?, rows?);
     let mut all = Vec::new();
     for item in document.array(&of, "an array of tables `{ source = \"…\" }`")? {
-        all.push(identified(&item, sources, document)?);
+        all.push(identified(&item, sources, scope, document)?);
     }
     let mut rows = Vec::new();
     for row in document.array(&rows_item, "rows of numbers")? {
@@ -52,7 +52,12 @@ pub(super) fn read_covariance(
     None
 }
 
-fn identified(item: &Item<'_>, sources: &[Source], document: &mut Document) -> Option<Identified> {
+fn identified(
+    item: &Item<'_>,
+    sources: &[Source],
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Identified> {
     let mut section = document.section(item)?;
     section.name = "this entry of [covariance]".to_owned();
     section.span = item.span();
@@ -61,6 +66,9 @@ fn identified(item: &Item<'_>, sources: &[Source], document: &mut Document) -> O
     let name = section.required("source", document)?;
     let text = document.string(&name)?;
     let source = find_name(document, name.span(), &text, &names, "source")?;
+    if let Some(joint) = section.get("joint") {
+        return of_joint(&section, &joint, &sources[source], scope, document);
+    }
     let Some(error) = section.get("error") else { return Some(Identified::Magnitude(source)) };
     let component =
         document.choice(&error, &Component::ALL.map(|component| (component.name(), component)))?;
@@ -75,4 +83,34 @@ fn identified(item: &Item<'_>, sources: &[Source], document: &mut Document) -> O
         document.mistake(Diagnostic::new(error.span(), message).help(help));
     }
     effect.map(|effect| Identified::Error(effect.frame, component))
+}
+
+/// Reads `joint`: the source has an error of this joint.
+fn of_joint(
+    section: &Section<'_>,
+    item: &Item<'_>,
+    source: &Source,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Identified> {
+    if let Some(error) = section.get("error") {
+        let mistake = Diagnostic::new(error.key_span.clone(), "`error` and `joint` cannot be combined");
+        document.mistake(mistake.help("`error` names an error of a frame; remove one of them"));
+        return None;
+    }
+    let name = document.string(item)?;
+    let joint = source.deviations.iter().find_map(|deviation| match deviation.number {
+        ChainNumber::Joint(joint) => {
+            let is_named =
+                scope.names.get(&name).is_some_and(|known| known.symbol == Symbol::Variable(joint));
+            is_named.then_some(joint)
+        }
+        _ => None,
+    });
+    if joint.is_none() {
+        let message = format!("`{}` has no error of a joint `{name}`", source.name);
+        let help = "name the joint of the source, or omit `joint` to refer to the magnitude of the source";
+        document.mistake(Diagnostic::new(item.span(), message).help(help));
+    }
+    joint.map(Identified::Joint)
 }

@@ -204,6 +204,7 @@ crate::tables! {
     COVARIANCE_OF: ["[covariance.of]"], [
         "source": Text("name of a source"), "-", "required", "Source; without `error`, the factor of the whole source, nominally 1";
         "error": Choice(|| Component::ALL.map(Component::name).to_vec()), "-", "all of the source", "Error of a frame that the source has";
+        "joint": Text("name of a joint variable"), "-", "none", "Joint of which the source has an error; its covariance is that of an addend of this error";
     ]
     UNDETERMINED: ["[undetermined]"], [
         "points": List("rows of three numbers", None, &List("three numbers", Some(3), &NUMBER)), "length unit", "required",
