@@ -28,17 +28,12 @@ pub(super) struct ProfileTable {
 }
 
 impl ProfileTable {
-    /// Tabulates a profile between two joint values; none if fewer than two steps fit in.
+    /// Tabulates a profile over its range; none if fewer than two steps fit in.
     ///
     /// The step is the largest whose interpolation error at `values` is at most a tenth of
     /// `deviation`, root mean square of both.
-    pub(super) fn new(
-        profile: &Profile,
-        [from, to]: [f64; 2],
-        values: &[f64],
-        deviation: f64,
-        length: LengthUnit,
-    ) -> Option<Self> {
+    pub(super) fn new(profile: &Profile, values: &[f64], deviation: f64, length: LengthUnit) -> Option<Self> {
+        let [from, to] = profile.joint.range;
         let units = match profile.joint.basis {
             ProfileBasis::Turn => ["deg", "urad"],
             ProfileBasis::Travel(_) => ["mm", "um"],

@@ -97,12 +97,8 @@ fn find(
     notes: &mut dyn Notes,
 ) -> Result<Result<FoundProfiles, String>, Diagnostics> {
     let rows = &data.observations;
-    let moving = moving(spec, setup, rows);
-    let joints: Vec<(ProfileJoint, [f64; 2])> =
-        moving.iter().filter_map(|(joint, range)| Some((*joint, (*range)?))).collect();
-    let offered: Vec<ProfileJoint> = joints.iter().map(|(joint, _)| *joint).collect();
-    let all: Vec<ProfileJoint> = moving.iter().map(|(joint, _)| *joint).collect();
-    if let Some(missing) = missing(rows, if offered.is_empty() { &all } else { &offered }) {
+    let (moving, offered) = joints(spec, setup, rows);
+    if let Some(missing) = missing(rows, if offered.is_empty() { &moving } else { &offered }) {
         return Ok(Err(missing));
     }
     if offered.is_empty() {
@@ -131,9 +127,8 @@ fn find(
         return Ok(Err(reason));
     }
     let joints = fitted.profiles.iter().filter_map(|profile| {
-        let (_, range) = joints.iter().find(|(joint, _)| *joint == profile.joint)?;
-        let variable = profile.joint.variable;
-        let values: Vec<f64> = rows.iter().map(|row| row.q[variable]).filter(|q| is_in(*q, *range)).collect();
+        let (variable, range) = (profile.joint.variable, profile.joint.range);
+        let values: Vec<f64> = rows.iter().map(|row| row.q[variable]).collect();
         let rms = |value: &dyn Fn(f64) -> f64| {
             let squares: f64 = values.iter().map(|q| value(*q).powi(2)).sum();
             (squares / values.len().max(1) as f64).sqrt()
@@ -145,35 +140,35 @@ fn find(
                 ProfileBasis::Turn => "rad",
                 ProfileBasis::Travel(_) => spec.length.symbol(),
             },
-            range: *range,
+            range,
             rms: rms(&|q| profile.value(q)),
             standard_deviation: deviation,
             without: profile.without / fitted.after,
             variable,
-            table: ProfileTable::new(profile, *range, &values, deviation, spec.length)?,
+            table: ProfileTable::new(profile, &values, deviation, spec.length)?,
         })
     });
     let joints: Vec<JointProfile> = joints.collect();
     Ok(Ok(FoundProfiles { joints, comparison, fitted }))
 }
 
-/// Returns the joints that move, with the range that a profile would cover; none where the rows
-/// leave gaps.
-fn moving(spec: &Spec, setup: &Setup, rows: &[Observation]) -> Vec<(ProfileJoint, Option<[f64; 2]>)> {
-    let joint = |variable: usize| {
+/// Returns the joints that move, and those of them whose rows leave no gaps in a range.
+fn joints(spec: &Spec, setup: &Setup, rows: &[Observation]) -> (Vec<ProfileJoint>, Vec<ProfileJoint>) {
+    let (mut moving, mut offered) = (Vec::new(), Vec::new());
+    for variable in setup.moved(rows) {
         let mut values: Vec<f64> = rows.iter().map(|row| row.q[variable]).collect();
         values.sort_unstable_by(f64::total_cmp);
-        let travel = [values[0], values[values.len() - 1]];
+        let range = [values[0], values[values.len() - 1]];
         let (basis, gap) = match spec.variables[variable].kind {
             VariableKind::Revolute => (ProfileBasis::Turn, core::f64::consts::TAU / HIGHEST),
-            VariableKind::Prismatic => {
-                (ProfileBasis::Travel(travel), 2.0 * (travel[1] - travel[0]) / HIGHEST)
-            }
+            VariableKind::Prismatic => (ProfileBasis::Travel(range), 2.0 * (range[1] - range[0]) / HIGHEST),
         };
-        let range = covered(&values, gap);
-        Some((ProfileJoint { variable, error: joint_error(spec, setup, variable)?, basis }, range))
-    };
-    setup.moved(rows).into_iter().filter_map(joint).collect()
+        let Some(error) = joint_error(spec, setup, variable) else { continue };
+        let joint = ProfileJoint { variable, error, basis, range };
+        moving.push(joint);
+        offered.extend(covered(&values, gap).map(|range| ProfileJoint { range, ..joint }));
+    }
+    (moving, offered)
 }
 
 /// Returns the constant error of a joint as an unknown: one of the [`number_terms`], the last
@@ -193,10 +188,6 @@ fn covered(values: &[f64], gap: f64) -> Option<[f64; 2]> {
     let range = [stretch[0], stretch[stretch.len() - 1]];
     let is_enough = stretch.len() as f64 >= COVERED * values.len() as f64;
     (is_enough && range[1] - range[0] > gap).then_some(range)
-}
-
-fn is_in(value: f64, [from, to]: [f64; 2]) -> bool {
-    (from..=to).contains(&value)
 }
 
 /// States what is missing for profiles of these joints, if anything.

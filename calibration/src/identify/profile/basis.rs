@@ -16,6 +16,23 @@ pub struct ProfileJoint {
     pub error: Unknown,
     /// Functions of the profile.
     pub basis: ProfileBasis,
+    /// Range of the joint; beyond it the value at the end holds.
+    pub range: [f64; 2],
+}
+
+impl ProfileJoint {
+    /// Evaluates the functions at a joint value, or at the end of the range beyond it.
+    pub(super) fn fill(&self, q: f64, values: &mut [f64]) {
+        let [from, to] = self.range;
+        self.basis.fill(q.max(from).min(to), values);
+    }
+
+    /// Returns the functions at a joint value, or at the end of the range beyond it.
+    pub(super) fn values(&self, q: f64) -> Vec<f64> {
+        let mut values = vec![0.0; self.basis.count()];
+        self.fill(q, &mut values);
+        values
+    }
 }
 
 /// Functions of a joint.
@@ -56,24 +73,22 @@ impl ProfileBasis {
             }
         }
     }
-
-    /// Returns the functions at a joint value.
-    pub(super) fn values(self, q: f64) -> Vec<f64> {
-        let mut values = vec![0.0; self.count()];
-        self.fill(q, &mut values);
-        values
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::ProfileBasis;
+    use super::{ProfileBasis, ProfileJoint};
+    use crate::identify::Unknown;
+
+    fn joint(basis: ProfileBasis) -> ProfileJoint {
+        ProfileJoint { variable: 0, error: Unknown::Zero(0), basis, range: [-3.0, 3.0] }
+    }
 
     #[test]
     fn functions_are_harmonics() {
         for q in [-3.0, 0.2, 2.5] {
-            let values = ProfileBasis::Turn.values(q);
-            let travel = ProfileBasis::Travel([-3.0, 3.0]).values(q);
+            let values = joint(ProfileBasis::Turn).values(q);
+            let travel = joint(ProfileBasis::Travel([-3.0, 3.0])).values(q);
             for k in 1..=64 {
                 let angle = k as f64 * q;
                 assert!((values[2 * k - 2] - angle.cos()).abs() < 1e-12);
@@ -82,5 +97,13 @@ mod tests {
                 assert!((travel[k - 1] - half_periods.cos()).abs() < 1e-12);
             }
         }
+    }
+
+    #[test]
+    fn beyond_the_range_the_end_holds() {
+        let turn = joint(ProfileBasis::Turn);
+        assert_eq!(turn.values(3.1), turn.values(3.0));
+        assert_eq!(turn.values(-9.0), turn.values(-3.0));
+        assert_ne!(turn.values(2.9), turn.values(3.0));
     }
 }

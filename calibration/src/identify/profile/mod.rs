@@ -56,13 +56,13 @@ pub struct Profile {
 impl Profile {
     /// Returns the error of the joint at a value of it, in rad or the length unit.
     pub fn value(&self, q: f64) -> f64 {
-        self.joint.basis.values(q).iter().zip(&self.coefficients).map(|(f, w)| f * w).sum()
+        self.joint.values(q).iter().zip(&self.coefficients).map(|(f, w)| f * w).sum()
     }
 
     /// Returns the standard deviation of [`value`](Self::value), if that of a residual is its
     /// stated uncertainty.
     pub fn deviation(&self, q: f64) -> f64 {
-        let values = nalgebra::DVector::from_vec(self.joint.basis.values(q));
+        let values = nalgebra::DVector::from_vec(self.joint.values(q));
         values.dot(&(&self.covariance * &values)).max(0.0).sqrt()
     }
 }
@@ -196,7 +196,7 @@ fn cross_validated(
         let solution = &solutions[folds.fold[i] as usize];
         let kept = normal.kept.iter().zip(solution).map(|(k, step)| fit.x[*k] + step);
         let errors = joints.iter().enumerate().map(|(j, joint)| {
-            let values = joint.basis.values(row.q[joint.variable]);
+            let values = joint.values(row.q[joint.variable]);
             values.iter().zip(&solution[normal.columns(j)]).map(|(f, w)| f * w).sum()
         });
         kept.chain(errors).collect::<Vec<f64>>()

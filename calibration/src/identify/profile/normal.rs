@@ -94,7 +94,7 @@ impl Normal {
                 }
                 let weight = fit.weights[i].sqrt();
                 for (joint, start) in joints.iter().zip(&starts) {
-                    joint.basis.fill(row.q[joint.variable], &mut functions[*start..]);
+                    joint.fill(row.q[joint.variable], &mut functions[*start..]);
                 }
                 extended.linear(&mut scratch, row, &x, |residual, derivatives| {
                     for (column, derivative) in columns.iter_mut().zip(&derivatives[..kept.len()]) {

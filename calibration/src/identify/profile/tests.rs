@@ -25,7 +25,12 @@ fn joints() -> Vec<ProfileJoint> {
         _ => Unknown::Error(joint - 1, Component::Roll),
     };
     (0..6)
-        .map(|variable| ProfileJoint { variable, error: error(variable), basis: ProfileBasis::Turn })
+        .map(|variable| ProfileJoint {
+            variable,
+            error: error(variable),
+            basis: ProfileBasis::Turn,
+            range: [-PI, PI],
+        })
         .collect()
 }
 
