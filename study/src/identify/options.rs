@@ -47,9 +47,8 @@ pub const TERMS: Choices<&[Family]> = Choices(&[
     (
         &[Family::Profile],
         "profile",
-        "Joint errors as functions of the joint, such as transmission errors of gears: up to 64 \
-         cycles per turn, as tables; they need 128 points for each joint, at least 512, over whole \
-         turns",
+        "Joint errors as functions of the joint, by up to 64 cycles per turn, as tables; they need \
+         128 points for each joint, at least 512, over whole turns",
     ),
 ]);
 

@@ -226,7 +226,11 @@ impl FoundProfiles {
                 magnitude: None,
                 tuned_by: None,
                 effects: Vec::new(),
-                deviations: vec![Deviation { number: ChainNumber::Joint(one.variable), cause: DeviationCause::Error(error), span: 0..0 }],
+                deviations: vec![Deviation {
+                    number: ChainNumber::Joint(one.variable),
+                    cause: DeviationCause::Error(error),
+                    span: 0..0,
+                }],
                 propagated: Vec::new(),
             });
         }
