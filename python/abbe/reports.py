@@ -1496,7 +1496,7 @@ class JointProfiles(Fields):
     """Improvement by the profiles at the same held-out rows."""
 
     effective: float
-    """Number of coefficients that the data determine, of all profiles together."""
+    """Number of coefficients that the data determine, of all profiles together, without a unit."""
 
     standard_deviation: float
     """Standard deviation of the tool point by the profiles alone, root mean square over the fitted rows, in the
