@@ -103,7 +103,8 @@ impl Machine {
         let spec = &self.spec;
         let own = spec.sources.iter().enumerate().filter(|(i, _)| !has_magnitude(spec, *i));
         let magnitudes = own.filter_map(|(_, source)| magnitude_error(source));
-        let added: Vec<Source> = magnitudes.chain(calibration_errors(spec, self.tool_point_is_measured())).collect();
+        let added: Vec<Source> =
+            magnitudes.chain(calibration_errors(spec, self.tool_point_is_measured())).collect();
         let is_added = |source: &Source| is_magnitude_error(source) || is_calibration_error(source);
         if spec.sources.iter().any(is_added) || !added.is_empty() {
             let sources = &mut Arc::make_mut(&mut self.spec).sources;

@@ -119,8 +119,8 @@ mod coverage;
 #[cfg(test)]
 mod tests;
 
-pub use board_pose::BoardView;
 pub use between_stations::{BetweenStations, between_stations};
+pub use board_pose::BoardView;
 pub use clustered::Independent;
 pub use configurations::Configurations;
 pub use design::{Design, Objective, optimal, whole};

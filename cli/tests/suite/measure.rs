@@ -111,7 +111,22 @@ fn accuracy_and_repeatability_are_those_put_in() {
     narrow(&text);
     assert!(text.contains("ISO 9283"));
     assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains("as expected"), "{text}");
-    assert_eq!(fs::read_to_string(out.join("errors.csv")).unwrap().lines().count(), 301);
+    // Its residuals are those of the report, and its predictions differ from the measured points by them.
+    let errors = fs::read_to_string(out.join("errors.csv")).unwrap();
+    assert!(errors.lines().next().unwrap().contains("predicted_z (mm),residual_x (mm)"), "{errors}");
+    let heading: Vec<&str> = errors.lines().next().unwrap().split(',').collect();
+    let place = |name: &str| heading.iter().position(|column| column.starts_with(name)).unwrap();
+    let rows: Vec<Vec<f64>> = errors
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|value| value.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 300);
+    let [first, predicted] = ["residual_x", "predicted_x"].map(place);
+    let norm = |row: &Vec<f64>| row[first..first + 3].iter().map(|v| v * v).sum::<f64>().sqrt();
+    let mean = rows.iter().map(norm).sum::<f64>() / 300.0;
+    assert!((mean - number(&explained["left_mean"])).abs() < 0.02 * mean, "{mean}, {explained}");
+    assert!(rows.iter().all(|row| row[predicted..predicted + 3].iter().any(|v| v.abs() > 100.0)));
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     for expected in ["cf. Figure 13", "cf. Figure 14", "Repeatability: distribution of errors"] {
         assert!(page.contains(expected), "{expected}");
@@ -207,7 +222,19 @@ fn instruments_are_measured_each_in_its_unit() {
     }
     narrow(&text);
     let csv = fs::read_to_string(out.join("errors.csv")).unwrap();
-    assert!(csv.starts_with("line,wire (um),tracker_x (mm),tracker_y (mm),tracker_z (mm)\n"), "{csv}");
+    let residuals = "line,wire (um),tracker_x (mm),tracker_y (mm),tracker_z (mm),";
+    let predictions =
+        "predicted_wire (um),predicted_tracker_x (mm),predicted_tracker_y (mm),predicted_tracker_z (mm)\n";
+    assert!(csv.starts_with(&format!("{residuals}{predictions}")), "{csv}");
+    // Reading = residual + prediction, in micrometres.
+    let first = |file: &str, column: &str| -> f64 {
+        let mut lines = file.lines();
+        let place = lines.next().unwrap().split(',').position(|name| name == column).unwrap();
+        lines.next().unwrap().split(',').nth(place).unwrap().parse().unwrap()
+    };
+    let read = first(&fs::read_to_string(&data).unwrap(), "length");
+    let sum = first(&csv, "wire (um)") + first(&csv, "predicted_wire (um)");
+    assert!((sum - read).abs() < 1e-3, "{sum}, not {read}");
     assert_eq!(csv.lines().count(), 41);
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains("tracker_z (mm)"));
 }

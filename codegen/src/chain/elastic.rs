@@ -156,10 +156,11 @@ impl<'a> Loads<'a> {
     }
 
     /// Returns the moment of the loads about a joint, or the force along it: their power per unit of
-    /// the joint's speed, with the twists `(v, ω)` of the frames whose transform has the joint,
+    /// the joint's speed, with the twists `(v, ω)` of the frames whose transform has the joint, and
+    /// the wrenches `(f, m)` of all loads at and behind these, at the origins of the frames:
     ///
     /// ```text
-    /// Σ_i  v_i · f_i + ω_i · m_i        (f_i, m_i): wrench at the origin of frame i of all loads at and behind it
+    /// Σ_i  v_i · f_i + ω_i · m_i
     /// ```
     pub(super) fn on_joint(&self, graph: &mut Graph, twists: &[FrameTwist]) -> Node {
         let mut sum = graph.zero();

@@ -47,6 +47,8 @@ pub struct Instruments {
     pub found: Vec<usize>,
     /// The camera, if it is the instrument.
     pub camera: Option<Camera>,
+    /// Indices of the instruments whose position `at` is not stated.
+    pub unplaced: Vec<usize>,
     /// Column of the setup of a row.
     pub setup: Option<Column>,
 }
@@ -75,6 +77,11 @@ impl Instruments {
     /// Returns the index of the fixture of an instrument, if it has one.
     pub fn fixture_of(&self, instrument: usize) -> Option<usize> {
         self.observables[self.list[instrument].observables.start].fixture
+    }
+
+    /// Iterates over the instruments at unknown positions.
+    pub(crate) fn at_unknown_positions(&self) -> impl Iterator<Item = usize> {
+        self.unplaced.iter().copied().filter(|instrument| !self.found.contains(instrument))
     }
 
     /// Returns whether the readings of any instrument depend on the pose of `F_0`.

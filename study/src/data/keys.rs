@@ -1,6 +1,6 @@
 //! Keys of a map.
 
-use abbe::identify::INSTRUMENTS;
+use abbe::identify::{INSTRUMENTS, InstrumentKind};
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Table, Tables, Text};
 use abbe_spec::keys::{Rule, Then, When, words};
 
@@ -20,7 +20,7 @@ const MAYBE: Value = Either("number, or `\"unknown\"`", &[NUMBER, Choice(|| word
 const DEVIATION: Value = Either("number, positive, or `\"unknown\"`", &[NUMBER, Choice(|| words(&UNKNOWN))]);
 
 /// Keys of an instrument that can be left out.
-pub const OPTIONAL: [&str; 10] = [
+const OPTIONAL: [&str; 10] = [
     "target",
     "zero",
     "nominal_radius",
@@ -130,7 +130,7 @@ abbe_spec::tables! {
         "unit": Text("unit"), "-", "required where anything is read", "Unit of its readings";
         "target": Text("name of a target"), "-", "the first target; the tool point, if there is none", "Target that it observes";
         "targets": List("two names of targets", Some(2), &TEXT), "-", "required for `\"between\"`", "The two targets whose distance it measures";
-        "at": VECTOR, "length unit", "required where the table says so", "Approximate position of the instrument in `F_0`";
+        "at": VECTOR, "length unit", "required where the table says so; a `contact` without it is where the machine as specified has its target", "Approximate position of the instrument in `F_0`";
         "direction": VECTOR, "1", "required where the table says so",
             "Approximate direction in `F_0`: along an indicator, or normal to a plane";
         "mirror": VECTOR, "1", "required for `\"angle\"`", "Normal of the mirror in the frame of the tool";
@@ -232,6 +232,13 @@ abbe_spec::tables! {
     ]
 }
 
+/// Returns the keys that the table of an instrument of this kind must have, beside those that all
+/// have.
+pub fn required_keys(kind: &InstrumentKind) -> Vec<&'static str> {
+    let found = |key: &&str| kind.finds_position && *key == "at";
+    kind.keys.iter().copied().filter(|key| !OPTIONAL.contains(key) && !found(key)).collect()
+}
+
 /// Returns the relations between the keys of a map.
 pub fn rules() -> Vec<Rule> {
     let rule = |table, when, then| Rule { table, when, then };
@@ -269,9 +276,8 @@ pub fn rules() -> Vec<Rule> {
     }
     for kind in INSTRUMENTS {
         let of_kind = || When::Is("kind", kind.name);
-        let required = kind.keys.iter().copied().filter(|key| !OPTIONAL.contains(key)).collect();
         let others = INSTRUMENT.names().chain(BOARD.names()).filter(|key| !kind.has(key)).collect();
-        rules.push(rule("[[instrument]]", of_kind(), Then::Needs(required)));
+        rules.push(rule("[[instrument]]", of_kind(), Then::Needs(required_keys(kind))));
         rules.push(rule("[[instrument]]", of_kind(), Then::Refuses(others)));
     }
     rules

@@ -44,7 +44,7 @@ pub use dated::Dated;
 pub use from_rows::FromRows;
 pub(crate) use from_rows::{change_with_reference, in_order, set_input, with_references};
 pub use instrument::{Instrument, Instruments};
-pub use keys::{OPTIONAL, TABLES, rules};
+pub use keys::{TABLES, required_keys, rules};
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use raw_table::{RawTable, raw_table};
 pub use rows::{Data, Summary, Unusable};

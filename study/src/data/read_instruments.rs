@@ -120,7 +120,13 @@ fn instrument(
     };
     let (zero, zero_known) = zero(section, kind, document, spec)?;
     let targets = targets_of(section, kind, targets, document)?;
-    let at = own_vector(section, kind, "at", document, spec, Dimension::LENGTH)?;
+    if kind.finds_position && section.get("at").is_none() {
+        all.unplaced.push(all.list.len());
+    }
+    let at = match all.unplaced.contains(&all.list.len()) {
+        true => [0.0; 3],
+        false => own_vector(section, kind, "at", document, spec, Dimension::LENGTH)?,
+    };
     let direction = own_direction(section, kind, "direction", document, spec)?;
     let mirror = unit_vector(own_direction(section, kind, "mirror", document, spec)?);
     let observable = Observable {

@@ -63,6 +63,7 @@ impl<'a> Setup<'a> {
         });
         let stations = stations.collect::<Result<Vec<_>, Diagnostics>>()?;
         setup.set_stations(&stations);
+        setup.place_fixtures(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         if let Some(row) = data.observations.first() {
             let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));
             let length = length.map_err(|error| mistake::whole(&data.file, &error))?;
@@ -71,6 +72,33 @@ impl<'a> Setup<'a> {
             }
         }
         Ok(setup)
+    }
+
+    /// Places the contacts at unknown positions at the mean position of their target by the machine
+    /// as specified.
+    fn place_fixtures(&mut self, map: &Map, data: &Data) -> Result<(), Failure> {
+        let Some(all) = map.instruments() else { return Ok(()) };
+        for instrument in all.at_unknown_positions() {
+            let Some(fixture) = all.fixture_of(instrument) else { continue };
+            let own = all.list[instrument].observables.clone();
+            let (mut sum, mut count) = ([0.0; 3], 0.0);
+            let mut scratch = self.real.scratch();
+            for row in &data.observations {
+                let Measurement::Readings(readings) = &row.measured else { continue };
+                if readings[own.clone()].iter().all(Option::is_some) {
+                    // The fixture is at the origin so far.
+                    let position = self.real.values(&mut scratch, row, &[])?;
+                    sum.iter_mut().zip(&position[own.clone()]).for_each(|(sum, value)| *sum += value);
+                    count += 1.0;
+                }
+            }
+            if count > 0.0 {
+                for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
+                    model.fixtures[fixture].geometry = FixtureGeometry::Point(sum.map(|sum| sum / count));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Places the manipulator as the map states, or at `F_0` of the instrument.
@@ -98,6 +126,13 @@ impl<'a> Setup<'a> {
         map: &Map,
         names: Vec<String>,
     ) -> Result<Self, Diagnostics> {
+        if let Some(all) = map.instruments()
+            && let Some(instrument) = all.at_unknown_positions().next()
+        {
+            let message = format!("the position of the contact \"{}\" is unknown", all.list[instrument].name);
+            let help = "without measured rows it must be stated: add `at` to its table, in the axes of F_0";
+            return Err(mistake::with_help(map.path(), &message, help));
+        }
         let mut setup = Self::without_stations(manipulator, map, 0)?;
         if setup.ideal.camera.is_some() && !map.is_placed() {
             return Err(unplaced(map));

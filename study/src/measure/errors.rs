@@ -18,6 +18,8 @@ pub struct RowError {
     pub error: [f64; 6],
     /// Measured tool point.
     pub point: [f64; 3],
+    /// Measured minus predicted by the machine with its repeatable sources, in the order of `error`.
+    pub residual: [f64; 6],
 }
 
 /// A visit of a configuration.
@@ -34,13 +36,18 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    pub(super) fn new(&RowError { ref observation, error, point }: &RowError) -> Self {
+    pub(super) fn new(&RowError { ref observation, error, point, .. }: &RowError) -> Self {
         let (direction, time) = (observation.direction(), observation.time().unwrap_or_default());
         Self { configuration: observation.configuration, direction, time, error, point }
     }
 }
 
 impl RowError {
+    /// Returns the predicted tool point.
+    pub fn predicted(&self) -> [f64; 3] {
+        std::array::from_fn(|i| self.point[i] - self.residual[i])
+    }
+
     /// Returns the norm of the position error.
     pub fn distance(&self) -> f64 {
         norm([self.error[0], self.error[1], self.error[2]])
@@ -63,12 +70,15 @@ type Seen = ([f64; 6], [f64; 3]);
 pub(super) struct Errors<'a> {
     model: Model<'a>,
     scratch: Scratch,
+    /// The machine with its repeatable sources.
+    real: Model<'a>,
+    scratch_of_real: Scratch,
 }
 
 impl<'a> Errors<'a> {
     pub(super) fn new(setup: &Setup<'a>) -> Self {
-        let model = at_single_target(&setup.ideal);
-        Self { scratch: model.scratch(), model }
+        let [model, real] = [&setup.ideal, &setup.real].map(at_single_target);
+        Self { scratch: model.scratch(), model, scratch_of_real: real.scratch(), real }
     }
 
     /// Returns the error and the measured tool point of a row; none if fewer than three targets are
@@ -82,7 +92,10 @@ impl<'a> Errors<'a> {
     /// Returns the error of a row that shows the tool.
     pub(super) fn row_error(&mut self, row: &Observation) -> Result<RowError, Failure> {
         let (error, point) = self.at(row)?.unwrap_or_default();
-        Ok(RowError { observation: row.clone(), error, point })
+        let predicted = self.real.pose(&mut self.scratch_of_real, row, &[])?;
+        let measured = pose(&self.real.targets, &row.measured, &predicted).unwrap_or(predicted);
+        let residual = deviation(Orientation::RotationVector, &predicted, &measured);
+        Ok(RowError { observation: row.clone(), error, point, residual })
     }
 }
 

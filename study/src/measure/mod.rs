@@ -351,33 +351,46 @@ impl Evaluated {
 }
 
 impl Report {
-    /// Returns the table of ΔX, or of reading minus prediction, row by row.
+    /// Returns the table of the rows: ΔX, the tool point predicted by the machine with its
+    /// repeatable sources, and measured minus predicted; or readings minus prediction and
+    /// predictions.
     pub fn table(&self) -> Table {
         if !self.instruments.is_empty() {
             return self.readings_table();
         }
-        let names = ["line", "x", "y", "z", "about_x", "about_y", "about_z"];
-        // One more for the line, and none for the norm.
-        let names = &names[..self.errors.len()];
+        let names = ["x", "y", "z", "about_x", "about_y", "about_z"];
+        let units = [self.length, self.length, self.length, "rad", "rad", "rad"];
+        // One less without the norm.
+        let shown = self.errors.len() - 1;
+        let mut columns = vec![("line".to_owned(), "")];
+        for (prefix, shown) in [("", shown), ("predicted_", 3), ("residual_", shown)] {
+            let named = names.iter().zip(units).take(shown);
+            columns.extend(named.map(|(name, unit)| (format!("{prefix}{name}"), unit)));
+        }
         let rows = self.row_errors.iter().map(|row| {
-            let values = row.error[..names.len() - 1].iter().map(|value| Some(*value));
-            std::iter::once(Some(row.observation.line as f64)).chain(values).collect()
+            let mut values = vec![row.observation.line as f64];
+            values.extend(&row.error[..shown]);
+            values.extend(row.predicted());
+            values.extend(&row.residual[..shown]);
+            values.into_iter().map(Some).collect()
         });
-        let heading = names.iter().map(|name| (*name).to_owned()).collect();
-        let units = ["", self.length, self.length, self.length, "rad", "rad", "rad"];
-        let units = units.map(str::to_owned).to_vec();
+        let (heading, units) = columns.into_iter().map(|(name, unit)| (name, unit.to_owned())).unzip();
         Table { heading, units, rows: rows.collect(), ..Table::default() }
     }
 
     fn readings_table(&self) -> Table {
         let line = std::iter::once("line".to_owned());
-        let rows = self.row_readings.iter();
+        let predicted = self.numbers.iter().map(|name| format!("predicted_{name}"));
+        let rows = self.row_readings.iter().map(|row| {
+            let values = row.left.iter().chain(&row.predicted).copied();
+            std::iter::once(Some(row.line as f64)).chain(values).collect()
+        });
+        let units =
+            std::iter::once(String::new()).chain([&self.number_units; 2].into_iter().flatten().cloned());
         Table {
-            units: std::iter::once(String::new()).chain(self.number_units.iter().cloned()).collect(),
-            heading: line.chain(self.numbers.iter().cloned()).collect(),
-            rows: rows
-                .map(|row| std::iter::once(Some(row.line as f64)).chain(row.left.iter().copied()).collect())
-                .collect(),
+            units: units.collect(),
+            heading: line.chain(self.numbers.iter().cloned()).chain(predicted).collect(),
+            rows: rows.collect(),
             ..Table::default()
         }
     }

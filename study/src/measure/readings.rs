@@ -50,6 +50,8 @@ pub struct RowReadings {
     pub line: u64,
     /// Differences in the order of the instruments; none where there is no reading.
     pub left: Vec<Option<f64>>,
+    /// Predictions in the order of the instruments; none where there is no reading.
+    pub predicted: Vec<Option<f64>>,
 }
 
 /// Results for readings.
@@ -96,10 +98,20 @@ pub(super) fn readings(setup: &Setup, all: &Instruments, data: &Data) -> Result<
         rows: rows
             .iter()
             .zip(&left)
-            .map(|(row, left)| RowReadings { line: row.line, left: in_units(left) })
+            .map(|(row, left)| RowReadings {
+                line: row.line,
+                left: in_units(left),
+                predicted: in_units(&predicted(row, left)),
+            })
             .collect(),
         norms,
     })
+}
+
+/// Returns the predictions of a row from its readings minus prediction.
+fn predicted(row: &Observation, left: &[Option<f64>]) -> Vec<Option<f64>> {
+    let Measurement::Readings(readings) = &row.measured else { return Vec::new() };
+    readings.iter().zip(left).map(|(reading, left)| Some((*reading)? - (*left)?)).collect()
 }
 
 /// Returns reading minus model for each row.

@@ -192,6 +192,34 @@ fn every_kind_identifies_the_machine() {
     }
 }
 
+/// Sockets at unknown positions, `contact` without `at`, give the errors that sockets at stated
+/// positions give; a simulation needs the positions.
+#[test]
+fn contacts_need_no_position() {
+    let unplaced = ["uncertainty = \"0.01 mm\""; 4];
+    let unplaced = map(&in_setups("contact", &unplaced));
+    let placed = contacts();
+    let rows = simulated(&placed, 240, 3);
+    let [found, expected] = [&unplaced, &placed].map(|map| identified(map, rows.clone(), 0.002));
+    assert_eq!(found.rank, expected.rank);
+    for (found, expected) in found.parameters.iter().zip(&expected.parameters) {
+        let off = (found.value - expected.value) / expected.standard_deviation;
+        assert!(off.abs() < 0.01, "{}: {} and {}", found.name, found.value, expected.value);
+    }
+    let job = Simulate {
+        machine: real(),
+        map: unplaced,
+        at: Places::Samples(10),
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed: 1,
+    };
+    let mistake = job.run(&mut ()).err().unwrap().to_string();
+    assert!(mistake.contains("the position of the contact \"contact1\" is unknown"), "{mistake}");
+    assert!(mistake.contains("add `at`"), "{mistake}");
+}
+
 /// Six axes and a point at an unknown place on the tool have 4 · 6 + 3 = 27 identifiable
 /// combinations, of which 6 are the pose of the machine.
 #[test]

@@ -117,7 +117,8 @@ fn exact<'a>(manipulator: &'a Interpreter) -> Model<'a> {
 /// covariance that the written spec states.
 fn z(truth: &str, text: &str, rows: &Data) -> f64 {
     let real = Interpreter::new(machine(truth).spec);
-    let found = machine(text).with_calibration_errors().expect("it states a covariance");
+    let mut found = machine(text);
+    found.add_uncertainties();
     let found = Interpreter::new(found.spec);
     let (real, model) = (exact(&real), exact(&found));
     let description = found.description();
@@ -244,7 +245,9 @@ fn the_covariance_of_a_joint_is_that_of_its_error() {
     };
     let observations = job.run(&mut ()).unwrap().observations;
     let data = Data { file: "data.csv".to_owned(), observations, ..Data::default() };
-    let calibrated = Interpreter::new(arm.with_calibration_errors().unwrap().spec);
+    let mut calibrated = arm.clone();
+    calibrated.add_uncertainties();
+    let calibrated = Interpreter::new(calibrated.spec);
     for row in &data.observations {
         let mut values = vec![0.0; calibrated.description().effects.len()];
         calibrated.effects(&row.q, &[], &[], &mut values).unwrap();

@@ -61,7 +61,7 @@ joint = "q3"
 stiffness = "4e4 N*m"
 "#;
 
-/// The same joints as compliances: `at` leads back from the frame to the joint's axis.
+/// Compliances in place of the stiffnesses: `at` leads back from the frame to the axis of the joint.
 const COMPLIANT: &str = r#"
 [[source]]
 name = "slide"

@@ -10,6 +10,7 @@ pub static CONTACT: InstrumentKind = InstrumentKind {
     reads: "nothing: the target is held at a point, and the joints are recorded",
     keys: &["target", "at"],
     numbers: 3,
+    finds_position: true,
     size: SizeInformation::None,
     evaluate,
     ..InstrumentKind::LENGTH

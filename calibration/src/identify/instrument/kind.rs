@@ -24,6 +24,8 @@ pub struct InstrumentKind {
     pub numbers: usize,
     /// The observable is an angle: a function of the rotation of the tool, in rad.
     pub is_angle: bool,
+    /// The readings determine the position `at` of the fixture, so that the map may leave it out.
+    pub finds_position: bool,
     /// The observable depends on the pose of `F_0` in the frame of the instrument.
     pub sees_base: bool,
     /// The offset of the readings is always unknown; otherwise the keys `zero` and `radius` state
@@ -139,6 +141,7 @@ impl InstrumentKind {
         keys: &[],
         numbers: 1,
         is_angle: false,
+        finds_position: false,
         sees_base: false,
         has_unknown_zero: false,
         reference: Reference::None,

@@ -2,7 +2,7 @@
 
 /// Phrases of sentences, and the unit that they say; `1` for numbers without one. The first that
 /// occurs decides.
-const PHRASES: [(&str, &str); 44] = [
+const PHRASES: [(&str, &str); 45] = [
     ("in the squared length unit", "length unit²"),
     ("in pixels and 1", "px, 1"),
     ("in products of these units", "products of the units"),

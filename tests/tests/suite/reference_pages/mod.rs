@@ -222,8 +222,7 @@ fn every_instrument_has_its_row() {
     let page = std::fs::read_to_string("../docs/reference/map.md").unwrap();
     let mut problems = Vec::new();
     for kind in INSTRUMENTS {
-        let keys = kind.keys.iter().filter(|key| !data::OPTIONAL.contains(key));
-        let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
+        let keys: Vec<String> = data::required_keys(kind).iter().map(|key| format!("`{key}`")).collect();
         let row = format!("| `\"{}\"` | {} | {} |", kind.name, kind.reads, keys.join(", "));
         if !page.lines().any(|line| line == row) {
             problems.push(format!("docs/reference/map.md has no row\n{row}"));
