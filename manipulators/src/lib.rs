@@ -22,7 +22,8 @@
 //! let signature = Function::PredictedDisplacement.signature(); // takes q, s, u
 //! let mut arguments = Tiles::new(set, signature.arguments_len(&DESCRIPTION), count);
 //! let home = DESCRIPTION.variables.iter().map(|variable| variable.home);
-//! for (row, value) in home.chain(pps::Parameters::NOMINAL.to_array()).enumerate() {
+//! let given = home.chain(pps::Parameters::NOMINAL.to_array()).chain(pps::Inputs::NOMINAL.to_array());
+//! for (row, value) in given.enumerate() {
 //!     arguments.fill_row(row, value);
 //! }
 //! for i in 0..count {

@@ -844,7 +844,7 @@ class Explained(Fields):
     """Share of the rows within the 95 % prediction region of the spec: random sources drawn anew in each row, and the
     noise of the instrument.
 
-    None for readings.
+    None for readings, or if the map states no uncertainty.
     """
 
     likely: list[float] | None
@@ -1221,6 +1221,11 @@ class IdentifyReport(Report):
     instruments: list[InstrumentFit]
     """Instruments that are read one by one, with statistics of their residuals."""
 
+    coordinates: list[InstrumentFit]
+    """Positions and rotations, with statistics of their residuals, where poses are measured or their uncertainty was
+    estimated from the data; otherwise empty.
+    """
+
     base: list[list[float]]
     """Initial pose of `F_0` in the frame of the instrument at the first station, without identified errors of the
     base, as rows of a homogeneous matrix.
@@ -1396,10 +1401,10 @@ class InstrumentErrors(Fields):
 
 
 class InstrumentFit(Fields):
-    """Instrument and its residuals."""
+    """Instrument, or positions or rotations, and its residuals."""
 
     name: str
-    """Name in the map."""
+    """Name in the map, `positions` or `rotations`."""
 
     numbers: int
     """Number of values that it measured."""
@@ -1759,6 +1764,11 @@ class MeasureReport(Report):
 
     explained: Explained
     """Comparison with the prediction by the sources of the spec."""
+
+    residual_test: ResidualTest | None
+    """Test of the errors minus the repeatable sources against the stated uncertainty; none if the map states none, or
+    for too few rows.
+    """
 
     repeated: Repeated
     """Characteristics of repeated visits."""
@@ -2467,6 +2477,21 @@ class ResidualDrift(Fields):
 
     sentence: str
     """Statement of the result in words."""
+
+
+class ResidualTest(Fields):
+    """Test of the errors minus the repeatable sources against the uncertainty of the instrument: the χ² test by which
+    `identify` assesses its own residuals.
+    """
+
+    factor: float
+    """Factor of the stated uncertainty that explains the residuals."""
+
+    freedom: float
+    """Degrees of freedom, counted as in an identification."""
+
+    p: float
+    """Probability of a factor at least as far from 1 by chance."""
 
 
 class RootMeanSquares(Fields):

@@ -24,8 +24,9 @@ impl Machine {
     /// estimate the station of the instrument from the data instead of taking it from the map.
     /// `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
     ///
-    /// `.table("rows")` has ΔX of each row, the prediction by the machine with its sources, and measured
-    /// minus predicted; for instruments that read numbers, reading minus prediction and prediction.
+    /// `.table("rows")` has ΔX of each row, the prediction by the machine with its sources, and
+    /// measured minus predicted; for instruments that read numbers, reading minus prediction and
+    /// prediction.
     ///
     /// `.report(folder)` writes report.html and errors.csv. Fields: `abbe.reports.MeasureReport`.
     #[pyo3(signature = (data, map, *, new_station=false, accept=None))]

@@ -22,7 +22,8 @@ pub(crate) struct Measure {
     /// sources of the spec: `mean 0.15 mm, max 0.3 mm`. Exit with status 1 if they are not met
     #[arg(long, value_name = "LIMITS")]
     pub(crate) accept: Option<String>,
-    /// Write report.html, and errors.csv with ΔX, prediction and residual of every row, into this folder
+    /// Write report.html, and errors.csv with ΔX, prediction and residual of every row, into this
+    /// folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]

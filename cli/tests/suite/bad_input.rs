@@ -121,8 +121,8 @@ fn studies() {
     study("[workspace]\njoints = 1\ngrid = 2", &["a workspace needs exactly one form"]);
     study("[workspace.joints]\nsamples = 0", &["integer from 1 to"]);
     study("[workspace.joints]\nsamples = 1e99", &["integer from 1 to"]);
-    study("[workspace.joints]\nsamples = 5\nmoved = [\"d7\"]", &["no variable `d7`"]);
-    study("[workspace.grid]\nq7 = [0]", &["no variable `q7`", "`q6`"]);
+    study("[workspace.joints]\nsamples = 5\nmoved = [\"d7\"]", &["no variable or input `d7`"]);
+    study("[workspace.grid]\nq7 = [0]", &["no variable or input `q7`", "`q6`"]);
     study("[workspace.grid]\nd1 = []", &["`d1` has no values"]);
     study("[workspace.grid]\nd1 = [\"1 deg\"]", &["a value of `d1` must be a length"]);
     study("[workspace.grid]\nd1 = { from = 0, to = 10 }", &["either `count` or `step`"]);

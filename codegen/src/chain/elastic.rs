@@ -155,9 +155,9 @@ impl<'a> Loads<'a> {
         sum
     }
 
-    /// Returns the moment of the loads about a joint, or the force along it: their power per unit of
-    /// the joint's speed, with the twists `(v, ω)` of the frames whose transform has the joint, and
-    /// the wrenches `(f, m)` of all loads at and behind these, at the origins of the frames:
+    /// Returns the moment of the loads about a joint, or the force along it: their power per unit
+    /// of the joint's speed, with the twists `(v, ω)` of the frames whose transform has the joint,
+    /// and the wrenches `(f, m)` of all loads at and behind these, at the origins of the frames:
     ///
     /// ```text
     /// Σ_i  v_i · f_i + ω_i · m_i

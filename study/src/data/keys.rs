@@ -277,7 +277,10 @@ pub fn rules() -> Vec<Rule> {
     for kind in INSTRUMENTS {
         let of_kind = || When::Is("kind", kind.name);
         let others = INSTRUMENT.names().chain(BOARD.names()).filter(|key| !kind.has(key)).collect();
-        rules.push(rule("[[instrument]]", of_kind(), Then::Needs(required_keys(kind))));
+        let required = required_keys(kind);
+        if !required.is_empty() {
+            rules.push(rule("[[instrument]]", of_kind(), Then::Needs(required)));
+        }
         rules.push(rule("[[instrument]]", of_kind(), Then::Refuses(others)));
     }
     rules

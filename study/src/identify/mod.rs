@@ -9,9 +9,9 @@
 //! `solve` fits and cross-validates with `priors`, `outliers` warns of gross errors, and
 //! `magnitude` are sources of the spec fitted with the constants. `terms` are errors of richer
 //! models, `families` and `candidates` those that are tried, and `derived` the inputs computed from
-//! the row order. `choose` selects the terms that help, `extended` adds them to the spec. `profiles`
-//! adds errors of joints by many cycles per turn, each as a `profile_table`; `joint_profiles` are
-//! their results.
+//! the row order. `choose` selects the terms that help, `extended` adds them to the spec.
+//! `profiles` adds errors of joints by many cycles per turn, each as a `profile_table`;
+//! `joint_profiles` are their results.
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,

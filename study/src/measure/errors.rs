@@ -18,7 +18,8 @@ pub struct RowError {
     pub error: [f64; 6],
     /// Measured tool point.
     pub point: [f64; 3],
-    /// Measured minus predicted by the machine with its repeatable sources, in the order of `error`.
+    /// Measured minus predicted by the machine with its repeatable sources, in the order of
+    /// `error`.
     pub residual: [f64; 6],
 }
 

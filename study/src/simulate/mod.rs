@@ -112,7 +112,9 @@ impl Simulate {
         mut take: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<usize, E> {
         let Self { machine, map, .. } = self;
-        map.require_uncertainty("a simulation")?;
+        if self.noise.is_none() {
+            map.require_uncertainty("a simulation without stated noise")?;
+        }
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
         let setup = match &self.at {

@@ -202,7 +202,9 @@ fn contacts_need_no_position() {
     let rows = simulated(&placed, 240, 3);
     let [found, expected] = [&unplaced, &placed].map(|map| identified(map, rows.clone(), 0.002));
     assert_eq!(found.rank, expected.rank);
-    for (found, expected) in found.parameters.iter().zip(&expected.parameters) {
+    // The displacements of the sockets are relative to different positions.
+    let errors = found.parameters.iter().zip(&expected.parameters);
+    for (found, expected) in errors.filter(|(found, _)| !found.name.starts_with("contact")) {
         let off = (found.value - expected.value) / expected.standard_deviation;
         assert!(off.abs() < 0.01, "{}: {} and {}", found.name, found.value, expected.value);
     }

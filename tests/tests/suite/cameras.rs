@@ -223,6 +223,7 @@ fn z_scores(case: &Case, sign: f64, report: &Report) -> [Vec<f64>; 4] {
 fn standard_deviations_of_a_camera_hold() {
     let groups = ["joint zeros", "frames", "station", "hand-eye"];
     let mut all: [Vec<f64>; 4] = Default::default();
+    let mut not_converged = [0, 0];
     for case in &CASES {
         let runs: Vec<[Vec<f64>; 4]> = (0..sample_size(case.runs))
             .into_par_iter()
@@ -231,8 +232,12 @@ fn standard_deviations_of_a_camera_hold() {
                 Some(z_scores(case, sign, &calibrated(case, sign, run as u64 + 1)?))
             })
             .collect();
-        let refused = sample_size(case.runs) - runs.len();
-        assert!(refused == 0 || (case.is_fitted && 100 * refused <= 15 * sample_size(case.runs)));
+        // Fits of the lens do not always converge.
+        let [refused, fitted] = &mut not_converged;
+        let not_found = sample_size(case.runs) - runs.len();
+        assert!(not_found == 0 || case.is_fitted, "{not_found} fits with a known lens");
+        *refused += not_found;
+        *fitted += usize::from(case.is_fitted) * sample_size(case.runs);
         let Case { mount, image: [width, height], noise, views, is_fitted, .. } = case;
         println!("{mount}, {width} × {height}, {noise} px, {views} views, fitted: {is_fitted}");
         for (group, name) in groups.iter().enumerate() {
@@ -241,6 +246,9 @@ fn standard_deviations_of_a_camera_hold() {
             all[group].extend(z);
         }
     }
+    let [refused, fitted] = not_converged;
+    println!("{refused} of {fitted} fits of the lens do not converge");
+    assert!(100 * refused <= 15 * fitted, "{refused} of {fitted}");
     for (z, name) in all.iter().zip(groups) {
         let coverage = Coverage::new(z);
         println!("{name}: {coverage}");

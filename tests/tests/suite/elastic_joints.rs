@@ -61,7 +61,8 @@ joint = "q3"
 stiffness = "4e4 N*m"
 "#;
 
-/// Compliances in place of the stiffnesses: `at` leads back from the frame to the axis of the joint.
+/// Compliances in place of the stiffnesses: `at` leads back from the frame to the axis of the
+/// joint.
 const COMPLIANT: &str = r#"
 [[source]]
 name = "slide"

@@ -185,8 +185,8 @@ fn joints_of_every_kind() {
     assert!((1e-13..1e-11).contains(&off), "{off:.1e}");
 }
 
-/// Checks a chain from foot to hand: up a leg to the pelvis and down an arm. Its pose is the pose of
-/// the hand relative to the foot of the two chains from the root, and its masses are those of
+/// Checks a chain from foot to hand: up a leg to the pelvis and down an arm. Its pose is the pose
+/// of the hand relative to the foot of the two chains from the root, and its masses are those of
 /// everything behind the first joint.
 #[test]
 fn a_chain_goes_up_one_branch_and_down_another() {

@@ -130,8 +130,8 @@ impl ProfileData {
 ///
 /// Keeps those that reduce the squared cross-validation error by half a percent each; none if there
 /// are none, if the data are not [enough](ProfileData), or if a row refers to the one before it,
-/// such as a displacement. `model` and `data` are those of the fit. Each trial calls `proceed`, which returns
-/// false to stop.
+/// such as a displacement. `model` and `data` are those of the fit. Each trial calls `proceed`,
+/// which returns false to stop.
 pub fn fit_profiles(
     model: &Model,
     data: &[Observation],

@@ -210,8 +210,8 @@ impl<'r> Builder<'r> {
         names.find(|name| !taken(name)).unwrap_or(name)
     }
 
-    /// Adds a joint and the link behind it. With the pose `P` of the child link in the parent and the
-    /// motion `M(q)` of the joint, the step downward is `P M(q)`, upward `M(−q) P⁻¹`.
+    /// Adds a joint and the link behind it. With the pose `P` of the child link in the parent and
+    /// the motion `M(q)` of the joint, the step downward is `P M(q)`, upward `M(−q) P⁻¹`.
     fn add(&mut self, step: &Step<'r>) {
         let Step { joint, link, upward } = *step;
         let rpy = joint.placement.rpy.map(|angle| self.angles.angle(angle));

@@ -129,8 +129,8 @@ impl<'r> Tree<'r> {
         Some((&self.robot.joints[joint], parent))
     }
 
-    /// Iterates over the joints at a link, the links that they connect to it, and the poses of these
-    /// in the link if the joints are fixed.
+    /// Iterates over the joints at a link, the links that they connect to it, and the poses of
+    /// these in the link if the joints are fixed.
     pub(super) fn neighbours(&self, link: usize) -> impl Iterator<Item = (&'r Joint, usize, Placement)> {
         let carried = self.carried[link].iter().map(|&(joint, child)| {
             let joint = &self.robot.joints[joint];

@@ -39,8 +39,17 @@ struct Differences {
 fn differences(spec: &Spec, given: Vec<Vec<f64>>) -> Differences {
     let name = spec.name.clone();
     let robot = Interpreter::new(spec.clone());
-    let nearest = |given: Vec<f64>| given.into_iter().map(|value| Real::Float.nearest(value)).collect();
-    let given: Vec<Vec<f64>> = given.into_iter().map(nearest).collect();
+    let inputs = spec.variables.len() + spec.parameters.len();
+    // An input at the upper end of its range stays in the range.
+    let nearest = |(i, value): (usize, f64)| {
+        let nearest = Real::Float.nearest(value);
+        match i.checked_sub(inputs).and_then(|input| spec.inputs.get(input)) {
+            Some(input) if nearest > input.range[1] => f64::from((nearest as f32).next_down()),
+            _ => nearest,
+        }
+    };
+    let given: Vec<Vec<f64>> =
+        given.into_iter().map(|given| given.into_iter().enumerate().map(nearest).collect()).collect();
     let euler = robot.description().orientation != Orientation::RotationVector;
     let [mut double, mut single] = Real::ALL.map(|real| {
         let folder = tempfile::tempdir().unwrap();

@@ -195,7 +195,11 @@ fn whole_files_are_answered() {
     for map in MAPS {
         let map = Map::parse("map.toml", map, &machine.spec).unwrap();
         for question in 0..6 {
-            jobs::of_data(&machine, &map, &data, Asked::numbered(question)).unwrap();
+            match jobs::of_data(&machine, &map, &data, Asked::numbered(question)) {
+                // Simulations and plans need the uncertainties that one of the maps leaves open.
+                Err(refusal) if refusal.to_string().contains("which this map calls unknown") => {}
+                answer => answer.unwrap(),
+            }
         }
     }
     let map = Map::parse("map.toml", MAPS[0], &machine.spec).unwrap();

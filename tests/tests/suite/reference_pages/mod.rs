@@ -324,7 +324,7 @@ fn every_example_runs() {
             machine: machine.clone(),
             map: map.clone(),
             at,
-            noise: None,
+            noise: Some(0.0),
             outliers: 0.0,
             random: false,
             seed: 1,
