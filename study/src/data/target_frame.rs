@@ -32,7 +32,7 @@ impl TargetFrame {
     }
 
     /// Converts a position in the frame of the tool to this frame.
-    pub(crate) fn from_tool(&self, position: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn placed_in_frame(&self, position: [f64; 3]) -> [f64; 3] {
         self.tool.map_or(position, |tool| tool.apply(position))
     }
 
@@ -76,7 +76,7 @@ mod tests {
         let outer = |v: [f64; 6]| v.map(|a| v.map(|b| a * b).to_vec()).to_vec();
         let found = frame.covariance_from_tool(&outer([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
         assert_eq!(found, outer([-2.0, 1.0, 3.0, -5.0, 4.0, 6.0]));
-        assert_eq!(frame.from_tool([1.0, 2.0, 3.0]), [48.0, 1.0, 3.0]);
+        assert_eq!(frame.placed_in_frame([1.0, 2.0, 3.0]), [48.0, 1.0, 3.0]);
         assert_eq!(frame.to_tool([48.0, 1.0, 3.0]), [1.0, 2.0, 3.0]);
     }
 }

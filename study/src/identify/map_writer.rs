@@ -109,7 +109,7 @@ impl FoundPlacement {
             let (placement, covariance) = match &self.mounting {
                 Some(pose) => (place(pose), self.covariance.clone()),
                 None => {
-                    let targets = self.targets.iter().map(|target| frame.from_tool(*target));
+                    let targets = self.targets.iter().map(|target| frame.placed_in_frame(*target));
                     let targets = targets.map(|target| format!("  {},\n", format_lengths(target, unit)));
                     let targets = format!("targets = [\n{}]\n", targets.collect::<String>());
                     (targets, frame.covariance_from_tool(&self.covariance))
