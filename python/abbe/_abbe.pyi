@@ -83,7 +83,9 @@ class Machine:
         """Unit of every length: "mm" or "m"."""
     @property
     def orientation(self) -> str:
-        """Representation of orientations in rows 4 to 6: "rotation-vector" or "euler-yzx"."""
+        """Representation of orientations in rows 4 to 6: "rotation-vector", "euler-yzx" or
+        "iec-61217".
+        """
     @property
     def rows(self) -> tuple[str, ...]:
         """Names of the six rows of displacements and Jacobians."""
@@ -361,6 +363,10 @@ class Machine:
         estimate the station of the instrument from the data instead of taking it from the map.
         `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
 
+        `.table("rows")` has ΔX of each row, the prediction by the machine with its sources, and
+        measured minus predicted; for instruments that read numbers, reading minus prediction and
+        prediction.
+
         `.report(folder)` writes report.html and errors.csv. Fields: `abbe.reports.MeasureReport`.
         """
     def identify(
@@ -385,11 +391,12 @@ class Machine:
         `data`, `test`: measurements to fit and to test, CSV files or tables as for `measure`.
         `map`: path of the map of their columns, or a shipped name. `terms`: families of additional
         error terms to try: "auto" for all, or one or several of joint, load, elastic, backlash,
-        product, drift. `robust`: robust loss, "none", "huber" or "tukey". `prior`: prior standard
-        deviation of the errors, relative to the length of the arm and in rad, or "spec" or "auto".
-        `folds`: number of folds of the cross-validation. `time`: time limit in seconds for the
-        search for additional terms. `resample=b`: repetition b of a bootstrap over configurations
-        (`abbe.fleet.bootstrap` runs many). `accept`: limits such as "mean 0.15 mm, max 0.3 mm".
+        product, drift, profile. `robust`: robust loss, "none", "huber" or "tukey". `prior`: prior
+        standard deviation of the errors, relative to the length of the arm and in rad, or "spec" or
+        "auto". `folds`: number of folds of the cross-validation. `time`: time limit in seconds for
+        the search for additional terms. `resample=b`: repetition b of a bootstrap over
+        configurations (`abbe.fleet.bootstrap` runs many). `accept`: limits such as "mean 0.15 mm,
+        max 0.3 mm".
 
         `.report(folder)` writes report.html, found.toml and found.map.toml; `.load()` returns the
         identified machine. Fields: `abbe.reports.IdentifyReport`.

@@ -114,7 +114,7 @@ def test_configurations_are_arguments():
     assert isinstance(worst, Mapping) and dict(worst) == ANALYSIS.to_dict()["combined"]["worst"] and list(worst) == list(dict(worst))
     q = [worst[name] for name in pps.variables]
     assert np.array_equal(pps.pose(worst), pps.pose(q)) and np.array_equal(pps.predict(worst), pps.predict(q))
-    assert worst.q4 == worst["q4"] and "q4" in worst and len(worst) == len(q)
+    assert worst.q4 == worst["q4"] and "q4" in worst and len(worst) == len(q) + len(pps.inputs)
     for copied in (copy.deepcopy(worst), copy.copy(worst), pickle.loads(pickle.dumps(worst))):
         assert copied == worst and type(copied) is type(worst)
     assert copy.deepcopy(ANALYSIS.combined) == ANALYSIS.combined

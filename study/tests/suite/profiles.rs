@@ -150,7 +150,7 @@ fn z(truth: &str, text: &str, rows: &Data) -> f64 {
 #[test]
 fn two_thousand_rows_recover_profiles() {
     let floor = NOISE * 3f64.sqrt();
-    for seed in 0..if thorough() { 5 } else { 1 } {
+    for seed in 0..if thorough() { 3 } else { 1 } {
         let truth = ur5(&format!("{CONSTANTS}{}", drawn_waves(seed)));
         let (data, unseen) = (measured(&truth, 2000, 2 * seed), measured(&truth, 500, 2 * seed + 1));
         let report = identified(&data, &[Family::Profile]);
@@ -177,7 +177,7 @@ fn two_thousand_rows_recover_profiles() {
 /// errors, and that the report says why.
 #[test]
 fn without_profiles_or_rows_nothing_is_claimed() {
-    for seed in 0..if thorough() { 5 } else { 1 } {
+    for seed in 0..if thorough() { 3 } else { 1 } {
         for (waves, rows, why) in [(drawn_waves(seed), 200, "need 2304"), (String::new(), 2000, "")] {
             let data = measured(&ur5(&format!("{CONSTANTS}{waves}")), rows, 100 + seed);
             let report = identified(&data, &[Family::Profile]);
