@@ -27,7 +27,7 @@ impl Region {
     /// without a span stay at home or nominal.
     ///
     /// Joints that are solved for span the values at which the configurations are reached; their
-    /// whole limits if none are, or if there are more than [`SOLVED`] to solve for. Returns an
+    /// whole limits if none are, or if there are more than 10,000 to solve for. Returns an
     /// error if such a joint, or one that is sampled, has no limits. `origin` is the name of the
     /// spec in messages.
     pub fn spans(
