@@ -72,7 +72,8 @@ impl Report {
                 "what the study says compensation leaves of the repeatable sources, with unknown signs"
             }
             Some(CompensationBasis::Identified) => {
-                "all repeatable sources of the spec corrected, with the uncertainty of the identified errors"
+                "all repeatable sources of the spec corrected, with the uncertainty of the identified errors \
+                 but not that of the place of the tool on the last frame"
             }
             Some(CompensationBasis::Published) => {
                 "the published residual of the repeatable sources, in an unknown direction"
