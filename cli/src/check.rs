@@ -7,7 +7,7 @@ use abbe_study::check;
 use crate::arguments::Check;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, json};
+use crate::output::{Outcome, json, quoted};
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let job = check::Check { machine: arguments.subject.machine()? };
@@ -30,9 +30,4 @@ pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
         text::check(&report, arguments.showing.detail()) + &arguments.showing.next(&next)
     };
     Ok(Outcome::checked(shown, report.passed()))
-}
-
-/// Quotes a path with spaces, for a command line.
-fn quoted(path: &str) -> String {
-    if path.contains(' ') { format!("\"{path}\"") } else { path.to_owned() }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::arguments::New;
 use crate::failure::Failure;
-use crate::output::{Outcome, Outputs, is_stdout};
+use crate::output::{Outcome, Outputs, is_stdout, quoted};
 
 pub(crate) fn run(arguments: &New) -> Result<Outcome, Failure> {
     let New { name, template, out, writing } = arguments;
@@ -17,8 +17,9 @@ pub(crate) fn run(arguments: &New) -> Result<Outcome, Failure> {
         true => String::new(),
         false => format!(
             "Wrote {}, a spec with the numbers of an invented machine: replace them by yours.\n\
-             Next      abbe check {0}\n",
-            path.display()
+             Next      abbe check {}\n",
+            path.display(),
+            quoted(&path.to_string_lossy())
         ),
     };
     Ok(Outcome::passed(text))

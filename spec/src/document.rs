@@ -437,7 +437,8 @@ impl<'d> Section<'d> {
         self.required_as(key, &format!("a table `[[{key}]]` for each"), document)
     }
 
-    fn required_as(&self, key: &str, form: &str, document: &mut Document) -> Option<Item<'d>> {
+    /// Returns the item of a key, or records that it is missing; `form` is what to add.
+    pub(crate) fn required_as(&self, key: &str, form: &str, document: &mut Document) -> Option<Item<'d>> {
         self.get(key).or_else(|| {
             let mistake = Diagnostic::new(self.span.clone(), self.missing(key));
             document.mistake(mistake.label(format!("`{key}` belongs here")).help(format!("add {form}")));

@@ -112,3 +112,8 @@ pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     };
     Failure::new(path.display(), format!("cannot write this: {error}")).help(help)
 }
+
+/// Quotes a path with spaces, for a command line.
+pub(crate) fn quoted(path: &str) -> String {
+    if path.contains(' ') { format!("\"{path}\"") } else { path.to_owned() }
+}

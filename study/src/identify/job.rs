@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use abbe::identify::{
     Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Selection,
-    between_stations, deviation_beyond, drift, student_factor,
+    deviation_beyond, drift, student_factor,
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
@@ -13,6 +13,7 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::alternatives::Explanations;
 use super::as_joint_errors::{AsJointErrors, number_terms};
+use super::between_stations::include_between_stations;
 use super::candidates::candidates;
 use super::choose::{Chosen, choose};
 use super::counts::Counts;
@@ -30,7 +31,6 @@ use super::options::{LOSSES, Settings, TERMS};
 use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, check_plausibility, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
-use super::priors::Prior;
 use super::profiles::find_profiles;
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
@@ -43,7 +43,6 @@ use super::unexplained::unexplained;
 use super::unread::without_unread;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Data, Map, Summary};
-use crate::number::digits;
 use crate::{Acceptance, Machine, Notes, finite, mistake, number};
 
 /// Identification of the errors of a machine from measurements.
@@ -172,32 +171,6 @@ impl Identify {
         };
         finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
-}
-
-/// Largest probability of a difference between stations by chance at which it is included in the
-/// covariance.
-const CHANCE: f64 = 0.05;
-
-/// Adds the variance component between the stations of the rows to the covariance of the fit, with
-/// a note.
-fn include_between_stations(solved: &mut Solved, setup: &Setup, data: &Data) -> Result<(), Diagnostics> {
-    let found = || -> Result<_, Failure> {
-        let sizes = solved.model.priors(Prior::DEFAULT_SHARE)?;
-        between_stations(&solved.model, &data.observations, &solved.fit, &sizes)
-    };
-    let found = found().map_err(|failure| mistake::whole(&data.file, &failure))?;
-    let Some(between) = found.filter(|between| between.p < CHANCE) else { return Ok(()) };
-    solved.fit.covariance = between.covariance;
-    let share = between.share * Prior::DEFAULT_SHARE;
-    solved.notes.push(format!(
-        "note: the machine differs between its {} stations by more than the noise explains, by {} and {} mrad \
-         in each error (one standard deviation, p {}). All standard deviations include this difference",
-        between.stations,
-        number::length(share * setup.arm, setup.description.length),
-        digits(1e3 * share, 2),
-        digits(between.p, 2)
-    ));
-    Ok(())
 }
 
 /// Result of the fit and of the selection.

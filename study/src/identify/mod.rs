@@ -1,17 +1,19 @@
 //! Identifies the generalized errors of a real machine from measurements.
 //!
 //! `options` are the user's settings. `setup` places the machine relative to the instrument,
-//! `line_of_sight` moves it to where instruments can be read, and `instruments` estimates their
-//! uncertainties. `board_check` tests the corners of a camera's board, `interpretation_check` the
-//! `map_interpretation`, `plausibility` finds errors too large for a machine, and
-//! `train_test_overlap` counts test rows that were fitted.
+//! `open_places` finds what the map does not place, `line_of_sight` moves the machine to where
+//! instruments can be read, and `instruments` estimates their uncertainties. `board_check` tests
+//! the corners of a camera's board, `interpretation_check` the `map_interpretation`, `plausibility`
+//! finds errors too large for a machine, and `train_test_overlap` counts test rows that were
+//! fitted.
 //!
 //! `solve` fits and cross-validates with `priors`, `outliers` warns of gross errors, and
-//! `magnitude` are sources of the spec fitted with the constants. `terms` are errors of richer
-//! models, `families` and `candidates` those that are tried, and `derived` the inputs computed from
-//! the row order. `choose` selects the terms that help, `extended` adds them to the spec.
-//! `profiles` adds errors of joints by many cycles per turn, each as a `profile_table`;
-//! `joint_profiles` are their results.
+//! `magnitude` are sources of the spec fitted with the constants. `between_stations` includes the
+//! differences of the machine between stations. `terms` are errors of richer models, `families` and
+//! `candidates` those that are tried, and `derived` the inputs computed from the row order.
+//! `choose` selects the terms that help, `extended` adds them to the spec. `profiles` adds errors
+//! of joints by many cycles per turn, each as a `profile_table`; `joint_profiles` are their
+//! results.
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
@@ -24,6 +26,7 @@
 
 mod alternatives;
 mod as_joint_errors;
+mod between_stations;
 mod board_check;
 mod candidates;
 mod chain_numbers;
@@ -48,6 +51,7 @@ mod line_of_sight;
 mod magnitude;
 mod map_interpretation;
 mod map_writer;
+mod open_places;
 pub mod options;
 mod outliers;
 mod parameters;

@@ -2,8 +2,8 @@
 
 use abbe::analysis::sampling;
 use abbe::identify::{
-    Failure, Fit, Fixture, FixtureGeometry, INTRINSICS, Measurement, Model, Observable, Observation, Options,
-    Role, Station, Unknown, fit, register, register_pairs,
+    Failure, FixtureGeometry, INTRINSICS, Measurement, Model, Observable, Observation, Role, Station,
+    Unknown, register, register_pairs,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_spec::diagnostic::Diagnostics;
@@ -19,7 +19,7 @@ pub(crate) struct Setup<'a> {
     /// Is true if whole poses are measured.
     pub(crate) pose: bool,
     /// Is true if the placement on the tool is known exactly.
-    placement: bool,
+    pub(super) placement: bool,
     /// Ideal chain, without any source.
     pub(crate) ideal: Model<'a>,
     /// Chain with the repeatable sources of its spec.
@@ -72,33 +72,6 @@ impl<'a> Setup<'a> {
             }
         }
         Ok(setup)
-    }
-
-    /// Places the contacts at unknown positions at the mean position of their target by the machine
-    /// as specified.
-    fn place_fixtures(&mut self, map: &Map, data: &Data) -> Result<(), Failure> {
-        let Some(all) = map.instruments() else { return Ok(()) };
-        for instrument in all.at_unknown_positions() {
-            let Some(fixture) = all.fixture_of(instrument) else { continue };
-            let own = all.list[instrument].observables.clone();
-            let (mut sum, mut count) = ([0.0; 3], 0.0);
-            let mut scratch = self.real.scratch();
-            for row in &data.observations {
-                let Measurement::Readings(readings) = &row.measured else { continue };
-                if readings[own.clone()].iter().all(Option::is_some) {
-                    // The fixture is at the origin so far.
-                    let position = self.real.values(&mut scratch, row, &[])?;
-                    sum.iter_mut().zip(&position[own.clone()]).for_each(|(sum, value)| *sum += value);
-                    count += 1.0;
-                }
-            }
-            if count > 0.0 {
-                for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
-                    model.fixtures[fixture].geometry = FixtureGeometry::Point(sum.map(|sum| sum / count));
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Places the manipulator as the map states, or at `F_0` of the instrument.
@@ -165,7 +138,7 @@ impl<'a> Setup<'a> {
         Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm, declared })
     }
 
-    fn set_stations(&mut self, stations: &[Station]) {
+    pub(super) fn set_stations(&mut self, stations: &[Station]) {
         for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
             model.stations = stations.to_vec();
         }
@@ -210,75 +183,6 @@ impl<'a> Setup<'a> {
             model.mounting = near.mounting;
         }
         Ok(())
-    }
-
-    /// Fits the stations that the map does not state, the fixtures and zeros that were not
-    /// identified before, and likewise the mounting and the intrinsic parameters of a camera, for
-    /// the machine as specified. Returns their fit; none if there was nothing to fit.
-    pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<Option<Fit>, Diagnostics> {
-        let open =
-            |station: &Station| map.base == Base::Unknown && map.stations.pose(&station.name).is_none();
-        let names = self.real.stations.iter().enumerate().filter(|(_, station)| open(station));
-        let stations = names.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component)));
-        let stations: Vec<Unknown> = stations.collect();
-        let camera = self.camera_to_find(map);
-        let unknowns = [stations, camera, self.fixtures_to_find(map)].concat();
-        if unknowns.is_empty() {
-            return Ok(None);
-        }
-        let fail = |failure: Failure| mistake::whole(&data.file, &failure);
-        if unknowns.iter().any(|unknown| unknown.is_tool()) {
-            self.come_near(data).map_err(fail)?;
-        }
-        let model = self.real.with(unknowns);
-        let fit = fit(&model, &data.observations, &Options::default()).map_err(fail)?;
-        self.set_stations(&fitted_stations(&model, &fit.x));
-        let fixtures = (0..model.fixtures.len())
-            .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });
-        let fixtures: Vec<Fixture> = fixtures.collect();
-        let zeros: Vec<f64> = (0..model.observables.len()).map(|i| fitted_zero(&model, &fit.x, i)).collect();
-        let mounting = model.mounting.then(&error_pose(&model, &fit.x, Unknown::Tool));
-        let intrinsics = fitted_intrinsics(&model, &fit.x);
-        for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
-            model.fixtures.clone_from(&fixtures);
-            model.observables.iter_mut().zip(&zeros).for_each(|(reading, zero)| reading.zero = *zero);
-            model.mounting = mounting;
-            if let (Some(camera), Some(intrinsics)) = (&mut model.camera, intrinsics) {
-                camera.intrinsics = intrinsics;
-            }
-        }
-        Ok(Some(fit))
-    }
-
-    /// Returns the unknowns of a camera that were not identified before: no drawing states where it
-    /// is on the tool.
-    fn camera_to_find(&self, map: &Map) -> Vec<Unknown> {
-        let Some(all) = map.instruments().filter(|all| all.camera.is_some()) else { return Vec::new() };
-        let is_placed = map.placement.mounting.is_some() || self.placement;
-        let is_found = !all.found.is_empty();
-        let mut unknowns = self.real.base_and_tool(true);
-        unknowns.retain(|unknown| match unknown {
-            Unknown::Tool(_) => !is_placed,
-            Unknown::Intrinsic(_) => !is_found,
-            _ => false,
-        });
-        unknowns
-    }
-
-    /// Returns the unknowns of fixtures and zeros that were not identified before.
-    fn fixtures_to_find(&self, map: &Map) -> Vec<Unknown> {
-        let Some(all) = map.instruments() else { return Vec::new() };
-        let open = (0..all.list.len()).filter(|i| !all.found.contains(i));
-        let unknowns = open.flat_map(|i| {
-            let place = all.fixture_of(i).into_iter().flat_map(|fixture| {
-                let count = self.real.fixtures[fixture].geometry.unknowns();
-                (0..count).map(move |coordinate| Unknown::Fixture(fixture, coordinate))
-            });
-            let zeros =
-                all.list[i].observables.clone().filter(|reading| !self.real.observables[*reading].zero_known);
-            place.chain(zeros.map(Unknown::Zero)).collect::<Vec<_>>()
-        });
-        unknowns.collect()
     }
 
     /// Returns the measured points in the frame of the tool, as the map states them: targets, or

@@ -130,20 +130,36 @@ fn an_uncertainty_needs_degrees_of_freedom() {
         );
         map("", &wire)
     };
-    for rows in [22, 26, 27, 29] {
-        match identify(&wire("\"unknown\""), simulated(&wire("\"0.01 mm\""), rows, 3)) {
-            Ok(report) => {
-                let freedom = report.instruments[0].freedom;
-                assert!(rows > 22 && freedom > 4.0, "{rows}: {freedom}");
-            }
-            Err(refused) => {
-                let refused = refused.to_string();
-                let is_clear = refused.contains("the uncertainty of `wire` cannot be estimated")
-                    || refused.contains("no degrees of freedom remain");
-                assert!(is_clear, "{rows}: {refused}");
-            }
-        }
-    }
+    let of_rows = |rows: usize| identify(&wire("\"unknown\""), simulated(&wire("\"0.01 mm\""), rows, 3));
+    let refused = of_rows(26).unwrap_err().to_string();
+    let reason = "the uncertainty of `wire` cannot be estimated: 26 values leave 3 degrees of freedom";
+    assert!(refused.contains(reason) && refused.contains("measure at more configurations"), "{refused}");
+    let freedom = of_rows(29).unwrap_or_else(|mistake| panic!("{mistake}")).instruments[0].freedom;
+    assert!((freedom - 6.0).abs() < 0.1, "{freedom}");
+}
+
+/// A target whose position on the tool the rows hardly determine is named with its standard
+/// deviation; with the wrist moving over its range there is no such note.
+#[test]
+fn a_vague_position_on_the_tool_is_named() {
+    let map = map(
+        "uncertainty = \"0.05 mm\"\nbase = \"unknown\"\n",
+        "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n",
+    );
+    let with_wrist = |share: f64| {
+        let mut data = simulated(&map, 80, 7);
+        data.observations.iter_mut().for_each(|row| row.q[3..].iter_mut().for_each(|q| *q *= share));
+        let (machine, map, at) = (real(), map.clone(), Places::Rows(data));
+        let job = Simulate { machine, map, at, noise: None, outliers: 0.0, random: false, seed: 5 };
+        let observations = job.run(&mut ()).unwrap().observations;
+        Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() }
+    };
+    let vague = |share: f64| {
+        let report = identified(&map, with_wrist(share));
+        report.notes.iter().any(|note| note.contains("on the tool is determined poorly"))
+    };
+    assert!(!vague(1.0));
+    assert!(vague(0.002));
 }
 
 /// Positions and rotations have variance components of their own: both are estimated to a tenth,

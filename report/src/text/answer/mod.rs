@@ -83,7 +83,8 @@ fn outside(rows: &Extrapolation) -> String {
 
 /// Returns the first texts under one name, and the number of the others.
 fn some<'n>(name: &'n str, texts: &[String], shown: usize) -> Vec<(&'n str, String)> {
-    let mut facts: Vec<_> = texts.iter().take(shown).map(|text| (name, text.clone())).collect();
+    let plain = |text: &String| text.strip_prefix("note: ").unwrap_or(text).to_owned();
+    let mut facts: Vec<_> = texts.iter().take(shown).map(|text| (name, plain(text))).collect();
     if texts.len() > shown {
         facts.push(("", format!("… and {} more", texts.len() - shown)));
     }

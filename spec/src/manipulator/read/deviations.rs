@@ -108,7 +108,11 @@ fn read_symbol(
     chain: Chain<'_>,
     document: &mut Document,
 ) -> Option<Deviation> {
-    let error = section.required("error", document);
+    let form = match place.key.as_str() {
+        "joint" => "`error = …`, or the `stiffness` of an elastic joint",
+        _ => "`error = …`",
+    };
+    let error = section.required_as("error", form, document);
     let (number, dimension) = find_symbol(place, chain, document)?;
     let name = document.string(place)?;
     let what = format!("the error of `{name}`");
