@@ -1,6 +1,7 @@
 """Numbers of the command beside numbers of this folder."""
 
 import json
+import math
 import subprocess
 
 TOLERANCE = 1e-9
@@ -60,3 +61,9 @@ class Comparison:
         self.compared += 1
         if not abs(ours - theirs) <= 3 * standard_error + TOLERANCE * size:
             self.failures.append(f"{place}: {theirs!r}, expected {ours!r} within 3 x {standard_error:.2g}")
+
+    def share(self, place, ours, count, theirs, error):
+        """A share of so many draws, or a computed probability, beside theirs with its standard error."""
+        # That of ours if theirs is right: from ours itself it is too small where few draws lie outside.
+        own = math.sqrt(max(theirs * (1 - theirs), 1 / count) / count) if count else 0.0
+        self.drawn(place, ours, theirs, math.hypot(own, error), 1.0)

@@ -115,9 +115,9 @@ def gum(comparison, place, sweep, first, theirs, largest):
         comparison.numbers(f"{there}.sensitivity", [*sensitivity, norm(sensitivity)], entry["sensitivity"], size)
     if by_name:
         comparison.failures.append(f"{place}: {sorted(by_name)} have no part in it")
-    share, error = ours.share_within(expanded[3], [0.0] * 3, DRAWS // 10, seed=3)
-    error = math.hypot(error, theirs["coverage"]["error"])
-    comparison.drawn(f"{place}.coverage", share, theirs["coverage"]["probability"], error, 1.0)
+    count, coverage = DRAWS // 10, theirs["coverage"]
+    share = ours.share_within(expanded[3], [0.0] * 3, count, seed=3)
+    comparison.share(f"{place}.coverage", share, count, coverage["probability"], coverage["error"])
 
 
 def value_of(comparison, place, source, configuration, theirs):
@@ -144,18 +144,15 @@ def verdict(comparison, place, sweep, first, budgets, theirs, asked):
     certain = None not in ends and max(ends) <= tolerance
     if None not in ends:
         comparison.numbers(f"{place}.largest", max(ends), theirs["largest"])
-    probability, error = budget.probability(tolerance, DRAWS // 10, seed=4)
-    if certain:
-        probability = error = 0.0
-    else:
+    probability, count = (1.0, None) if certain else budget.probability(tolerance, DRAWS // 10, seed=4)
+    if not certain:
         # As if all were normal, which tells one configuration from another well enough.
         likely = [probability_within(tolerance, other.bias, other.covariance) for other in [budget, *budgets]]
         room = 1e-6 if all(other.is_normal() for other in budgets) else 0.02
         comparison.compared += 1
         if likely[0] > min(likely) + room:
             comparison.failures.append(f"{place}.at: {likely[0]} there, {min(likely)} elsewhere")
-    error = math.hypot(error, theirs["error"])
-    comparison.drawn(f"{place}.probability", 1.0 if certain else probability, theirs["probability"], error, 1.0)
+    comparison.share(f"{place}.probability", probability, count, theirs["probability"], theirs["error"])
     expected = "met" if certain else "met-with-probability" if theirs["probability"] >= asked else "not-met"
     if theirs["verdict"] != expected:
         comparison.failures.append(f"{place}: {theirs['verdict']}, expected {expected}")

@@ -71,10 +71,10 @@ class Uncertainty:
         return norm(self.bias) + sum(norm(move) for _, move in self.random)
 
     def probability(self, tolerance, count, seed):
-        """That the error is within a tolerance, bias and all, and how far that may be off."""
+        """That the error is within a tolerance, bias and all, and from how many draws that is: none if it is computed."""
         if self.is_normal():
-            return probability_within(tolerance, self.bias, self.covariance), 0.0
-        return self.share_within(tolerance, self.bias, count, seed)
+            return probability_within(tolerance, self.bias, self.covariance), None
+        return self.share_within(tolerance, self.bias, count, seed), count
 
     def shares(self):
         return [norm(u) ** 2 / self.total for u in self.standard]
@@ -86,14 +86,13 @@ class Uncertainty:
         return [(draw(s, generator), (s, move)) for s, move in self.random]
 
     def share_within(self, radius, bias, count, seed):
-        """The share of draws whose norm is within the radius, and its standard error."""
+        """The share of draws whose norm is within the radius."""
         generator = random.Random(seed)
         inside = 0
         for _ in range(count):
             x = [a + b for a, b in zip(bias, self.draw(generator))]
             inside += norm(x) <= radius
-        p = inside / count
-        return p, math.sqrt(max(p * (1 - p), 1 / count) / count)
+        return inside / count
 
 
 def draw(source, generator):
