@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use abbe_study::Reads;
-use abbe_study::analyze::parts::{self, AnalysisRequest, Part};
+use abbe_study::analyze::parts::{Merge, Part};
 
 use crate::analyze::{self, Files, VaryingColumns};
 use crate::arguments;
@@ -16,24 +15,23 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
     let mut console = Console::default();
     let read = |path: &PathBuf| Ok::<_, Failure>((path.display().to_string(), Part::read(path)?));
     let parts = arguments.parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let begun = match (&arguments.out, parts.first()) {
-        (Some(folder), Some((name, part))) => {
-            let question = part.request();
-            if !question.figures {
-                return Err(Failure::new(name, "this part was made with --no-figures").help(
+    let merge = Merge::new(parts, &mut console)?;
+    let begun = match &arguments.out {
+        Some(folder) => {
+            let job = merge.job();
+            if !job.figures {
+                return Err(Failure::new("--out", "these parts were made with --no-figures").help(
                     "leave --out out (text and --json are complete), or create the parts \
                         without --no-figures",
                 ));
             }
-            let job = question.job(&mut ())?;
-            let inputs = [arguments.parts.clone(), job.files(), named(question)].concat();
-            let mut outputs = Outputs::new(&inputs, arguments.writing.force);
+            let mut outputs = Outputs::new(&arguments.parts, arguments.writing.force);
             let drawn = job.monte_carlo.is_some();
-            Some((folder, Files::for_parts(folder, &mut outputs, VaryingColumns::new(&job), drawn)?, outputs))
+            Some((folder, Files::for_parts(folder, &mut outputs, VaryingColumns::new(job), drawn)?, outputs))
         }
-        _ => None,
+        None => None,
     };
-    let (_, mut report) = parts::merge(parts, &mut console)?;
+    let mut report = merge.report(&mut console)?;
     arguments.dated.date(&mut report.record);
     if let Some((folder, files, outputs)) = begun {
         analyze::write(folder, files, outputs, &report)?;
@@ -46,10 +44,4 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
         &arguments.showing,
         "--full for every table",
     )
-}
-
-/// Returns the paths of the spec and the study of the question.
-fn named(question: &AnalysisRequest) -> Vec<PathBuf> {
-    let files = question.spec_text.iter().chain(&question.study);
-    files.map(|written| PathBuf::from(&written.name)).collect()
 }

@@ -63,7 +63,7 @@ impl Part {
 
     fn __repr__(&self) -> String {
         let [reached, _] = self.0.configurations();
-        format!("Part({} of '{}': {reached} configurations)", self.0.shard(), self.0.request().spec)
+        format!("Part({} of '{}': {reached} configurations)", self.0.shard(), self.0.spec())
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
@@ -113,7 +113,7 @@ pub(crate) fn merge(
             }
         });
     }
-    let ((_, report), notes) =
-        run(py, threads, progress, |notes| abbe_study::analyze::parts::merge(named, notes))?;
+    let (report, notes) =
+        run(py, threads, progress, |notes| parts::Merge::new(named, notes)?.report(notes))?;
     analysis(py, report, notes)
 }

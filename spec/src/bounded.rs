@@ -167,7 +167,7 @@ fn or_nearest(error: io::Error, path: &Path) -> io::Error {
     help.map(|help| io::Error::new(error.kind(), unfit(help))).unwrap_or(error)
 }
 
-fn too_large(most: u64) -> Unfit {
+pub(crate) fn too_large(most: u64) -> Unfit {
     let message = format!("this file is larger than {} MiB", most >> 20);
     Unfit::new(message, "check that this is the right file")
 }

@@ -1,14 +1,15 @@
 //! TOML documents with the location of every item, from which specs, studies, maps and plans are
 //! read.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
+use std::io::{self, Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::bounded::{Bounded, Unfit, not_text};
+use crate::bounded::{Bounded, Unfit, not_text, too_large};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
 use crate::expr::{
     Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Scope, TextLocation, parse_expression,
@@ -18,6 +19,9 @@ use crate::not_toml::not_toml;
 
 /// Maximum size of a file in bytes; a chain of a hundred frames takes about 30 kB.
 const LARGEST: u64 = 4 << 20;
+
+/// Contents of files, by path.
+pub type Contents = BTreeMap<String, String>;
 
 /// A file with the diagnostics found so far.
 #[derive(Debug)]
@@ -30,6 +34,8 @@ pub struct Document {
     pub found: Vec<Diagnostic>,
     /// Folder of the file; `None` for text that is not in a file.
     pub folder: Option<PathBuf>,
+    /// Contents of all files that the document may name; `None` opens the files.
+    pub contents: Option<Arc<Contents>>,
     /// Additional files read for this one, and their contents.
     pub(crate) beside: Vec<(PathBuf, Vec<u8>)>,
     /// Every file that was read, this one first.
@@ -47,6 +53,7 @@ impl Document {
             text: text.into(),
             found: Vec::new(),
             folder: None,
+            contents: None,
             beside: Vec::new(),
             files: Vec::new(),
             meant: HashSet::new(),
@@ -79,6 +86,20 @@ impl Document {
             .label("not a UTF-8 character")
             .help("save it as UTF-8, or write names without accents");
         Err(fail(text, mistake))
+    }
+
+    /// Opens a file that the document names, or reads it from [`contents`](Self::contents). Reading
+    /// more than `most` bytes is an error.
+    pub fn named_file(&self, path: &Path, most: u64) -> io::Result<Box<dyn Read>> {
+        let Some(contents) = &self.contents else { return Ok(Box::new(Bounded::open(path, most)?)) };
+        match contents.get(&*path.to_string_lossy()) {
+            Some(text) if text.len() as u64 > most => Err(too_large(most).into()),
+            Some(text) => Ok(Box::new(Cursor::new(text.clone()))),
+            None => {
+                let message = "this file is not among those that come with the text that names it";
+                Err(Unfit::new(message, "supply its contents with the text").into())
+            }
+        }
     }
 
     /// Parses `text`, the document's own, or records all syntax errors.

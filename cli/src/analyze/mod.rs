@@ -122,7 +122,7 @@ fn part(
     pending.write_all(&part.to_bytes()).map_err(|error| cannot_write(file, &error))?;
     let printed = outputs.finish([pending])?;
     let [reached, not] = part.configurations();
-    let name = &part.request().spec;
+    let name = part.spec();
     let text = format!("part {shard} of {name}: {reached} configurations, {not} unreachable\n");
     Ok(Outcome::passed(text).beside(printed))
 }

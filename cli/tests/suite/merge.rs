@@ -95,31 +95,32 @@ fn any_division_gives_the_report_of_one_run() {
     }
 }
 
-/// Parts contain the texts of spec and study: they merge without these files, and report if a file
-/// has changed.
+/// Holds that parts merge without the files that they were created from, and that parts created from
+/// different tables are refused.
 #[test]
 fn parts_merge_elsewhere() {
     let folder = tempfile::tempdir().unwrap();
-    let spec = shipped("scara").to_owned()
+    const STUDY: &str = "[study]\ntitle = \"beside\"\n[workspace.joints]\nsamples = 200\n";
+    let text = shipped("scara").to_owned()
         + "\n[tables.rail]\nfile = \"rail.csv\"\nx = { column = \"x\", unit = \"mm\" }\ny = { column = \"y\", unit = \"um\" }\n\
            interpolation = \"linear\"\n[[source]]\nname = \"rail\"\nclass = \"repeatable\"\nframe = \"stroke\"\ne_y = \"rail(d3)\"\n";
-    let at = write(folder.path(), "arm.toml", &spec);
+    let at = write(folder.path(), "arm.toml", &text);
     write(folder.path(), "rail.csv", "x,y\n-150,0\n-70,5\n0,0\n");
-    write(
-        folder.path(),
-        "arm.study.toml",
-        "[study]\ntitle = \"beside\"\n[workspace.joints]\nsamples = 200\n",
-    );
+    write(folder.path(), "arm.study.toml", STUDY);
     let spec = at.to_str().unwrap();
     let expected = prints(&["analyze", spec, "--json"]);
     let parts = ["1/2", "2/2"].map(|shard| part(folder.path(), spec, &["--no-figures"], shard));
     fs::remove_file(&at).unwrap();
     fs::remove_file(folder.path().join("arm.study.toml")).unwrap();
+    fs::remove_file(folder.path().join("rail.csv")).unwrap();
     assert_eq!(prints(&merged(&parts, &["--json"])), expected);
+    write(folder.path(), "arm.toml", &text);
+    write(folder.path(), "arm.study.toml", STUDY);
     write(folder.path(), "rail.csv", "x,y\n-150,0\n-70,6\n0,0\n");
-    let refused = abbe(&merged(&parts, &[]));
+    let other = part(folder.path(), spec, &["--no-figures", "--force"], "2/2");
+    let refused = abbe(&merged(&[parts[0].clone(), other], &[]));
     assert_eq!(refused.status, 2);
-    assert!(refused.stderr.contains("has changed since this part was created"), "{}", refused.stderr);
+    assert!(refused.stderr.contains("other input files differ"), "{}", refused.stderr);
 }
 
 #[test]
@@ -172,7 +173,7 @@ fn what_does_not_belong_together_is_refused() {
         damaged(&changed, &["damaged"]);
     }
     // CBOR, the format of version 0.1.
-    damaged(b"abbe part 1\n\xa1\x61a\x01\xff\xfe", &["the format 1", "reads 2", "one version of abbe"]);
+    damaged(b"abbe part 1\n\xa1\x61a\x01\xff\xfe", &["the format 1", "reads 3", "one version of abbe"]);
     damaged(&[&bytes[..12], b"\xff\xfe", &bytes[14..]].concat(), &["damaged"]);
     damaged(b"q1,q2\n0,0\n", &["not a part of an analysis", "--shard I/N"]);
     damaged(b"", &["not a part of an analysis"]);

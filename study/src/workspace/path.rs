@@ -13,7 +13,7 @@ use std::path;
 
 use abbe::analysis::Configuration;
 use abbe::{Manipulator, VariableKind};
-use abbe_spec::bounded::{Bounded, Unfit, not_text};
+use abbe_spec::bounded::{Unfit, not_text};
 use abbe_spec::cell::meant;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Section};
@@ -120,7 +120,9 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
     let found = match shipped(document, &file) {
         Some(text) => read_configurations(text.as_bytes(), spec),
         None => {
-            let found = read_file(&path, spec);
+            let input = document.named_file(&path, LARGEST_FILE);
+            let input = input.map_err(|error| describe_error(&error.into()));
+            let found = input.and_then(|input| read_configurations(input, spec));
             document.files.push(path);
             found
         }
@@ -141,11 +143,6 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
 fn shipped(document: &Document, file: &str) -> Option<&'static str> {
     let mut files = abbe_manipulators::STUDY_FILES.iter().filter(|_| document.folder.is_none());
     files.find(|(name, _)| *name == file).map(|(_, text)| *text)
-}
-
-fn read_file(file: &path::Path, spec: &Spec) -> Result<Table, String> {
-    let input = Bounded::open(file, LARGEST_FILE).map_err(|error| describe_error(&error.into()))?;
-    read_configurations(input, spec)
 }
 
 fn read_configurations(input: impl Read, spec: &Spec) -> Result<Table, String> {

@@ -1,7 +1,8 @@
 //! Parts with impossible content give errors with help, never a panic or an endless loop.
 
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, merge};
+use abbe_study::analyze::Report;
+use abbe_study::analyze::parts::{AnalysisRequest, FileText, Merge, Part};
 use abbe_study::hash;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -73,15 +74,19 @@ fn halves(question: &AnalysisRequest) -> [Part; 2] {
 fn content(part: &Part) -> Value {
     let text = String::from_utf8(part.to_bytes()).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!((lines.len(), lines[0]), (3, "abbe part 2"));
+    assert_eq!((lines.len(), lines[0]), (3, "abbe part 3"));
     serde_json::from_str(lines[1]).unwrap()
 }
 
 /// Reads a file with this content and a correct checksum.
 fn read(content: &Value) -> Result<Part, Diagnostics> {
-    let text = format!("abbe part 2\n{content}\n");
+    let text = format!("abbe part 3\n{content}\n");
     let file = format!("{text}{}\n", hash::text(&text));
     Part::from_bytes("a.part", file.as_bytes())
+}
+
+fn merge(parts: Vec<(String, Part)>) -> Result<Report, Diagnostics> {
+    Merge::new(parts, &mut ())?.report(&mut ())
 }
 
 fn refused(content: &Value, says: &str) {
@@ -108,7 +113,7 @@ fn halves_merge_to_the_whole() {
     for question in questions() {
         let merged = |parts: Vec<Part>| {
             let parts = parts.into_iter().enumerate().map(|(i, part)| (i.to_string(), part)).collect();
-            serde_json::to_value(merge(parts, &mut ()).unwrap().1).unwrap()
+            serde_json::to_value(merge(parts).unwrap()).unwrap()
         };
         let whole = merged(vec![Part::new(question.clone(), "1/1".parse().unwrap(), &mut ()).unwrap()]);
         assert_eq!(merged(halves(&question).into()), whole);
@@ -141,6 +146,77 @@ fn shards_and_draws_are_limited() {
     let too_many = AnalysisRequest { monte_carlo: Some(10_000_001), ..question };
     let refused = Part::new(too_many, "1/1".parse().unwrap(), &mut ()).map(|_| ()).unwrap_err();
     assert!(refused.to_string().contains("between 1 and 10000000"), "{refused}");
+}
+
+/// Holds that a merge opens no file: tables and paths are those that part 1 carries, wherever the
+/// spec and the study of a part say that they are.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_merge_opens_no_file() {
+    use std::fs::{self, OpenOptions};
+    use std::os::unix::fs::{OpenOptionsExt, symlink};
+    const O_NONBLOCK: i32 = 0o4000;
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let table = "x,y\n0,0\n100,0.1\n";
+    let spec = CALIBRATED.to_owned()
+        + "[tables.rail]\nfile = \"rail.csv\"\nx = { column = \"x\", unit = \"mm\" }\n\
+           y = { column = \"y\", unit = \"mm\" }\ninterpolation = \"linear\"\n\
+           [[source]]\nname = \"rail\"\nclass = \"repeatable\"\nframe = \"turn\"\ne_y = \"rail(d1)\"\n";
+    let study = "[study]\ntitle = \"t\"\n[workspace.path]\nfile = \"path.csv\"\n";
+    fs::write(at("rail.csv"), table).unwrap();
+    fs::write(at("path.csv"), "d1 (mm)\n1\n2\n").unwrap();
+    symlink(at("rail.csv"), at("link.csv")).unwrap();
+    let pipe = at("pipe.csv");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+
+    let text = |name: &str, text: String| FileText {
+        name: at(name),
+        folder: Some(folder.path().to_str().unwrap().to_owned()),
+        text,
+    };
+    let [_, _, question] = questions();
+    let question = AnalysisRequest {
+        spec_text: Some(text("arm.toml", spec)),
+        study: Some(text("arm.study.toml", study.to_owned())),
+        ..question
+    };
+    let part = Part::new(question, "1/1".parse().unwrap(), &mut ()).unwrap();
+    let content = content(&part);
+    let merged = |content: &Value| merge(vec![("a.part".to_owned(), read(content).unwrap())]);
+    let files = content["files"].as_object().unwrap();
+    assert_eq!(files.values().collect::<Vec<_>>(), ["d1 (mm)\n1\n2\n", table]);
+
+    let inside = format!("../{}/rail.csv", folder.path().file_name().unwrap().to_str().unwrap());
+    for named in [&at("rail.csv"), "rail.csv", "link.csv", &inside, "/dev/zero", "/etc/passwd", &pipe] {
+        for (document, file) in [("spec_text", "rail.csv"), ("study", "path.csv")] {
+            let mut hostile = content.clone();
+            let document = &mut hostile["request"][document]["text"];
+            *document = json!(document.as_str().unwrap().replace(file, named));
+            hostile["files"] = json!({});
+            let refused = merged(&hostile).unwrap_err().to_string();
+            assert!(refused.contains("not among those that come with the text"), "{named}: {refused}");
+        }
+        let mut hostile = content.clone();
+        hostile["request"]["spec"] = json!(named);
+        hostile["request"]["spec_text"] = Value::Null;
+        let refused = merged(&hostile).unwrap_err().to_string();
+        assert!(refused.contains("no shipped manipulator of this name"), "{named}: {refused}");
+    }
+    let mut changed = content.clone();
+    for text in changed["files"].as_object_mut().unwrap().values_mut() {
+        *text = json!(text.as_str().unwrap().replace("0.1", "0.2").replace("\n2\n", "\n3\n"));
+    }
+    let refused = merged(&changed).unwrap_err().to_string();
+    assert!(refused.contains("not those that it was created from"), "{refused}");
+
+    // Only a process that reads the pipe makes it possible to open it for writing at once.
+    let opened = OpenOptions::new().write(true).custom_flags(O_NONBLOCK).open(&pipe);
+    assert!(opened.is_err(), "somebody reads the pipe");
+
+    let whole = serde_json::to_value(merged(&content).unwrap()).unwrap();
+    drop(folder);
+    assert_eq!(serde_json::to_value(merged(&content).unwrap()).unwrap(), whole);
 }
 
 /// Collects the paths of all values.
@@ -197,7 +273,7 @@ fn a_damaged_part_merges_or_is_refused() {
             damage(damaged.pointer_mut(path).unwrap(), &mut random);
             let parts =
                 read(&damaged).map(|part| vec![("a".to_owned(), part), ("b".to_owned(), other.clone())]);
-            match parts.and_then(|parts| merge(parts, &mut ())) {
+            match parts.and_then(merge) {
                 Ok(_) => merged += 1,
                 Err(mistakes) => {
                     refused += 1;

@@ -1,8 +1,9 @@
 //! Points of a table: reads and checks them.
 
+use std::io::Read;
 use std::path::PathBuf;
 
-use crate::bounded::{Bounded, Unfit, not_text};
+use crate::bounded::{Unfit, not_text};
 use crate::cell::meant;
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::{Document, Item};
@@ -35,15 +36,18 @@ impl Columns {
             return None;
         };
         let path: PathBuf = folder.join(&file);
-        let read = Bounded::read_all(&path, LARGEST).map_err(|error| {
-            match Unfit::from_error(&error, "the path is relative to the folder of the spec") {
-                Unfit { help, .. } if error.raw_os_error().is_some() => {
-                    Unfit::new(format!("cannot read `{file}`: {error}"), help)
-                }
-                Unfit { message, help } => Unfit::new(format!("`{file}`: {message}"), help),
-            }
-        });
-        let text = read.and_then(|bytes| match not_text(&bytes) {
+        let mut bytes = Vec::new();
+        let opened = document.named_file(&path, LARGEST);
+        let read =
+            opened.and_then(|mut input| input.read_to_end(&mut bytes)).map_err(
+                |error| match Unfit::from_error(&error, "the path is relative to the folder of the spec") {
+                    Unfit { help, .. } if error.raw_os_error().is_some() => {
+                        Unfit::new(format!("cannot read `{file}`: {error}"), help)
+                    }
+                    Unfit { message, help } => Unfit::new(format!("`{file}`: {message}"), help),
+                },
+            );
+        let text = read.and_then(|_| match not_text(&bytes) {
             Some(Unfit { message, help }) => Err(Unfit::new(format!("`{file}`: {message}"), help)),
             None => Ok(bytes),
         });

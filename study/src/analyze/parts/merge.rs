@@ -1,5 +1,7 @@
 //! Merges parts.
 
+use std::sync::Arc;
+
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::part::{Build, Part};
@@ -8,34 +10,53 @@ use crate::analyze::{Analyze, Report};
 use crate::mistake;
 use crate::notes::Notes;
 
-/// Merges all parts of an analysis. Returns its job, and a report that is byte for byte that of a
-/// single run. Each part comes with its name for messages; their order does not matter.
-pub fn merge(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<(Analyze, Report), Diagnostics> {
-    let parts = sorted_and_complete(parts)?;
-    // The remaining computations must agree bit for bit with those of the parts.
-    for (name, Part { made_by: Build { version, machine }, .. }) in parts.iter().take(1) {
-        let here = Build::current();
-        if (version, machine) != (&here.version, &here.machine) {
-            let message = format!(
-                "this part was created by abbe {version} on {machine}; this is abbe {} on {}",
-                here.version, here.machine
-            );
-            let help = "merge with the same version of abbe on the same kind of machine";
-            return Err(mistake::with_help(name, message, help));
+/// All parts of an analysis, with its job.
+pub struct Merge {
+    job: Analyze,
+    /// Name and content of each part, sorted by shard.
+    parts: Vec<(String, Part)>,
+}
+
+impl Merge {
+    /// Checks that the parts are all of one analysis. Each part comes with its name for messages;
+    /// their order does not matter. Opens no file: part 1 carries the contents of all tables and
+    /// paths.
+    pub fn new(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
+        let mut parts = sorted_and_complete(parts)?;
+        // The remaining computations must agree bit for bit with those of the parts.
+        for (name, Part { made_by: Build { version, machine }, .. }) in parts.iter().take(1) {
+            let here = Build::current();
+            if (version, machine) != (&here.version, &here.machine) {
+                let message = format!(
+                    "this part was created by abbe {version} on {machine}; this is abbe {} on {}",
+                    here.version, here.machine
+                );
+                let help = "merge with the same version of abbe on the same kind of machine";
+                return Err(mistake::with_help(name, message, help));
+            }
         }
+        let Some((name, first)) = parts.first_mut() else {
+            return Err(mistake::with_help("merge", "no part is given", "give all parts of one analysis"));
+        };
+        let contents = Arc::new(std::mem::take(&mut first.files));
+        let job = first.request.job_from(Some(&contents), notes)?;
+        if first.request.identity(&job, Some(&contents))? != first.identity {
+            let message = "the files that this part carries are not those that it was created from";
+            return Err(mistake::with_help(name, message, "create it again"));
+        }
+        Ok(Self { job, parts })
     }
-    let Some((name, first)) = parts.first() else {
-        return Err(mistake::with_help("merge", "no part is given", "give all parts of one analysis"));
-    };
-    let (name, request) = (name.clone(), first.request.clone());
-    let job = request.job(notes)?;
-    if request.identity(&job)? != first.identity {
-        let message = "a file that the spec or the study reads has changed since this part was created";
-        return Err(mistake::with_help(&name, message, "create all parts again"));
+
+    /// Returns the job of the analysis.
+    pub fn job(&self) -> &Analyze {
+        &self.job
     }
-    let named = parts.into_iter().map(|(name, part)| (name, part.shard, part.gathered));
-    let report = job.report_on_parts(named.collect(), notes)?;
-    Ok((job, report))
+
+    /// Returns the report, byte for byte that of a single run.
+    pub fn report(self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let named = self.parts.into_iter().map(|(name, part)| (name, part.shard, part.gathered));
+        self.job.report_on_parts(named.collect(), notes)
+    }
 }
 
 /// Sorts the parts by shard, and checks that they are one analysis, complete and without

@@ -10,7 +10,7 @@ mod part;
 mod request;
 pub(super) mod shard;
 
-pub use merge::merge;
+pub use merge::Merge;
 pub use part::Part;
 pub use request::{AnalysisRequest, Change, FileText};
 pub use shard::Shard;

@@ -2,9 +2,10 @@
 
 use abbe::lanes::InstructionSet;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Contents;
 use serde::{Deserialize, Serialize};
 
-use super::request::AnalysisRequest;
+use super::request::{self, AnalysisRequest};
 use super::shard::Shard;
 use crate::analyze::sweep::SweepData;
 use crate::finite::finite;
@@ -20,6 +21,8 @@ pub struct Part {
     pub(super) made_by: Build,
     pub(super) identity: String,
     pub(super) request: AnalysisRequest,
+    /// Contents of the tables and paths, in part 1 alone: a merge opens no file that a part names.
+    pub(super) files: Contents,
     pub(super) shard: Shard,
     pub(super) gathered: SweepData,
 }
@@ -50,10 +53,11 @@ impl Part {
         let job = request.job(&mut ())?;
         let refused = |message| mistake::with_help(&request.spec, message, "choose fewer draws");
         request.check_draws().map_err(refused)?;
-        let identity = request.identity(&job)?;
+        let identity = request.identity(&job, None)?;
+        let files = if shard.number() == 1 { request::contents(&job)? } else { Contents::new() };
         let gathered = job.sweep_chunks(|count| shard.chunks(count), notes)?;
         let origin = job.machine().origin.clone();
-        finite(origin, Self { made_by: Build::current(), identity, request, shard, gathered })
+        finite(origin, Self { made_by: Build::current(), identity, request, files, shard, gathered })
     }
 
     /// Returns the share that this part covers.
@@ -61,9 +65,9 @@ impl Part {
         self.shard
     }
 
-    /// Returns the question.
-    pub fn request(&self) -> &AnalysisRequest {
-        &self.request
+    /// Returns the path of the spec, or the name of the shipped manipulator.
+    pub fn spec(&self) -> &str {
+        &self.request.spec
     }
 
     /// Returns the numbers of reached and unreachable configurations.

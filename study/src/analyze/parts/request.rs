@@ -1,11 +1,13 @@
 //! An analysis as data: its files and options, so that another machine can run it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
+use abbe_spec::bounded::{Bounded, Unfit};
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Document;
+use abbe_spec::document::{Contents, Document};
 use serde::{Deserialize, Serialize};
 
 use crate::analyze::Analyze;
@@ -13,8 +15,12 @@ use crate::analyze::options::DRAWS;
 use crate::changes::Changes;
 use crate::hash;
 use crate::machine::Machine;
+use crate::mistake;
 use crate::notes::Notes;
 use crate::study_file::Study;
+
+/// Largest size of all files that a part carries, in bytes.
+const LARGEST: u64 = 512 << 20;
 
 /// A file with its text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,8 +44,9 @@ impl FileText {
         Self { name: document.path, folder, text: document.text.to_string() }
     }
 
-    fn document(&self) -> Document {
+    fn document(&self, contents: Option<&Arc<Contents>>) -> Document {
         let mut document = Document::new(self.name.as_str(), self.text.as_str());
+        document.contents = contents.cloned();
         document.folder = self.folder.as_ref().map(Into::into);
         document
     }
@@ -122,14 +129,34 @@ impl AnalysisRequest {
         }
     }
 
-    /// Returns the job that answers the question.
+    /// Returns the job that answers the question. Opens the tables and paths that the spec and the
+    /// study name.
     pub fn job(&self, notes: &mut dyn Notes) -> Result<Analyze, Diagnostics> {
-        let machine = match &self.spec_text {
-            Some(file) => Machine::of_spec(Spec::from_document(file.document())?, &self.spec),
-            None => Machine::find(&self.spec)?,
+        self.job_from(None, notes)
+    }
+
+    /// Returns the job that answers the question. Opens no file if the contents of the tables and
+    /// paths are given.
+    pub(super) fn job_from(
+        &self,
+        contents: Option<&Arc<Contents>>,
+        notes: &mut dyn Notes,
+    ) -> Result<Analyze, Diagnostics> {
+        let shipped = SHIPPED.iter().find(|shipped| shipped.name == self.spec);
+        let machine = match (&self.spec_text, shipped) {
+            (Some(file), _) => Machine::of_spec(Spec::from_document(file.document(contents))?, &self.spec),
+            (None, Some(shipped)) => Machine::shipped(shipped)?,
+            (None, None) => {
+                let help = "give the text of the spec, or the name of a shipped manipulator";
+                return Err(mistake::with_help(
+                    &self.spec,
+                    "there is no shipped manipulator of this name",
+                    help,
+                ));
+            }
         };
         let study = match &self.study {
-            Some(file) => Study::read(file.document(), &machine.spec)?,
+            Some(file) => Study::read(file.document(contents), &machine.spec)?,
             None => Study::find(None, &machine)?,
         };
         let mut job = Analyze::new(machine, study);
@@ -145,10 +172,15 @@ impl AnalysisRequest {
     }
 
     /// Returns the key that identifies the parts of one analysis: the SHA-256 of all file contents
-    /// (tables and paths included) and options. File locations do not affect it.
-    pub(super) fn identity(&self, job: &Analyze) -> Result<String, Diagnostics> {
+    /// (tables and paths included) and options. File locations do not affect it. Opens no file if
+    /// their contents are given.
+    pub(super) fn identity(&self, job: &Analyze, contents: Option<&Contents>) -> Result<String, Diagnostics> {
         let (spec, study) = (&job.machine().spec, job.study());
-        let beside = study.files.iter().map(|file| hash::file(file)).collect::<Result<Vec<_>, _>>()?;
+        let hash = |file: &PathBuf| match contents {
+            None => hash::file(file),
+            Some(contents) => Ok(hash::text(contents.get(&*file.to_string_lossy()).map_or("", |text| text))),
+        };
+        let beside = study.files.iter().map(hash).collect::<Result<Vec<_>, _>>()?;
         let texts = (&spec.hash, study.file.as_ref().map(|(_, hash)| hash), beside);
         let options = (&self.changes, self.monte_carlo, self.seed, self.interpret, self.figures);
         Ok(hash::text(&format!("{texts:?} {options:?}")))
@@ -158,4 +190,21 @@ impl AnalysisRequest {
     pub fn is_shipped(&self) -> bool {
         SHIPPED.iter().any(|shipped| shipped.name == self.spec) && self.spec_text.is_none()
     }
+}
+
+/// Reads the tables and paths that a job has read.
+pub(super) fn contents(job: &Analyze) -> Result<Contents, Diagnostics> {
+    let (mut contents, mut left) = (Contents::new(), LARGEST);
+    for file in job.machine().spec.beside.iter().chain(&job.study().files) {
+        let wrong = |message: String, help: &str| mistake::with_help(file.display(), message, help);
+        let bytes = Bounded::read_all(file, left).map_err(|error| {
+            let Unfit { message, help } = Unfit::from_error(&error, "give the path of a file");
+            wrong(message, &help)
+        })?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| wrong("this file is not UTF-8 text".to_owned(), "save it as UTF-8"))?;
+        left = left.saturating_sub(text.len() as u64);
+        contents.insert(file.to_string_lossy().into_owned(), text);
+    }
+    Ok(contents)
 }
