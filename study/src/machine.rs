@@ -161,6 +161,11 @@ impl Machine {
         }
     }
 
+    /// Returns whether changes are applied to the spec.
+    pub(crate) fn is_changed(&self) -> bool {
+        self.changed
+    }
+
     /// Returns the text of the spec before changes.
     pub fn text(&self) -> Result<String, Diagnostics> {
         match self.shipped {

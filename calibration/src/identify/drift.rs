@@ -28,7 +28,8 @@ pub struct Drift {
     pub follows: Follows,
     /// Time constant of the best exponential, as a share of the duration; none for a straight line.
     pub settling: Option<f64>,
-    /// Fitted change from the first row to the last, in the length unit.
+    /// Fitted change of the residuals from the first interval to the last, in the length unit: what
+    /// the regressions on the joints do not explain.
     pub change: f64,
     /// p-value of the correlation, from random orders.
     pub p: f64,
@@ -215,7 +216,7 @@ fn test_drift(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drif
         p_of_lag_1,
         follows: if a < 3 { Follows::Axis(a) } else { Follows::Distance },
         settling: *settling,
-        change: slope * (shape(*settling, 1.0) - shape(*settling, 0.0)),
+        change: slope * (basis[n - 1] - basis[0]),
         p,
         ends,
     }))
@@ -279,6 +280,25 @@ mod tests {
         test_drift(&Timed { count, row: &|i| &rows[i], time: &|i| i as f64, errors: &errors }).unwrap()
     }
 
+    /// Returns the drift test of noise of variance 1 in rows where one joint is nearly time.
+    fn along_a_path(seed: u64, count: usize) -> Drift {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let normal = rand_distr::Normal::new(0.0, 1.0).unwrap();
+        let row = |i: usize, shake: f64| {
+            let time = i as f64 / count as f64;
+            let q = vec![time + 0.01 * shake, shake];
+            Observation::new(i as u64, q, Vec::new(), Measurement::Points(vec![].into()))
+        };
+        let rows: Vec<Observation> = (0..count).map(|i| row(i, random.random_range(-1.0..1.0))).collect();
+        let errors: Vec<[f64; 3]> = rows.iter().map(|_| [(); 3].map(|()| random.sample(normal))).collect();
+        let errors = |take: &mut dyn FnMut([f64; 3])| {
+            errors.iter().for_each(|error| take(*error));
+            Ok(())
+        };
+        let timed = Timed { count, row: &|i| &rows[i], time: &|i| i as f64, errors: &errors };
+        test_drift(&timed).unwrap().unwrap()
+    }
+
     /// 1 % of orders without drift raise an alarm: 3 ± 1.7 of 300.
     #[test]
     fn false_alarms_are_as_rare_as_stated() {
@@ -299,6 +319,16 @@ mod tests {
         assert!(drifting.p <= 0.01 && drifting.follows == Follows::Axis(2), "{drifting:?}");
         assert!((drifting.change - 2.0).abs() < 0.8);
         assert!(rows(3, 15, 1, |_, _| [0.0; 3]).is_none());
+    }
+
+    /// A joint that follows time takes part of a drift: the change is that of the residuals, no
+    /// multiple of them by extrapolation along the joint.
+    #[test]
+    fn the_change_is_no_larger_than_the_residuals() {
+        for seed in 0..20 {
+            let drift = along_a_path(seed, 200);
+            assert!(drift.change.abs() < 4.0, "{seed}: {drift:?}");
+        }
     }
 
     /// A swing of variance 4.5 in noise of variance 1: neighbours correlate by about 0.8, reduced

@@ -32,6 +32,7 @@ use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, check_plausibility, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::profiles::find_profiles;
+use super::read_back::read_back;
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
@@ -263,6 +264,8 @@ fn report(
         unexplained: unexplained(setup, solved, rows, left).map_err(fail)?,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
+    let written = read_back(&found, machine, map, data, |i| fit.is_kept(i))?;
+    let written = written.and_then(|written| found.read_back_note(spec, [written.rms, left], length));
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let drift_test = drift_test.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let extrapolation = |test: &Data| {
@@ -343,6 +346,7 @@ fn report(
             .chain(unequal)
             .chain(tool_note(setup, model, fit))
             .chain(no_drift)
+            .chain(written)
             .collect(),
         record: map.record.with_options(job.options()),
         points,

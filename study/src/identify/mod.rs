@@ -60,6 +60,7 @@ mod point_residuals;
 mod priors;
 mod profile_table;
 mod profiles;
+mod read_back;
 mod reading_units;
 mod report;
 mod scale;

@@ -1,6 +1,6 @@
 //! Selection of richer terms: what is chosen is what the machine has.
 
-use abbe::identify::Loss;
+use abbe::identify::{Loss, Measurement, Observation};
 use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Identify, Prior, Report, Settings};
@@ -109,4 +109,101 @@ fn drift_is_not_tried_across_stations() {
         "{:?}",
         report.notes
     );
+}
+
+/// Three slides at right angles, whose scales are 100, -50 and 30 ppm long.
+fn gantry(scales: &str) -> Machine {
+    let frame = |axis: char| {
+        format!(
+            "[[frame]]\nname = \"{axis}\"\nvariable = {{ name = \"{axis}\", kind = \"prismatic\", limits = \
+             [\"0 mm\", \"500 mm\"] }}\ntransform = \"T{axis}({axis})\"\n\n"
+        )
+    };
+    let frames: String = ['x', 'y', 'z'].map(frame).concat();
+    machine("gantry.toml", &format!("[manipulator]\nname = \"gantry\"\nlength = \"mm\"\n\n{frames}{scales}"))
+}
+
+/// A laser measures axis by axis: each scale has an effect in a third of the rows only, and all
+/// three are found, as scales.
+#[test]
+fn a_laser_finds_the_scales_of_three_slides() {
+    let scale = |(axis, ppm): (char, i32)| {
+        format!(
+            "\n[[source]]\nname = \"scale of {axis}\"\nclass = \"repeatable\"\njoint = \"{axis}\"\n\
+             error = \"{ppm}e-6 * {axis}\"\n"
+        )
+    };
+    let real = gantry(&[('x', 100), ('y', -50), ('z', 30)].map(scale).concat());
+    let nominal = gantry("");
+    let joints: String =
+        ['x', 'y', 'z'].map(|axis| format!("{axis} = {{ column = \"{axis}\", unit = \"mm\" }}\n")).concat();
+    let laser = LASER.replace("x = { column = \"x\", unit = \"mm\" }\n", &joints).replace("0.1 um", "0.2 um");
+    let map = Map::parse("laser.toml", &laser, &nominal.spec).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("data.csv");
+    let read = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        Data::read(&path, &map).unwrap()
+    };
+    let along = |axis: usize| {
+        let row =
+            move |i: usize| (0..3).map(|k| if k == axis { 25.0 * i as f64 } else { 0.0 }).collect::<Vec<_>>();
+        (0..21).map(row)
+    };
+    let rows = (0..3).flat_map(along).map(|row| format!("{},{},{},0\n", row[0], row[1], row[2]));
+    let plan = read(&format!("x,y,z,travelled\n{}", rows.collect::<String>()));
+    for seed in 0..4 {
+        let (machine, at) = (real.clone(), Places::Rows(plan.clone()));
+        let job = Simulate { machine, map: map.clone(), at, noise: None, outliers: 0.0, random: false, seed };
+        let data = read(&job.run(&mut ()).unwrap().table.csv());
+        let (machine, map, terms, harmonics) =
+            (nominal.clone(), map.clone(), Family::ALL.to_vec(), Vec::new());
+        let (settings, accept) = (Settings::default(), Acceptance::default());
+        let job = Identify { machine, map, data, test: None, terms, harmonics, settings, accept };
+        let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
+        let mut names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
+        names.sort_unstable();
+        let scales = ["x", "y", "z"].map(|axis| format!("{axis}: in proportion to {axis}, joint error"));
+        assert_eq!(names, scales, "seed {seed}");
+        assert!(report.fit.after.rms < 3e-4, "seed {seed}: {:?}", report.fit.after);
+    }
+}
+
+/// Terms that depend on the order of the rows are not written: the report says what the written
+/// spec leaves, which was read back on the rows of the fit.
+#[test]
+fn the_report_says_what_the_written_spec_leaves() {
+    let machine = Machine::find("ur5").unwrap();
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"rad\" }}\n")).collect();
+    let text = format!(
+        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\n\n[joints]\n{joints}\n[point]\n\
+         columns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n"
+    );
+    let map = Map::parse("map.toml", &text, &machine.spec).unwrap();
+    let at = Places::Samples(100);
+    let (outliers, random, seed) = (0.0, false, 4);
+    let job =
+        Simulate { machine: machine.clone(), map: map.clone(), at, noise: None, outliers, random, seed };
+    let steady = job.run(&mut ()).unwrap().observations;
+    let drifting = |(i, mut row): (usize, Observation)| {
+        let Measurement::Points(points) = &mut row.measured else { panic!("points") };
+        points.iter_mut().flatten().for_each(|point| point[2] += 0.003 * i as f64);
+        row
+    };
+    let drifting: Vec<Observation> = steady.iter().cloned().enumerate().map(drifting).collect();
+    for (observations, is_drifting) in [(steady, false), (drifting, true)] {
+        let data = Data {
+            file: "simulated".to_owned(),
+            observations,
+            stations: vec![String::new()],
+            ..Data::default()
+        };
+        let (machine, map, terms) = (machine.clone(), map.clone(), vec![Family::Drift]);
+        let (harmonics, settings, accept) = (Vec::new(), Settings::default(), Acceptance::default());
+        let job = Identify { machine, map, data, test: None, terms, harmonics, settings, accept };
+        let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
+        let said = report.notes.iter().any(|note| note.contains("the written spec leaves"));
+        assert_eq!((said, report.terms.is_empty()), (is_drifting, !is_drifting), "{:?}", report.notes);
+    }
 }
