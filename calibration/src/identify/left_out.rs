@@ -17,6 +17,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use super::fit::REJECTED;
+use super::statistics::Scores;
 use super::{Factored, Failure, Fit, Folds, Model, Observation, Offer};
 
 /// Largest number of stored values: 48 MB.
@@ -205,26 +206,33 @@ impl LeftOut {
     /// Returns the sum of squares with a group included; none if the group depends on the included
     /// columns in some fold.
     fn squares_with(&self, group: usize) -> Option<f64> {
-        let columns = &self.groups[group];
+        Some(self.rest_with(group)?.norm_squared())
+    }
+
+    /// Returns the residuals of all folds under the fits of the others with a group included; none
+    /// if the group depends on the included columns in some fold.
+    fn rest_with(&self, group: usize) -> Option<DVector<f64>> {
+        let columns = self.groups[group].clone();
         let last = self.rest.ncols() - 1;
-        let squares = self.folds.iter().map(|fold| {
+        let mut rest = self.rest.column(last).into_owned();
+        for fold in &self.folds {
             let (n, b) = &fold.normal[group];
             if n.diagonal().min() < NEW {
                 return None;
             }
             let x = n.clone().cholesky()?.solve(b);
-            let rest = |i: usize| {
-                let explained: f64 = columns.clone().zip(x.iter()).map(|(j, x)| self.rest[(i, j)] * x).sum();
-                self.rest[(i, last)] - explained
-            };
-            Some(fold.rows.clone().map(|i| rest(i).powi(2)).sum::<f64>())
-        });
-        squares.sum()
+            for (j, x) in columns.clone().zip(x.iter()) {
+                fold.rows.clone().for_each(|i| rest[i] -= self.rest[(i, j)] * x);
+            }
+        }
+        Some(rest)
     }
 
-    /// Returns the scores `Σ g r` of the magnitudes of a group, one row for each configuration;
-    /// columns and right side are projected onto the complement of the included columns.
-    pub(super) fn scores(&self, group: usize) -> DMatrix<f64> {
+    /// Returns the scores `Σ g r` of the magnitudes of a group, one row for each configuration:
+    /// with the residuals under the fit of the included columns, and with the residuals of each
+    /// fold under the fits of the others with the group. Columns are projected onto the complement
+    /// of the included ones.
+    pub(super) fn scores(&self, group: usize) -> Scores {
         let free_of = |k: usize| {
             let mut column = self.columns.column(k).into_owned();
             for _ in 0..2 {
@@ -232,12 +240,16 @@ impl LeftOut {
             }
             column
         };
-        let residual = free_of(self.columns.ncols() - 1);
+        let before = free_of(self.columns.ncols() - 1);
+        let after = self.rest_with(group).unwrap_or_else(|| before.clone());
         let columns = &self.groups[group];
-        let mut scores = DMatrix::zeros(self.configurations, columns.len());
+        let zero = DMatrix::zeros(self.configurations, columns.len());
+        let mut scores = Scores { before: zero.clone(), after: zero };
         for (place, k) in columns.clone().enumerate() {
             for (i, value) in free_of(k).iter().enumerate() {
-                scores[(self.configuration[i], place)] += value * residual[i];
+                let at = (self.configuration[i], place);
+                scores.before[at] += value * before[i];
+                scores.after[at] += value * after[i];
             }
         }
         scores

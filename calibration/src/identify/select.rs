@@ -1,7 +1,6 @@
 //! Forward selection of terms by cross-validation.
 
 use super::left_out::LeftOut;
-use super::statistics::score_test;
 use super::{FTest, Failure, Fit, Folds, Model, Observation, Offer};
 
 /// A selected group of terms.
@@ -44,7 +43,7 @@ pub fn select(
         if after > before * (1.0 - GAIN) {
             break;
         }
-        let test = score_test(&left_out.scores(group), left_out.freedom());
+        let test = left_out.scores(group).test(left_out.freedom());
         if test.p * offer.groups.len() as f64 > offer.chance {
             break;
         }

@@ -92,19 +92,28 @@ pub(super) fn f_beyond(f: f64, k: f64, n: f64) -> f64 {
     incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f.max(0.0)))
 }
 
-/// Tests whether the scores of independent configurations, one row each, have a nonzero mean:
-/// Hotelling's T².
-///
-/// `left` is the number of configurations less the degrees of freedom used by other terms. With
-/// `t = sᵀ(UᵀU)⁻¹s` for the scores U and their sum s, `F = (f/k) t/(C − t)` with `f = left − k`.
-pub(super) fn score_test(scores: &DMatrix<f64>, left: f64) -> FTest {
-    let (configurations, terms) = (scores.nrows() as f64, scores.ncols());
-    let sum = scores.row_sum_tr();
-    let t = scores.tr_mul(scores).cholesky().map_or(0.0, |root| sum.dot(&root.solve(&sum)));
-    let freedom = (left - terms as f64).max(1.0);
-    let f = freedom / terms.max(1) as f64 * t / (configurations - t).max(1e-300);
-    let (k, n) = (terms.max(1) as f64, freedom);
-    FTest { f, terms, freedom: freedom as usize, p: incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f)) }
+/// Scores of the magnitudes of a group of terms, one row for each independent configuration, before
+/// and after its addition.
+pub(super) struct Scores {
+    pub(super) before: DMatrix<f64>,
+    pub(super) after: DMatrix<f64>,
+}
+
+impl Scores {
+    /// Tests whether the magnitudes of the group are zero.
+    ///
+    /// `left` is the number of configurations less the degrees of freedom used by other terms. With
+    /// the sum s of the scores before and the scores U after, `F = sᵀ(UᵀU)⁻¹s / k` with k and
+    /// `left − k` degrees of freedom. The variance of s is that of the scores after, whether or not
+    /// the magnitudes are zero: scores before contain the effect itself, which in few rows hides it.
+    pub(super) fn test(&self, left: f64) -> FTest {
+        let terms = self.before.ncols();
+        let sum = self.before.row_sum_tr();
+        let root = self.after.tr_mul(&self.after).cholesky();
+        let (k, n) = (terms.max(1) as f64, (left - terms as f64).max(1.0));
+        let f = root.map_or(0.0, |root| sum.dot(&root.solve(&sum))) / k;
+        FTest { f, terms, freedom: n as usize, p: f_beyond(f, k, n) }
+    }
 }
 
 /// Computes the regularized incomplete beta function `I_x(a, b)` by its continued fraction

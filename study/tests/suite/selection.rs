@@ -141,21 +141,19 @@ fn a_laser_finds_the_scales_of_three_slides() {
     let map = Map::parse("laser.toml", &laser, &nominal.spec).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("data.csv");
-    let read = |text: &str| {
-        std::fs::write(&path, text).unwrap();
-        Data::read(&path, &map).unwrap()
-    };
+    // Out and back, axis by axis.
     let along = |axis: usize| {
-        let row =
-            move |i: usize| (0..3).map(|k| if k == axis { 25.0 * i as f64 } else { 0.0 }).collect::<Vec<_>>();
-        (0..21).map(row)
+        let row = move |i: usize| [0, 1, 2].map(|k| if k == axis { 25 * i.min(40 - i) } else { 0 });
+        (0..41).map(row)
     };
-    let rows = (0..3).flat_map(along).map(|row| format!("{},{},{},0\n", row[0], row[1], row[2]));
-    let plan = read(&format!("x,y,z,travelled\n{}", rows.collect::<String>()));
+    let rows = (0..3).flat_map(along).map(|[x, y, z]| format!("{x},{y},{z}\n"));
+    std::fs::write(&path, format!("x,y,z\n{}", rows.collect::<String>())).unwrap();
+    let plan = Data::read_commanded(&path, &map).unwrap();
     for seed in 0..4 {
         let (machine, at) = (real.clone(), Places::Rows(plan.clone()));
         let job = Simulate { machine, map: map.clone(), at, noise: None, outliers: 0.0, random: false, seed };
-        let data = read(&job.run(&mut ()).unwrap().table.csv());
+        std::fs::write(&path, job.run(&mut ()).unwrap().table.csv()).unwrap();
+        let data = Data::read(&path, &map).unwrap();
         let (machine, map, terms, harmonics) =
             (nominal.clone(), map.clone(), Family::ALL.to_vec(), Vec::new());
         let (settings, accept) = (Settings::default(), Acceptance::default());
