@@ -1048,17 +1048,24 @@ class FoundPlacement(Fields):
     """Poses of the machine, one per station."""
 
     targets: list[list[float]]
-    """Positions of the targets in the tool frame, in the length unit; empty if whole poses were measured."""
+    """Positions of the targets in the tool frame, in the length unit; empty if whole poses were measured, or if each
+    station has its own.
+    """
 
     mounting: list[list[float]] | None
-    """Pose of the measured frame in the tool frame, as rows of a homogeneous matrix; none if points were measured."""
+    """Pose of the measured frame in the tool frame, as rows of a homogeneous matrix; none if points were measured, or
+    if each station has its own.
+    """
+
+    at_stations: list[PlacementAtStation] | None = None
+    """Placements on the tool if each station has its own; absent otherwise."""
 
     instruments: list[FoundInstrument]
     """Fixtures and zeros of the instruments."""
 
     covariance: list[list[float]]
     """Covariance of all coordinates of the targets, target by target, or of the six errors of the mounting, in
-    products of the units.
+    products of the units; empty if each station has its own.
     """
 
 
@@ -2143,6 +2150,24 @@ class Parameter(Fields):
 
     hardly_known: bool
     """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
+
+
+class PlacementAtStation(Fields):
+    """Identified placement on the tool at one station."""
+
+    station: str
+    """Name of the station."""
+
+    targets: list[list[float]]
+    """Positions of the targets in the tool frame, in the length unit; empty if whole poses were measured."""
+
+    mounting: list[list[float]] | None
+    """Pose of the measured frame in the tool frame, as rows of a homogeneous matrix; none if points were measured."""
+
+    covariance: list[list[float]]
+    """Covariance of all coordinates of the targets, target by target, or of the six errors of the mounting, in
+    products of the units.
+    """
 
 
 class PlanReport(Report):

@@ -85,7 +85,7 @@ impl<'a> Prediction<'a> {
         }
         let ideal = Model::ideal(manipulator, vec![[0.0; 3]], Uncertainty { length: 1.0, angle: 1.0 });
         let [x, y, z, _] = Pose::IDENTITY.0;
-        let model = Model { mounting: Pose([x, y, z, point]), ..ideal }.with(unknowns);
+        let model = Model { mountings: vec![Pose([x, y, z, point])], ..ideal }.with(unknowns);
         debug_assert!(model.roles.iter().all(|role| *role != Role::Known), "nothing but what is unknown");
         Some(Self { scratch: model.scratch(), model, errors })
     }

@@ -21,11 +21,14 @@ impl Model<'_> {
             base: scratch.base(),
             tool: scratch.tool(),
             tool_in_f0: in_f0(scratch),
-            targets: &scratch.targets,
+            targets: &scratch.targets[scratch.first_target..],
             fixtures: &self.fixtures,
             displacements: &scratch.fixtures,
             camera: scratch.camera.as_ref(),
-            previous: scratch.previous.as_ref().map(|previous| (in_f0(previous), &previous.targets[..])),
+            previous: scratch
+                .previous
+                .as_ref()
+                .map(|previous| (in_f0(previous), &previous.targets[previous.first_target..])),
         }
     }
 
@@ -68,6 +71,7 @@ impl Model<'_> {
                 let change = |scratch: &Scratch, target: usize| match observable.kind.is_angle {
                     true => dot(along, self.turn(scratch, k)),
                     false => {
+                        let target = scratch.first_target + target;
                         let of_target = || (target, scratch.tool().apply(scratch.targets[target]));
                         let (target, position) = evaluation.at.map_or_else(of_target, |at| (usize::MAX, at));
                         dot(along, self.point(scratch, k, target, position))
@@ -85,8 +89,8 @@ impl Model<'_> {
         }
     }
 
-    /// Returns the derivative of a point of target `j` with respect to unknown `k`, in the axes of
-    /// the instrument.
+    /// Returns the derivative of a point of target `j` of the model with respect to unknown `k`, in
+    /// the axes of the instrument.
     pub(super) fn point(&self, scratch: &Scratch, k: usize, j: usize, point: [f64; 3]) -> [f64; 3] {
         let last = scratch.errors.len() + 1;
         match self.unknowns[k] {
@@ -94,9 +98,12 @@ impl Model<'_> {
                 scratch.frames[0].point(component, point)
             }
             Unknown::Error(frame, component) => scratch.frames[frame + 1].point(component, point),
-            Unknown::Tool(component) => scratch.frames[last].point(component, point),
+            Unknown::Tool(placement, component) if placement == scratch.placement => {
+                scratch.frames[last].point(component, point)
+            }
             Unknown::Target(target, axis) if target == j => scratch.frames[last].after.0[axis],
             Unknown::Base(..)
+            | Unknown::Tool(..)
             | Unknown::Target(..)
             | Unknown::Fixture(..)
             | Unknown::Zero(_)
@@ -115,8 +122,11 @@ impl Model<'_> {
                 scratch.frames[0].turn(component)
             }
             Unknown::Error(frame, component) => scratch.frames[frame + 1].turn(component),
-            Unknown::Tool(component) => scratch.frames[scratch.errors.len() + 1].turn(component),
+            Unknown::Tool(placement, component) if placement == scratch.placement => {
+                scratch.frames[scratch.errors.len() + 1].turn(component)
+            }
             Unknown::Base(..)
+            | Unknown::Tool(..)
             | Unknown::Target(..)
             | Unknown::Fixture(..)
             | Unknown::Zero(_)

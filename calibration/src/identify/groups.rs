@@ -83,17 +83,36 @@ pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<V
     }
     let tool = transforms[description.frames.len()];
     let Some(last) = description.frames.len().checked_sub(1) else { return Ok(groups) };
-    if pose && six(&Unknown::Tool) && six(&errors_of(last)) {
+    let placements = 0..model.mountings.len();
+    let of_tool = |placement: usize| move |component| Unknown::Tool(placement, component);
+    if pose && placements.clone().all(|i| six(&of_tool(i))) && six(&errors_of(last)) {
         for twist in every() {
             // E_n T = T E_T: an error of the last frame as an error of the tool.
-            let act_as = named(&seen_from(&tool.inverse(), &twist), errors_of(last));
-            groups.push(Group { these: named(&twist, Unknown::Tool), act_as, reason: Reason::Tool });
+            let group = match placements.len() {
+                1 => Group {
+                    these: named(&twist, of_tool(0)),
+                    act_as: named(&seen_from(&tool.inverse(), &twist), errors_of(last)),
+                    reason: Reason::Tool,
+                },
+                _ => Group {
+                    these: named(&twist, errors_of(last)),
+                    act_as: placements.clone().flat_map(|i| at_placement(model, &tool, &twist, i)).collect(),
+                    reason: Reason::Tool,
+                },
+            };
+            groups.push(group);
         }
     }
     if !pose && six(&errors_of(last)) {
         groups.extend(at_targets(model, &tool, &errors_of(last)));
     }
     Ok(groups)
+}
+
+/// Returns an error of the last frame as an error of the tool in a placement: `E_n T M = T M E_T`.
+fn at_placement(model: &Model, tool: &Pose, twist: &Twist, placement: usize) -> Vec<(Unknown, f64)> {
+    let mounted = tool.then(&model.mountings[placement]);
+    named(&seen_from(&mounted, twist), |component| Unknown::Tool(placement, component))
 }
 
 /// Returns the displacements of the targets by errors of the last frame.

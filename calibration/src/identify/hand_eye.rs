@@ -17,7 +17,7 @@ impl Model<'_> {
     ///
     /// Returns none if the tool does not turn about two axes in these rows.
     pub fn hand_eye(&self, rows: &[Observation], station: usize) -> Result<Option<[Pose; 2]>, Failure> {
-        let mut bare = Self { mounting: Pose::IDENTITY, ..self.clone() };
+        let mut bare = Self { mountings: vec![Pose::IDENTITY; self.mountings.len()], ..self.clone() };
         bare.stations[station].pose = Pose::IDENTITY;
         let (mut scratch, x) = (bare.scratch(), vec![0.0; self.unknowns.len()]);
         let mut pairs = Vec::new();

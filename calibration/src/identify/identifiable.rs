@@ -142,8 +142,8 @@ fn by_preference(model: &Model) -> Vec<usize> {
         Fixture(fixture, coordinate) => (1, 3 * fixture + coordinate),
         Zero(reading) => (1, 3 * model.fixtures.len() + reading),
         Target(target, axis) => (2, 3 * target + axis),
-        Tool(component) => (2, component.index()),
-        Intrinsic(parameter) => (2, 6 + parameter),
+        Tool(placement, component) => (2, 6 * placement + component.index()),
+        Intrinsic(parameter) => (2, 6 * model.mountings.len() + parameter),
         Magnitude(source) if named(*k) => (3, source),
         // Where the size of the machine is free, all lengths are relative to this one.
         error @ Error(..) if reference == Some(error) => (4 + frames, 6),

@@ -3,8 +3,11 @@
 //! The chain is `B E_0 · A_1 E_1 … A_n E_n · T M E_T`. `B` is the nominal pose of `F_0` in the
 //! frame of the instrument at a station, and `E_0` its unknown error. `E_T` is the unknown error of
 //! the tool where whole poses are measured, or a camera sees a board; where points are measured,
-//! target j is at `d_j` in the frame of the tool. [Fixtures](Fixture) stand in `F_0`, before `B
-//! E_0`. ε is the sum of known sources, unknown constants, and sources of unknown magnitude.
+//! target j is at `d_j` in the frame of the tool. Stations share one placement on the tool, `M E_T`
+//! and `d_j`, or each has its own. [Fixtures](Fixture) stand in `F_0`, before `B E_0`. ε is the sum
+//! of known sources, unknown constants, and sources of unknown magnitude.
+
+use std::ops::Range;
 
 use super::{
     Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, Observable, Role, Station, Uncertainty, Unknown,
@@ -35,7 +38,8 @@ pub struct Model<'a> {
     pub manipulator: &'a dyn Manipulator,
     /// Stations of the machine, indexed by [`Observation::station`](super::Observation::station).
     pub stations: Vec<Station>,
-    /// Positions of the targets in the frame of the tool; a single one at zero is the tool point.
+    /// Positions of the targets in the frame of the tool, one placement after the other; a single
+    /// one at zero is the tool point.
     pub targets: Vec<[f64; 3]>,
     /// Fixtures, in the axes of `F_0`.
     pub fixtures: Vec<Fixture>,
@@ -43,10 +47,10 @@ pub struct Model<'a> {
     pub observables: Vec<Observable>,
     /// Camera on the tool, or in the room with a board on the tool; its pixels are the observables.
     pub camera: Option<Camera>,
-    /// `M`: transform from the measured frame to the frame of the tool where whole poses are
-    /// measured, before any unknown. The measured frame is that of the camera or board on the tool,
-    /// if there is a camera.
-    pub mounting: Pose,
+    /// `M` of each placement, at least one: transform from the measured frame to the frame of the
+    /// tool where whole poses are measured, before any unknown. The measured frame is that of the
+    /// camera or board on the tool, if there is a camera.
+    pub mountings: Vec<Pose>,
     /// Uncertainty of points and poses; observables have their own.
     pub uncertainty: Uncertainty,
     /// Unknowns, in order.
@@ -70,7 +74,7 @@ impl<'a> Model<'a> {
             fixtures: Vec::new(),
             observables: Vec::new(),
             camera: None,
-            mounting: Pose::IDENTITY,
+            mountings: vec![Pose::IDENTITY],
             uncertainty,
             unknowns: Vec::new(),
             roles: vec![Role::Off; description.sources.len()],
@@ -89,6 +93,28 @@ impl<'a> Model<'a> {
             }
         }
         Self { unknowns, roles, ..self.clone() }
+    }
+
+    /// Returns the indices of the targets of a placement on the tool; each has the same number.
+    pub fn targets_of(&self, placement: usize) -> Range<usize> {
+        let count = self.targets.len() / self.mountings.len().max(1);
+        placement * count..(placement + 1) * count
+    }
+
+    /// Returns these positions of the targets in the frame of the tool without its
+    /// [mounting](Self::mountings).
+    pub fn mounted(&self, targets: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let placements = self.mountings.iter().enumerate();
+        placements
+            .flat_map(|(i, mounting)| {
+                targets[self.targets_of(i)].iter().map(|target| mounting.apply(*target))
+            })
+            .collect()
+    }
+
+    /// Returns the indices of the targets on the tool at a station.
+    pub fn targets_at(&self, station: usize) -> Range<usize> {
+        self.targets_of(self.stations[station].placement)
     }
 
     /// Returns a copy without the sources of known magnitude.
@@ -140,7 +166,8 @@ impl<'a> Model<'a> {
 
     fn tool_unknowns(&self, pose: bool) -> Vec<Unknown> {
         if pose {
-            return Component::ALL.map(Unknown::Tool).to_vec();
+            let placements = 0..self.mountings.len();
+            return placements.flat_map(|i| Component::ALL.map(|c| Unknown::Tool(i, c))).collect();
         }
         (0..self.targets.len()).flat_map(|j| [0, 1, 2].map(|axis| Unknown::Target(j, axis))).collect()
     }
@@ -176,7 +203,9 @@ impl<'a> Model<'a> {
             let of = |share: f64, rotation: bool| Some(if rotation { share } else { share * length });
             priors.get(k).copied().flatten().or(match unknown {
                 Unknown::Error(_, component) => of(1.0, component.is_rotation()),
-                Unknown::Base(_, component) | Unknown::Tool(component) => of(0.01, component.is_rotation()),
+                Unknown::Base(_, component) | Unknown::Tool(_, component) => {
+                    of(0.01, component.is_rotation())
+                }
                 Unknown::Target(..) => of(0.01, false),
                 Unknown::Fixture(fixture, _) => {
                     self.direction_uncertainty(*fixture).or_else(|| of(0.1, false))
@@ -199,9 +228,16 @@ impl<'a> Model<'a> {
         all.filter(|(_, source)| source.class == Class::Repeatable).map(|(i, _)| i).collect()
     }
 
+    /// Returns the name of the station with a placement; none for the only placement.
+    pub fn station_of(&self, placement: usize) -> Option<&str> {
+        let mut stations = self.stations.iter().filter(|_| self.mountings.len() > 1);
+        stations.find(|station| station.placement == placement).map(|station| &*station.name)
+    }
+
     /// Returns the name of an unknown: `e_x1`; `e_x0` for the base, `e_x0 NAME` at a named station;
-    /// a source by its name.
+    /// `tool_x NAME` if each station has its own placement; a source by its name.
     pub fn name(&self, unknown: Unknown) -> String {
+        let at = |placement| self.station_of(placement).map_or(String::new(), |name| format!(" {name}"));
         match unknown {
             Unknown::Base(station, component) => match &self.stations[station].name[..] {
                 "" => format!("{}0", component.name()),
@@ -211,13 +247,16 @@ impl<'a> Model<'a> {
             Unknown::Magnitude(source) => self.manipulator.description().sources[source].name.to_string(),
             Unknown::Target(target, axis) => {
                 let axis = ["x", "y", "z"][axis];
-                if self.targets.len() == 1 {
-                    format!("tool_{axis}")
-                } else {
-                    format!("target{}_{axis}", target + 1)
+                let count = self.targets_of(0).len();
+                let at = at(target / count);
+                match count {
+                    1 => format!("tool_{axis}{at}"),
+                    _ => format!("target{}_{axis}{at}", target % count + 1),
                 }
             }
-            Unknown::Tool(component) => format!("tool_{}", component.name()),
+            Unknown::Tool(placement, component) => {
+                format!("tool_{}{}", component.name(), at(placement))
+            }
             Unknown::Fixture(fixture, coordinate) => {
                 let Fixture { name, geometry } = &self.fixtures[fixture];
                 let coordinates = match geometry {

@@ -79,8 +79,9 @@ impl Model<'_> {
                 for (j, measured) in points.iter().enumerate() {
                     let Some(measured) = measured else { continue };
                     let point = last.apply(self.target(scratch, observation, j)?);
+                    let target = scratch.first_target + j;
                     fill(&mut lines, derived, |k| {
-                        self.point(scratch, k, j, point).map(|moved| moved * length)
+                        self.point(scratch, k, target, point).map(|moved| moved * length)
                     });
                     for axis in 0..3 {
                         row((point[axis] - measured[axis]) * length, &lines[axis], &[]);
@@ -140,7 +141,7 @@ impl Model<'_> {
         Some(RelativeSize { unknown, share: 1.0 + x.get(unknown)? / length, length })
     }
 
-    /// Returns the position of target `j` in the frame of the tool.
+    /// Returns the position of target `j` of the row's placement in the frame of the tool.
     pub(super) fn target(
         &self,
         scratch: &Scratch,
@@ -151,9 +152,10 @@ impl Model<'_> {
             Measurement::Points(points) => points.len(),
             _ => 0,
         };
-        scratch.targets.get(j).copied().ok_or_else(|| Failure::Observation {
+        let targets = &scratch.targets[self.targets_of(scratch.placement)];
+        targets.get(j).copied().ok_or_else(|| Failure::Observation {
             line: observation.line,
-            error: Error::Count { quantity: Quantity::Pose, expected: self.targets.len(), found: found() },
+            error: Error::Count { quantity: Quantity::Pose, expected: targets.len(), found: found() },
         })
     }
 

@@ -22,6 +22,10 @@ pub struct Scratch {
     /// Camera with its current intrinsic parameters.
     pub(super) camera: Option<Camera>,
     pub(super) station: usize,
+    /// Index of the placement on the tool.
+    pub(super) placement: usize,
+    /// Index of the first target of that placement.
+    pub(super) first_target: usize,
     base: [f64; 6],
     tool: [f64; 6],
     /// State in the previous row, for observables that refer to it.
@@ -54,6 +58,8 @@ impl Model<'_> {
             lines: Default::default(),
             targets: self.targets.clone(),
             station: 0,
+            placement: 0,
+            first_target: 0,
             fixtures: vec![[0.0; 3]; self.fixtures.len()],
             zeros: vec![0.0; self.observables.len()],
             camera: self.camera,
@@ -69,6 +75,8 @@ impl Model<'_> {
         scratch.tool = [0.0; 6];
         scratch.base = [0.0; 6];
         scratch.station = observation.station as usize;
+        scratch.placement = self.stations[scratch.station].placement;
+        scratch.first_target = self.targets_of(scratch.placement).start;
         scratch.targets.copy_from_slice(&self.targets);
         scratch.fixtures.fill([0.0; 3]);
         scratch.camera = self.camera;
@@ -91,7 +99,10 @@ impl Model<'_> {
                 }
                 Unknown::Base(..) => {}
                 Unknown::Error(frame, component) => scratch.errors[frame][component.index()] += value,
-                Unknown::Tool(component) => scratch.tool[component.index()] += value,
+                Unknown::Tool(placement, component) if placement == scratch.placement => {
+                    scratch.tool[component.index()] += value;
+                }
+                Unknown::Tool(..) => {}
                 Unknown::Target(target, axis) => scratch.targets[target][axis] += value,
                 Unknown::Fixture(fixture, coordinate) => scratch.fixtures[fixture][coordinate] += value,
                 Unknown::Zero(reading) => scratch.zeros[reading] += value,
@@ -139,7 +150,8 @@ impl Model<'_> {
         }
         let last = scratch.errors.len();
         let tool = frames[last].after.then(&transforms[last]);
-        frames.push(Frame::new(&tool.then(&self.mounting), displaced[last + 1].by(&scratch.tool)));
+        let mounted = tool.then(&self.mountings[scratch.placement]);
+        frames.push(Frame::new(&mounted, displaced[last + 1].by(&scratch.tool)));
         if let Some(from) = observation.from() {
             let mut previous = scratch.previous.take().unwrap_or_else(|| Box::new(self.scratch()));
             self.chain(&mut previous, from, x)?;

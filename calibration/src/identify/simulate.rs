@@ -83,7 +83,8 @@ impl<'a> Simulated<'a> {
         let mut noise = |sigma: f64| Normal::new(0.0, sigma).map_or(0.0, |normal| numbers.sample(normal));
         let measured = match &planned.measured {
             Measurement::Points(points) => {
-                let targets = points.iter().zip(&model.targets).enumerate().map(|(j, (point, target))| {
+                let own = &model.targets[model.targets_at(planned.station as usize)];
+                let targets = points.iter().zip(own).enumerate().map(|(j, (point, target))| {
                     let at = pose.apply(*target);
                     // An outlier affects one target of its row.
                     let shift = if j == 0 { shift } else { [0.0; 3] };

@@ -11,11 +11,13 @@ pub struct Station {
     pub pose: Pose,
     /// The pose is exact: it has no unknowns.
     pub exact: bool,
+    /// Index of the placement on the tool: of its targets and of its mounting.
+    pub placement: usize,
 }
 
 impl Station {
     /// Creates a nameless station with unknown errors.
     pub fn at(pose: Pose) -> Self {
-        Self { name: String::new(), pose, exact: false }
+        Self { name: String::new(), pose, exact: false, placement: 0 }
     }
 }

@@ -1,8 +1,8 @@
 //! Sensitivity and predicted uncertainty of the tool point at the configurations of use.
 
-use nalgebra::{DMatrix, Matrix3xX};
+use nalgebra::{DMatrix, Matrix3xX, Vector3};
 
-use super::{Failure, Identifiable, Measurement, Model, Observation, Unknown};
+use super::{Failure, Identifiable, Model, Observation, Unknown};
 
 /// Derivatives of the tool point with respect to each unknown, at each configuration of a list;
 /// length unit per unit of the unknown.
@@ -17,31 +17,18 @@ impl Model<'_> {
     /// A single target at zero is the tool point, so its position is among the unknowns. With other
     /// targets, the tool point is a point of its own without unknowns.
     pub fn tool_points(&self, used: &[Observation]) -> Result<ToolPoints, Failure> {
-        let mut model = self.clone();
-        let single = self.targets.len() == 1
-            && !self.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Tool(_)));
-        let place = if single { 0 } else { self.targets.len() };
-        if !single {
-            model.targets.push([0.0; 3]);
-        }
-        let mut points = vec![None; model.targets.len()];
-        points[place] = Some([0.0; 3]);
-        let p = self.unknowns.len();
-        let (mut scratch, x) = (model.scratch(), vec![0.0; p]);
-        let length = self.uncertainty.length;
+        let single = self.targets_of(0).len() == 1
+            && !self.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Tool(..)));
+        let (mut scratch, x) = (self.scratch(), vec![0.0; self.unknowns.len()]);
         let one = |row: &Observation| {
-            let observation = Observation {
-                measured: Measurement::Points(points.clone().into()),
-                weight: 1.0,
-                ..row.clone()
+            self.chain(&mut scratch, row, &x)?;
+            let (target, point) = match single {
+                true => (scratch.first_target, scratch.targets[scratch.first_target]),
+                false => (usize::MAX, [0.0; 3]),
             };
-            let mut moves = Matrix3xX::zeros(p);
-            let mut axis = 0;
-            model.linear(&mut scratch, &observation, &x, |_, row| {
-                (0..p).for_each(|k| moves[(axis, k)] = row[k] * length);
-                axis += 1;
-            })?;
-            Ok(moves)
+            let point = scratch.tool().apply(point);
+            let moves = (0..x.len()).map(|k| self.point(&scratch, k, target, point).into());
+            Ok(Matrix3xX::from_columns(&moves.collect::<Vec<Vector3<f64>>>()))
         };
         Ok(ToolPoints { moves: used.iter().map(one).collect::<Result<_, _>>()? })
     }

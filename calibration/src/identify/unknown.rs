@@ -12,10 +12,10 @@ pub enum Unknown {
     /// Magnitude of a repeatable source; 1 is its size in the spec.
     Magnitude(usize),
     /// Deviation of coordinate 0, 1 or 2 of a target from its nominal position, in the frame of the
-    /// tool.
+    /// tool. The index is that of [`Model::targets`](super::Model::targets).
     Target(usize, usize),
-    /// An error of the tool where whole poses are measured.
-    Tool(Component),
+    /// An error of the tool in a placement, where whole poses are measured.
+    Tool(usize, Component),
     /// Deviation of a fixture from its nominal geometry: coordinate 0, 1 or 2 of a point, tilt 0 or
     /// 1 of a direction.
     Fixture(usize, usize),
@@ -36,7 +36,7 @@ impl Unknown {
 
     /// Returns whether it describes the mounting on the tool.
     pub fn is_tool(self) -> bool {
-        matches!(self, Self::Target(..) | Self::Tool(_))
+        matches!(self, Self::Target(..) | Self::Tool(..))
     }
 }
 

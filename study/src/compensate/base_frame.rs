@@ -9,20 +9,24 @@ use crate::data::{Data, Map};
 /// the target.
 pub(super) struct BaseFramePoses {
     stations: Vec<Pose>,
-    mounting: Pose,
+    mountings: Vec<Pose>,
 }
 
 impl BaseFramePoses {
     pub(super) fn new(map: &Map, data: &Data) -> Self {
-        let stands = |station: usize| data.stations.get(station).and_then(|name| map.stations.pose(name));
-        let stations =
-            (0..data.stations.len().max(1)).map(|i| stands(i).unwrap_or(Pose::IDENTITY).inverse()).collect();
-        Self { stations, mounting: map.mounting().inverse() }
+        let names: Vec<&str> =
+            (0..data.stations.len().max(1)).map(|i| data.stations.get(i).map_or("", |name| name)).collect();
+        let stands = |name: &&str| map.stations.pose(name).unwrap_or(Pose::IDENTITY).inverse();
+        Self {
+            stations: names.iter().map(stands).collect(),
+            mountings: names.iter().map(|name| map.mounting_at(name).inverse()).collect(),
+        }
     }
 
     pub(super) fn row(&self, mut row: Observation) -> Observation {
         if let Measurement::Pose(pose) = &mut row.measured {
-            **pose = self.stations[row.station as usize].then(pose).then(&self.mounting);
+            let station = row.station as usize;
+            **pose = self.stations[station].then(pose).then(&self.mountings[station]);
         }
         row
     }

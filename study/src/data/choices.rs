@@ -6,8 +6,19 @@ use super::turn::Order;
 pub(super) const BASES: [(&str, Base); 3] =
     [("known", Base::Known), ("unknown", Base::Unknown), ("exact", Base::Exact)];
 
-/// Placements of the targets, each with `true` if it is exact.
-pub(super) const PLACEMENTS: [(&str, bool); 2] = [("unknown", false), ("exact", true)];
+/// Knowledge of the placement on the tool.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Placed {
+    /// Approximately the nominal one, the same at all stations.
+    Near,
+    /// Exactly the nominal one.
+    Exactly,
+    /// Approximately the nominal one, and another at each station.
+    PerStation,
+}
+
+pub(super) const PLACEMENTS: [(&str, Placed); 3] =
+    [("unknown", Placed::Near), ("exact", Placed::Exactly), ("per station", Placed::PerStation)];
 
 pub(super) const QUATERNION_ORDERS: [(&str, Order); 2] = [("wxyz", Order::Wxyz), ("xyzw", Order::Xyzw)];
 

@@ -54,7 +54,7 @@ abbe_spec::tables! {
     STANDS: ["the file"], [
         "station": Tables("[[station]]"), "-", "as `base` says",
             "Identified pose of the machine in the frame of the instrument";
-        "placement": Table("[placement]"), "-", "as designed",
+        "placement": Either("table, or one for each station: `[[placement]]`", &[Table("[placement]"), Tables("[placement]")]), "-", "as designed",
             "Identified position of the targets, or of the measured frame, on the tool";
         "place": Tables("[[place]]"), "-", "about where `[[instrument]]` says",
             "Identified position, direction and zero of an instrument";
@@ -80,9 +80,9 @@ abbe_spec::tables! {
         "time": COLUMN, "-", "the order of the rows",
             "Column of the time of a row: a number in any unit, or a date such as `2026-03-14` with or without a time. The drift test sorts residuals by this time; `monitor` takes the rows of a day as one check";
         "station": COLUMN, "-", "all rows at one station",
-            "Column of the name of the station: each station has its own pose, and all share the machine";
+            "Column of the name of the station: each station has its own pose, with `placement = \"per station\"` also its own target or tool, and all share the machine";
         "placement": Choice(|| words(&PLACEMENTS)), "-", "`\"unknown\"`",
-            "Position of the targets, or of the measured frame, on the tool: near the nominal one, or exactly there. If unknown, errors that act as a displacement of the targets are attributed to it, never to the machine";
+            "Position of the targets, or of the measured frame, on the tool: near the nominal one, exactly there, or near the nominal one and another at each station, where the tool was changed or the target mounted anew. Unless it is exact, errors that act as a displacement of the targets are attributed to it, never to the machine";
         "target_frame": Choice(|| words(&TARGET_FRAMES)), "-", "`\"tool\"`",
             "Frame of the positions of targets in `[[target]]` and `[placement]`: that of the tool, with which `--set` moves them, or `flange`, the last frame before the tool, to which they are fixed wherever the tool point is";
         "setup": COLUMN, "-", "none", "Column of the number of the setup, which decides which instruments were read in a row";
@@ -230,6 +230,9 @@ abbe_spec::tables! {
         "covariance": MATRIX, "length unit and rad", "none",
             "Covariance of all coordinates of the targets, or of the six errors of the frame; not used by any command";
     ]
+    PLACEMENT_OF_STATION: ["[placement]"], [
+        "station": Text("name of a station"), "-", "required in `[[placement]]`", "Station with this placement, if `placement` in `[data]` is `\"per station\"`";
+    ]
 }
 
 /// Returns the keys that the table of an instrument of this kind must have, beside those that all
@@ -259,10 +262,21 @@ pub fn rules() -> Vec<Rule> {
         rule(
             "the file",
             When::Has("pose"),
-            Then::Needs(vec!["data.angle_uncertainty", "placement.position", "placement.quaternion"]),
+            Then::Needs(vec![
+                "data.angle_uncertainty",
+                "placement.position",
+                "placement.quaternion",
+                "placement[].position",
+                "placement[].quaternion",
+            ]),
         ),
+        rule("the file", When::Always, Then::Needs(vec!["placement[].station"])),
         // A camera has the pose of the measured frame there, as `[pose]` has.
-        rule("the file", When::Lacks(vec!["pose", "instrument"]), Then::Needs(vec!["placement.targets"])),
+        rule(
+            "the file",
+            When::Lacks(vec!["pose", "instrument"]),
+            Then::Needs(vec!["placement.targets", "placement[].targets"]),
+        ),
         rule("[joints.NAME]", When::Lacks(vec!["value"]), Then::Needs(vec!["column", "unit"])),
         rule(
             "[inputs.NAME]",

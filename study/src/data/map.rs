@@ -161,10 +161,16 @@ impl Map {
         self.layout.is_pose()
     }
 
-    /// Returns the positions of the targets in the frame of the tool; the tool point if there are
-    /// no others.
+    /// Returns the positions of the targets in the frame of the tool, unless each station has its
+    /// own; the tool point if there are no others.
     pub fn targets(&self) -> Vec<[f64; 3]> {
-        match (&self.placement.targets, &self.layout) {
+        self.targets_at("")
+    }
+
+    /// Returns the positions of the targets at a station in the frame of the tool.
+    pub(crate) fn targets_at(&self, station: &str) -> Vec<[f64; 3]> {
+        let stated = self.placement.at(station).and_then(|placement| placement.targets.as_ref());
+        match (stated, &self.layout) {
             (Some(targets), _) => targets.clone(),
             (None, Layout::Targets(targets)) => targets.iter().map(|target| target.position).collect(),
             (None, Layout::Instruments(all)) => all.targets.clone(),
@@ -191,17 +197,23 @@ impl Map {
         })
     }
 
-    /// Returns the transform from the measured frame to the frame of the tool; identity unless
-    /// poses are measured and it is known.
-    pub fn mounting(&self) -> Pose {
-        self.placement.mounting.unwrap_or(Pose::IDENTITY)
+    /// Returns the transform from the measured frame to the frame of the tool at a station;
+    /// identity unless poses are measured and it is known.
+    pub(crate) fn mounting_at(&self, station: &str) -> Pose {
+        self.stated_mounting(station).unwrap_or(Pose::IDENTITY)
+    }
+
+    /// Returns the transform from the measured frame to the frame of the tool at a station, if it
+    /// is stated.
+    pub(crate) fn stated_mounting(&self, station: &str) -> Option<Pose> {
+        self.placement.at(station).and_then(|placement| placement.mounting)
     }
 
     /// Returns whether it states the pose of the base and of the measured frame on the tool, or
     /// that they are as designed.
     pub(crate) fn is_placed(&self) -> bool {
         let is_base_placed = self.base != Base::Unknown || !self.stations.stated.is_empty();
-        is_base_placed && (self.placement.exact || self.placement.mounting.is_some())
+        is_base_placed && (self.placement.exact || self.stated_mounting("").is_some())
     }
 
     /// Returns the uncertainty of its instrument with its unit: pixels of a camera, otherwise a

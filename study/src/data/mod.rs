@@ -49,7 +49,7 @@ pub use map::{Base, Layout, Map, Target};
 pub(crate) use raw_table::{RawTable, raw_table};
 pub use rows::{Data, Summary, Unusable};
 pub use source::{Columns, Source};
-pub use station::{Placement, StatedStation, Stations};
+pub use station::{Placement, StatedPlacement, StatedStation, Stations};
 pub use table::Table;
 pub use target_frame::TargetFrame;
 pub(crate) use turn::EULER_ORDERS;

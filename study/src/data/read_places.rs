@@ -8,13 +8,13 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
 
-use super::choices::PLACEMENTS;
+use super::choices::{PLACEMENTS, Placed};
 use super::instrument::norm;
 use super::keys;
 use super::map::Layout;
 use super::read_values::{column, constant};
 use super::rotation;
-use super::station::{Placement, StatedStation, Stations};
+use super::station::{Placement, StatedPlacement, StatedStation, Stations};
 use super::target_frame::TargetFrame;
 
 /// Reads the column of stations in `[data]`, and the `[[station]]` tables.
@@ -55,7 +55,7 @@ pub(super) fn stations(
     Some(Stations { column, stated })
 }
 
-/// Reads `[placement]`, and whether it is exact.
+/// Reads `[placement]` or `[[placement]]`, and what `[data]` says of them.
 pub(super) fn placement(
     root: &Section<'_>,
     head: &Section<'_>,
@@ -64,19 +64,82 @@ pub(super) fn placement(
     spec: &Spec,
     layout: Option<&Layout>,
 ) -> Option<Placement> {
-    let exact = match head.get("placement") {
+    let placed = match head.get("placement") {
         Some(item) => document.choice(&item, &PLACEMENTS)?,
-        None => false,
+        None => Placed::Near,
     };
-    let mut placement = Placement { exact, ..Placement::default() };
-    let Some(item) = root.get("placement") else { return Some(placement) };
-    let mut section = document.section(&item)?;
-    section.name = "[placement]".to_owned();
-    section.check_keys(&[&keys::PLACEMENT], document);
+    let is_per_station = placed == Placed::PerStation;
+    if let Some(item) = head.get("placement").filter(|_| is_per_station) {
+        let (message, help) = match (layout, head.get("station")) {
+            (Some(Layout::Instruments(_)), _) => (
+                "instruments name their targets: `placement = \"per station\"` is not for them",
+                "write a [[target]] for each place, and an [[instrument]] for each with its `target` and `setup`",
+            ),
+            (_, None) => (
+                "a placement per station, but no column with the station of each row",
+                "name it in [data]: `station = \"…\"`",
+            ),
+            _ => ("", ""),
+        };
+        if !message.is_empty() {
+            document.mistake(Diagnostic::new(item.span(), message).help(help));
+            return None;
+        }
+    }
+    let mut all = Placement { exact: placed == Placed::Exactly, is_per_station, stated: Vec::new() };
+    let Some(item) = root.get("placement") else { return Some(all) };
+    if item.is_table() == is_per_station {
+        let (message, help) = match is_per_station {
+            true => (
+                "`placement = \"per station\"` in [data], but one placement for all stations",
+                "write a table [[placement]] for each station, with its name as `station`",
+            ),
+            false => (
+                "several placements, but [data] does not say that each station has its own",
+                "write `placement = \"per station\"` in [data], or one table [placement]",
+            ),
+        };
+        document.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
+        return None;
+    }
+    if !is_per_station {
+        let mut section = document.section(&item)?;
+        section.name = "[placement]".to_owned();
+        section.check_keys(&[&keys::PLACEMENT], document);
+        all.stated.push(stated_placement(&section, frame, document, spec, layout)?);
+        return Some(all);
+    }
+    for item in document.array(&item, "an array of tables [[placement]]")? {
+        let mut section = document.section(&item)?;
+        section.span = item.span();
+        section.name = "this [[placement]]".to_owned();
+        section.check_keys(&[&keys::PLACEMENT, &keys::PLACEMENT_OF_STATION], document);
+        let station = section.required("station", document)?;
+        let station = document.string(&station)?;
+        let stated = stated_placement(&section, frame, document, spec, layout)?;
+        if all.stated.iter().any(|other| other.station == station) {
+            let message = format!("duplicate placement at the station `{}`", station.escape_debug());
+            let help = "give each station one placement";
+            document.mistake(Diagnostic::new(item.span(), message).help(help));
+            return None;
+        }
+        all.stated.push(StatedPlacement { station, ..stated });
+    }
+    Some(all)
+}
+
+/// Reads the positions of the targets, or the pose of the measured frame.
+fn stated_placement(
+    section: &Section<'_>,
+    frame: &TargetFrame,
+    document: &mut Document,
+    spec: &Spec,
+    layout: Option<&Layout>,
+) -> Option<StatedPlacement> {
     if layout.is_some_and(Layout::is_pose) {
-        placement.mounting = Some(place(&section, document, spec)?);
-        covariance(&section, document, 6)?;
-        return Some(placement);
+        let mounting = Some(place(section, document, spec)?);
+        covariance(section, document, 6)?;
+        return Some(StatedPlacement { mounting, ..StatedPlacement::default() });
     }
     let count = match layout {
         Some(Layout::Targets(targets)) => targets.len(),
@@ -96,9 +159,8 @@ pub(super) fn placement(
         document.mistake(Diagnostic::new(list.span(), message).help(help));
         return None;
     }
-    covariance(&section, document, 3 * count)?;
-    placement.targets = Some(targets);
-    Some(placement)
+    covariance(section, document, 3 * count)?;
+    Some(StatedPlacement { targets: Some(targets), ..StatedPlacement::default() })
 }
 
 /// Reads `[[place]]`: identified geometry and zero of the fixtures of instruments.

@@ -37,14 +37,31 @@ impl Stations {
     }
 }
 
-/// Mounting on the tool.
+/// Placement on the tool.
 #[derive(Clone, Debug, Default)]
 pub struct Placement {
-    /// The mounting is exact: targets or measured frame have no unknowns.
+    /// It is exact: targets or measured frame have no unknowns.
     pub exact: bool,
-    /// Identified positions of the targets in the frame of the tool, which replace the nominal
-    /// ones.
+    /// Each station has its own.
+    pub is_per_station: bool,
+    /// Stated placements: one at most, or one for each of some stations.
+    pub stated: Vec<StatedPlacement>,
+}
+
+/// Placement on the tool that replaces the nominal one.
+#[derive(Clone, Debug, Default)]
+pub struct StatedPlacement {
+    /// Name of the station; empty for the placement at all stations.
+    pub station: String,
+    /// Positions of the targets in the frame of the tool, for points.
     pub targets: Option<Vec<[f64; 3]>>,
     /// Transform from the measured frame to the frame of the tool, for whole poses.
     pub mounting: Option<Pose>,
+}
+
+impl Placement {
+    /// Returns the placement at a station, if it is stated.
+    pub fn at(&self, station: &str) -> Option<&StatedPlacement> {
+        self.stated.iter().find(|one| !self.is_per_station || one.station == station)
+    }
 }

@@ -1,10 +1,12 @@
 //! Identified placement of the machine and of what is mounted on its tool.
 
-use abbe::identify::{Fit, FixtureGeometry, INTRINSICS, Model, Observation, Unknown};
+use abbe::identify::{Fit, FixtureGeometry, INTRINSICS, Model, Observation, Station, Unknown};
 use abbe::{Component, Pose};
 use serde::Serialize;
 
-use super::setup::{error_pose, fitted_fixture, fitted_intrinsics, fitted_stations, fitted_zero};
+use super::fitted::{
+    fitted_fixture, fitted_intrinsics, fitted_mountings, fitted_stations, fitted_targets, fitted_zero,
+};
 use super::unread::read;
 
 /// Identified placement of stations, tool and instruments.
@@ -13,19 +15,38 @@ pub struct FoundPlacement {
     /// Poses of the machine, one per station.
     pub stations: Vec<FoundStation>,
     /// Positions of the targets in the tool frame, in the length unit; empty if whole poses were
+    /// measured, or if each station has its own.
+    pub targets: Vec<[f64; 3]>,
+    /// Pose of the measured frame in the tool frame, as rows of a homogeneous matrix; none if
+    /// points were measured, or if each station has its own.
+    pub mounting: Option<[[f64; 4]; 4]>,
+    /// Placements on the tool if each station has its own; absent otherwise.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_stations: Vec<PlacementAtStation>,
+    /// Fixtures and zeros of the instruments.
+    pub instruments: Vec<FoundInstrument>,
+    /// Covariance of all coordinates of the targets, target by target, or of the six errors of the
+    /// mounting, in products of the units; empty if each station has its own.
+    pub covariance: Vec<Vec<f64>>,
+    /// Is true if the map states the placement on the tool exactly.
+    #[serde(skip)]
+    pub(super) exact: bool,
+}
+
+/// Identified placement on the tool at one station.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlacementAtStation {
+    /// Name of the station.
+    pub station: String,
+    /// Positions of the targets in the tool frame, in the length unit; empty if whole poses were
     /// measured.
     pub targets: Vec<[f64; 3]>,
     /// Pose of the measured frame in the tool frame, as rows of a homogeneous matrix; none if
     /// points were measured.
     pub mounting: Option<[[f64; 4]; 4]>,
-    /// Fixtures and zeros of the instruments.
-    pub instruments: Vec<FoundInstrument>,
     /// Covariance of all coordinates of the targets, target by target, or of the six errors of the
     /// mounting, in products of the units.
     pub covariance: Vec<Vec<f64>>,
-    /// Is true if the map states the placement on the tool exactly.
-    #[serde(skip)]
-    pub(super) exact: bool,
 }
 
 /// Identified fixture and zero of an instrument.
@@ -83,21 +104,23 @@ impl FoundPlacement {
             let of = |a| Component::ALL.map(|b| covariance(base(a), base(b)));
             FoundStation { name: station.name, pose: rows(station.pose), covariance: Component::ALL.map(of) }
         });
-        let value =
-            |unknown: Unknown| model.unknowns.iter().position(|u| *u == unknown).map_or(0.0, |k| fit.x[k]);
-        let targets = model.targets.iter().enumerate();
-        let targets: Vec<[f64; 3]> = targets
-            .map(|(j, target)| std::array::from_fn(|axis| target[axis] + value(Unknown::Target(j, axis))))
-            .collect();
-        let unknowns: Vec<Unknown> = match pose {
-            true => Component::ALL.map(Unknown::Tool).to_vec(),
-            false => {
-                (0..targets.len()).flat_map(|j| [0, 1, 2].map(|axis| Unknown::Target(j, axis))).collect()
-            }
-        };
         let matrix = |unknowns: &[Unknown]| -> Vec<Vec<f64>> {
             let of = |a: &Unknown| unknowns.iter().map(|b| covariance(*a, *b)).collect();
             unknowns.iter().map(of).collect()
+        };
+        let (targets, mountings) = (fitted_targets(model, &fit.x), fitted_mountings(model, &fit.x));
+        let placed = |i: usize, station: &str| {
+            let own = model.targets_of(i);
+            let unknowns: Vec<Unknown> = match pose {
+                true => Component::ALL.map(|component| Unknown::Tool(i, component)).to_vec(),
+                false => own.clone().flat_map(|j| [0, 1, 2].map(|axis| Unknown::Target(j, axis))).collect(),
+            };
+            PlacementAtStation {
+                station: station.to_owned(),
+                targets: if pose { Vec::new() } else { targets[own].to_vec() },
+                mounting: pose.then(|| rows(mountings[i])),
+                covariance: matrix(&unknowns),
+            }
         };
         let instrument = |i: usize| {
             let reading = &model.observables[i];
@@ -132,14 +155,24 @@ impl FoundPlacement {
             let is_fitted = model.camera.is_some_and(|camera| !camera.is_known);
             is_first && read[*i] && (reading.fixture.is_some() || !reading.zero_known || is_fitted)
         };
-        Self {
-            stations: stations.collect(),
-            covariance: matrix(&unknowns),
-            instruments: (0..model.observables.len()).filter(first).map(instrument).collect(),
-            exact: !model.unknowns.iter().any(|unknown| unknown.is_tool()),
-            mounting: pose.then(|| rows(model.mounting.then(&error_pose(model, &fit.x, Unknown::Tool)))),
-            targets: if pose { Vec::new() } else { targets },
+        let instruments = (0..model.observables.len()).filter(first).map(instrument).collect();
+        let exact = !model.unknowns.iter().any(|unknown| unknown.is_tool());
+        let found = Self { stations: stations.collect(), instruments, exact, ..Self::default() };
+        if model.mountings.len() > 1 {
+            let at = |station: &Station| placed(station.placement, &station.name);
+            return Self { at_stations: model.stations.iter().map(at).collect(), ..found };
         }
+        let PlacementAtStation { targets, mounting, covariance, .. } = placed(0, "");
+        Self { targets, mounting, covariance, ..found }
+    }
+
+    /// Returns the placements on the tool: that of each station, or the common one.
+    pub(super) fn placements(&self) -> Vec<PlacementAtStation> {
+        if !self.at_stations.is_empty() {
+            return self.at_stations.clone();
+        }
+        let (targets, covariance) = (self.targets.clone(), self.covariance.clone());
+        vec![PlacementAtStation { station: String::new(), targets, mounting: self.mounting, covariance }]
     }
 }
 

@@ -10,7 +10,8 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::map_interpretation::MapInterpretation;
 use super::reading_units::check_reading_units;
-use super::setup::{Setup, for_each_point, registered};
+use super::registered::{for_each_point, registered};
+use super::setup::Setup;
 use crate::data::{Data, Map};
 use crate::interpretations::{
     Chain, Change, Interpretation, MOST, Observed, Parts, Ranked, Search, Tolerance, Trial, ranked, words,
@@ -208,7 +209,7 @@ impl Chain for NominalChain<'_> {
     }
 
     fn parts(&self, q: &[f64], _: bool) -> Result<Parts, Error> {
-        Ok([Pose::IDENTITY, self.model.manipulator.pose(q, &self.model.s)?, self.model.mounting])
+        Ok([Pose::IDENTITY, self.model.manipulator.pose(q, &self.model.s)?, self.model.mountings[0]])
     }
 }
 
@@ -249,7 +250,7 @@ impl FitResidual {
         let rows: Vec<Observation> = rows.iter().map(points).collect();
         let mut model = Model { uncertainty: Uncertainty { length: 1.0, angle: 1.0 }, ..setup.ideal.clone() };
         if setup.pose {
-            model.targets = corners.to_vec();
+            model.targets = corners.repeat(model.mountings.len());
         }
         for i in 0..model.stations.len() {
             // Too few rows at a station determine no placement.

@@ -8,7 +8,7 @@ use abbe_spec::literal::quoted;
 
 use super::derived::{Derived, with_inputs};
 use super::found_model::FoundModel;
-use super::found_placement::FoundPlacement;
+use super::found_placement::{FoundPlacement, PlacementAtStation};
 use super::instruments::InstrumentFit;
 use crate::data::{Map, TargetFrame, UNKNOWN, quaternion};
 use crate::number::digits;
@@ -23,7 +23,7 @@ impl FoundModel {
         let (whole, needed) = (with_inputs(spec, &self.derived), self.needed(spec));
         let text = with_uncertainties(&without_placement(map.text()), map, &self.estimated);
         let text = with_from_rows(&text, &whole, &needed);
-        let placement = self.placed.text(spec.length.symbol(), &map.target_frame);
+        let placement = self.placed.text(spec.length.symbol(), map);
         let text = format!("{}\n\n{HEAD}# {}\n{placement}", text.trim_end(), self.reference);
         let text = text.trim_end().to_owned() + "\n";
         Map::parse(path, &text, &whole)?;
@@ -87,36 +87,26 @@ fn with_from_rows(text: &str, spec: &Spec, needed: &[&Derived]) -> String {
 }
 
 impl FoundPlacement {
-    /// Formats the placement as tables of a map. `unit` is the length unit, `frame` that of the
-    /// positions of targets.
-    fn text(&self, unit: &str, frame: &TargetFrame) -> String {
+    /// Formats the placement as tables of the map of the data. `unit` is the length unit.
+    fn text(&self, unit: &str, map: &Map) -> String {
         let mut text = String::new();
-        let place = |pose: &[[f64; 4]; 4]| {
-            let [x, y, z] = [0, 1, 2].map(|axis| pose[axis][3]);
-            let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| pose[i][j]));
-            let [w, a, b, c] = quaternion(&columns).map(format_number);
-            format!("position = {}\nquaternion = [{w}, {a}, {b}, {c}]\n", format_lengths([x, y, z], unit))
-        };
         for station in &self.stations {
             let name = match &station.name[..] {
                 "" => String::new(),
                 name => format!("name = {}\n", quoted(name)),
             };
             let covariance = format_covariance(station.covariance.iter().map(|row| &row[..]));
-            text += &format!("[[station]]\n{name}{}{covariance}\n", place(&station.pose));
+            text += &format!("[[station]]\n{name}{}{covariance}\n", format_pose(&station.pose, unit));
         }
-        if !self.exact {
-            let (placement, covariance) = match &self.mounting {
-                Some(pose) => (place(pose), self.covariance.clone()),
-                None => {
-                    let targets = self.targets.iter().map(|target| frame.placed_in_frame(*target));
-                    let targets = targets.map(|target| format!("  {},\n", format_lengths(target, unit)));
-                    let targets = format!("targets = [\n{}]\n", targets.collect::<String>());
-                    (targets, frame.covariance_from_tool(&self.covariance))
-                }
+        let stated = if self.exact { Vec::new() } else { self.placements() };
+        let is_single = stated.len() == 1;
+        for placement in stated {
+            let header = match (map.placement.is_per_station, &self.stations[..]) {
+                (false, _) => "[placement]\n".to_owned(),
+                (true, [station]) if is_single => placement_header(&station.name),
+                (true, _) => placement_header(&placement.station),
             };
-            let covariance = format_covariance(covariance.iter().map(|row| &row[..]));
-            text += &format!("[placement]\n{placement}{covariance}");
+            text += &format!("{header}{}", placement.text(unit, &map.target_frame));
         }
         for place in &self.instruments {
             text += &format!("\n[[place]]\nname = {}\n", quoted(&place.name));
@@ -141,16 +131,45 @@ impl FoundPlacement {
     }
 }
 
+impl PlacementAtStation {
+    /// Formats the keys of its table. `unit` is the length unit, `frame` that of the positions of
+    /// targets.
+    fn text(&self, unit: &str, frame: &TargetFrame) -> String {
+        let (placement, covariance) = match &self.mounting {
+            Some(pose) => (format_pose(pose, unit), self.covariance.clone()),
+            None => {
+                let targets = self.targets.iter().map(|target| frame.placed_in_frame(*target));
+                let targets = targets.map(|target| format!("  {},\n", format_lengths(target, unit)));
+                let targets = format!("targets = [\n{}]\n", targets.collect::<String>());
+                (targets, frame.covariance_from_tool(&self.covariance))
+            }
+        };
+        format!("{placement}{}", format_covariance(covariance.iter().map(|row| &row[..])))
+    }
+}
+
+fn placement_header(station: &str) -> String {
+    format!("\n[[placement]]\nstation = {}\n", quoted(station))
+}
+
+fn format_pose(pose: &[[f64; 4]; 4], unit: &str) -> String {
+    let [x, y, z] = [0, 1, 2].map(|axis| pose[axis][3]);
+    let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| pose[i][j]));
+    let [w, a, b, c] = quaternion(&columns).map(format_number);
+    format!("position = {}\nquaternion = [{w}, {a}, {b}, {c}]\n", format_lengths([x, y, z], unit))
+}
+
 const HEAD: &str =
     "# Identified placement of the machine and of its tool; these are no errors of the machine.\n";
 
-/// Removes the tables `[[station]]`, `[placement]` and `[[place]]` with the comment above them from
-/// a map.
+/// Removes the tables `[[station]]`, `[placement]` or `[[placement]]`, and `[[place]]` with the
+/// comment above them from a map.
 fn without_placement(text: &str) -> String {
     let mut inside = false;
     let kept = text.split_inclusive('\n').filter(|line| {
         if line.starts_with('[') {
-            inside = ["[[station]]", "[placement]", "[[place]]"].iter().any(|table| line.starts_with(table));
+            let tables = ["[[station]]", "[placement]", "[[placement]]", "[[place]]"];
+            inside = tables.iter().any(|table| line.starts_with(table));
         }
         inside |= *line == HEAD;
         !inside

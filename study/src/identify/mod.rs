@@ -1,11 +1,11 @@
 //! Identifies the generalized errors of a real machine from measurements.
 //!
-//! `options` are the user's settings. `setup` places the machine relative to the instrument,
-//! `open_places` finds what the map does not place, `line_of_sight` moves the machine to where
-//! instruments can be read, and `instruments` estimates their uncertainties. `board_check` tests
-//! the corners of a camera's board, `interpretation_check` the `map_interpretation`, `plausibility`
-//! finds errors too large for a machine, and `train_test_overlap` counts test rows that were
-//! fitted.
+//! `options` are the user's settings. `setup` places the machine relative to the instrument, by
+//! places `registered` in closed form, `open_places` finds what the map does not place,
+//! `line_of_sight` moves the machine to where instruments can be read, and `instruments` estimates
+//! their uncertainties. `board_check` tests the corners of a camera's board,
+//! `interpretation_check` the `map_interpretation`, `plausibility` finds errors too large for a
+//! machine, and `train_test_overlap` counts test rows that were fitted.
 //!
 //! `solve` fits and cross-validates with `priors`, `outliers` warns of gross errors, and
 //! `magnitude` are sources of the spec fitted with the constants. `between_stations` includes the
@@ -16,13 +16,13 @@
 //! results.
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
-//! targets. `spec_writer` writes its spec, `compliance_writer` full compliances,
-//! `covariance_writer` the covariance, `undetermined_writer` the errors that the data leave
-//! `undetermined`, `unexplained` the errors that the model does not have, and `map_writer` the map.
-//! The `report` contains `counts`, `as_joint_errors` (errors as `chain_numbers`: zeros and lengths)
-//! and their `alternatives`, what is `indistinguishable` or `weakly_determined`, `parameters`,
-//! `drift`, `extrapolation`, the `scale`, the `gain` over other models, and `point_residuals` for
-//! plots. `unread` are instruments without a reading. `job` runs all of it.
+//! targets, `fitted` their values. `spec_writer` writes its spec, `compliance_writer` full
+//! compliances, `covariance_writer` the covariance, `undetermined_writer` the errors that the data
+//! leave `undetermined`, `unexplained` the errors that the model does not have, and `map_writer`
+//! the map. The `report` contains `counts`, `as_joint_errors` (errors as `chain_numbers`: zeros and
+//! lengths) and their `alternatives`, what is `indistinguishable` or `weakly_determined`,
+//! `parameters`, `drift`, `extrapolation`, the `scale`, the `gain` over other models, and
+//! `point_residuals` for plots. `unread` are instruments without a reading. `job` runs all of it.
 
 mod alternatives;
 mod as_joint_errors;
@@ -39,6 +39,7 @@ mod drift;
 mod extended;
 mod extrapolation;
 mod families;
+mod fitted;
 mod found_model;
 mod found_placement;
 mod gain;
@@ -62,6 +63,7 @@ mod profile_table;
 mod profiles;
 mod read_back;
 mod reading_units;
+mod registered;
 mod report;
 mod scale;
 mod setup;
@@ -85,7 +87,7 @@ pub use extended::extended;
 pub use extrapolation::TestExtrapolation;
 pub use families::{Family, Harmonics};
 pub use found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
-pub use found_placement::{FoundInstrument, FoundPlacement, FoundStation};
+pub use found_placement::{FoundInstrument, FoundPlacement, FoundStation, PlacementAtStation};
 pub use gain::Gain;
 pub use indistinguishable::Indistinguishable;
 pub use instruments::InstrumentFit;

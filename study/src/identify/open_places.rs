@@ -2,11 +2,14 @@
 //! specified before measurements are compared with it.
 
 use abbe::Component;
-use abbe::identify::{Failure, Fit, Fixture, Measurement, Options, Station, Unknown, fit};
+use abbe::identify::{Failure, Fit, Fixture, Measurement, Options, Unknown, fit};
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::setup::{Setup, error_pose, fitted_fixture, fitted_intrinsics, fitted_stations, fitted_zero};
-use crate::data::{Base, Data, Map};
+use super::fitted::{
+    fitted_fixture, fitted_intrinsics, fitted_mountings, fitted_stations, fitted_targets, fitted_zero,
+};
+use super::setup::Setup;
+use crate::data::{Data, Map};
 use crate::mistake;
 
 impl Setup<'_> {
@@ -29,30 +32,27 @@ impl Setup<'_> {
             }
             if count > 0.0 {
                 let place = self.real.fixtures[fixture].geometry.displaced(&sum.map(|sum| sum / count));
-                for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
-                    model.fixtures[fixture].geometry = place;
-                }
+                self.models().into_iter().for_each(|model| model.fixtures[fixture].geometry = place);
             }
         }
         Ok(())
     }
 
-    /// Fits the stations that the map does not state, the fixtures and zeros that were not
-    /// identified before, and likewise the mounting and the intrinsic parameters of a camera, for
-    /// the machine as specified. Returns their fit; none if there was nothing to fit.
+    /// Fits the stations and the places on the tool that the map does not state, the fixtures and
+    /// zeros that were not identified before, and likewise the mounting and the intrinsic
+    /// parameters of a camera, for the machine as specified. Returns their fit; none if there was
+    /// nothing to fit.
     pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<Option<Fit>, Diagnostics> {
-        let open =
-            |station: &Station| map.base == Base::Unknown && map.stations.pose(&station.name).is_none();
-        let names = self.real.stations.iter().enumerate().filter(|(_, station)| open(station));
-        let stations = names.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component)));
+        let stations = (0..self.open.stations.len()).filter(|i| self.open.stations[*i]);
+        let stations = stations.flat_map(|i| Component::ALL.map(|component| Unknown::Base(i, component)));
         let stations: Vec<Unknown> = stations.collect();
         let camera = self.camera_to_find(map);
-        let unknowns = [stations, camera, self.fixtures_to_find(map)].concat();
+        let unknowns = [stations, self.tool_to_find(), camera, self.fixtures_to_find(map)].concat();
         if unknowns.is_empty() {
             return Ok(None);
         }
         let fail = |failure: Failure| mistake::whole(&data.file, &failure);
-        if unknowns.iter().any(|unknown| unknown.is_tool()) {
+        if self.real.camera.is_some() && unknowns.iter().any(|unknown| unknown.is_tool()) {
             self.come_near(data).map_err(fail)?;
         }
         let model = self.real.with(unknowns);
@@ -62,12 +62,13 @@ impl Setup<'_> {
             .map(|i| Fixture { geometry: fitted_fixture(&model, &fit.x, i), ..model.fixtures[i].clone() });
         let fixtures: Vec<Fixture> = fixtures.collect();
         let zeros: Vec<f64> = (0..model.observables.len()).map(|i| fitted_zero(&model, &fit.x, i)).collect();
-        let mounting = model.mounting.then(&error_pose(&model, &fit.x, Unknown::Tool));
+        let (targets, mountings) = (fitted_targets(&model, &fit.x), fitted_mountings(&model, &fit.x));
         let intrinsics = fitted_intrinsics(&model, &fit.x);
-        for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
+        for model in self.models() {
             model.fixtures.clone_from(&fixtures);
             model.observables.iter_mut().zip(&zeros).for_each(|(reading, zero)| reading.zero = *zero);
-            model.mounting = mounting;
+            model.targets.clone_from(&targets);
+            model.mountings.clone_from(&mountings);
             if let (Some(camera), Some(intrinsics)) = (&mut model.camera, intrinsics) {
                 camera.intrinsics = intrinsics;
             }
@@ -75,15 +76,24 @@ impl Setup<'_> {
         Ok(Some(fit))
     }
 
+    /// Returns the unknowns of the places on the tool that are open.
+    fn tool_to_find(&self) -> Vec<Unknown> {
+        let targets = (0..self.open.targets.len()).filter(|j| self.open.targets[*j]);
+        let targets = targets.flat_map(|j| [0, 1, 2].map(|axis| Unknown::Target(j, axis)));
+        let mountings = (0..self.open.mountings.len()).filter(|i| self.open.mountings[*i]);
+        let mountings = mountings.flat_map(|i| Component::ALL.map(|component| Unknown::Tool(i, component)));
+        targets.chain(mountings).collect()
+    }
+
     /// Returns the unknowns of a camera that were not identified before: no drawing states where it
     /// is on the tool.
     fn camera_to_find(&self, map: &Map) -> Vec<Unknown> {
         let Some(all) = map.instruments().filter(|all| all.camera.is_some()) else { return Vec::new() };
-        let is_placed = map.placement.mounting.is_some() || self.placement;
+        let is_placed = map.stated_mounting("").is_some() || self.placement;
         let is_found = !all.found.is_empty();
         let mut unknowns = self.real.base_and_tool(true);
         unknowns.retain(|unknown| match unknown {
-            Unknown::Tool(_) => !is_placed,
+            Unknown::Tool(..) => !is_placed,
             Unknown::Intrinsic(_) => !is_found,
             _ => false,
         });

@@ -66,7 +66,7 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> 
         let (frame, rotation) = match unknown {
             Unknown::Base(_, component) => (Some(0), component.is_rotation()),
             Unknown::Error(frame, component) => (Some(frame + 1), component.is_rotation()),
-            Unknown::Tool(component) => (None, component.is_rotation()),
+            Unknown::Tool(_, component) => (None, component.is_rotation()),
             Unknown::Fixture(fixture, _) => {
                 (None, matches!(model.fixtures[fixture].geometry, FixtureGeometry::Direction(_)))
             }

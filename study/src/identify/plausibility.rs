@@ -139,13 +139,21 @@ pub(super) fn tool_note(setup: &Setup, model: &Model, fit: &Fit) -> Option<Strin
             squares.fold((0.0, 0.0), |(a, b), (value, variance)| (a + value, b + variance));
         (value.sqrt(), f64::sqrt(variance))
     };
+    let count = model.targets_of(0).len();
+    let at =
+        |placement| model.station_of(placement).map_or(String::new(), |name| format!(" at station {name}"));
     let targets = (0..model.targets.len()).map(|j| {
+        let at = at(j / count);
         let name =
-            if model.targets.len() > 1 { format!("target {}", j + 1) } else { "the target".to_owned() };
+            if count > 1 { format!("target {}{at}", j % count + 1) } else { format!("the target{at}") };
         (name, sizes(&|unknown| matches!(unknown, Unknown::Target(target, _) if target == j)))
     });
-    let frame = sizes(&|unknown| matches!(unknown, Unknown::Tool(component) if !component.is_rotation()));
-    let all = targets.chain([("the measured frame".to_owned(), frame)]);
+    let frames = (0..model.mountings.len()).map(|i| {
+        let is_own =
+            |unknown| matches!(unknown, Unknown::Tool(placement, c) if placement == i && !c.is_rotation());
+        (format!("the measured frame{}", at(i)), sizes(&is_own))
+    });
+    let all = targets.chain(frames);
     let (name, (value, deviation)) = all.max_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b))?;
     let length = |value: f64| number::length(value, setup.description.length);
     (deviation > VAGUE * setup.arm).then(|| {

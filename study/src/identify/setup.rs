@@ -1,14 +1,12 @@
 //! Models that measurements are compared with.
 
 use abbe::analysis::sampling;
-use abbe::identify::{
-    Failure, FixtureGeometry, INTRINSICS, Measurement, Model, Observable, Observation, Role, Station,
-    Unknown, register, register_pairs,
-};
-use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
+use abbe::identify::{Failure, Model, Observation, Role, Station, Unknown};
+use abbe::{Class, Description, Manipulator, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::board_check::check_board;
+use super::registered::{OpenPlaces, register_in_turn, registered};
 use super::scale::reference_length;
 use crate::data::{Base, Data, Map};
 use crate::mistake;
@@ -26,6 +24,8 @@ pub(crate) struct Setup<'a> {
     pub(crate) real: Model<'a>,
     /// The real chain before [`Setup::come_near`] improved its placement.
     pub(crate) delivered: Model<'a>,
+    /// Stations, and places on the tool, that neither map nor drawing states.
+    pub(super) open: OpenPlaces,
     /// Sum of the lengths of the chain, in the length unit.
     pub(crate) arm: f64,
     /// Number of sources of the spec itself.
@@ -44,32 +44,27 @@ impl<'a> Setup<'a> {
         terms: usize,
     ) -> Result<Self, Diagnostics> {
         let mut setup = Self::without_stations(manipulator, map, terms)?;
+        let names = if data.stations.is_empty() { vec![String::new()] } else { data.stations.clone() };
+        setup.name_stations(map, &names);
         check_board(&setup.real, data)?;
         let measured = setup.real.as_poses(&data.observations);
-        let unnamed = [String::new()];
-        let names = if data.stations.is_empty() { &unnamed[..] } else { &data.stations };
-        let stations = names.iter().enumerate().map(|(i, name)| {
-            let pose = match (map.stations.pose(name), map.base) {
-                (Some(pose), _) => pose,
-                (None, Base::Known | Base::Exact) if !map.stations.stated.is_empty() => {
-                    return Err(missing_station(map, data, name));
-                }
-                (None, Base::Known | Base::Exact) => Pose::IDENTITY,
-                (None, Base::Unknown) => registered(&setup.real, &measured, i)
+        let mut stations = setup.real.stations.clone();
+        for (i, station) in stations.iter_mut().enumerate() {
+            if setup.open.stations[i] {
+                station.pose = registered(&setup.real, &measured, i)
                     .map_err(|failure| mistake::whole(&data.file, &failure))?
-                    .ok_or_else(|| collinear(data, name))?,
-            };
-            Ok(Station { name: name.clone(), pose, exact: map.base == Base::Exact })
-        });
-        let stations = stations.collect::<Result<Vec<_>, Diagnostics>>()?;
+                    .ok_or_else(|| collinear(data, &station.name))?;
+            } else if map.stations.pose(&station.name).is_none() && !map.stations.stated.is_empty() {
+                return Err(missing_station(map, data, &station.name));
+            }
+        }
         setup.set_stations(&stations);
+        setup.place_tool(data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         setup.place_fixtures(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         if let Some(row) = data.observations.first() {
             let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));
             let length = length.map_err(|error| mistake::whole(&data.file, &error))?;
-            for model in [&mut setup.ideal, &mut setup.real, &mut setup.delivered] {
-                model.reference_length = length;
-            }
+            setup.models().into_iter().for_each(|model| model.reference_length = length);
         }
         Ok(setup)
     }
@@ -110,12 +105,7 @@ impl<'a> Setup<'a> {
         if setup.ideal.camera.is_some() && !map.is_placed() {
             return Err(unplaced(map));
         }
-        let station = |name: String| Station {
-            pose: map.stations.pose(&name).unwrap_or(Pose::IDENTITY),
-            name,
-            exact: map.base == Base::Exact,
-        };
-        setup.set_stations(&names.into_iter().map(station).collect::<Vec<_>>());
+        setup.name_stations(map, &names);
         Ok(setup)
     }
 
@@ -124,7 +114,7 @@ impl<'a> Setup<'a> {
         map: &Map,
         terms: usize,
     ) -> Result<Self, Diagnostics> {
-        let ideal = Model { mounting: map.mounting(), ..ideal_model(manipulator, map) };
+        let ideal = ideal_model(manipulator, map);
         let description = ideal.manipulator.description();
         let mut real = ideal.clone();
         let declared = description.sources.len() - terms;
@@ -134,14 +124,66 @@ impl<'a> Setup<'a> {
         let arm = sampling::arm_length(ideal.manipulator, &ideal.s);
         let arm = arm.map_err(|error| mistake::whole(&description.name, &error))?;
         let placement = map.placement.exact;
-        let delivered = real.clone();
-        Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm, declared })
+        let (delivered, open) = (real.clone(), OpenPlaces::default());
+        Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, open, arm, declared })
+    }
+
+    /// Sets the stations, and the placements on the tool, as the map states them; stations at `F_0`
+    /// if it does not.
+    fn name_stations(&mut self, map: &Map, names: &[String]) {
+        let is_per_station = map.placement.is_per_station;
+        let station = |(i, name): (usize, &String)| Station {
+            name: name.clone(),
+            pose: map.stations.pose(name).unwrap_or(Pose::IDENTITY),
+            exact: map.base == Base::Exact,
+            placement: if is_per_station { i } else { 0 },
+        };
+        let stations: Vec<Station> = names.iter().enumerate().map(station).collect();
+        let placements = if is_per_station { names } else { &names[..1] };
+        let targets: Vec<[f64; 3]> = placements.iter().flat_map(|name| map.targets_at(name)).collect();
+        let mountings: Vec<Pose> = placements.iter().map(|name| map.mounting_at(name)).collect();
+        for model in self.models() {
+            model.stations.clone_from(&stations);
+            model.targets.clone_from(&targets);
+            model.mountings.clone_from(&mountings);
+        }
+        let is_open = |name: &String| is_per_station && map.placement.at(name).is_none();
+        let count = targets.len() / placements.len();
+        self.open = OpenPlaces {
+            stations: names
+                .iter()
+                .map(|name| map.base == Base::Unknown && map.stations.pose(name).is_none())
+                .collect(),
+            targets: placements.iter().flat_map(|name| vec![is_open(name) && !self.pose; count]).collect(),
+            mountings: placements.iter().map(|name| is_open(name) && self.pose).collect(),
+        };
+    }
+
+    /// Returns the three models.
+    pub(super) fn models(&mut self) -> [&mut Model<'a>; 3] {
+        [&mut self.ideal, &mut self.real, &mut self.delivered]
     }
 
     pub(super) fn set_stations(&mut self, stations: &[Station]) {
-        for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
-            model.stations = stations.to_vec();
+        self.models().into_iter().for_each(|model| model.stations = stations.to_vec());
+    }
+
+    /// Returns whether the residuals are larger than errors of a machine.
+    fn is_far(&self, model: &Model, rows: &[Observation]) -> Result<bool, Failure> {
+        Ok(model.figures(rows, &[])?.rms > FAR * self.arm)
+    }
+
+    /// Registers the places that are open, if any on the tool is and the data are far from it.
+    fn place_tool(&mut self, data: &Data) -> Result<(), Failure> {
+        let is_open = self.open.targets.contains(&true) || self.open.mountings.contains(&true);
+        if !is_open || !self.is_far(&self.real, &data.observations)? {
+            return Ok(());
         }
+        let mut near = self.real.clone();
+        let is_near = |near: &Model| Ok(!self.is_far(near, &data.observations)?);
+        register_in_turn(&mut near, &data.observations, self.arm, &self.open, is_near)?;
+        self.models().into_iter().for_each(|model| take_places(model, &near));
+        Ok(())
     }
 
     /// Improves a placement that is far from the data, in closed form.
@@ -149,8 +191,7 @@ impl<'a> Setup<'a> {
     /// The station poses and the placement on the tool are registered in turn: each is the rigid
     /// motion that explains the data best given the other.
     pub(crate) fn come_near(&mut self, data: &Data) -> Result<(), Failure> {
-        let far = |model: &Model| Ok(model.figures(&data.observations, &[])?.rms > FAR * self.arm);
-        if !far(&self.real)? {
+        if !self.is_far(&self.real, &data.observations)? {
             return Ok(());
         }
         let rows = &*self.real.as_poses(&data.observations);
@@ -160,27 +201,17 @@ impl<'a> Setup<'a> {
             && !near.stations[0].exact
             && let Some([base, mounting]) = near.hand_eye(rows, 0)?
         {
-            (near.stations[0].pose, near.mounting) = (base, mounting);
+            (near.stations[0].pose, near.mountings[0]) = (base, mounting);
         }
-        for _ in 0..ROUNDS {
-            for i in 0..near.stations.len() {
-                if !near.stations[i].exact
-                    && let Some(pose) = registered(&near, rows, i)?
-                {
-                    near.stations[i].pose = pose;
-                }
-            }
-            if !self.placement {
-                register_tool(&mut near, rows, self.arm)?;
-            }
-            if !far(&near)? {
-                break;
-            }
-        }
+        let open = OpenPlaces {
+            stations: near.stations.iter().map(|station| !station.exact).collect(),
+            targets: vec![!self.placement; near.targets.len()],
+            mountings: vec![!self.placement; near.mountings.len()],
+        };
+        let is_near = |near: &Model| Ok(!self.is_far(near, &data.observations)?);
+        register_in_turn(&mut near, rows, self.arm, &open, is_near)?;
         for model in [&mut self.ideal, &mut self.real] {
-            model.stations.clone_from(&near.stations);
-            model.targets.clone_from(&near.targets);
-            model.mounting = near.mounting;
+            take_places(model, &near);
         }
         Ok(())
     }
@@ -188,10 +219,10 @@ impl<'a> Setup<'a> {
     /// Returns the measured points in the frame of the tool, as the map states them: targets, or
     /// the origin of the measured frame.
     pub(crate) fn delivered_points(&self) -> Vec<[f64; 3]> {
-        let Model { mounting, targets, .. } = &self.delivered;
+        let Model { mountings, targets, .. } = &self.delivered;
         match self.pose {
-            true => vec![mounting.position()],
-            false => targets.iter().map(|target| mounting.apply(*target)).collect(),
+            true => mountings.iter().map(Pose::position).collect(),
+            false => self.delivered.mounted(targets),
         }
     }
 
@@ -226,6 +257,16 @@ impl<'a> Setup<'a> {
     }
 }
 
+/// Residual, as a share of the arm length, above which an initial placement is far.
+const FAR: f64 = 0.01;
+
+/// Takes the stations and the placements on the tool of another model.
+fn take_places(model: &mut Model, other: &Model) {
+    model.stations.clone_from(&other.stations);
+    model.targets.clone_from(&other.targets);
+    model.mountings.clone_from(&other.mountings);
+}
+
 /// Returns the ideal chain with the fixtures and readings of a map.
 fn ideal_model<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
     let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
@@ -238,148 +279,6 @@ fn ideal_model<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
         },
         None => ideal,
     }
-}
-
-/// Returns the measured point of every target, in the frame of the instrument; none for targets
-/// that were not measured.
-fn points(model: &Model, observation: &Observation) -> Vec<Option<[f64; 3]>> {
-    match &observation.measured {
-        Measurement::Points(points) => points.to_vec(),
-        Measurement::Pose(_) => Vec::new(),
-        Measurement::Readings(values) => {
-            let coordinate = |j: usize, k: usize| {
-                let is_it = |o: &Observable| o.kind.sees_base && (o.targets[0], o.axis) == (j, k);
-                let mut own =
-                    model.observables.iter().zip(values).filter(|(observable, _)| is_it(observable));
-                own.find_map(|(_, value)| *value)
-            };
-            let point = |j: usize| Some([coordinate(j, 0)?, coordinate(j, 1)?, coordinate(j, 2)?]);
-            (0..model.targets.len()).map(point).collect()
-        }
-    }
-}
-
-/// Residual, as a share of the arm length, above which an initial placement is far.
-const FAR: f64 = 0.01;
-
-/// Largest number of alternating registrations of stations and tool.
-const ROUNDS: usize = 50;
-
-/// Registers the placement on the tool: targets at their mean position, or the pose of the measured
-/// frame.
-fn register_tool(model: &mut Model, rows: &[Observation], arm: f64) -> Result<(), Failure> {
-    let mut scratch = model.scratch();
-    let corners = [[0.0; 3], [arm, 0.0, 0.0], [0.0, arm, 0.0], [0.0, 0.0, arm]];
-    let bare = Model { mounting: Pose::IDENTITY, ..model.clone() };
-    let (mut from, mut to) = (Vec::new(), Vec::new());
-    let mut sums = vec![([0.0; 3], 0.0); model.targets.len()];
-    for row in rows {
-        let back = bare.pose(&mut scratch, row, &[])?.inverse();
-        for ((sum, count), point) in sums.iter_mut().zip(points(model, row)) {
-            let Some(point) = point else { continue };
-            let place = back.apply(point);
-            *sum = std::array::from_fn(|i| sum[i] + place[i]);
-            *count += 1.0;
-        }
-        if let Measurement::Pose(pose) = &row.measured {
-            let seen = back.then(pose);
-            from.extend(corners);
-            to.extend(corners.map(|corner| seen.apply(corner)));
-        }
-    }
-    for (target, (sum, count)) in model.targets.iter_mut().zip(sums) {
-        if count > 0.0 {
-            *target = sum.map(|v| v / count);
-        }
-    }
-    if let Some(found) = register(&from, &to) {
-        model.mounting = found.pose;
-    }
-    Ok(())
-}
-
-/// Returns the stations of a model with their identified poses.
-pub(super) fn fitted_stations(model: &Model, x: &[f64]) -> Vec<Station> {
-    let mut stations = model.stations.clone();
-    for (i, station) in stations.iter_mut().enumerate() {
-        let of = |component| Unknown::Base(i, component);
-        station.pose = station.pose.then(&error_pose(model, x, of));
-    }
-    stations
-}
-
-/// Returns the identified place of a fixture.
-pub(super) fn fitted_fixture(model: &Model, x: &[f64], fixture: usize) -> FixtureGeometry {
-    let by = |coordinate| value(model, x, Unknown::Fixture(fixture, coordinate));
-    model.fixtures[fixture].geometry.displaced(&[by(0), by(1), by(2)])
-}
-
-/// Returns the identified zero of a reading.
-pub(super) fn fitted_zero(model: &Model, x: &[f64], reading: usize) -> f64 {
-    model.observables[reading].zero + value(model, x, Unknown::Zero(reading))
-}
-
-/// Returns the identified intrinsic parameters of the camera, if it has unknown ones.
-pub(super) fn fitted_intrinsics(model: &Model, x: &[f64]) -> Option<[f64; INTRINSICS]> {
-    let camera = model.camera.filter(|camera| !camera.is_known)?;
-    Some(std::array::from_fn(|i| camera.intrinsics[i] + value(model, x, Unknown::Intrinsic(i))))
-}
-
-/// Returns the value of an unknown; 0 if the model does not have it.
-fn value(model: &Model, x: &[f64], unknown: Unknown) -> f64 {
-    model.unknowns.iter().position(|one| *one == unknown).map_or(0.0, |k| x[k])
-}
-
-/// Returns the rigid motion given by six unknown errors.
-pub(super) fn error_pose(model: &Model, x: &[f64], of: impl Fn(Component) -> Unknown) -> Pose {
-    let errors = Component::ALL.map(|component| value(model, x, of(component)));
-    real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[errors])
-}
-
-/// Calls `take` with every measured point and its target; the target is none for the position of a
-/// pose.
-pub(super) fn for_each_point(
-    model: &Model,
-    observation: &Observation,
-    mut take: impl FnMut(Option<usize>, [f64; 3]),
-) {
-    if let Measurement::Pose(measured) = &observation.measured {
-        take(None, measured.position());
-    }
-    for (target, point) in points(model, observation).into_iter().enumerate().take(model.targets.len()) {
-        if let Some(point) = point {
-            take(Some(target), point);
-        }
-    }
-}
-
-/// Registers a station: returns the pose of `F_0` in the frame of the instrument that maps the
-/// predicted points onto all points measured there. None if the points are collinear.
-pub(super) fn registered(
-    model: &Model,
-    data: &[Observation],
-    station: usize,
-) -> Result<Option<Pose>, Failure> {
-    let mut scratch = model.scratch();
-    let model = Model { stations: vec![Station::at(Pose::IDENTITY); station + 1], ..model.clone() };
-    let rows = data.iter().filter(|row| row.station as usize == station);
-    // The measured points stay in the rows; only the predicted ones are stored.
-    let (mut from, x) = (Vec::new(), vec![0.0; model.unknowns.len()]);
-    for observation in rows.clone() {
-        let pose = model.pose(&mut scratch, observation, &x)?;
-        let place = |target: Option<usize>| {
-            target.map_or_else(|| pose.position(), |target| pose.apply(model.targets[target]))
-        };
-        for_each_point(&model, observation, |target, _| from.push(place(target)));
-    }
-    let to = rows.flat_map(|observation| {
-        let mut to = Vec::new();
-        for_each_point(&model, observation, |_, point| to.push(point));
-        to
-    });
-    Ok(register_pairs(from.iter().copied().zip(to))
-        .filter(|found| found.breadth > 1e-6)
-        .map(|found| found.pose))
 }
 
 /// Returns the error that the map states some stations, but not this one.

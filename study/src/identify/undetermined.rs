@@ -17,13 +17,14 @@
 
 use abbe::analysis::decompose::symmetric_eigen;
 use abbe::analysis::{Workspace, joint_samples};
-use abbe::identify::{Failure, Fit, Measurement, Model, Observation, Unknown};
+use abbe::identify::{Failure, Measurement, Model, Observation, Unknown};
 use abbe::{Component, Error, Pose, Quantity};
 use nalgebra::{DMatrix, DVector, RowDVector, SymmetricEigen};
 
 use super::as_joint_errors::AsJointErrors;
+use super::fitted::{fitted_mountings, fitted_targets};
 use super::priors::Prior;
-use super::setup::{Setup, error_pose};
+use super::setup::Setup;
 use super::solve::Solved;
 
 /// Number of configurations at which effects are evaluated.
@@ -168,7 +169,7 @@ fn effects(setup: &Setup, model: &Model, columns: &[usize]) -> Result<DMatrix<f6
     let [x, y, z, _] = Pose::IDENTITY.0;
     let mut rows: Vec<RowDVector<f64>> = Vec::new();
     for point in [[0.0; 3], [setup.arm, 0.0, 0.0], [0.0, setup.arm, 0.0]] {
-        let shifted = Model { mounting: Pose([x, y, z, point]), ..bare.clone() };
+        let shifted = Model { mountings: vec![Pose([x, y, z, point]); bare.mountings.len()], ..bare.clone() };
         for sample in &samples {
             // Expressions and tables need not be defined at every sample.
             let Ok(points) = shifted.tool_points(std::slice::from_ref(sample)) else { continue };
@@ -205,17 +206,8 @@ fn measured_points(setup: &Setup, solved: &Solved, rows: &[Observation]) -> Resu
     model.manipulator.transforms(&row.q, &model.s, &mut transforms).map_err(Failure::Machine)?;
     let mut points = setup.delivered_points();
     points.extend(match setup.pose {
-        true => vec![model.mounting.then(&error_pose(model, &fit.x, Unknown::Tool)).position()],
-        false => found_targets(model, fit).into_iter().map(|target| model.mounting.apply(target)).collect(),
+        true => fitted_mountings(model, &fit.x).iter().map(Pose::position).collect(),
+        false => model.mounted(&fitted_targets(model, &fit.x)),
     });
     Ok(points.into_iter().map(|point| transforms[frames].apply(point)).collect())
-}
-
-fn found_targets(model: &Model, fit: &Fit) -> Vec<[f64; 3]> {
-    let value =
-        |unknown: Unknown| model.unknowns.iter().position(|one| *one == unknown).map_or(0.0, |k| fit.x[k]);
-    let targets = model.targets.iter().enumerate();
-    targets
-        .map(|(j, target)| std::array::from_fn(|axis| target[axis] + value(Unknown::Target(j, axis))))
-        .collect()
 }

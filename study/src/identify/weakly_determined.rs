@@ -33,7 +33,7 @@ impl WeaklyDetermined {
         let determined_weakly = weak.map(|weak| {
             let unknown = model.unknowns[weak.unknown];
             let rotation = match unknown {
-                Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
+                Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(_, component) => {
                     component.is_rotation()
                 }
                 Unknown::Target(..)

@@ -55,13 +55,17 @@ impl RowError {
     }
 }
 
-/// Moves the tool point of a model to its target, if that is the only one: the position of the
-/// target is not an error.
+/// Moves the tool point of a model to its target, if that is the only one on the tool: the position
+/// of the target is not an error.
 pub(super) fn at_single_target<'a>(model: &Model<'a>) -> Model<'a> {
-    let [target] = model.targets[..] else { return model.clone() };
-    let mut mounting = model.mounting;
-    mounting.0[3] = mounting.apply(target);
-    Model { mounting, targets: vec![[0.0; 3]], ..model.clone() }
+    if model.targets_of(0).len() != 1 {
+        return model.clone();
+    }
+    let (mut mountings, targets) = (model.mountings.clone(), vec![[0.0; 3]; model.targets.len()]);
+    for (mounting, point) in mountings.iter_mut().zip(model.mounted(&model.targets)) {
+        mounting.0[3] = point;
+    }
+    Model { mountings, targets, ..model.clone() }
 }
 
 /// Error (position, then rotation vector) and measured tool point.
@@ -86,7 +90,7 @@ impl<'a> Errors<'a> {
     /// visible.
     pub(super) fn at(&mut self, row: &Observation) -> Result<Option<Seen>, Failure> {
         let ideal = self.model.pose(&mut self.scratch, row, &[])?;
-        let real = pose(&self.model.targets, &row.measured, &ideal);
+        let real = pose(&self.model, row, &ideal);
         Ok(real.map(|real| (deviation(Orientation::RotationVector, &ideal, &real), real.position())))
     }
 
@@ -94,7 +98,7 @@ impl<'a> Errors<'a> {
     pub(super) fn row_error(&mut self, row: &Observation) -> Result<RowError, Failure> {
         let (error, point) = self.at(row)?.unwrap_or_default();
         let predicted = self.real.pose(&mut self.scratch_of_real, row, &[])?;
-        let measured = pose(&self.real.targets, &row.measured, &predicted).unwrap_or(predicted);
+        let measured = pose(&self.real, row, &predicted).unwrap_or(predicted);
         let residual = deviation(Orientation::RotationVector, &predicted, &measured);
         Ok(RowError { observation: row.clone(), error, point, residual })
     }
@@ -133,8 +137,9 @@ pub(super) fn norm(v: [f64; 3]) -> f64 {
 }
 
 /// Returns the measured pose of the tool; a single point takes the ideal orientation.
-pub(super) fn pose(targets: &[[f64; 3]], measured: &Measurement, ideal: &Pose) -> Option<Pose> {
-    match measured {
+pub(super) fn pose(model: &Model, row: &Observation, ideal: &Pose) -> Option<Pose> {
+    let targets = &model.targets[model.targets_at(row.station as usize)];
+    match &row.measured {
         Measurement::Pose(pose) => Some(**pose),
         Measurement::Readings(_) => None,
         Measurement::Points(points) if targets.len() == 1 => {

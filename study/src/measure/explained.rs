@@ -142,7 +142,7 @@ impl<'a> PredictionRegion<'a> {
             let chance = Chance { noise, outliers: 0.0, outlier_size: 0.0, random_sources: true, seed };
             for row in simulate(&self.setup.real, &list, &chance)? {
                 let pose_of_ideal = ideal.pose(&mut ideal_scratch, &row, &[])?;
-                if let Some(real) = pose(&ideal.targets, &row.measured, &pose_of_ideal) {
+                if let Some(real) = pose(&ideal, &row, &pose_of_ideal) {
                     distances.push(self.distance(&mut scratch, &row, real.position())?);
                 }
             }

@@ -248,7 +248,7 @@ impl Measure {
             accepted,
             extrapolated,
             other_tool,
-            repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets.len() > 1),
+            repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets_of(0).len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
             drift: residual_drift.map(|drift| ResidualDrift::new(drift, setup.description.length)),
@@ -292,7 +292,7 @@ impl Evaluated {
         errors::leave_out(setup, &mut data)?;
         let fail = |failure: identify::Failure| mistake::whole(&data.file, &failure);
         let unit = setup.description.length.symbol();
-        let numbers = if setup.pose || setup.ideal.targets.len() > 1 { 6 } else { 3 };
+        let numbers = if setup.pose || setup.ideal.targets_of(0).len() > 1 { 6 } else { 3 };
         let mut sizes = vec![Sums::default(); numbers + 1];
         let (mut errors, mut norms) = (Errors::new(setup), identify::Distances::default());
         let again = visited_again(&data.observations);

@@ -99,7 +99,7 @@ fn candidates(spec: &Spec, model: &Model, numbers: &CheckValues) -> Vec<(SingleE
             Unknown::Error(_, component) => (component.is_rotation(), false),
             Unknown::Base(_, component) if numbers.fixed_station => (component.is_rotation(), true),
             Unknown::Base(..) | Unknown::Magnitude(_) => continue,
-            Unknown::Tool(component) => (component.is_rotation(), true),
+            Unknown::Tool(_, component) => (component.is_rotation(), true),
             Unknown::Target(..) | Unknown::Intrinsic(_) => (false, true),
             Unknown::Fixture(fixture, _) => {
                 (matches!(model.fixtures[*fixture].geometry, FixtureGeometry::Direction(_)), true)

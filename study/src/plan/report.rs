@@ -95,7 +95,7 @@ impl UndeterminedError {
     pub(super) fn new(model: &Model, k: usize, moves: f64) -> Self {
         let unknown = model.unknowns[k];
         let turn = match unknown {
-            Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
+            Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(_, component) => {
                 component.is_rotation()
             }
             Unknown::Magnitude(_)

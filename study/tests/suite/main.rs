@@ -11,6 +11,7 @@ mod jobs;
 mod measurements;
 mod monitor;
 mod parts;
+mod placements;
 mod plausibility;
 mod profiles;
 mod round_trips;

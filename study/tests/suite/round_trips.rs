@@ -33,28 +33,28 @@ e_s = "0.7 mrad"
 "#;
 
 /// Station of the machine, 1.5 m away and rotated by 150 degrees.
-const STATION: &str = "[[station]]\nposition = [\"1200 mm\", \"-900 mm\", \"40 mm\"]\nquaternion = [0.2588190451, 0, 0, 0.9659258263]\n";
+pub(super) const STATION: &str = "[[station]]\nposition = [\"1200 mm\", \"-900 mm\", \"40 mm\"]\nquaternion = [0.2588190451, 0, 0, 0.9659258263]\n";
 
-fn ur5() -> Machine {
+pub(super) fn ur5() -> Machine {
     Machine::find("ur5").unwrap()
 }
 
-fn machine(name: &str, text: &str) -> Machine {
+pub(super) fn machine(name: &str, text: &str) -> Machine {
     Machine::of_spec(Spec::parse(name, text).unwrap(), name)
 }
 
-fn real() -> Machine {
+pub(super) fn real() -> Machine {
     machine("real.toml", &format!("{}{ERRORS}", ur5().text().unwrap()))
 }
 
 /// Measuring method: layout of the file with nominal targets, and the actual placement.
-struct Method {
-    layout: String,
-    mounted: String,
+pub(super) struct Method {
+    pub(super) layout: String,
+    pub(super) mounted: String,
 }
 
 /// Returns a method with one target beside the last axis.
-fn one() -> Method {
+pub(super) fn one() -> Method {
     Method {
         layout: "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n".to_owned(),
         mounted: "[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n".to_owned(),
@@ -81,7 +81,7 @@ fn three(off: f64) -> Method {
     }
 }
 
-fn pose() -> Method {
+pub(super) fn pose() -> Method {
     Method {
         layout: "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
                  quaternion = { columns = [\"a\", \"b\", \"c\", \"d\"], order = \"wxyz\" }\n"
@@ -93,7 +93,7 @@ fn pose() -> Method {
 
 impl Method {
     /// Returns a map; `data` are additional lines under `[data]`, `more` additional tables.
-    fn map(&self, data: &str, more: &str) -> Map {
+    pub(super) fn map(&self, data: &str, more: &str) -> Map {
         let joints: String =
             (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
         let head = format!(
@@ -109,7 +109,7 @@ impl Method {
     }
 }
 
-fn measured(map: &Map, samples: usize, seed: u64) -> Data {
+pub(super) fn measured(map: &Map, samples: usize, seed: u64) -> Data {
     let job = Simulate {
         machine: real(),
         map: map.clone(),
@@ -128,11 +128,11 @@ fn measured(map: &Map, samples: usize, seed: u64) -> Data {
     }
 }
 
-fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
+pub(super) fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
     job(map, data, test).run(&mut ()).unwrap()
 }
 
-fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
+pub(super) fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
     let settings =
         Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
     Identify {
@@ -148,7 +148,7 @@ fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
 }
 
 /// Returns the machine and the map written by an identification.
-fn identified_machine_and_map(report: &Report, map: &Map) -> (Machine, Map) {
+pub(super) fn identified_machine_and_map(report: &Report, map: &Map) -> (Machine, Map) {
     let nominal = ur5();
     let spec = report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let found = machine("found.toml", &spec.text);
@@ -158,12 +158,12 @@ fn identified_machine_and_map(report: &Report, map: &Map) -> (Machine, Map) {
 }
 
 /// Returns mean and maximum of the residuals that `measure` reports.
-fn left(machine: Machine, map: Map, data: Data) -> [f64; 2] {
+pub(super) fn left(machine: Machine, map: Map, data: Data) -> [f64; 2] {
     let report = Measure { machine, map, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
     [report.explained.left_mean, report.explained.left_max]
 }
 
-fn assert_close(a: [f64; 2], b: [f64; 2], share: f64) {
+pub(super) fn assert_close(a: [f64; 2], b: [f64; 2], share: f64) {
     for (a, b) in a.into_iter().zip(b) {
         assert!((a - b).abs() <= share * b, "{a} {b}");
     }

@@ -45,6 +45,32 @@ fn derivatives_are_those_of_the_exact_chain() {
     differences(&pose, &Observation { measured: Measurement::Pose(Box::new(near)), ..observation(&q, 0) });
 }
 
+/// Derivatives are exact with a placement of the targets, and of the measured frame, at each
+/// station.
+#[test]
+fn placements_belong_to_their_station() {
+    let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];
+    let stations = [0, 1].map(|placement| Station { placement, ..Station::at(Pose::IDENTITY) }).to_vec();
+    let targets = vec![[100.0, 20.0, -30.0], [-80.0, 10.0, 50.0], [10.0, 90.0, 5.0], [0.0, 30.0, 60.0]];
+    let mounted = real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[50.0, -3.0, 80.0, 0.4, -0.9, 0.5]]);
+    let model = Model { stations, mountings: vec![Pose::IDENTITY; 2], ..Model::ideal(&Pps, targets, EXACT) };
+    let points = model.with(model.constants(false));
+    let poses = Model { mountings: vec![Pose::IDENTITY, mounted], targets: Vec::new(), ..model };
+    let poses = poses.with(poses.constants(true));
+    for station in [0, 1] {
+        let row = Observation { station, ..observation(&q, 2) };
+        differences(&points, &row);
+        let (_, rows) = residuals(&points, &row, &disturbed(&points));
+        let is_seen = |unknown| {
+            rows.iter().any(|row| row[points.unknowns.iter().position(|one| *one == unknown).unwrap()] != 0.0)
+        };
+        let seen = [0, 1, 2, 3].map(|target| is_seen(Unknown::Target(target, 0)));
+        assert_eq!(seen, [station == 0, station == 0, station == 1, station == 1]);
+        let near = poses.pose(&mut poses.scratch(), &row, &vec![0.0; poses.unknowns.len()]).unwrap();
+        differences(&poses, &Observation { measured: Measurement::Pose(Box::new(near)), ..row });
+    }
+}
+
 const CAMERA_IN_ROOM: Camera = Camera {
     intrinsics: [800.0, 790.0, 320.0, 240.0, -0.02, 0.01, 1e-3, -2e-3, 0.003],
     image: [640.0, 480.0],
@@ -93,7 +119,7 @@ fn derivatives_of_observables_are_exact() {
     let model = every_instrument(&Pps);
     let sources = model.repeatable().into_iter().map(Unknown::Magnitude);
     let all = model.constants(false).into_iter().chain(sources);
-    let model = model.with(all.chain(Component::ALL.map(Unknown::Tool)).collect());
+    let model = model.with(all.chain(Component::ALL.map(|c| Unknown::Tool(0, c))).collect());
     let from = Some(Box::new(observation(&[700.0, 100.0, 350.0, -0.4, 0.02, 0.05], 0)));
     let count = model.observables.len();
     let measured = Measurement::Readings(vec![Some(0.0); count]);

@@ -39,7 +39,7 @@ fn sampled(robot: &dyn Manipulator, moved: &[usize], count: usize, points: usize
 fn disturbed(model: &Model) -> Vec<f64> {
     let value = |(k, unknown): (usize, &Unknown)| {
         let size = match unknown {
-            Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
+            Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(_, component) => {
                 if component.is_rotation() {
                     0.02
                 } else {
