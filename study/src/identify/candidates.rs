@@ -9,17 +9,31 @@ use super::derived::{Derived, DerivedKind};
 use super::families::{Family, Harmonics};
 use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
 
-/// Returns groups of terms by stage, the likelier ones first. A group is accepted or rejected as a
-/// whole, such as the sine and cosine of a joint.
-///
-/// Each stage is tried beside the terms accepted in earlier stages. `spec` must have the derived
-/// inputs after its own.
-pub fn candidates(
+/// Groups of terms by stage, the likelier ones first. A group is accepted or rejected as a whole,
+/// such as the sine and cosine of a joint. Each stage is tried beside the terms accepted in earlier
+/// stages.
+pub type Stages = Vec<Vec<Vec<Term>>>;
+
+/// Returns the candidate terms of several families together, then those of each family alone that
+/// has any; only the former for a single family.
+pub(super) fn competing(
     spec: &Spec,
     derived: &[Derived],
     families: &[Family],
     harmonics: &[Harmonics],
-) -> Vec<Vec<Vec<Term>>> {
+) -> Vec<Stages> {
+    let together = candidates(spec, derived, families, harmonics);
+    let alone = |family: &Family| {
+        let harmonics = if *family == Family::Joint { harmonics } else { &[] };
+        candidates(spec, derived, &[*family], harmonics)
+    };
+    let alone: Vec<Stages> = families.iter().map(alone).filter(|stages| !stages.is_empty()).collect();
+    let alone = if alone.len() > 1 { alone } else { Vec::new() };
+    [together].into_iter().filter(|stages| !stages.is_empty()).chain(alone).collect()
+}
+
+/// Returns the candidate terms of these families. `spec` must have the derived inputs after its own.
+pub fn candidates(spec: &Spec, derived: &[Derived], families: &[Family], harmonics: &[Harmonics]) -> Stages {
     let has = |family: Family| families.contains(&family);
     let with = |family: Family, groups: fn(&Spec) -> Vec<Vec<Term>>| match has(family) {
         true => groups(spec),
@@ -27,8 +41,9 @@ pub fn candidates(
     };
     let own = spec.inputs.len() - derived.len();
     let load = if has(Family::Load) { load(spec, own) } else { Vec::new() };
-    let of_kind = |kind: fn(&DerivedKind) -> bool| {
-        let inputs = derived.iter().enumerate().filter(move |(_, one)| kind(&one.kind));
+    let of_kind = |family: Family, kind: fn(&DerivedKind) -> bool| {
+        let is_asked = has(family);
+        let inputs = derived.iter().enumerate().filter(move |(_, one)| is_asked && kind(&one.kind));
         inputs.flat_map(|(i, one)| one.groups(spec, own + i)).collect::<Vec<_>>()
     };
     let of_joint = |times: &[u16], exponents: &[u8]| match has(Family::Joint) {
@@ -48,12 +63,12 @@ pub fn candidates(
             of_joint(&[1, 2], &[1, 2]),
             load,
             with(Family::Elastic, elastic),
-            of_kind(|kind| matches!(kind, DerivedKind::FromRows(_))),
+            of_kind(Family::Backlash, |kind| matches!(kind, DerivedKind::FromRows(_))),
         ]
         .concat(),
         [of_joint(&[3, 4], &[3]), gears.collect(), with(Family::Elastic, coupled)].concat(),
         with(Family::Product, product),
-        of_kind(|kind| matches!(kind, DerivedKind::Settling(_) | DerivedKind::Drift)),
+        of_kind(Family::Drift, |kind| matches!(kind, DerivedKind::Settling(_) | DerivedKind::Drift)),
     ];
     // An error of a frame that equals an error of its joint in all configurations is offered as the
     // joint's.

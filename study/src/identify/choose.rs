@@ -1,23 +1,18 @@
 //! Selection of richer terms by cross-validation on the fitted data alone.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use abbe::identify::{Distances, Factored, Folds, Observation, Offer, Selection, Unknown, select};
+use abbe::identify::{Comparison, Factored, Folds, Model, Observation, Offer, Selection, Unknown, select};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
+use super::candidates::Stages;
+use super::complete_fit::{Assessed, FitInput};
 use super::extended::extended;
-use super::instruments::estimate;
-use super::interpretation_check::check_interpretation;
 use super::magnitude::own_magnitudes;
-use super::options::Settings;
-use super::plausibility::check_plausibility;
-use super::setup::Setup;
-use super::solve::{diagnose, solve};
+use super::solve::{Solved, diagnose, solve};
 use super::terms::{Basis, ErrorSite, Term};
 use crate::Notes;
-use crate::data::{Data, Map};
 
 /// Probability of accepting a term by chance, over all stages.
 const CHANCE: f64 = 0.05;
@@ -27,103 +22,174 @@ const CHANCE: f64 = 0.05;
 pub(super) struct Chosen {
     /// Groups in the order of acceptance.
     pub(super) groups: Vec<(Vec<Term>, Selection)>,
-    /// Model with constant errors alone, if richer terms were tried.
-    pub(super) constant: Option<Constant>,
+    /// Accuracy of the model with constant errors alone, if richer terms were tried.
+    pub(super) constant: Option<Assessed>,
     /// Number of groups tried.
     pub(super) tried: usize,
     /// Notes for the report.
     pub(super) notes: Vec<String>,
 }
 
-/// Accuracy of the model with constant errors alone.
-#[derive(Clone, Debug)]
-pub(super) struct Constant {
-    /// Position errors of the cross-validation.
-    pub(super) cross_validated: Distances,
-    /// Lines of the rows rejected as outliers.
-    pub(super) rejected: Vec<u64>,
-}
-
-/// Selects terms from `stages` of groups. Stages that would begin after the time limit are skipped.
+/// Selects terms forward among each of the sets of candidates, and returns the selection whose
+/// complete fit predicts the rows that it leaves out best.
 ///
-/// The interpreter computes only the error of each carrier; the basis of a term is a factor that is
-/// evaluated per row.
+/// The first set has the terms of all families. A family alone can be better: among more
+/// candidates, its best term can lose to one of another family that fits as well at first. The
+/// terms of all families are preferred only if they are significantly better than the best family.
 pub(super) fn choose(
-    spec: &Spec,
-    map: &Map,
-    data: &Data,
-    stages: &[Vec<Vec<Term>>],
-    settings: &Settings,
+    input: &FitInput,
+    sets: &[Stages],
     notes: &mut dyn Notes,
 ) -> Result<Chosen, Diagnostics> {
-    let start = Instant::now();
-    let over = |time: Option<Duration>| time.is_some_and(|time| start.elapsed() >= time);
-    let all: Vec<Term> = stages.iter().flatten().flatten().copied().collect();
-    let mut carriers: Vec<Term> = Vec::new();
-    let mut factors: Vec<Basis> = Vec::new();
-    for term in &all {
-        let carrier = term.carrier();
-        if unknown_error(carrier).is_none() && !carriers.contains(&carrier) {
-            carriers.push(carrier);
+    let FitInput { spec, data, settings, .. } = *input;
+    let offered = Offered::new(sets);
+    let own = own_magnitudes(spec);
+    let interpreter = Interpreter::new(extended(spec, &offered.carriers));
+    let setup = input.setup(&interpreter, own.len() + offered.carriers.len(), true, notes)?;
+    let solved = solve(&setup, data, &own, &[], settings, notes)?;
+    let constant = Assessed::new(&solved, data);
+    let groups = sets.iter().flatten().map(Vec::len).sum();
+    let model = offered.model(&solved, setup.declared + own.len());
+    let begin = Instant::now();
+    let mut selector = Selector { input, offered, solved: &solved, model, groups, tried: 0, begin };
+    let mut skipped = Vec::new();
+    let mut selected = Vec::new();
+    for (i, stages) in sets.iter().enumerate() {
+        if i > 0 && selector.is_over() {
+            break;
         }
-        if !term.basis.is_elastic() && !factors.contains(&term.basis) {
-            factors.push(term.basis);
+        let mut chosen = selector.forward(stages, notes)?;
+        skipped.append(&mut chosen.notes);
+        match chosen.determined(input, &constant, notes) {
+            Ok(one) => selected.push(one),
+            Err(mistake) if i == 0 => return Err(mistake),
+            Err(_) => notes.go_on()?,
         }
     }
-    let own = own_magnitudes(spec);
-    let interpreter = Interpreter::new(extended(spec, &carriers));
-    let mut setup = Setup::new(&interpreter, map, data, own.len() + carriers.len())?;
-    check_interpretation(&setup, map, data)?;
-    setup.come_near(data).map_err(|failure| diagnose(&failure, data))?;
-    check_plausibility(&setup, map, data, notes).map_err(|failure| diagnose(&failure, data))?;
-    estimate(&mut setup, map, data, settings)?;
-    let solved = solve(&setup, data, &own, &[], settings, notes)?;
+    notes.progress(groups, groups);
+    let mut selected = selected.into_iter();
+    let together = selected.next().flatten();
+    let alone = selected.flatten().min_by(|(_, a), (_, b)| a.mean().total_cmp(&b.mean()));
+    let best = match (together, alone) {
+        (Some(together), Some(alone)) => {
+            let is_worse = |one: Comparison| one.gain <= 0.0 || one.p > CHANCE;
+            if together.1.compared_with(&alone.1).is_some_and(is_worse) { alone.0 } else { together.0 }
+        }
+        (together, alone) => together.or(alone).map(|(chosen, _)| chosen).unwrap_or_default(),
+    };
+    Ok(Chosen { constant: Some(constant), tried: selector.tried, notes: skipped, ..best })
+}
 
-    let fitted = solved.model.unknowns.len();
-    let magnitudes = (setup.declared + own.len()..).take(carriers.len()).map(Unknown::Magnitude);
-    let unknowns = solved.model.unknowns.iter().copied().chain(magnitudes).collect();
-    let model = solved.model.with(unknowns);
-    let factored = |term: &Term| {
+/// Distinct carriers and factors of the candidate terms. The interpreter computes only the error of
+/// each carrier; the basis of a term is a factor that is evaluated per row.
+struct Offered {
+    /// Constant terms and compliances that are no unknowns of the constant model.
+    carriers: Vec<Term>,
+    factors: Vec<Basis>,
+}
+
+impl Offered {
+    fn new(sets: &[Stages]) -> Self {
+        let (mut carriers, mut factors) = (Vec::new(), Vec::new());
+        for term in sets.iter().flatten().flatten().flatten() {
+            let carrier = term.carrier();
+            if unknown_error(carrier).is_none() && !carriers.contains(&carrier) {
+                carriers.push(carrier);
+            }
+            if !term.basis.is_elastic() && !factors.contains(&term.basis) {
+                factors.push(term.basis);
+            }
+        }
+        Self { carriers, factors }
+    }
+
+    /// Returns the model of the fit of constant errors with a magnitude of each carrier, the first
+    /// of which is that of this source.
+    fn model<'a>(&self, solved: &Solved<'a>, first: usize) -> Model<'a> {
+        let magnitudes = (first..).take(self.carriers.len()).map(Unknown::Magnitude);
+        solved.model.with(solved.model.unknowns.iter().copied().chain(magnitudes).collect())
+    }
+}
+
+/// Forward selection about the fit of constant errors.
+struct Selector<'a> {
+    input: &'a FitInput<'a>,
+    offered: Offered,
+    /// Fit of constant errors alone.
+    solved: &'a Solved<'a>,
+    /// Its model, followed by the magnitudes of the carriers.
+    model: Model<'a>,
+    /// Number of groups in all sets.
+    groups: usize,
+    /// Number of groups tried.
+    tried: usize,
+    begin: Instant,
+}
+
+impl Selector<'_> {
+    /// Returns whether the time limit is over.
+    fn is_over(&self) -> bool {
+        self.input.settings.time.is_some_and(|time| self.begin.elapsed() >= time)
+    }
+
+    /// Selects terms from stages of groups. Stages that would begin after the time limit are
+    /// skipped.
+    fn forward(&mut self, stages: &Stages, notes: &mut dyn Notes) -> Result<Chosen, Diagnostics> {
+        let FitInput { data, settings, .. } = *self.input;
+        let rows = &data.observations;
+        let factors = &self.offered.factors;
+        let values = |row: &Observation| factors.iter().map(|basis| basis.value(&row.q, &row.u)).collect();
+        let folds = Folds::new(rows, settings.folds);
+        let mut chosen = Chosen::default();
+        for (i, stage) in stages.iter().enumerate() {
+            notes.progress(self.tried, self.groups);
+            if self.is_over() {
+                let rest: usize = stages[i..].iter().map(Vec::len).sum();
+                chosen.notes.push(format!(
+                    "note: the time limit was reached before {rest} of {} groups of terms were tried",
+                    rest + self.tried
+                ));
+                break;
+            }
+            self.tried += stage.len();
+            notes.go_on()?;
+            let factored = |group: &Vec<Term>| group.iter().filter_map(|term| self.factored(term)).collect();
+            let taken: Vec<Factored> = chosen
+                .groups
+                .iter()
+                .flat_map(|(group, _)| group)
+                .filter_map(|term| self.factored(term))
+                .collect();
+            let groups: Vec<Vec<Factored>> = stage.iter().map(factored).collect();
+            let offer = Offer {
+                taken: &taken,
+                groups: &groups,
+                factors: &values,
+                chance: CHANCE / stages.len() as f64,
+            };
+            let mut proceed = || !self.is_over();
+            let selected = select(&self.model, rows, &self.solved.fit, &folds, &offer, &mut proceed);
+            let selected = selected.map_err(|failure| diagnose(&failure, data))?;
+            let group = |selection: Selection| (stage[selection.group].clone(), selection);
+            chosen.groups.extend(selected.into_iter().map(group));
+        }
+        Ok(chosen)
+    }
+
+    /// Returns the unknown and the factor of a term.
+    fn factored(&self, term: &Term) -> Option<Factored> {
+        let Offered { carriers, factors } = &self.offered;
         let carrier = term.carrier();
         let unknown = match unknown_error(carrier) {
-            Some(error) => model.unknowns.iter().position(|unknown| *unknown == error),
-            None => carriers.iter().position(|one| *one == carrier).map(|i| fitted + i),
+            Some(error) => self.model.unknowns.iter().position(|unknown| *unknown == error),
+            None => {
+                let first = self.model.unknowns.len() - carriers.len();
+                carriers.iter().position(|one| *one == carrier).map(|i| first + i)
+            }
         };
         let factor = factors.iter().position(|basis| *basis == term.basis);
         unknown.map(|unknown| Factored { unknown, factor })
-    };
-    let values = |row: &Observation| factors.iter().map(|basis| basis.value(&row.q, &row.u)).collect();
-    let folds = Folds::new(&data.observations, settings.folds);
-    let rejected = solved.fit.rejected(&data.observations).map(|row| row.line).collect();
-    let constant = Constant { cross_validated: solved.cross_validated.clone(), rejected };
-    let mut chosen = Chosen { constant: Some(constant), ..Chosen::default() };
-    let groups: usize = stages.iter().map(Vec::len).sum();
-    for (i, stage) in stages.iter().enumerate() {
-        notes.progress(chosen.tried, groups);
-        if over(settings.time) {
-            let rest: usize = stages[i..].iter().map(Vec::len).sum();
-            chosen.notes.push(format!(
-                "note: the time limit was reached before {rest} of {} groups of terms were tried",
-                rest + chosen.tried
-            ));
-            break;
-        }
-        chosen.tried += stage.len();
-        notes.go_on()?;
-        let taken: Vec<Factored> =
-            chosen.groups.iter().flat_map(|(group, _)| group).filter_map(factored).collect();
-        let groups: Vec<Vec<Factored>> =
-            stage.iter().map(|group| group.iter().filter_map(factored).collect()).collect();
-        let offer =
-            Offer { taken: &taken, groups: &groups, factors: &values, chance: CHANCE / stages.len() as f64 };
-        let mut proceed = || !over(settings.time);
-        let selected = select(&model, &data.observations, &solved.fit, &folds, &offer, &mut proceed);
-        let selected = selected.map_err(|failure| diagnose(&failure, data))?;
-        let group = |selection: Selection| (stage[selection.group].clone(), selection);
-        chosen.groups.extend(selected.into_iter().map(group));
     }
-    notes.progress(groups, groups);
-    Ok(chosen)
 }
 
 /// Returns the unknown of a model that a constant term is equivalent to, if there is one.
@@ -135,6 +201,34 @@ fn unknown_error(term: Term) -> Option<Unknown> {
 }
 
 impl Chosen {
+    /// Removes groups that the complete fit holds at zero, and the last groups as long as constant
+    /// errors alone predict better. Returns the rest with the accuracy of its fit; none if nothing
+    /// is left.
+    fn determined(
+        mut self,
+        input: &FitInput,
+        constant: &Assessed,
+        notes: &mut dyn Notes,
+    ) -> Result<Option<(Self, Assessed)>, Diagnostics> {
+        while !self.groups.is_empty() {
+            notes.go_on()?;
+            let (terms, count) = (self.terms(), self.groups.len());
+            let interpreter = input.interpreter(&terms);
+            let (_, solved) = input.complete_fit(&interpreter, &terms, false, &mut ())?;
+            let determined = solved.determined_terms();
+            self.groups.retain(|(group, _)| group.iter().any(|term| determined.contains(term)));
+            if self.groups.len() < count {
+                continue;
+            }
+            let assessed = Assessed::new(&solved, input.data);
+            match assessed.compared_with(constant) {
+                Some(Comparison { gain, .. }) if gain < 0.0 => drop(self.groups.pop()),
+                _ => return Ok(Some((self, assessed))),
+            }
+        }
+        Ok(None)
+    }
+
     /// Returns all terms, in the order of acceptance.
     pub(super) fn terms(&self) -> Vec<Term> {
         self.groups.iter().flat_map(|(group, _)| group).copied().collect()

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
+use abbe::LengthUnit;
 use abbe::identify::{
     Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Selection,
     deviation_beyond, drift, student_factor,
@@ -12,31 +13,29 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::alternatives::Explanations;
-use super::as_joint_errors::{AsJointErrors, number_terms};
+use super::as_joint_errors::AsJointErrors;
 use super::between_stations::include_between_stations;
-use super::candidates::candidates;
+use super::candidates::competing;
 use super::choose::{Chosen, choose};
+use super::complete_fit::FitInput;
 use super::counts::Counts;
 use super::derived::{Derived, derived, has_one_station, with_columns, with_inputs};
 use super::drift::ResidualDrift;
-use super::extended::extended;
 use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
 use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
-use super::instruments::{coordinate_fits, estimate, instrument_fits, unequal_note};
-use super::interpretation_check::check_interpretation;
-use super::magnitude::own_magnitudes;
+use super::instruments::{coordinate_fits, instrument_fits, unequal_note};
 use super::options::{LOSSES, Settings, TERMS};
 use super::parameters::{magnitudes, parameters};
-use super::plausibility::{check_lengths, check_plausibility, tool_note};
+use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::profiles::find_profiles;
 use super::read_back::read_back;
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
-use super::solve::{Solved, solve};
+use super::solve::Solved;
 use super::terms::Term;
 use super::train_test_overlap::{overlap_warning, train_test_overlap};
 use super::undetermined::UndeterminedDirections;
@@ -127,28 +126,17 @@ impl Identify {
         };
         let data = completed(data, true);
 
-        let stages = candidates(&spec, &derived, &self.terms, &self.harmonics);
-        let chosen = match stages.is_empty() {
-            true => Chosen::default(),
-            false => choose(&spec, map, &data, &stages, settings, notes)?,
-        };
-        let (own, terms, numbers) = (own_magnitudes(&spec), chosen.terms(), number_terms(&spec));
-        let interpreter = Interpreter::new(extended(&spec, &[&terms[..], &numbers].concat()));
-        let mut setup = Setup::new(&interpreter, map, &data, own.len() + terms.len() + numbers.len())?;
-        if stages.is_empty() {
-            check_interpretation(&setup, map, &data)?;
-        }
-        setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, &failure))?;
-        if stages.is_empty() {
-            check_plausibility(&setup, map, &data, notes)
-                .map_err(|failure| mistake::whole(&data.file, &failure))?;
-        }
-        estimate(&mut setup, map, &data, settings)?;
-        let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
+        let sets = competing(&spec, &derived, &self.terms, &self.harmonics);
+        let input = FitInput { spec: &spec, map, data: &data, settings };
+        let chosen = if sets.is_empty() { Chosen::default() } else { choose(&input, &sets, notes)? };
+        let terms = chosen.terms();
+        let interpreter = input.interpreter(&terms);
+        let (setup, solved) = input.complete_fit(&interpreter, &terms, sets.is_empty(), notes)?;
         let profiles = find_profiles(&self.terms, &spec, (&setup, &solved), &data, settings, notes)?;
-        let profiled = profiles.found.as_ref().map(|found| {
-            Interpreter::new(extended(&found.added_to(&spec), &[&terms[..], &numbers].concat()))
-        });
+        let profiled = profiles
+            .found
+            .as_ref()
+            .map(|found| FitInput { spec: &found.added_to(&spec), ..input }.interpreter(&terms));
         let (setup, mut solved) = match (profiles.found, &profiled) {
             (Some(found), Some(profiled)) => {
                 found.refit(profiled, (setup, solved), (&spec, map, &data), settings, notes)?
@@ -156,6 +144,11 @@ impl Identify {
             _ => (setup, solved),
         };
         solved.notes.extend(profiles.note);
+        let plain = input.interpreter(&[]);
+        let constant = match terms.is_empty() && profiled.is_none() {
+            true => None,
+            false => Some(input.complete_fit(&plain, &[], false, &mut ())?.1),
+        };
         check_lengths(&setup, &solved.model, &solved.fit, settings.prior, &data, notes)?;
         include_between_stations(&mut solved, &setup, &data)?;
         solved.notes.extend(data.note_on_time().map(|note| format!("note: {note}")));
@@ -165,6 +158,7 @@ impl Identify {
         let identified = Identified {
             setup: &setup,
             solved: &solved,
+            constant: constant.as_ref(),
             cross_validated,
             chosen: &chosen,
             derived: &derived,
@@ -178,6 +172,8 @@ impl Identify {
 struct Identified<'a> {
     setup: &'a Setup<'a>,
     solved: &'a Solved<'a>,
+    /// Fit of constant errors alone, if the model has richer terms or profiles.
+    constant: Option<&'a Solved<'a>>,
     cross_validated: CrossValidated,
     chosen: &'a Chosen,
     derived: &'a [Derived],
@@ -195,10 +191,9 @@ struct CrossValidated {
 
 impl CrossValidated {
     fn new(cross_validated: Distances, solved: &Solved, chosen: &Chosen, data: &Data) -> Self {
-        let rejected = || solved.fit.rejected(&data.observations).map(|row| row.line);
         // A comparison needs the same rows, hence the same outliers.
-        let constant =
-            chosen.constant.as_ref().filter(|constant| rejected().eq(constant.rejected.iter().copied()));
+        let rejected: Vec<u64> = solved.fit.rejected(&data.observations).map(|row| row.line).collect();
+        let constant = chosen.constant.as_ref().filter(|constant| constant.rejected == rejected);
         let gain = constant.map(|constant| cross_validated.compared_with(&constant.cross_validated));
         Self { figures: cross_validated.into_figures(), gain }
     }
@@ -207,6 +202,9 @@ impl CrossValidated {
 /// Largest change of the machine by first-order conversion to numbers of the chain, as a share of
 /// the residual.
 const CONVERSION_TOLERANCE: f64 = 0.01;
+
+/// Probability by chance at which terms count as worse than constant errors on the test rows.
+const WORSE: f64 = 0.05;
 
 fn report(
     job: &Identify,
@@ -218,6 +216,7 @@ fn report(
     let Identified {
         setup,
         solved,
+        constant,
         cross_validated: CrossValidated { figures: cross_validated, gain: gain_of_terms },
         chosen,
         derived,
@@ -232,7 +231,7 @@ fn report(
     let scale = scale_note(&setup.real, rows, &setup.moved(rows)).map_err(fail)?;
     let groups = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, &error))?;
-    let compared_fit = compare(solved, &setup.delivered, data, |i| fit.is_kept(i))?;
+    let compared_fit = compare(solved, constant, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup)?;
     let instruments = instrument_fits(model, map, data, fit).map_err(fail)?;
     let coordinates = coordinate_fits(model, map, data, fit).map_err(fail)?;
@@ -241,7 +240,7 @@ fn report(
     let length = setup.real.uncertainty.length;
     let test = test.map(|test| comparable(test, data, model)).transpose()?;
     let test = test.as_deref();
-    let assess = |test: &Data| compare(solved, &setup.delivered, test, |_| true);
+    let assess = |test: &Data| compare(solved, constant, &setup.delivered, test, |_| true);
     let test_sizes = test.map(assess).transpose()?;
     let accepted = match &test_sizes {
         Some(test) => job.accept.verdict("the test rows", &test.after),
@@ -347,6 +346,7 @@ fn report(
             .chain(tool_note(setup, model, fit))
             .chain(no_drift)
             .chain(written)
+            .chain(test_sizes.and_then(|test| test.note_on_terms(spec.length)))
             .collect(),
         record: map.record.with_options(job.options()),
         points,
@@ -435,6 +435,7 @@ fn nothing_placed(file: &str) -> Diagnostics {
 
 fn compare(
     solved: &Solved,
+    constant: Option<&Solved>,
     delivered: &Model,
     data: &Data,
     used: impl Fn(usize) -> bool + Sync,
@@ -444,21 +445,42 @@ fn compare(
         let distances = model.distances_where(rows, |i| used(i).then_some(x));
         distances.map_err(|failure| mistake::whole(&data.file, &failure))
     };
-    // One model at a time, to limit the memory for a million rows.
+    // Few models at a time, to limit the memory for a million rows.
     let before = distances(delivered, &[])?.into_figures();
     let simple = distances(&solved.simple, &solved.simple_x)?;
     let after = distances(&solved.model, &solved.fit.x)?;
     let gain = after.compared_with(&simple);
     let base_and_tool = simple.into_figures();
+    let constant = constant.map(|constant| distances(&constant.model, &constant.fit.x)).transpose()?;
+    let gain_of_terms = constant.as_ref().map(|constant| after.compared_with(constant).into());
     let left = after.into_figures();
     Ok(Compared {
         rows: (0..rows.len()).filter(|i| used(*i)).count(),
         configurations: left.configurations,
         before: before.into(),
         base_and_tool: base_and_tool.into(),
+        constant: constant.map(|constant| constant.into_figures().into()),
         after: left.into(),
         gain: gain.into(),
+        gain_of_terms,
     })
+}
+
+impl Compared {
+    /// Returns a note if constant errors alone leave significantly less on these rows, which were
+    /// not fitted.
+    fn note_on_terms(&self, unit: LengthUnit) -> Option<String> {
+        let (constant, gain) = (self.constant?, self.gain_of_terms?);
+        let length = |value| number::length(value, unit);
+        (gain.mean < 0.0 && gain.p <= WORSE).then(|| {
+            format!(
+                "note: on the test rows, constant errors alone leave {} in the mean, and {} with the \
+                 terms: for such configurations, identify without `--terms`",
+                length(constant.mean),
+                length(self.after.mean)
+            )
+        })
+    }
 }
 
 impl Certainty {

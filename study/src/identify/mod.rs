@@ -11,15 +11,15 @@
 //! `magnitude` are sources of the spec fitted with the constants. `between_stations` includes the
 //! differences of the machine between stations. `terms` are errors of richer models, `families` and
 //! `candidates` those that are tried, and `derived` the inputs computed from the row order.
-//! `choose` selects the terms that help, `extended` adds them to the spec. `profiles` adds errors
-//! of joints by many cycles per turn, each as a `profile_table`; `joint_profiles` are their
-//! results.
+//! `choose` selects the terms that help, `complete_fit` fits constants with them, `extended` adds
+//! them to the spec. `profiles` adds errors of joints by many cycles per turn, each as a
+//! `profile_table`; `joint_profiles` are their results.
 //!
 //! `found_model` is the identified machine, `found_placement` its placement and that of the
 //! targets, `fitted` their values. `spec_writer` writes its spec, `compliance_writer` full
 //! compliances, `covariance_writer` the covariance, `undetermined_writer` the errors that the data
 //! leave `undetermined`, `unexplained` the errors that the model does not have, and `map_writer`
-//! the map. The `report` contains `counts`, `as_joint_errors` (errors as `chain_numbers`: zeros and
+//! the map; `read_back` evaluates both. The `report` contains `counts`, `as_joint_errors` (errors as `chain_numbers`: zeros and
 //! lengths) and their `alternatives`, what is `indistinguishable` or `weakly_determined`,
 //! `parameters`, `drift`, `extrapolation`, the `scale`, the `gain` over other models, and
 //! `point_residuals` for plots. `unread` are instruments without a reading. `job` runs all of it.
@@ -31,6 +31,7 @@ mod board_check;
 mod candidates;
 mod chain_numbers;
 mod choose;
+mod complete_fit;
 mod compliance_writer;
 mod counts;
 mod covariance_writer;
@@ -79,7 +80,7 @@ mod weakly_determined;
 
 pub use alternatives::Alternative;
 pub use as_joint_errors::JointError;
-pub use candidates::candidates;
+pub use candidates::{Stages, candidates};
 pub use counts::Counts;
 pub use derived::{Derived, DerivedKind};
 pub use drift::ResidualDrift;

@@ -238,10 +238,15 @@ pub struct Compared {
     pub before: Sizes,
     /// Errors with base and tool fitted.
     pub base_and_tool: Sizes,
+    /// Errors with constants alone, if the model has richer terms or profiles.
+    pub constant: Option<Sizes>,
     /// Errors with the identified model.
     pub after: Sizes,
     /// Improvement of the identified model over base and tool alone.
     pub gain: Gain,
+    /// Improvement of the identified model over constants alone, if it has richer terms or
+    /// profiles.
+    pub gain_of_terms: Option<Gain>,
 }
 
 /// Position errors of k-fold cross-validation.

@@ -110,6 +110,13 @@ pub(super) fn solve<'a>(
 }
 
 impl Solved<'_> {
+    /// Returns the terms that the fit does not hold at zero.
+    pub(super) fn determined_terms(&self) -> Vec<Term> {
+        let first = self.model.unknowns.len() - self.terms.len();
+        let kept = &self.fit.identifiable.kept;
+        kept.iter().filter_map(|k| self.terms.get(k.checked_sub(first)?)).copied().collect()
+    }
+
     /// Returns the source and the declared magnitude of an unknown; none if the unknown is not a
     /// magnitude of the spec.
     pub(super) fn own_magnitude(&self, unknown: usize) -> Option<OwnMagnitude> {

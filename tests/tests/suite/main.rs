@@ -46,5 +46,6 @@ mod recipes;
 mod reference;
 mod reference_pages;
 mod schemas;
+mod selected_models;
 mod tables;
 mod voice;

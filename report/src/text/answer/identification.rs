@@ -54,6 +54,9 @@ fn sizes(report: &Report) -> String {
     row(&format!("{}-fold cross-validation", cross.folds), fit.rows, &cross.after);
     if let Some(test) = &report.test {
         row("test: as delivered", test.rows, &test.before);
+        if let Some(constant) = &test.constant {
+            row("test: constants alone", test.rows, constant);
+        }
         row("test: identified", test.rows, &test.after);
     }
     aligned(&rows, [false, true, true, true, true, true, true])

@@ -181,6 +181,9 @@ fn sizes(spec: &Spec, report: &Report) -> String {
         let Some(compared) = compared else { continue };
         row(&format!("{set}: as delivered"), compared.rows, &compared.before);
         row(&format!("{set}: base and tool fitted"), compared.rows, &compared.base_and_tool);
+        if let Some(constant) = &compared.constant {
+            row(&format!("{set}: constants alone"), compared.rows, constant);
+        }
         row(&format!("{set}: identified"), compared.rows, &compared.after);
         if set == "fit" {
             let name = format!("{}-fold cross-validation", report.cross_validation.folds);
