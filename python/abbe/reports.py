@@ -488,11 +488,17 @@ class Compared(Fields):
     base_and_tool: Sizes
     """Errors with base and tool fitted."""
 
+    constant: Sizes | None
+    """Errors with constants alone, if the model has richer terms or profiles."""
+
     after: Sizes
     """Errors with the identified model."""
 
     gain: Gain
     """Improvement of the identified model over base and tool alone."""
+
+    gain_of_terms: Gain | None
+    """Improvement of the identified model over constants alone, if it has richer terms or profiles."""
 
 
 class Comparison(Fields):

@@ -103,9 +103,9 @@ impl Scores {
     /// Tests whether the magnitudes of the group are zero.
     ///
     /// `left` is the number of configurations less the degrees of freedom used by other terms. With
-    /// the sum s of the scores before and the scores U after, `F = sᵀ(UᵀU)⁻¹s / k` with k and
-    /// `left − k` degrees of freedom. The variance of s is that of the scores after, whether or not
-    /// the magnitudes are zero: scores before contain the effect itself, which in few rows hides it.
+    /// the sum s of the scores before and the scores U after, `F = sᵀ(UᵀU)⁻¹s / k` with k and `left
+    /// − k` degrees of freedom. The variance of s is that of the scores after, whether or not the
+    /// magnitudes are zero: scores before contain the effect itself, which in few rows hides it.
     pub(super) fn test(&self, left: f64) -> FTest {
         let terms = self.before.ncols();
         let sum = self.before.row_sum_tr();

@@ -32,7 +32,8 @@ pub(super) fn competing(
     [together].into_iter().filter(|stages| !stages.is_empty()).chain(alone).collect()
 }
 
-/// Returns the candidate terms of these families. `spec` must have the derived inputs after its own.
+/// Returns the candidate terms of these families. `spec` must have the derived inputs after its
+/// own.
 pub fn candidates(spec: &Spec, derived: &[Derived], families: &[Family], harmonics: &[Harmonics]) -> Stages {
     let has = |family: Family| families.contains(&family);
     let with = |family: Family, groups: fn(&Spec) -> Vec<Vec<Term>>| match has(family) {

@@ -19,10 +19,11 @@
 //! targets, `fitted` their values. `spec_writer` writes its spec, `compliance_writer` full
 //! compliances, `covariance_writer` the covariance, `undetermined_writer` the errors that the data
 //! leave `undetermined`, `unexplained` the errors that the model does not have, and `map_writer`
-//! the map; `read_back` evaluates both. The `report` contains `counts`, `as_joint_errors` (errors as `chain_numbers`: zeros and
-//! lengths) and their `alternatives`, what is `indistinguishable` or `weakly_determined`,
-//! `parameters`, `drift`, `extrapolation`, the `scale`, the `gain` over other models, and
-//! `point_residuals` for plots. `unread` are instruments without a reading. `job` runs all of it.
+//! the map; `read_back` evaluates both. The `report` contains `counts`, `as_joint_errors` (errors
+//! as `chain_numbers`: zeros and lengths) and their `alternatives`, what is `indistinguishable` or
+//! `weakly_determined`, `parameters`, `drift`, `extrapolation`, the `scale`, the `gain` over other
+//! models, and `point_residuals` for plots. `unread` are instruments without a reading. `job` runs
+//! all of it.
 
 mod alternatives;
 mod as_joint_errors;
