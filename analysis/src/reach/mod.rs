@@ -3,6 +3,7 @@
 mod bounded;
 mod bounds;
 mod compensate;
+mod curvature;
 mod descents;
 mod extent;
 mod inverse;

@@ -2,13 +2,14 @@
 //!
 //! With `r = X_real(q) ⊖ X*` and `d` the departure from the original commands, in metres and rad:
 //! minimizes `‖r_position‖² + w² ‖r_turn‖² + λ² ‖d‖²` within the limits by the Levenberg–Marquardt
-//! method, with bounds in every step. The weights set the priorities: 1 m of position equals `1/w`
-//! rad of orientation and `w/λ` times as much departure. Derivatives are central differences of the
-//! exact real chain.
+//! method, with bounds in every step and the [`Curvature`] that the residual causes. The weights set
+//! the priorities: 1 m of position equals `1/w` rad of orientation and `w/λ` times as much
+//! departure. Derivatives are differences of the exact real chain.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::bounded::bounded;
+use super::curvature::{Curvature, Linearization};
 use crate::sampling;
 use abbe_core::{
     Description, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose,
@@ -27,10 +28,18 @@ const LONGEST: f64 = 0.2;
 /// Smallest significant step and relative decrease.
 const NOTHING: f64 = 1e-12;
 const STEPS: usize = 300;
-/// Step of the differences, in rad and metres: truncation and rounding errors are both about 1e-10.
-const DIFFERENCE: f64 = 1e-6;
+/// Relative decrease of the cost below which a search has found its minimum. Only the best one is
+/// refined.
+const COARSE: f64 = 1e-4;
+/// Largest number of steps back to the position.
+const RESTORATIONS: usize = 5;
+/// Smallest damping, relative to the square of the weight of the orientation.
+const LEAST_DAMPING: f64 = 1e-6;
+/// Step of the differences, in rad and metres: the truncation error is about 5e-8, the rounding error
+/// 1e-9.
+const DIFFERENCE: f64 = 1e-7;
 /// Number of further starts.
-const STARTS: usize = 4;
+const STARTS: usize = 6;
 /// Distance of the further starts from the command, in rad and arm lengths.
 const NEAR: [f64; 2] = [0.3, 0.1];
 
@@ -56,6 +65,7 @@ pub(super) struct RealTool<'a> {
 pub(super) struct DescentState {
     pub(super) q: Vec<f64>,
     pub(super) after: [f64; 6],
+    real: Pose,
 }
 
 impl<'a> RealTool<'a> {
@@ -87,11 +97,13 @@ impl<'a> RealTool<'a> {
     /// Returns the best commands near the given ones, the remaining error, and whether the steps
     /// converged.
     pub(super) fn nearest(&self, first: &[f64]) -> Result<(Vec<f64>, [f64; 6], bool), Error> {
-        let (mut best, _) = self.steps(self.place(self.within(first.iter().copied()))?, TURN[0])?;
+        let (mut best, _) = self.steps(self.place(self.within(first.iter().copied()))?, TURN[0], COARSE)?;
+        let mut rest = false;
         if !self.arrived(&best.after) && self.may_gain(&best) {
             for start in 0..=STARTS {
                 // A start that cannot be evaluated is skipped.
-                let found = self.place(self.start(start)).and_then(|place| self.steps(place, TURN[0]));
+                let found =
+                    self.place(self.start(start)).and_then(|place| self.steps(place, TURN[0], COARSE));
                 if let Ok((found, _)) = found
                     && self.left(&found) < self.left(&best)
                 {
@@ -102,7 +114,9 @@ impl<'a> RealTool<'a> {
                 }
             }
         }
-        let (best, rest) = self.steps(best, TURN[1])?;
+        for turn in TURN {
+            (best, rest) = self.steps(best, turn, NOTHING)?;
+        }
         Ok((best.q, best.after, rest))
     }
 
@@ -129,24 +143,21 @@ impl<'a> RealTool<'a> {
         let mut rest = false;
         let mut place = self.place(self.within(q.into_iter()))?;
         for turn in TURN {
-            (place, rest) = self.steps(place, turn)?;
+            (place, rest) = self.steps(place, turn, NOTHING)?;
         }
         Ok((place, rest))
     }
 
     fn place(&self, q: Vec<f64>) -> Result<DescentState, Error> {
-        let after = deviation(Orientation::RotationVector, self.target, &self.real(&q)?);
-        Ok(DescentState { q, after })
+        let real = drawn_pose(self.manipulator, &q, self.s, self.u, &self.magnitudes)?;
+        let after = deviation(Orientation::RotationVector, self.target, &real);
+        Ok(DescentState { q, after, real })
     }
 
     /// Returns the state after a step in rad and metres.
     fn moved(&self, q: &[f64], step: &DVector<f64>) -> Result<DescentState, Error> {
         let moved = q.iter().zip(step.iter()).enumerate().map(|(j, (q, step))| q + step * self.unit(j));
         self.place(self.within(moved))
-    }
-
-    fn real(&self, q: &[f64]) -> Result<Pose, Error> {
-        drawn_pose(self.manipulator, q, self.s, self.u, &self.magnitudes)
     }
 
     /// Returns one metre or one rad in the unit of a variable.
@@ -185,7 +196,7 @@ impl<'a> RealTool<'a> {
     }
 
     /// Returns position, orientation and departure, all in metres.
-    fn residual(&self, DescentState { q, after }: &DescentState, turn: f64) -> DVector<f64> {
+    fn residual(&self, DescentState { q, after, .. }: &DescentState, turn: f64) -> DVector<f64> {
         let departure = |j: usize| DEPARTURE * (q[j] - self.command[j]) / self.unit(j);
         DVector::from_fn(6 + q.len(), |i, _| match i {
             0..3 => after[i] / self.metre,
@@ -194,40 +205,42 @@ impl<'a> RealTool<'a> {
         })
     }
 
-    /// Returns the derivatives of the residual by metre and rad: central differences within the
-    /// limits.
-    fn derivatives(&self, q: &[f64], turn: f64) -> Result<DMatrix<f64>, Error> {
+    /// Returns the residual and its derivatives by metre and rad: differences towards the farther
+    /// limit.
+    fn linearization(&self, here: &DescentState, turn: f64) -> Result<Linearization, Error> {
+        let q = &here.q;
         let mut derivatives = DMatrix::zeros(6 + q.len(), q.len());
-        for j in 0..q.len() {
-            let at = |sign: f64| {
-                let mut moved = q.to_vec();
-                moved[j] += sign * DIFFERENCE * self.unit(j);
-                let moved = self.within(moved.into_iter());
-                Ok((moved[j], self.real(&moved)?))
-            };
-            let ((lower, below), (upper, above)) = (at(-1.0)?, at(1.0)?);
+        for (j, [lower, upper]) in self.limits.iter().enumerate() {
+            let sign = if upper - q[j] >= q[j] - lower { 1.0 } else { -1.0 };
+            let mut moved = q.clone();
+            moved[j] = (q[j] + sign * DIFFERENCE * self.unit(j)).max(*lower).min(*upper);
             derivatives[(6 + j, j)] = DEPARTURE;
-            if upper > lower {
-                let rows = deviation(Orientation::RotationVector, &below, &above);
+            let step = (moved[j] - q[j]) / self.unit(j);
+            if step != 0.0 {
+                let rows = deviation(Orientation::RotationVector, &here.real, &self.place(moved)?.real);
                 for i in 0..6 {
                     let weight = if i < 3 { 1.0 / self.metre } else { turn };
-                    derivatives[(i, j)] = rows[i] * weight * self.unit(j) / (upper - lower);
+                    derivatives[(i, j)] = rows[i] * weight / step;
                 }
             }
         }
-        Ok(derivatives)
+        Ok(Linearization { residual: self.residual(here, turn), derivatives })
     }
 
-    /// Steps until the cost stops decreasing. Returns the end, and whether the steps converged.
-    fn steps(&self, mut here: DescentState, turn: f64) -> Result<(DescentState, bool), Error> {
+    /// Steps until a step reduces the cost by less than `least` of it. Returns the end, and whether
+    /// the steps converged.
+    fn steps(&self, mut here: DescentState, turn: f64, least: f64) -> Result<(DescentState, bool), Error> {
         let n = here.q.len();
         let mut damping = 0.0_f64;
-        let mut derivatives = self.derivatives(&here.q, turn)?;
+        let mut curvature = Curvature::zero(n);
+        let mut linear = self.linearization(&here, turn)?;
         for _ in 0..STEPS {
-            let (residual, cost) = (self.residual(&here, turn), self.cost(&here, turn));
-            let mut a = derivatives.clone().resize_vertically(6 + 2 * n, 0.0);
+            let cost = linear.residual.norm_squared();
+            // Rows of the residual, of the damping and of the curvature.
+            let mut a = linear.derivatives.clone().resize_vertically(6 + 3 * n, 0.0);
             (0..n).for_each(|j| a[(6 + n + j, j)] = damping.sqrt());
-            let b = residual.resize_vertically(6 + 2 * n, 0.0);
+            a.rows_mut(6 + 2 * n, n).copy_from(&curvature.rows());
+            let b = linear.residual.clone().resize_vertically(6 + 3 * n, 0.0);
             let room = |j: usize| {
                 let [lower, upper] = self.limits[j];
                 let longest = self.in_its_unit(j, [LONGEST; 2]) / self.unit(j);
@@ -240,32 +253,37 @@ impl<'a> RealTool<'a> {
                 return Ok((here, true));
             }
             let mut there = self.moved(&here.q, &step)?;
-            // A step keeps the position only to first order. A second step restores it and leaves
-            // the rotation.
-            let mut back = self.residual(&there, turn).resize_vertically(6 + 2 * n, 0.0);
-            back.rows_mut(3, 3 + n).fill(0.0);
-            let [lower, upper] = [&lower, &upper]
-                .map(|bounds| bounds.iter().zip(step.iter()).map(|(b, p)| b - p).collect::<Vec<_>>());
-            if let Some(second) = bounded(&a, &back, &lower, &upper) {
-                let corrected = self.moved(&here.q, &(&step + second))?;
-                if self.cost(&corrected, turn) < self.cost(&there, turn) {
-                    there = corrected;
+            // A step keeps the position only to first order. Further steps restore it and leave the
+            // rotation: long steps along the poses that keep the position need them.
+            let mut restored = step.clone();
+            for _ in 0..RESTORATIONS {
+                let mut back = self.residual(&there, turn).resize_vertically(6 + 3 * n, 0.0);
+                back.rows_mut(3, 3 + n).fill(0.0);
+                let [lower, upper] = [&lower, &upper]
+                    .map(|bounds| bounds.iter().zip(restored.iter()).map(|(b, p)| b - p).collect::<Vec<_>>());
+                let Some(next) = bounded(&a, &back, &lower, &upper) else { break };
+                restored += next;
+                let corrected = self.moved(&here.q, &restored)?;
+                if self.cost(&corrected, turn) >= self.cost(&there, turn) {
+                    break;
                 }
+                there = corrected;
             }
             let gained = cost - self.cost(&there, turn);
             if gained > 0.0 {
-                derivatives = self.derivatives(&there.q, turn)?;
-                here = there;
-                damping = if damping > 1e-6 * turn * turn { damping * 0.1 } else { 0.0 };
-                if gained <= NOTHING * cost && damping == 0.0 {
+                let next = self.linearization(&there, turn)?;
+                let moved = (0..n).map(|j| (there.q[j] - here.q[j]) / self.unit(j));
+                curvature.update(&DVector::from_iterator(n, moved), &linear, &next);
+                (here, linear) = (there, next);
+                damping = if damping > LEAST_DAMPING * turn * turn { damping * 0.1 } else { 0.0 };
+                if gained <= least * cost && (damping == 0.0 || least > NOTHING) {
                     return Ok((here, true));
                 }
             } else if step.amax() <= 1e-9 || damping > 1e3 {
                 // Only rounding errors remain.
                 return Ok((here, true));
             } else {
-                // Start with a damping small enough for the smallest weight.
-                damping = f64::max(damping * 10.0, 1e-3 * turn * turn);
+                damping = f64::max(damping * 10.0, LEAST_DAMPING * turn * turn);
             }
         }
         Ok((here, false))

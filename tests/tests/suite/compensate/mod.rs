@@ -2,6 +2,7 @@
 //! is.
 
 mod bounded;
+mod corners;
 
 use abbe::analysis::{
     Axis, Missing, Presentation, Workspace, compensated, mobility, obstacle, presented_volume, sampling,
