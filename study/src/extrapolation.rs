@@ -69,15 +69,7 @@ pub(crate) fn warn_of_extrapolation<'r>(
     if outside.is_empty() {
         return None;
     }
-    let errors = CalibrationErrors::new(spec, is_measured);
-    let known = Prediction::new(spec, manipulator, &errors, [0.0; 3]).and_then(|mut prediction| {
-        let step = outside.len().div_ceil(SAMPLES);
-        let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
-        let beyond = prediction.deviations(beyond);
-        let within = prediction.deviations(within(spec));
-        let outside_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
-        Some(ToolPointDeviation { within: rms(&within)?, outside: rms(&beyond)?, outside_max })
-    });
+    let known = ToolPointDeviation::new(spec, manipulator, is_measured, &outside);
     let named = spec.fitted.iter().zip(&counts).filter(|(_, count)| **count > 0);
     let named = named.map(|(fitted, count)| {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
@@ -95,6 +87,25 @@ pub(crate) fn warn_of_extrapolation<'r>(
 }
 
 impl ToolPointDeviation {
+    /// Returns the deviations within the fitted ranges and at configurations outside of them; `None`
+    /// if there are none or the spec states no covariance. `is_measured` is true if the tool is the
+    /// fitted one.
+    pub(crate) fn new(
+        spec: &Spec,
+        manipulator: &dyn Manipulator,
+        is_measured: bool,
+        outside: &[(&[f64], &[f64])],
+    ) -> Option<Self> {
+        let errors = CalibrationErrors::new(spec, is_measured);
+        let mut prediction = Prediction::new(spec, manipulator, &errors, [0.0; 3])?;
+        let step = outside.len().div_ceil(SAMPLES).max(1);
+        let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
+        let beyond = prediction.deviations(beyond);
+        let within = prediction.deviations(within(spec));
+        let outside_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
+        Some(Self { within: rms(&within)?, outside: rms(&beyond)?, outside_max })
+    }
+
     fn sentence(&self, spec: &Spec) -> String {
         let [within, outside, most] =
             [self.within, self.outside, self.outside_max].map(|value| number::length(value, spec.length));

@@ -1,48 +1,45 @@
 //! Test rows outside the fitted ranges, and the uncertainty of the machine there.
 
-use abbe::identify::{Failure, Observation};
+use abbe_interpreter::Interpreter;
 use abbe_spec::Fitted;
 use serde::Serialize;
 
-use super::solve::Solved;
+use crate::data::Data;
+use crate::extrapolation::ToolPointDeviation;
 
 /// Test rows outside the fitted ranges of joints and inputs.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct TestExtrapolation {
     /// Number of such rows.
     pub rows: usize,
-    /// Standard deviation of the tool position there, mean over these rows, in the length unit.
-    pub known_outside: f64,
-    /// Standard deviation of the tool position at the fitted rows, mean over them, in the length
-    /// unit.
-    pub known_within: f64,
+    /// Standard deviation of the tool point there, root mean square over these rows, in the length
+    /// unit; `null` if the spec cannot be written.
+    pub known_outside: Option<f64>,
+    /// Standard deviation of the tool point within the fitted ranges, root mean square over them, in
+    /// the length unit; `null` if the spec cannot be written.
+    pub known_within: Option<f64>,
 }
 
 impl TestExtrapolation {
-    /// Returns none if there are no such rows.
+    /// Returns none if there are no such rows. `test` has the inputs of the written spec, if it was
+    /// written.
     ///
-    /// The deviations follow from the covariance of the fit. Errors that the model lacks are not
-    /// included.
-    pub(super) fn new(
-        solved: &Solved,
-        fitted: &[Fitted],
-        rows: &[Observation],
-        test: &[Observation],
-    ) -> Result<Option<Self>, Failure> {
-        let is_outside = |row: &&Observation| fitted.iter().any(|range| range.is_outside(&row.q, &row.u));
-        let extrapolated = || test.iter().filter(is_outside);
-        let count = extrapolated().count();
-        if count == 0 {
-            return Ok(None);
+    /// The deviations follow from the covariance of the written spec, as in `measure`. Errors that
+    /// the model lacks are not included.
+    pub(super) fn new(fitted: &[Fitted], test: &Data, written: Option<&Interpreter>) -> Option<Self> {
+        let places = test.observations.iter().map(|row| (&row.q[..], &row.u[..]));
+        let fitted = written.map_or(fitted, |written| &written.spec().fitted);
+        let outside = places.filter(|(q, u)| fitted.iter().any(|range| range.is_outside(q, u)));
+        let outside = outside.collect::<Vec<_>>();
+        if outside.is_empty() {
+            return None;
         }
-        let (identifiable, covariance) = (&solved.fit.identifiable, &solved.fit.covariance);
-        let mut sum = |sum: f64, row: &Observation| {
-            let points = solved.model.tool_points(std::slice::from_ref(row))?;
-            Ok(sum + points.deviations(identifiable, covariance)[0])
-        };
-        let beyond = extrapolated().try_fold(-0.0, &mut sum)?;
-        let within = rows.iter().try_fold(-0.0, &mut sum)?;
-        let [known_outside, known_within] = [beyond / count as f64, within / rows.len().max(1) as f64];
-        Ok(Some(Self { rows: count, known_outside, known_within }))
+        let known =
+            written.and_then(|written| ToolPointDeviation::new(written.spec(), written, true, &outside));
+        Some(Self {
+            rows: outside.len(),
+            known_outside: known.map(|known| known.outside),
+            known_within: known.map(|known| known.within),
+        })
     }
 }

@@ -31,7 +31,7 @@ use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::profiles::find_profiles;
-use super::read_back::read_back;
+use super::read_back::{ReadBack, read_back};
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
@@ -264,12 +264,15 @@ fn report(
         ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
     let written = read_back(&found, machine, map, data, |i| fit.is_kept(i))?;
-    let written = written.and_then(|written| found.read_back_note(spec, [written.rms, left], length));
+    let note = |written: &ReadBack| found.read_back_note(spec, [written.figures.rms, left], length);
+    let read_back_note = written.as_ref().and_then(note);
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let drift_test = drift_test.map_err(|failure| mistake::whole(&data.file, &failure))?;
-    let extrapolation = |test: &Data| {
-        let extrapolation = TestExtrapolation::new(solved, &found.fitted, rows, &test.observations);
-        extrapolation.map_err(|failure| mistake::whole(&test.file, &failure))
+    let extrapolation = |test: &Data| match &written {
+        Some(written) => {
+            TestExtrapolation::new(&found.fitted, &found.as_written(spec, test), Some(&written.machine))
+        }
+        None => TestExtrapolation::new(&found.fitted, test, None),
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
     let no_drift = (job.terms.contains(&Family::Drift) && !has_one_station(data)).then(|| {
@@ -277,7 +280,7 @@ fn report(
          from the station"
             .to_owned()
     });
-    let extrapolation = test.map(extrapolation).transpose()?.flatten();
+    let extrapolation = test.and_then(extrapolation);
     let points = if settings.points { points(solved, data, test)? } else { Vec::new() };
     Ok(Report {
         name: spec.name.clone(),
@@ -345,7 +348,7 @@ fn report(
             .chain(unequal)
             .chain(tool_note(setup, model, fit))
             .chain(no_drift)
-            .chain(written)
+            .chain(read_back_note)
             .chain(test_sizes.and_then(|test| test.note_on_terms(spec.length)))
             .collect(),
         record: map.record.with_options(job.options()),

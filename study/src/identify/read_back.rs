@@ -18,8 +18,16 @@ use crate::{Machine, mistake, number};
 /// numbers of the chain replace errors of frames to first order.
 const SAME: f64 = 0.01;
 
-/// Returns the position errors that the written spec and map leave on the rows of the fit that
-/// `is_kept` accepts, without outliers; none if the text of the nominal spec is not at hand or the
+/// The written spec, and its errors.
+pub(super) struct ReadBack {
+    /// Machine of the written spec.
+    pub(super) machine: Interpreter,
+    /// Position errors that it leaves on the rows of the fit, without outliers.
+    pub(super) figures: Figures,
+}
+
+/// Reads the written spec and map back, and compares them with the rows of the fit that `is_kept`
+/// accepts. Returns none if the text of the nominal spec is not at hand or the
 /// placement cannot be written.
 pub(super) fn read_back(
     found: &FoundModel,
@@ -27,7 +35,7 @@ pub(super) fn read_back(
     map: &Map,
     data: &Data,
     is_kept: impl Fn(usize) -> bool + Sync,
-) -> Result<Option<Figures>, Diagnostics> {
+) -> Result<Option<ReadBack>, Diagnostics> {
     // Changes of the machine are not part of its text.
     let text = machine.text().ok().filter(|_| !machine.is_changed());
     let Some(text) = text else { return Ok(None) };
@@ -40,17 +48,18 @@ pub(super) fn read_back(
     let Ok(map) = found.identified_map(map, spec, &name) else { return Ok(None) };
     let map = Map::parse(&name, &map, &written)?;
     let data = found.as_written(spec, data);
-    let interpreter = Interpreter::new(written);
-    let setup = Setup::new(&interpreter, &map, &data, 0)?;
+    let machine = Interpreter::new(written);
+    let setup = Setup::new(&machine, &map, &data, 0)?;
     let left = setup.real.distances_where(&data.observations, |i| is_kept(i).then_some(&[][..]));
     let left = left.map_err(|failure: Failure| mistake::whole(&data.file, &failure))?;
-    Ok(Some(left.into_figures()))
+    let figures = left.into_figures();
+    Ok(Some(ReadBack { machine, figures }))
 }
 
 impl FoundModel {
     /// Returns the rows with the inputs of the written spec: those of the spec and the derived ones
     /// that its terms need.
-    fn as_written<'d>(&self, spec: &Spec, data: &'d Data) -> Cow<'d, Data> {
+    pub(super) fn as_written<'d>(&self, spec: &Spec, data: &'d Data) -> Cow<'d, Data> {
         if self.derived.is_empty() {
             return Cow::Borrowed(data);
         }

@@ -4,31 +4,23 @@
 use abbe::Manipulator;
 use abbe::identify::Loss;
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
 use abbe_study::compensate::Compensate;
 use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Identify, Prior, Settings};
+use abbe_study::identify::{Identify, Prior, Report, Settings};
 use abbe_study::measure::Measure;
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Notes};
+
+use super::simulated_ur5::{joints, machine, ur5, ur5_with};
 
 /// Share of the joint limits within which the machine is measured.
 const SHARE: f64 = 0.15;
 
 const ERRORS: &str = "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ne_x = \"0.6 mm\"\ne_s = \"0.8 mrad\"\n";
 
-fn machine(name: &str, text: &str) -> Machine {
-    Machine::of_spec(Spec::parse(name, text).unwrap(), name)
-}
-
-fn ur5() -> Machine {
-    Machine::find("ur5").unwrap()
-}
-
 /// Returns a map with exactly known base and target.
 fn map() -> Map {
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let joints = joints();
     let text = format!(
         "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\nplacement = \"exact\"\n\n[joints]\n{joints}\n[point]\n\
          columns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n"
@@ -37,8 +29,15 @@ fn map() -> Map {
 }
 
 fn simulated(at: Places, seed: u64) -> Data {
-    let real = machine("real.toml", &format!("{}{ERRORS}", ur5().text().unwrap()));
-    let job = Simulate { machine: real, map: map(), at, noise: None, outliers: 0.0, random: false, seed };
+    let job = Simulate {
+        machine: ur5_with(ERRORS),
+        map: map(),
+        at,
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed,
+    };
     let observations = job.run(&mut ()).unwrap().observations;
     Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() }
 }
@@ -52,14 +51,15 @@ fn measured(samples: usize, near: bool, seed: u64) -> Data {
     simulated(Places::Rows(data), seed)
 }
 
-fn found(seed: u64) -> Machine {
+/// Identifies the machine near home; returns the report and the machine of the written spec.
+fn identified(seed: u64, test: Option<Data>) -> (Report, Machine) {
     let settings =
         Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
     let job = Identify {
         machine: ur5(),
         map: map(),
         data: measured(80, true, seed),
-        test: None,
+        test,
         terms: Vec::new(),
         harmonics: Vec::new(),
         settings,
@@ -67,10 +67,29 @@ fn found(seed: u64) -> Machine {
     };
     let report = job.run(&mut ()).unwrap();
     let nominal = ur5();
-    machine(
-        "found.toml",
-        &report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap().text,
-    )
+    let written = report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml");
+    let written = machine("found.toml", &written.unwrap().text);
+    (report, written)
+}
+
+fn found(seed: u64) -> Machine {
+    identified(seed, None).1
+}
+
+/// Holds that `identify` states the same deviations of test rows outside the fitted ranges as
+/// `measure` with the written spec.
+#[test]
+fn identify_and_measure_state_the_same_deviations() {
+    let far = measured(40, false, 100);
+    let (report, written) = identified(0, Some(far.clone()));
+    let job = Measure { machine: written, map: map(), data: far, accept: Acceptance::default() };
+    let measured = job.run(&mut ()).unwrap().extrapolated.unwrap();
+    let (stated, known) = (report.outside.unwrap(), measured.known.unwrap());
+    println!("{stated:?} {known:?}");
+    assert_eq!(stated.rows, measured.outside);
+    for (stated, known) in [(stated.known_outside, known.outside), (stated.known_within, known.within)] {
+        assert!((stated.unwrap() / known - 1.0).abs() < 1e-9, "{stated:?} {known}");
+    }
 }
 
 /// Warnings of a job.

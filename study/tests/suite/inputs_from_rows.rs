@@ -2,12 +2,13 @@
 //! found again by `measure`.
 
 use abbe::identify::Loss;
-use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Identify, Prior, Report, Settings};
 use abbe_study::measure::Measure;
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine};
+
+use super::simulated_ur5::{joints, machine, ur5};
 
 /// Backlash of the shoulder by direction of approach, and of the elbow by direction of the gravity
 /// moment.
@@ -36,17 +37,8 @@ error = "0.5 mrad * elbow_pull"
 const FOLLOWS: &str =
     "[inputs]\nshoulder_from = { approach = \"q2\" }\nelbow_pull = { gravity_moment = \"q3\" }\n";
 
-fn ur5() -> Machine {
-    Machine::find("ur5").unwrap()
-}
-
-fn machine(name: &str, text: &str) -> Machine {
-    Machine::of_spec(Spec::parse(name, text).unwrap(), name)
-}
-
 fn map(machine: &Machine, more: &str) -> Map {
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let joints = joints();
     let point = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n";
     let text = format!("[data]\nuncertainty = \"0.02 mm\"\n\n[joints]\n{joints}\n{more}{point}");
     Map::parse("map.toml", &text, &machine.spec).unwrap()

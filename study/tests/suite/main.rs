@@ -16,8 +16,12 @@ mod plausibility;
 mod profiles;
 mod round_trips;
 mod selection;
+mod simulated_ur5;
 mod unknown_uncertainty;
 mod verdict;
 
 #[path = "../../../tests/src/thorough.rs"]
 mod thorough;
+
+#[path = "../../../tests/src/erroneous.rs"]
+mod erroneous;

@@ -15,42 +15,20 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use tempfile::{TempDir, tempdir};
 
-/// Errors of the simulated UR5.
-const ERRORS: &str = r#"
-[[source]]
-name = "truth"
-class = "repeatable"
-
-[[source.effect]]
-frame = "shoulder"
-e_x = "0.6 mm"
-e_s = "0.8 mrad"
-
-[[source.effect]]
-frame = "elbow"
-e_y = "-0.5 mm"
-e_p = "-1.1 mrad"
-"#;
+use super::simulated_ur5::{ERRORS, joints, ur5, ur5_with};
 
 const POINT: &str = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
 
 const POSE: &str = "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
                     euler = { columns = [\"a\", \"b\", \"c\"], order = \"zyx\", unit = \"deg\" }\n";
 
-fn ur5() -> Machine {
-    Machine::find("ur5").unwrap()
-}
-
 /// Returns the UR5 with errors.
 fn real() -> Machine {
-    let shipped = ur5();
-    let text = format!("{}{ERRORS}", shipped.text().unwrap());
-    Machine::of_spec(Spec::parse("real.toml", &text).unwrap(), "real.toml")
+    ur5_with(ERRORS)
 }
 
 fn map(layout: &str) -> Map {
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let joints = joints();
     let head = "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.05 mrad\"\n\n[joints]\n";
     Map::parse("map.toml", &format!("{head}{joints}{layout}"), &ur5().spec).unwrap()
 }
@@ -205,8 +183,7 @@ fn rows_are_grouped_and_ordered_by_columns() {
     };
     assert_eq!(numbers(&map(POINT)), [(0, None), (0, None), (1, None)]);
     let text = "[data]\ngroup = \"pose\"\ntime = \"minute\"\nuncertainty = \"0.02 mm\"\n\n[joints]\n";
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let joints = joints();
     let grouped = Map::parse("map.toml", &format!("{text}{joints}{POINT}"), &ur5().spec).unwrap();
     assert_eq!(numbers(&grouped), [(0, Some(3.0)), (1, Some(2.0)), (0, Some(1.0))]);
 

@@ -1,7 +1,6 @@
 //! Instruments without a stated uncertainty: what identification estimates, and what it refuses.
 
 use abbe::identify::Loss;
-use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Kind, Prior, Report, Settings};
@@ -10,35 +9,15 @@ use abbe_study::plan::{Choice, Plan};
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
 
-/// Errors of the simulated UR5.
-const ERRORS: &str = r#"
-[[source]]
-name = "truth"
-class = "repeatable"
-[[source.effect]]
-frame = "shoulder"
-e_x = "0.6 mm"
-e_s = "0.8 mrad"
-[[source.effect]]
-frame = "elbow"
-e_y = "-0.5 mm"
-e_p = "-1.1 mrad"
-"#;
-
-fn nominal() -> Machine {
-    Machine::find("ur5").unwrap()
-}
+use super::simulated_ur5::{ERRORS, joints, ur5, ur5_with};
 
 fn real() -> Machine {
-    let text = format!("{}{ERRORS}", nominal().text().unwrap());
-    Machine::of_spec(Spec::parse("real.toml", &text).unwrap(), "real.toml")
+    ur5_with(ERRORS)
 }
 
 fn map(head: &str, layout: &str) -> Map {
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
-    let text = format!("[data]\n{head}\n[joints]\n{joints}\n{layout}");
-    Map::parse("map.toml", &text, &nominal().spec).unwrap_or_else(|mistake| panic!("{mistake}"))
+    let text = format!("[data]\n{head}\n[joints]\n{}\n{layout}", joints());
+    Map::parse("map.toml", &text, &ur5().spec).unwrap_or_else(|mistake| panic!("{mistake}"))
 }
 
 /// Returns a map with a ball that is held in sockets at four places.
@@ -77,7 +56,7 @@ fn identify(map: &Map, data: Data) -> Result<Report, Diagnostics> {
     let settings =
         Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
     let job = Identify {
-        machine: nominal(),
+        machine: ur5(),
         map: map.clone(),
         data,
         test: None,
@@ -173,7 +152,7 @@ fn positions_and_rotations_have_their_own_uncertainty() {
         let [positions, rotations] = &report.coordinates[..] else { panic!("{:?}", report.coordinates) };
         assert!((positions.uncertainty / length - 1.0).abs() < 0.12, "{positions:?}");
         assert!((rotations.uncertainty / angle - 1.0).abs() < 0.12, "{rotations:?}");
-        let text = report.found.identified_map(&unknown, &nominal().spec, "found.map.toml").unwrap();
+        let text = report.found.identified_map(&unknown, &ur5().spec, "found.map.toml").unwrap();
         assert!(!text.contains("uncertainty = \"unknown\""), "{text}");
     }
 }
@@ -203,7 +182,7 @@ fn a_wrong_angle_uncertainty_is_noted() {
 #[test]
 fn plans_and_simulations_need_a_stated_uncertainty() {
     for map in [poses("\"0.05 mm\"", "\"unknown\""), sockets("\"unknown\"")] {
-        let machine = nominal();
+        let machine = ur5();
         let study = Study::find(None, &machine).unwrap();
         let choice =
             Choice::Optimal { criterion: abbe::identify::Criterion::Determinant, count: 30, candidates: 60 };

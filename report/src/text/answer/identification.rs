@@ -1,7 +1,7 @@
 //! The answer of an identification: accuracy on held-out rows, most significant errors, and gaps.
 
 use abbe_spec::Spec;
-use abbe_study::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes};
+use abbe_study::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes, TestExtrapolation};
 use abbe_study::number::{counted, digits, fixed};
 
 use super::full::identification::residuals;
@@ -139,20 +139,14 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
         facts.push(("Outliers", format!("{} left out", counted(report.rejected.len(), "row", "rows"))));
     }
     facts.extend(report.train_test_overlap_warning().map(|sentence| ("Overlap", sentence)));
-    if let Some(outside) = &report.outside {
-        facts.push((
-            "Outside",
-            format!(
-                "{}: σ of the tool point {} {unit} there, {} {unit} within",
-                counted(
-                    outside.rows,
-                    "test row beyond the fitted ranges",
-                    "test rows beyond the fitted ranges"
-                ),
-                digits(factor * outside.known_outside, 2),
-                digits(factor * outside.known_within, 2)
-            ),
-        ));
+    if let Some(TestExtrapolation { rows, known_outside, known_within }) = report.outside {
+        let mut fact =
+            counted(rows, "test row beyond the fitted ranges", "test rows beyond the fitted ranges");
+        if let (Some(there), Some(within)) = (known_outside, known_within) {
+            let [there, within] = [there, within].map(|value| digits(factor * value, 2));
+            fact += &format!(": σ of the tool point {there} {unit} there, {within} {unit} within");
+        }
+        facts.push(("Outside", fact));
     }
     let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.p_of_lag_1 <= drift.false_alarms;
     facts.extend(

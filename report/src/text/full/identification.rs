@@ -3,7 +3,7 @@
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Fitted, Spec};
 use abbe_study::identify::{
-    Gain, JointProfiles, Kind, Parameter, Report, Sizes, WeaklyDetermined, shown_lines,
+    Gain, JointProfiles, Kind, Parameter, Report, Sizes, TestExtrapolation, WeaklyDetermined, shown_lines,
 };
 use abbe_study::number::{self, counted, digits, fixed, percent};
 
@@ -245,16 +245,20 @@ fn fitted_ranges(spec: &Spec, report: &Report) -> String {
 /// Test rows beyond the ranges that were fitted, if there are any.
 fn extrapolation(report: &Report) -> String {
     let mut text = String::new();
-    if let Some(outside) = &report.outside {
-        let [there, here] = [outside.known_outside, outside.known_within].map(|value| digits(value, 2));
-        let line = format!(
-            "{} outside the fitted ranges of joints and inputs: the standard deviation of the \
-             tool position is {there} {} there, {here} {} at the fitted rows. Errors that the \
-             model does not have are not included.",
-            counted(outside.rows, "test row is", "test rows are"),
-            report.length,
-            report.length
+    if let Some(TestExtrapolation { rows, known_outside, known_within }) = report.outside {
+        let mut line = format!(
+            "{} outside the fitted ranges of joints and inputs",
+            counted(rows, "test row is", "test rows are")
         );
+        if let (Some(there), Some(within)) = (known_outside, known_within) {
+            let ([there, within], length) = ([there, within].map(|value| digits(value, 2)), report.length);
+            line += &format!(
+                ": the standard deviation of the tool point is {there} {length} there, {within} \
+                 {length} within the ranges (root mean squares). Errors that the model does not have \
+                 are not included"
+            );
+        }
+        line += ".";
         text += &format!("{}\n", wrapped(&line, 0));
     }
     text

@@ -1,6 +1,8 @@
 //! Instruments that are read one by one: what they determine of a machine with known errors, and
 //! what they cannot.
 
+mod mill;
+
 use std::collections::BTreeMap;
 
 use abbe_spec::Spec;
@@ -12,35 +14,31 @@ use abbe_study::plan::{Choice, Plan};
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
 
+use super::simulated_ur5::{joints, ur5, ur5_with};
+
 /// Errors of the simulated UR5 by name, in mm and rad.
 const TRUTH: [(&str, f64); 6] =
     [("e_x2", 0.6), ("e_s2", 0.8e-3), ("e_y3", -0.5), ("e_p3", -1.1e-3), ("e_z4", 0.4), ("e_r5", 0.7e-3)];
 
 const FRAMES: [&str; 6] = ["base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"];
 
-fn nominal() -> Machine {
-    Machine::find("ur5").unwrap()
-}
-
 fn real() -> Machine {
-    let mut text =
-        format!("{}\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\n", nominal().text().unwrap());
+    let mut text = "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\n".to_owned();
     for (name, value) in TRUTH {
         let (component, frame) = name.split_at(3);
         let unit = if ["e_x", "e_y", "e_z"].contains(&component) { "mm" } else { "rad" };
         let frame = FRAMES[frame.parse::<usize>().unwrap() - 1];
         text += &format!("[[source.effect]]\nframe = \"{frame}\"\n{component} = \"{value} {unit}\"\n");
     }
-    Machine::of_spec(Spec::parse("real.toml", &text).unwrap(), "real.toml")
+    ur5_with(&text)
 }
 
 /// Returns a map with a ball beside the last axis and the given instruments.
 fn map(instruments: &str) -> Map {
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let joints = joints();
     let ball = "[[target]]\nname = \"ball\"\nposition = [\"60 mm\", \"20 mm\", \"50 mm\"]\n";
     let text = format!("[data]\nsetup = \"setup\"\n[joints]\n{joints}\n{ball}{instruments}");
-    Map::parse("map.toml", &text, &nominal().spec).unwrap_or_else(|mistake| panic!("{mistake}"))
+    Map::parse("map.toml", &text, &ur5().spec).unwrap_or_else(|mistake| panic!("{mistake}"))
 }
 
 /// Returns one instrument per setup.
@@ -135,7 +133,7 @@ fn identification(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Resu
         points: false,
     };
     let job = Identify {
-        machine: nominal(),
+        machine: ur5(),
         map: map.clone(),
         data,
         test,
@@ -242,7 +240,7 @@ fn ranks_agree_with_theory() {
         // Twelve zeros; readings near zero determine the directions less well than the prior.
         ("indicators", indicators(), 27 - 6 + 12),
     ] {
-        let machine = nominal();
+        let machine = ur5();
         let study = Study::find(None, &machine).unwrap();
         let choice = Choice::Optimal {
             criterion: abbe::identify::Criterion::Determinant,
@@ -303,56 +301,6 @@ fn readings_in_another_unit_are_refused() {
     }
 }
 
-/// A ballbar whose rows lie on a line through its ball determines only one coordinate of its place.
-/// The others stay as stated and are listed as poorly determined, instead of having a standard
-/// deviation of kilometres.
-#[test]
-fn places_that_rows_on_a_line_cannot_determine_stay_as_stated() {
-    let first = &BARS[..BARS.rfind("[[instrument]]").unwrap()];
-    let map = Map::parse("bar.toml", first, &mill().spec).unwrap();
-    let simulate = |at| Simulate {
-        machine: mill(),
-        map: map.clone(),
-        at,
-        noise: None,
-        outliers: 0.0,
-        random: false,
-        seed: 3,
-    };
-    let observations = simulate(Places::Samples(30)).run(&mut ()).unwrap().observations;
-    let of = |observations| Data {
-        file: "simulated".to_owned(),
-        observations,
-        stations: vec![String::new()],
-        ..Data::default()
-    };
-    let mut data = of(observations);
-    for (i, row) in data.observations.iter_mut().enumerate() {
-        // The tool tip is at (x − 300, y − 200, z + 150), the ball at (−100, 3, 250); y is 0.1 µm
-        // off.
-        let beside = 1e-4 * (i as f64).sin();
-        row.q = vec![250.0 + 5.0 * i as f64, 203.0 + beside, 100.0 - beside].into();
-    }
-    let data = of(simulate(Places::Rows(data)).run(&mut ()).unwrap().observations);
-    let settings = Settings::default();
-    let job = Identify {
-        machine: mill(),
-        map: map.clone(),
-        data,
-        test: None,
-        terms: Vec::new(),
-        harmonics: Vec::new(),
-        settings,
-        accept: Acceptance::default(),
-    };
-    let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
-    let far = report.parameters.iter().filter(|one| one.unit == "mm" && one.standard_deviation > 50.0);
-    assert_eq!(far.count(), 0, "{:?}", report.parameters);
-    let named = |name: &str| report.not_known.iter().any(|one| one.name == name);
-    // Both move beside the line in the same proportion, so they are one combination.
-    assert!(named("left_y") || named("left_z"), "{:?} {:?}", report.not_known, report.held);
-}
-
 /// A note says how well the readings determine the scale of the machine.
 #[test]
 fn the_scale_is_reported() {
@@ -366,7 +314,7 @@ fn the_scale_is_reported() {
 #[test]
 fn identified_fixtures_survive_a_round_trip() {
     let wire_in_um = distance("\"unknown\"", "").text().replace("unit = \"mm\"\nat", "unit = \"um\"\nat");
-    let wire_in_um = Map::parse("map.toml", &wire_in_um, &nominal().spec).unwrap();
+    let wire_in_um = Map::parse("map.toml", &wire_in_um, &ur5().spec).unwrap();
     let lean = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n\
                 [[instrument]]\nname = \"mirror\"\nkind = \"angle\"\ncolumn = \"lean\"\nunit = \"mrad\"\ndirection = [0.2, 1, 0]\nmirror = [1, 0, 0]\nuncertainty = \"0.02 mrad\"\n";
     // Three coordinates have √3 times the noise, a single value has it once; the rest is the error
@@ -382,7 +330,7 @@ fn identified_fixtures_survive_a_round_trip() {
         let unseen = simulated(&map, 120, 5);
         let report = identified_with(&map, simulated(&map, 240, 3), Some(unseen.clone()), 0.002);
         let test = report.test.unwrap();
-        let nominal = nominal();
+        let nominal = ur5();
         let spec =
             report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
         let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
@@ -419,60 +367,6 @@ fn identified_fixtures_survive_a_round_trip() {
         let anew = measure(found.newly_stationed());
         assert!(anew.base_fitted && anew.explained.left_rms < 1.1 * measured.explained.left_rms, "{name}");
     }
-}
-
-/// Two balls on the table of a milling machine, left and right of the middle of x.
-const BARS: &str = r#"
-[data]
-setup = "setup"
-[joints]
-x = { column = "x", unit = "mm" }
-y = { column = "y", unit = "mm" }
-z = { column = "z", unit = "mm" }
-[[instrument]]
-name = "left"
-kind = "distance"
-setup = 1
-column = "length"
-unit = "mm"
-at = ["-100 mm", "3 mm", "250 mm"]
-range = ["149 mm", "151 mm"]
-uncertainty = "1 um"
-[[instrument]]
-name = "right"
-kind = "distance"
-setup = 2
-column = "length"
-unit = "mm"
-at = ["100 mm", "0 mm", "250 mm"]
-range = ["149 mm", "151 mm"]
-uncertainty = "1 um"
-"#;
-
-fn mill() -> Machine {
-    Machine::find("machine3").unwrap()
-}
-
-/// Halton candidates place the first joint left and right alternately; setups must not alternate in
-/// the same rhythm.
-#[test]
-fn every_setup_covers_the_workspace() {
-    let (machine, map) = (mill(), Map::parse("bars.toml", BARS, &mill().spec).unwrap());
-    let study = Study::find(None, &machine).unwrap();
-    let criterion = abbe::identify::Criterion::Variance;
-    let choice = Choice::Optimal { criterion, count: 40, candidates: 200 };
-    let report = Plan { machine, map, choice, study, model_error: 0.0, seed: None }.run(&mut ()).unwrap();
-    for (setup, center) in [(1, 200.0), (2, 400.0)] {
-        let in_setup = |row: &&abbe::identify::Observation| {
-            let abbe::identify::Measurement::Readings(read) = &row.measured else { return false };
-            read[setup - 1].is_some()
-        };
-        let x: Vec<f64> = report.observations.iter().filter(in_setup).map(|row| row.q[0] - center).collect();
-        let share = x.iter().filter(|x| **x > 0.0).count() as f64 / x.len() as f64;
-        assert!((0.2..0.8).contains(&share), "setup {setup}: {share}");
-    }
-    // Three squareness errors are all constant errors of such a machine.
-    assert_eq!((report.rank, report.machine.rank), (9, 3));
 }
 
 /// A laser that measures displacements between separate pairs of poses identifies all errors that
@@ -552,7 +446,7 @@ fn instruments_that_were_never_read_have_no_place() {
     };
     let first = in_setup(&data, 1);
     assert!(first.observations.len() > 50 && in_setup(&data, 2).observations.len() > 50);
-    let nominal = nominal();
+    let nominal = ur5();
     let report = identified_with(&map, first.clone(), Some(simulated(&of("-345 mm"), 100, 5)), 0.002);
     let text = report.found.identified_map(&map, &nominal.spec, "found.map.toml").unwrap();
     assert_eq!(text.matches("[[place]]").count(), 1, "{text}");
