@@ -3,6 +3,7 @@
 
 mod corners;
 mod dexterity;
+mod elastic_arms;
 mod remainder;
 mod residual;
 mod robot;
