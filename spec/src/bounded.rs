@@ -1,8 +1,9 @@
 //! Bounded reading of files: limits of size and of time.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, Cursor, ErrorKind, Read};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
@@ -15,6 +16,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Chunk size for reading a pipe, in bytes.
 const PIECE: usize = 1 << 16;
+
+/// Contents of files, by path.
+pub type Contents = BTreeMap<String, String>;
 
 /// Reason why a file cannot be read, and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,6 +70,8 @@ pub struct Bounded {
 #[derive(Debug)]
 enum Source {
     File(File),
+    /// Content that is at hand.
+    Text(Cursor<String>),
     /// A pipe or device, read by a separate thread so that waiting can time out.
     Pipe {
         pieces: Receiver<io::Result<Vec<u8>>>,
@@ -117,6 +123,15 @@ impl Bounded {
         Ok(Self { source, most, left: most })
     }
 
+    /// Finds a file among contents, and opens none; reading more than `most` bytes is an error.
+    pub fn find(contents: &Contents, path: &Path, most: u64) -> io::Result<Self> {
+        let text = contents.get(&*path.to_string_lossy()).ok_or_else(|| {
+            let message = "this file is not among those that come with the text that names it";
+            Unfit::new(message, "supply its contents with the text")
+        })?;
+        Ok(Self { source: Source::Text(Cursor::new(text.clone())), most, left: most })
+    }
+
     /// Reads a whole file of at most `most` bytes.
     pub fn read_all(path: &Path, most: u64) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
@@ -129,6 +144,7 @@ impl Read for Bounded {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let length = match &mut self.source {
             Source::File(file) => file.read(buffer)?,
+            Source::Text(text) => text.read(buffer)?,
             Source::Pipe { pieces, piece, at, patience } => {
                 if *at == piece.len() {
                     (*piece, *at) = match pieces.recv_timeout(*patience) {
@@ -167,7 +183,7 @@ fn or_nearest(error: io::Error, path: &Path) -> io::Error {
     help.map(|help| io::Error::new(error.kind(), unfit(help))).unwrap_or(error)
 }
 
-pub(crate) fn too_large(most: u64) -> Unfit {
+fn too_large(most: u64) -> Unfit {
     let message = format!("this file is larger than {} MiB", most >> 20);
     Unfit::new(message, "check that this is the right file")
 }

@@ -1,15 +1,15 @@
 //! TOML documents with the location of every item, from which specs, studies, maps and plans are
 //! read.
 
-use std::collections::{BTreeMap, HashSet};
-use std::io::{self, Cursor, Read};
+use std::collections::HashSet;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::bounded::{Bounded, Unfit, not_text, too_large};
+use crate::bounded::{Bounded, Contents, Unfit, not_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
 use crate::expr::{
     Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Scope, TextLocation, parse_expression,
@@ -19,9 +19,6 @@ use crate::not_toml::not_toml;
 
 /// Maximum size of a file in bytes; a chain of a hundred frames takes about 30 kB.
 const LARGEST: u64 = 4 << 20;
-
-/// Contents of files, by path.
-pub type Contents = BTreeMap<String, String>;
 
 /// A file with the diagnostics found so far.
 #[derive(Debug)]
@@ -88,18 +85,9 @@ impl Document {
         Err(fail(text, mistake))
     }
 
-    /// Opens a file that the document names, or reads it from [`contents`](Self::contents). Reading
-    /// more than `most` bytes is an error.
-    pub fn named_file(&self, path: &Path, most: u64) -> io::Result<Box<dyn Read>> {
-        let Some(contents) = &self.contents else { return Ok(Box::new(Bounded::open(path, most)?)) };
-        match contents.get(&*path.to_string_lossy()) {
-            Some(text) if text.len() as u64 > most => Err(too_large(most).into()),
-            Some(text) => Ok(Box::new(Cursor::new(text.clone()))),
-            None => {
-                let message = "this file is not among those that come with the text that names it";
-                Err(Unfit::new(message, "supply its contents with the text").into())
-            }
-        }
+    /// Opens a file that the document names, or finds it in [`contents`](Self::contents).
+    pub fn named_file(&self, path: &Path, most: u64) -> io::Result<Bounded> {
+        self.contents.as_ref().map_or_else(|| Bounded::open(path, most), |all| Bounded::find(all, path, most))
     }
 
     /// Parses `text`, the document's own, or records all syntax errors.

@@ -1,8 +1,8 @@
 //! Data gathered over a share of a workspace.
 
 use abbe::lanes::InstructionSet;
+use abbe_spec::bounded::Contents;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::Contents;
 use serde::{Deserialize, Serialize};
 
 use super::request::{self, AnalysisRequest};

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
-use abbe_spec::bounded::{Bounded, Unfit};
+use abbe_spec::bounded::{Bounded, Contents, Unfit};
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::{Contents, Document};
+use abbe_spec::document::Document;
 use serde::{Deserialize, Serialize};
 
 use crate::analyze::Analyze;
