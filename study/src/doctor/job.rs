@@ -73,7 +73,7 @@ impl Doctor<'_> {
         };
         let (map, of_spec) = match found.first() {
             Some(first) => {
-                let (map, of_spec) = map_writer::map(first, spec, &columns, within);
+                let (map, of_spec) = map_writer::map(first, spec, &columns);
                 (Some(map), of_spec)
             }
             None => (None, Vec::new()),

@@ -14,15 +14,10 @@ use crate::number::digits;
 /// Significant digits of a fitted zero; data determine fewer.
 const DIGITS: usize = 8;
 
-/// Returns the map, and sentences on what a map cannot express. Measurement uncertainties are set
-/// to a twentieth of the permitted residual.
-pub(super) fn map(
-    candidate: &Candidate,
-    spec: &Spec,
-    columns: &Columns,
-    within: f64,
-) -> (String, Vec<String>) {
-    let Candidate { interpretation, tool, spread, .. } = candidate;
+/// Returns the map, and sentences on what a map cannot express. Measurement uncertainties are
+/// unknown.
+pub(super) fn map(candidate: &Candidate, spec: &Spec, columns: &Columns) -> (String, Vec<String>) {
+    let Candidate { interpretation, tool, .. } = candidate;
     let placement = tool.and_then(|tool| tool_placement(tool, interpretation.layout, spec));
     let count = spec.variables.len();
     let mut joints = Joints { order: (0..count).collect(), signs: vec![1; count], zeros: vec![0.0; count] };
@@ -50,12 +45,11 @@ pub(super) fn map(
             file:\n";
         of_spec.iter().for_each(|line| text += &format!("# - {line}\n"));
     }
-    text += "\n[data]\ntitle = \"Interpretation by abbe doctor\"\n# Estimated: enter the standard \
-        uncertainty of the instrument.\n";
-    let uncertainty = 0.05 * within;
-    let _ = writeln!(text, "uncertainty = \"{} {}\"", digits(uncertainty, 2), spec.length.symbol());
+    text += "\n[data]\ntitle = \"Interpretation by abbe doctor\"\n# Standard uncertainty of the \
+        instrument: enter that of its data sheet, or `identify` estimates it.\n\
+        uncertainty = \"unknown\"\n";
     if interpretation.layout.is_oriented() {
-        let _ = writeln!(text, "angle_uncertainty = \"{} rad\"", digits(uncertainty / *spread, 2));
+        text += "angle_uncertainty = \"unknown\"\n";
     }
     let _ = write!(text, "base = \"{base}\"\n\n[joints]\n");
     text += &joints.lines(interpretation, spec, columns);
