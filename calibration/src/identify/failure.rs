@@ -43,9 +43,10 @@ impl fmt::Display for Failure {
             Self::Observation { line, error } => write!(f, "line {line}: {error}"),
             Self::Machine(error) => error.fmt(f),
             Self::TooFew { numbers, configurations, rank } => {
+                let plural = if *configurations == 1 { "" } else { "s" };
                 write!(
                     f,
-                    "{numbers} independent values were measured ({configurations} configurations) \
+                    "{numbers} independent values were measured ({configurations} configuration{plural}) \
                      for {rank} unknowns: no degrees of freedom remain to assess the result"
                 )
             }

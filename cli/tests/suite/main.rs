@@ -37,3 +37,6 @@ mod shown_text;
 mod study;
 mod ways_out;
 mod workshop;
+
+#[path = "../../../tests/src/erroneous.rs"]
+mod erroneous;

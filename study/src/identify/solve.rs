@@ -14,7 +14,7 @@ use super::priors::Prior;
 use super::setup::Setup;
 use super::terms::{Basis, ErrorSite, Term};
 use crate::data::Data;
-use crate::number::digits;
+use crate::number::{counted, digits};
 use crate::{Notes, mistake};
 
 /// Result of the fit.
@@ -168,8 +168,9 @@ pub(super) fn diagnose(failure: &Failure, data: &Data) -> Diagnostics {
         }
         Failure::TooFew { numbers, configurations, rank } => {
             let message = format!(
-                "{numbers} independent values at {configurations} configurations for {rank} or \
-                 more unknowns: no degrees of freedom remain for a test"
+                "{} at {} for {rank} or more unknowns: no degrees of freedom remain for a test",
+                counted(*numbers, "independent value", "independent values"),
+                counted(*configurations, "configuration", "configurations")
             );
             let help = "measure at more configurations, until there are twice as many values as unknowns; \
              repeated visits do not count";
