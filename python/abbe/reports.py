@@ -2834,11 +2834,15 @@ class TestExtrapolation(Fields):
     rows: int
     """Number of such rows."""
 
-    known_outside: float
-    """Standard deviation of the tool position there, mean over these rows, in the length unit."""
+    known_outside: float | None
+    """Standard deviation of the tool point there, root mean square over these rows, in the length unit; `null` if the
+    spec cannot be written.
+    """
 
-    known_within: float
-    """Standard deviation of the tool position at the fitted rows, mean over them, in the length unit."""
+    known_within: float | None
+    """Standard deviation of the tool point within the fitted ranges, root mean square over them, in the length unit;
+    `null` if the spec cannot be written.
+    """
 
 
 class ToleranceVerdict(Fields):

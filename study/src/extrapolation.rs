@@ -87,9 +87,9 @@ pub(crate) fn warn_of_extrapolation<'r>(
 }
 
 impl ToolPointDeviation {
-    /// Returns the deviations within the fitted ranges and at configurations outside of them; `None`
-    /// if there are none or the spec states no covariance. `is_measured` is true if the tool is the
-    /// fitted one.
+    /// Returns the deviations within the fitted ranges and at configurations outside of them;
+    /// `None` if there are none or the spec states no covariance. `is_measured` is true if the
+    /// tool is the fitted one.
     pub(crate) fn new(
         spec: &Spec,
         manipulator: &dyn Manipulator,

@@ -1,4 +1,5 @@
 //! Errors of the machine that tests of several suites simulate: included by its path.
+#![allow(unreachable_pub)]
 
 /// Errors of a simulated UR5, at two of its frames; more effects may follow.
 pub const ERRORS: &str = r#"

@@ -1,7 +1,7 @@
 //! Curvature that Gauss–Newton steps neglect: `S ≈ Σ r_i ∇²r_i`, estimated from the steps.
 //!
-//! Dennis, Gay and Welsch, *An adaptive nonlinear least-squares algorithm*, 1981: with the step `p`,
-//! `y = A₊ᵀ r₊ − Aᵀ r` and `y# = (A₊ − A)ᵀ r₊`,
+//! Dennis, Gay and Welsch, *An adaptive nonlinear least-squares algorithm*, 1981: with the step
+//! `p`, `y = A₊ᵀ r₊ − Aᵀ r` and `y# = (A₊ − A)ᵀ r₊`,
 //!
 //! ```text
 //! S ← min(|pᵀ y#| / |pᵀ S p|, 1) S,   v = y# − S p

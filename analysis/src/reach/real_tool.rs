@@ -1,10 +1,10 @@
 //! Compensation of the real tool by bounded, damped least squares until the error stops decreasing.
 //!
 //! With `r = X_real(q) ⊖ X*` and `d` the departure from the original commands, in metres and rad:
-//! minimizes `‖r_position‖² + w² ‖r_turn‖² + λ² ‖d‖²` within the limits by the Levenberg–Marquardt
-//! method, with bounds in every step and the [`Curvature`] that the residual causes. The weights set
-//! the priorities: 1 m of position equals `1/w` rad of orientation and `w/λ` times as much
-//! departure. Derivatives are differences of the exact real chain.
+//! minimizes `‖r_position‖² + w² ‖r_turn‖² + λ² ‖d‖²` within the limits by the
+//! Levenberg–Marquardt method, with bounds in every step and the [`Curvature`] that the residual
+//! causes. The weights set the priorities: 1 m of position equals `1/w` rad of orientation and
+//! `w/λ` times as much departure. Derivatives are differences of the exact real chain.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -35,8 +35,8 @@ const COARSE: f64 = 1e-4;
 const RESTORATIONS: usize = 5;
 /// Smallest damping, relative to the square of the weight of the orientation.
 const LEAST_DAMPING: f64 = 1e-6;
-/// Step of the differences, in rad and metres: the truncation error is about 5e-8, the rounding error
-/// 1e-9.
+/// Step of the differences, in rad and metres: the truncation error is about 5e-8, the rounding
+/// error 1e-9.
 const DIFFERENCE: f64 = 1e-7;
 /// Number of further starts.
 const STARTS: usize = 6;

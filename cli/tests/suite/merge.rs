@@ -95,8 +95,8 @@ fn any_division_gives_the_report_of_one_run() {
     }
 }
 
-/// Holds that parts merge without the files that they were created from, and that parts created from
-/// different tables are refused.
+/// Holds that parts merge without the files that they were created from, and that parts created
+/// from different tables are refused.
 #[test]
 fn parts_merge_elsewhere() {
     let folder = tempfile::tempdir().unwrap();

@@ -15,8 +15,8 @@ pub struct TestExtrapolation {
     /// Standard deviation of the tool point there, root mean square over these rows, in the length
     /// unit; `null` if the spec cannot be written.
     pub known_outside: Option<f64>,
-    /// Standard deviation of the tool point within the fitted ranges, root mean square over them, in
-    /// the length unit; `null` if the spec cannot be written.
+    /// Standard deviation of the tool point within the fitted ranges, root mean square over them,
+    /// in the length unit; `null` if the spec cannot be written.
     pub known_within: Option<f64>,
 }
 

@@ -183,7 +183,7 @@ fn rows_are_grouped_and_ordered_by_columns() {
     };
     assert_eq!(numbers(&map(POINT)), [(0, None), (0, None), (1, None)]);
     let text = "[data]\ngroup = \"pose\"\ntime = \"minute\"\nuncertainty = \"0.02 mm\"\n\n[joints]\n";
-    let joints = joints();
+    let joints = super::simulated_ur5::joints();
     let grouped = Map::parse("map.toml", &format!("{text}{joints}{POINT}"), &ur5().spec).unwrap();
     assert_eq!(numbers(&grouped), [(0, Some(3.0)), (1, Some(2.0)), (0, Some(1.0))]);
 

@@ -27,9 +27,9 @@ impl Delegate for Counted<'_> {
     }
 }
 
-/// Holds the number of evaluations for each node of a grid of three values of each joint of the UR5,
-/// where the wrist and the stretched arm are singular: searches make progress there. All reach the
-/// tool point.
+/// Holds the number of evaluations for each node of a grid of three values of each joint of the
+/// UR5, where the wrist and the stretched arm are singular: searches make progress there. All
+/// reach the tool point.
 #[test]
 fn searches_at_singular_corners_make_progress() {
     let robot = Interpreter::new(with_errors("ur5"));
