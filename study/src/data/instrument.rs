@@ -37,8 +37,9 @@ pub struct Instrument {
 pub struct Instruments {
     /// The instruments.
     pub list: Vec<Instrument>,
-    /// Nominal positions of the targets in the frame of the tool.
-    pub targets: Vec<[f64; 3]>,
+    /// Nominal positions of the targets in the frame of the tool; none where they are to be found
+    /// from the data.
+    pub targets: Vec<Option<[f64; 3]>>,
     /// Fixtures in `F_0`.
     pub fixtures: Vec<Fixture>,
     /// Observables of all instruments.

@@ -117,8 +117,8 @@ abbe_spec::tables! {
         "name": TEXT, "-", "required beside `[[instrument]]`", "Name of the target, by which instruments refer to it";
         "columns": COLUMNS, "-", "required without `[[instrument]]`", "Headings of the columns of x, y and z";
         "unit": LENGTH_UNIT, "-", "required without `[[instrument]]`", "Unit of their numbers";
-        "position": Either("three numbers, or `\"unknown\"` beside `[[instrument]]`", &[VECTOR, Choice(|| words(&UNKNOWN))]), "length unit", "required",
-            "Nominal position in the frame of the tool, or in that of `target_frame`";
+        "position": Either("three numbers, or `\"unknown\"`", &[VECTOR, Choice(|| words(&UNKNOWN))]), "length unit", "required",
+            "Nominal position in the frame of the tool, or in that of `target_frame`; `\"unknown\"`: `identify` and `measure` find it from the rows, anywhere on the tool";
     ]
     ANY_INSTRUMENT: ["[[instrument]]"], [
         "name": TEXT, "-", "required", "Name of the instrument in reports, and of its unknowns: `bar_x`";

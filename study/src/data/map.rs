@@ -26,8 +26,8 @@ pub struct Target {
     pub columns: [Column; 3],
     /// Factor of its coordinates to coherent units.
     pub factor: f64,
-    /// Nominal position in the frame of the tool.
-    pub position: [f64; 3],
+    /// Nominal position in the frame of the tool; none if it is to be found from the data.
+    pub position: Option<[f64; 3]>,
 }
 
 /// Knowledge of the pose of `F_0` in the frame of the instrument.
@@ -172,8 +172,12 @@ impl Map {
         let stated = self.placement.at(station).and_then(|placement| placement.targets.as_ref());
         match (stated, &self.layout) {
             (Some(targets), _) => targets.clone(),
-            (None, Layout::Targets(targets)) => targets.iter().map(|target| target.position).collect(),
-            (None, Layout::Instruments(all)) => all.targets.clone(),
+            (None, Layout::Targets(targets)) => {
+                targets.iter().map(|target| target.position.unwrap_or_default()).collect()
+            }
+            (None, Layout::Instruments(all)) => {
+                all.targets.iter().map(|target| target.unwrap_or_default()).collect()
+            }
             _ => vec![[0.0; 3]],
         }
     }
@@ -184,7 +188,7 @@ impl Map {
         let set = machine.set_tool_parameters();
         let has_targets = match &self.layout {
             Layout::Targets(_) => true,
-            Layout::Instruments(all) => all.targets.iter().any(|target| *target != [0.0; 3]),
+            Layout::Instruments(all) => all.targets.iter().any(|target| *target != Some([0.0; 3])),
             _ => false,
         };
         (has_targets && !set.is_empty() && !self.target_frame.is_stated).then(|| {
@@ -195,6 +199,16 @@ impl Map {
                 set.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
             )
         })
+    }
+
+    /// Returns for each target whether its position at a station is to be found from the data.
+    pub(crate) fn unknown_targets_at(&self, station: &str) -> Vec<bool> {
+        match &self.layout {
+            _ if self.placement.at(station).is_some() => vec![false; self.targets_at(station).len()],
+            Layout::Targets(targets) => targets.iter().map(|target| target.position.is_none()).collect(),
+            Layout::Instruments(all) => all.targets.iter().map(Option::is_none).collect(),
+            _ => vec![false],
+        }
     }
 
     /// Returns the transform from the measured frame to the frame of the tool at a station;

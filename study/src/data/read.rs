@@ -15,7 +15,7 @@ use super::configurations::resolution;
 use super::keys;
 use super::map::{Base, Layout, Map, Target};
 use super::read_channels::{inputs, joints};
-use super::read_instruments::instruments;
+use super::read_instruments::{instruments, target_position};
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, deviation, initial_deviation, unit};
 use super::target_frame::TargetFrame;
@@ -246,13 +246,14 @@ fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: 
         let columns = columns(&section, "columns", document);
         let factor = unit(&section, document, spec, Dimension::LENGTH);
         let position = section.required("position", document)?;
-        let position: [Item<'_>; 3] =
-            document.entries(&position, "three lengths in the frame of the tool")?;
-        let [x, y, z] = position.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-        targets.push(Target { columns: columns?, factor: factor?, position: frame.to_tool([x?, y?, z?]) });
+        let position = target_position(&position, frame, document, spec)?;
+        targets.push(Target { columns: columns?, factor: factor?, position });
     }
-    let positions: Vec<[f64; 3]> = targets.iter().map(|target| target.position).collect();
+    let positions: Vec<[f64; 3]> = targets.iter().filter_map(|target| target.position).collect();
     let mistake = match register(&positions, &positions) {
+        _ if targets.len() < 3 => "at least three targets are needed",
+        // Where the others are, the rows show.
+        _ if positions.len() < targets.len() => return Some(Layout::Targets(targets)),
         None => "at least three targets are needed",
         Some(found) if found.breadth < 1e-3 => {
             "these targets are collinear: a rotation about their line cannot be measured"

@@ -19,7 +19,7 @@ use super::target_frame::TargetFrame;
 /// A target with a name.
 struct Named {
     name: String,
-    position: [f64; 3],
+    position: Option<[f64; 3]>,
 }
 
 /// Reads all instruments; `stated` is the uncertainty of `[data]`, the default for lengths, and has
@@ -34,7 +34,7 @@ pub(super) fn instruments(
 ) -> Option<Instruments> {
     let targets = match root.get("target") {
         Some(item) => targets(&item, frame, document, spec)?,
-        None => vec![Named { name: String::new(), position: [0.0; 3] }],
+        None => vec![Named { name: String::new(), position: Some([0.0; 3]) }],
     };
     let items = root.get("instrument")?;
     let items = document.array(&items, "an array of tables [[instrument]]")?;
@@ -70,11 +70,8 @@ fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: 
         section.name = "this [[target]]".to_owned();
         section.check_names(&["name", "position"], document);
         let name = section.required("name", document).and_then(|item| document.string(&item));
-        let position = match section.get("position") {
-            Some(item) if is_unknown(&item, document) => [0.0; 3],
-            Some(item) => frame.to_tool(vector(&item, document, spec, Dimension::LENGTH)?),
-            None => section.required("position", document).map(|_| [0.0; 3])?,
-        };
+        let item = section.required("position", document)?;
+        let position = target_position(&item, frame, document, spec)?;
         Some(Named { name: name?, position })
     };
     items.iter().map(|item| one(item, document)).collect()
@@ -268,6 +265,21 @@ fn own_vector(
     }
     let item = section.required(key, document)?;
     vector(&item, document, spec, dimension)
+}
+
+/// Reads the position of a target in the frame of the tool; none if it is unknown.
+pub(super) fn target_position(
+    item: &Item<'_>,
+    frame: &TargetFrame,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<Option<[f64; 3]>> {
+    if is_unknown(item, document) {
+        return Some(None);
+    }
+    let three: [Item<'_>; 3] = document.entries(item, "three lengths in the frame of the tool")?;
+    let [x, y, z] = three.map(|item| constant(&item, document, spec, Dimension::LENGTH));
+    Some(Some(frame.to_tool([x?, y?, z?])))
 }
 
 fn vector(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<[f64; 3]> {

@@ -86,6 +86,13 @@ pub(super) fn placement(
             return None;
         }
     }
+    let is_exact = placed == Placed::Exactly && root.get("placement").is_none();
+    if let Some(item) = head.get("placement").filter(|_| is_exact && layout.is_some_and(has_unknown_target)) {
+        let message = "the placement is exact, but the position of a target is unknown";
+        let help = "state its position, or remove `placement`";
+        document.mistake(Diagnostic::new(item.span(), message).help(help));
+        return None;
+    }
     let mut all = Placement { exact: placed == Placed::Exactly, is_per_station, stated: Vec::new() };
     let Some(item) = root.get("placement") else { return Some(all) };
     if item.is_table() == is_per_station {
@@ -126,6 +133,14 @@ pub(super) fn placement(
         all.stated.push(StatedPlacement { station, ..stated });
     }
     Some(all)
+}
+
+fn has_unknown_target(layout: &Layout) -> bool {
+    match layout {
+        Layout::Targets(targets) => targets.iter().any(|target| target.position.is_none()),
+        Layout::Instruments(all) => all.targets.contains(&None),
+        _ => false,
+    }
 }
 
 /// Reads the positions of the targets, or the pose of the measured frame.

@@ -59,7 +59,7 @@ impl<'a> Setup<'a> {
             }
         }
         setup.set_stations(&stations);
-        setup.place_tool(data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        setup.place_tool(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         setup.place_fixtures(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         if let Some(row) = data.observations.first() {
             let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));
@@ -100,6 +100,13 @@ impl<'a> Setup<'a> {
             let message = format!("the position of the contact \"{}\" is unknown", all.list[instrument].name);
             let help = "without measured rows it must be stated: add `at` to its table, in the axes of F_0";
             return Err(mistake::with_help(map.path(), &message, help));
+        }
+        let unknown = names.iter().find_map(|name| map.unknown_targets_at(name).iter().position(|one| *one));
+        if let Some(target) = unknown {
+            let message = format!("the position of target {} on the tool is unknown", target + 1);
+            let help = "without measured rows it must be stated: write three lengths in the frame of the tool \
+                 as its `position`, or take the map that `abbe identify --out` writes";
+            return Err(mistake::with_help(map.path(), message, help));
         }
         let mut setup = Self::without_stations(manipulator, map, 0)?;
         if setup.ideal.camera.is_some() && !map.is_placed() {
@@ -148,15 +155,28 @@ impl<'a> Setup<'a> {
             model.mountings.clone_from(&mountings);
         }
         let is_open = |name: &String| is_per_station && map.placement.at(name).is_none();
-        let count = targets.len() / placements.len();
+        let are_open = |name: &String| {
+            let unknown = map.unknown_targets_at(name).into_iter();
+            unknown.map(|unknown| !self.pose && (unknown || is_open(name))).collect::<Vec<_>>()
+        };
         self.open = OpenPlaces {
             stations: names
                 .iter()
                 .map(|name| map.base == Base::Unknown && map.stations.pose(name).is_none())
                 .collect(),
-            targets: placements.iter().flat_map(|name| vec![is_open(name) && !self.pose; count]).collect(),
+            targets: placements.iter().flat_map(are_open).collect(),
             mountings: placements.iter().map(|name| is_open(name) && self.pose).collect(),
         };
+    }
+
+    /// Returns whether a place on the tool is neither in the map nor in a drawing.
+    pub(crate) fn is_tool_open(&self) -> bool {
+        self.open.targets.contains(&true) || self.open.mountings.contains(&true)
+    }
+
+    /// Returns whether the pose of a station is not in the map.
+    pub(crate) fn is_station_open(&self) -> bool {
+        self.open.stations.contains(&true)
     }
 
     /// Returns the three models.
@@ -173,10 +193,12 @@ impl<'a> Setup<'a> {
         Ok(model.figures(rows, &[])?.rms > FAR * self.arm)
     }
 
-    /// Registers the places that are open, if any on the tool is and the data are far from it.
-    fn place_tool(&mut self, data: &Data) -> Result<(), Failure> {
-        let is_open = self.open.targets.contains(&true) || self.open.mountings.contains(&true);
-        if !is_open || !self.is_far(&self.real, &data.observations)? {
+    /// Registers the places that are open, if any on the tool is, and is unknown or far from the
+    /// data.
+    fn place_tool(&mut self, map: &Map, data: &Data) -> Result<(), Failure> {
+        let mut stations = self.real.stations.iter();
+        let is_unknown = stations.any(|station| map.unknown_targets_at(&station.name).contains(&true));
+        if !self.is_tool_open() || (!is_unknown && !self.is_far(&self.real, &data.observations)?) {
             return Ok(());
         }
         let mut near = self.real.clone();

@@ -96,6 +96,9 @@ pub struct Report {
     /// The pose of the base or the fixtures were fitted.
     #[serde(skip)]
     pub base_fitted: bool,
+    /// Places on the tool that the map does not state were fitted.
+    #[serde(skip)]
+    pub tool_fitted: bool,
     /// ΔX of each row.
     #[serde(skip)]
     pub row_errors: Vec<RowError>,
@@ -255,7 +258,8 @@ impl Measure {
             unusable: evaluated.data.unusable.len(),
             record: map.record.with_options(self.options()),
             file: evaluated.data.summary(),
-            base_fitted: placed.is_some(),
+            base_fitted: placed.is_some() && (setup.is_station_open() || map.instruments().is_some()),
+            tool_fitted: placed.is_some() && setup.is_tool_open(),
             about_barycentres: if keep { iso9283::about_barycentres(&evaluated.visits) } else { Vec::new() },
             row_errors: evaluated.rows,
             row_readings: evaluated.row_readings,

@@ -1,10 +1,11 @@
-//! Placements on the tool: another at each station.
+//! Placements on the tool: another at each station, and targets at unknown places.
 
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::Report;
+use abbe_study::simulate::{Places, Simulate};
 
 use super::round_trips::{
-    Method, STATION, assert_close, identified_machine_and_map, identify, job, left, measured, one, pose,
+    Method, STATION, assert_close, identified_machine_and_map, identify, job, left, measured, one, pose, real,
 };
 use super::thorough::sample_size;
 
@@ -152,16 +153,85 @@ fn instruments_name_the_target_of_each_setup() {
 #[test]
 fn places_at_stations_are_within_their_standard_deviations() {
     let [truth, guess] = maps(&one(), &reflectors());
+    check_deviations(&truth, &guess, deviations);
+}
+
+/// Checks the deviations of the places found from simulated data.
+fn check_deviations(truth: &Map, guess: &Map, deviations: impl Fn(&Report) -> Vec<f64>) {
     let seeds = sample_size(40) as u64;
-    let z: Vec<f64> = (0..seeds)
-        .flat_map(|seed| {
-            deviations(&job(&guess, measured(&truth, 120, 10 + seed), None).run(&mut ()).unwrap())
-        })
-        .collect();
+    let report = |seed: u64| job(guess, measured(truth, 120, 10 + seed), None).run(&mut ()).unwrap();
+    let z: Vec<f64> = (0..seeds).flat_map(|seed| deviations(&report(seed))).collect();
     let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
     let inside = z.iter().filter(|z| z.abs() < 1.96).count() as f64 / z.len() as f64;
     println!("{seeds} machines: mean square {square:.2}, within 1.96 standard deviations {inside:.3}");
     // The coordinates of one place are correlated: a third of them count.
     let spread = 4.0 * (2.0 / (z.len() as f64 / 3.0)).sqrt();
     assert!((square - 1.0).abs() < spread, "{square} {spread}");
+}
+
+/// Returns a method with three targets of which the first `unknown` are at unknown places, and
+/// their true positions, up to 300 mm from the tool point.
+fn unknown_targets(unknown: usize) -> (Method, [[f64; 3]; 3]) {
+    let places = [[60.0, 10.0, 40.0], [-50.0, 220.0, 160.0], [0.0, -270.0, 130.0]];
+    let lengths = |at: [f64; 3]| format!("{:?}", at.map(|v| format!("{v} mm")));
+    let target = |(i, at): (usize, [f64; 3])| {
+        let position = if i < unknown { "\"unknown\"".to_owned() } else { lengths(at.map(|v| v + 0.4)) };
+        format!(
+            "[[target]]\ncolumns = [\"x{i}\", \"y{i}\", \"z{i}\"]\nunit = \"mm\"\nposition = {position}\n"
+        )
+    };
+    let mounted = format!("[placement]\ntargets = [{}]\n", places.map(lengths).join(", "));
+    (Method { layout: places.into_iter().enumerate().map(target).collect(), mounted }, places)
+}
+
+/// Returns found minus true position of each target along each axis, in standard deviations.
+fn deviations_of_targets(report: &Report, truth: [[f64; 3]; 3]) -> Vec<f64> {
+    let placed = &report.placed;
+    let found = placed.targets.as_flattened().iter().zip(truth.as_flattened()).enumerate();
+    found.map(|(i, (found, truth))| (found - truth) / placed.covariance[i][i].sqrt()).collect()
+}
+
+/// Targets at unknown places are found with the machine, with the station known or unknown; the
+/// found spec and map give the same figures in `measure`, and `measure` finds the places from rows
+/// if no map states them.
+#[test]
+fn targets_at_unknown_places() {
+    for (unknown, stands, base) in [(2, "", ""), (3, "", ""), (3, STATION, "base = \"unknown\"\n")] {
+        let (way, places) = unknown_targets(unknown);
+        let (truth, guess) = (way.truth(stands), way.map(base, ""));
+        let unseen = measured(&truth, 100, 2);
+        let report = identify(&guess, measured(&truth, 120, 1), Some(unseen.clone()));
+        let test = report.test.unwrap();
+        assert!(test.after.mean < 0.05 && test.before.mean < 30.0, "{unknown}: {test:?}");
+        let z = deviations_of_targets(&report, places);
+        assert!(z.len() == 9 && z.iter().all(|z| z.abs() < 4.0), "{unknown}: {z:?}");
+        let (found, map) = identified_machine_and_map(&report, &guess);
+        assert_close(left(found.clone(), map, unseen.clone()), [test.after.mean, test.after.max], 0.01);
+        // A stated place counts as designed: 0.7 mm off.
+        let [mean, _] = if unknown == 3 { left(found, guess, unseen) } else { [test.after.mean; 2] };
+        assert!((mean - test.after.mean).abs() <= 0.1 * test.after.mean, "{unknown}: {mean} {test:?}");
+    }
+}
+
+/// A simulation needs the places of all targets.
+#[test]
+fn a_simulation_needs_the_places_of_targets() {
+    let (way, _) = unknown_targets(2);
+    let map = way.map("", "");
+    let (machine, at) = (real(), Places::Samples(10));
+    let job = Simulate { machine, map, at, noise: None, outliers: 0.0, random: false, seed: 1 };
+    let mistake = job.run(&mut ()).err().unwrap().to_string();
+    for said in
+        ["the position of target 1 on the tool is unknown", "as its `position`", "`abbe identify --out`"]
+    {
+        assert!(mistake.contains(said), "{said}: {mistake}");
+    }
+}
+
+/// The stated standard deviations of unknown places hold over simulated data.
+#[test]
+fn unknown_places_are_within_their_standard_deviations() {
+    let (way, places) = unknown_targets(3);
+    let (truth, guess) = (way.truth(STATION), way.map("base = \"unknown\"\n", ""));
+    check_deviations(&truth, &guess, |report| deviations_of_targets(report, places));
 }

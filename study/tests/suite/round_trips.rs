@@ -104,7 +104,7 @@ impl Method {
     }
 
     /// Returns the map with the actual placement, for the simulation.
-    fn truth(&self, stands: &str) -> Map {
+    pub(super) fn truth(&self, stands: &str) -> Map {
         self.map("", &format!("{stands}{}", self.mounted))
     }
 }

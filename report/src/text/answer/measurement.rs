@@ -112,6 +112,10 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if report.base_fitted {
         facts.push(("Station", "fitted to these rows; errors that it absorbs are not included".to_owned()));
     }
+    if report.tool_fitted {
+        let place = "place on the tool fitted to these rows; errors that it absorbs are not included";
+        facts.push(("Target", place.to_owned()));
+    }
     facts.extend(super::data(&report.file));
     facts
 }

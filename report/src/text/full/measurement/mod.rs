@@ -33,6 +33,13 @@ pub(in crate::text) fn measurement(spec: &Spec, report: &Report) -> String {
             0,
         ) + "\n");
     }
+    if report.tool_fitted {
+        parts[0] += &(wrapped(
+            "The place on the tool that the map does not state was fitted to these rows, for the machine \
+             of the spec: errors that it absorbs are not included.",
+            0,
+        ) + "\n");
+    }
     match report.instruments.is_empty() {
         true => parts.push(format!(
             "ΔX = measured − ideal, {} and mrad\n{}",
