@@ -1151,6 +1151,28 @@ class Held(Fields):
     """Names and factors of the equivalent combination of parameters; empty if the unknown has no effect."""
 
 
+class HiddenNumber(Fields):
+    """Number of the machine that is hidden, or confused with a hidden one."""
+
+    name: str
+    """Name: `zero of q5`, `a of shoulder`, `e_x of wrist`."""
+
+    is_hidden: bool
+    """Is true if the planned rows determine it no better than to half of its prior."""
+
+    confused_with: list[str]
+    """Names of the numbers that it is confused with: the correlation is above one half."""
+
+    prior: float
+    """Standard deviation of the prior, in the length unit or rad."""
+
+    standard_deviation: float
+    """Predicted standard deviation after the planned measurement, in the length unit or rad."""
+
+    standard_deviation_there: float
+    """Predicted standard deviation with the advised target at the same configurations, in the length unit or rad."""
+
+
 class Identifiable(Fields):
     """Identifiability for one kind of measurement."""
 
@@ -2236,6 +2258,11 @@ class PlanReport(Report):
     excludes them.
     """
 
+    mounting: TargetMounting | None
+    """Numbers of the machine that the targets hide, and a place for a target that shows them; none if they hide none
+    that another place shows.
+    """
+
 
 class PoseDifference(Fields):
     """Size of the differences of many pairs of poses."""
@@ -2801,6 +2828,31 @@ class Table(Fields):
 
     labels: list[str] | None = None
     """Texts of a first column, such as the station of each row; empty if there is none."""
+
+
+class TargetMounting(Fields):
+    """Numbers of the machine that the targets of a plan hide, and a place for a target that shows them."""
+
+    reason: str | None
+    """Reason, if it is known: `the target is on the axis of q6`."""
+
+    numbers: list[HiddenNumber]
+    """Hidden numbers, then those that they are confused with."""
+
+    position: list[float]
+    """Advised position of a target in the frame of the tool, in the length unit."""
+
+    distance: float
+    """Distance of that position from the planned target, or from the first of several, in the length unit."""
+
+    is_additional: bool
+    """Is true if the advised target is an additional one; otherwise it replaces the planned one."""
+
+    statement: str
+    """Statement of the hidden numbers in one sentence."""
+
+    advice: str
+    """Advice in one sentence, with the predicted standard deviations."""
 
 
 class TermGain(Fields):

@@ -29,6 +29,7 @@ fn every_command_fits_one_screen() {
         "analyze s.toml --study study.toml",
         "bound s.toml --study study.toml",
         "plan s.toml --map m.toml --optimal 20 --candidates 40 --study study.toml",
+        "plan ur5 --map ur5 --optimal 60 --candidates 120",
         "measure s.toml d.csv --map m.toml",
         "identify s.toml d.csv --map m.toml --test t.csv",
         "compensate s.toml d.csv --map m.toml",

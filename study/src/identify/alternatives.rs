@@ -12,7 +12,7 @@ use abbe_spec::Spec;
 use nalgebra::{Cholesky, DVector, Dyn};
 use serde::Serialize;
 
-use super::chain_numbers::{ChainError, chain_errors, phrase};
+use super::chain_numbers::{ChainError, chain_errors, frame_error, phrase};
 use super::priors::Prior;
 use super::setup::Setup;
 
@@ -77,14 +77,8 @@ impl<'a> Explanations<'a> {
     ) -> Result<Self, Failure> {
         let mut candidates = chain_errors(spec);
         let plain = spec.frames.iter().enumerate().filter(|(_, frame)| frame.convention.is_none());
-        let of_frames = plain.flat_map(|(frame, one)| {
-            Component::ALL.map(|component| ChainError {
-                name: format!("{} of {}", component.name(), one.name),
-                is_angle: component.is_rotation(),
-                frame,
-                errors: Component::ALL.map(|other| f64::from(u8::from(other == component))),
-            })
-        });
+        let of_frames =
+            plain.flat_map(|(frame, _)| Component::ALL.map(|component| frame_error(spec, frame, component)));
         candidates.extend(of_frames.collect::<Vec<_>>());
         let share = Prior::DEFAULT_SHARE;
         Ok(Self {
@@ -257,7 +251,7 @@ fn is_equal(a: &DVector<f64>, b: &DVector<f64>) -> bool {
 /// Returns a sentence if all targets are on the axis of the last revolute joint.
 ///
 /// A rotation by θ moves a point at the distance r from the axis by `2 r sin(θ/2)`.
-fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Option<String>, Failure> {
+pub(crate) fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Option<String>, Failure> {
     const ANGLE: f64 = 0.7;
     let mut variables = setup.description.variables.iter().enumerate();
     let last = variables.rfind(|(_, variable)| variable.kind == VariableKind::Revolute);

@@ -37,6 +37,16 @@ pub(crate) fn chain_errors(spec: &Spec) -> Vec<ChainError> {
     all.collect()
 }
 
+/// Returns an error of a frame as a number: `e_x of wrist`.
+pub(crate) fn frame_error(spec: &Spec, frame: usize, component: Component) -> ChainError {
+    ChainError {
+        name: format!("{} of {}", component.name(), spec.frames[frame].name),
+        is_angle: component.is_rotation(),
+        frame,
+        errors: Component::ALL.map(|other| f64::from(u8::from(other == component))),
+    }
+}
+
 /// Returns every number of the chain with its name: joints, then parameters, then
 /// Denavit-Hartenberg numbers.
 pub(super) fn chain_numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {

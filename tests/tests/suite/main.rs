@@ -36,6 +36,7 @@ mod json_reference;
 mod laws;
 mod long_chains;
 mod machine_tool;
+mod mounting;
 mod operations;
 mod other_tool;
 mod paths;

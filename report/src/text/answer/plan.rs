@@ -41,6 +41,10 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
             format!("{unseen}: not observable in these rows, but they move the tool point in use"),
         ));
     }
+    if let Some(mounting) = &report.mounting {
+        facts.push(("Hidden", mounting.statement.clone()));
+        facts.push(("Mount", mounting.advice.clone()));
+    }
     if !report.not_known.is_empty() {
         let weak = names(report.not_known.iter().map(|error| &error.name[..]).collect());
         facts.push((

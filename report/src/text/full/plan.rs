@@ -53,6 +53,10 @@ pub(in crate::text) fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
     if !report.unseen.is_empty() {
         text += &format!("{}\n", wrapped(&unseen(&report.unseen, unit), 0));
     }
+    if let Some(mounting) = &report.mounting {
+        let sentence = format!("Hidden: {}. Mount {}.", mounting.statement, mounting.advice);
+        text += &format!("{}\n", wrapped(&sentence, 0));
+    }
     if !report.not_known.is_empty() {
         let names: Vec<&str> = report.not_known.iter().map(|not_known| &not_known.name[..]).collect();
         let line = format!(

@@ -1,0 +1,45 @@
+//! Report of hidden numbers and of a place for a target.
+
+use serde::Serialize;
+
+/// Numbers of the machine that the targets of a plan hide, and a place for a target that shows
+/// them.
+#[derive(Clone, Debug, Serialize)]
+pub struct TargetMounting {
+    /// Reason, if it is known: `the target is on the axis of q6`.
+    pub reason: Option<String>,
+    /// Hidden numbers, then those that they are confused with.
+    pub numbers: Vec<HiddenNumber>,
+    /// Advised position of a target in the frame of the tool, in the length unit.
+    pub position: [f64; 3],
+    /// Distance of that position from the planned target, or from the first of several, in the
+    /// length unit.
+    pub distance: f64,
+    /// Is true if the advised target is an additional one; otherwise it replaces the planned one.
+    pub is_additional: bool,
+    /// Statement of the hidden numbers in one sentence.
+    pub statement: String,
+    /// Advice in one sentence, with the predicted standard deviations.
+    pub advice: String,
+}
+
+/// Number of the machine that is hidden, or confused with a hidden one.
+#[derive(Clone, Debug, Serialize)]
+pub struct HiddenNumber {
+    /// Name: `zero of q5`, `a of shoulder`, `e_x of wrist`.
+    pub name: String,
+    /// Is true if the planned rows determine it no better than to half of its prior.
+    pub is_hidden: bool,
+    /// Names of the numbers that it is confused with: the correlation is above one half.
+    pub confused_with: Vec<String>,
+    /// Standard deviation of the prior, in the length unit or rad.
+    pub prior: f64,
+    /// Predicted standard deviation after the planned measurement, in the length unit or rad.
+    pub standard_deviation: f64,
+    /// Predicted standard deviation with the advised target at the same configurations, in the
+    /// length unit or rad.
+    pub standard_deviation_there: f64,
+    /// Is true for an angle.
+    #[serde(skip)]
+    pub(super) is_angle: bool,
+}
