@@ -51,6 +51,7 @@ int main(void)
     volatile unsigned *const reload = (volatile unsigned *)0xE000E014U;
     volatile unsigned *const value = (volatile unsigned *)0xE000E018U;
     REAL q[NAME(VARIABLES)];
+    REAL last[NAME(VARIABLES)] = { (REAL)0 };
     REAL corrected[NAME(VARIABLES)];
     REAL before[6];
     REAL after[6];
@@ -65,7 +66,8 @@ int main(void)
     *value = 0U;
     *control = 5U;
     const unsigned begun = *value;
-    const int status = CALL(compensated)(q, PARAMETERS, INPUTS, corrected, before, after);
+    const int status = CALL(compensated)(q, PARAMETERS, INPUTS, last, CALL(change), CALL(largest), CALL(whole_pose),
+                                         corrected, last, before, after);
     const unsigned ticks = (begun - *value) & 0xFFFFFFU;
     print(", corrected command: status ");
     print_number((unsigned)status);

@@ -1,7 +1,7 @@
 //! Compensated joint commands for any manipulator, with as many iterations as necessary.
 
 use super::real_tool::RealTool;
-use abbe_core::compensator::{Compensated, compensate};
+use abbe_core::compensator::{Compensated, Cycle, Status, compensate, is_reached};
 use abbe_core::twist;
 use abbe_core::{Error, Manipulator, Pose, drawn_pose};
 
@@ -27,14 +27,25 @@ pub fn compensated(
     let target = target.unwrap_or(&ideal);
     let tool = RealTool::new(manipulator, s, u, target, q)?;
     let room = vec![[0.0; 6]; q.len()];
-    let first = compensate(description, target, &q.to_vec(), room, |q, columns| {
+    let cycle = Cycle::<[f64; 0]>::UNBOUNDED;
+    let first = compensate(description, target, &q.to_vec(), &cycle, room, |q, columns| {
         let pose = manipulator.joint_jacobian(q, s, columns)?;
         columns.iter_mut().for_each(|column| *column = twist(description.orientation, &pose, column));
         drawn_pose(manipulator, q, s, u, tool.magnitudes())
     })?;
     if tool.arrived(&first.after) {
-        return Ok(Compensated { converged: true, ..first });
+        return Ok(first);
     }
+    let command = q;
     let (q, after, converged) = tool.nearest(&first.q)?;
-    Ok(Compensated { q, before: first.before, after, converged })
+    let status = match () {
+        () if first.status == Status::OutsideLimits => Status::OutsideLimits,
+        () if is_reached(description, &after) => Status::Reached,
+        () if tool.is_held(&q) => Status::Held,
+        () if !converged => Status::NotConverged,
+        () => Status::NotReached,
+    };
+    let command = tool.within(command.iter().copied());
+    let correction = q.iter().zip(command).map(|(q, command)| q - command).collect();
+    Ok(Compensated { q, correction, before: first.before, after, status })
 }

@@ -123,9 +123,13 @@ impl<'a> RealTool<'a> {
     /// Returns whether another start may end at a better point: the tool point is off target, a
     /// limit holds a variable, or six or more joints leave a rotation, as near a singular pose.
     fn may_gain(&self, place: &DescentState) -> bool {
-        let at_limit = self.limits.iter().zip(&place.q).any(|(limits, q)| limits.contains(q));
         let (length, angle) = abbe_core::compensator::norms(&place.after);
-        at_limit || length > ARRIVED[0] * self.metre || place.q.len() >= 6 && angle > ARRIVED[1]
+        self.is_held(&place.q) || length > ARRIVED[0] * self.metre || place.q.len() >= 6 && angle > ARRIVED[1]
+    }
+
+    /// Returns `true` if a variable is at a limit.
+    pub(super) fn is_held(&self, q: &[f64]) -> bool {
+        self.limits.iter().zip(q).any(|(limits, q)| limits.contains(q))
     }
 
     /// Returns a start: the command within its limits first, then points around it.
@@ -177,7 +181,7 @@ impl<'a> RealTool<'a> {
     }
 
     /// Clamps values to the limits.
-    fn within(&self, q: impl Iterator<Item = f64>) -> Vec<f64> {
+    pub(super) fn within(&self, q: impl Iterator<Item = f64>) -> Vec<f64> {
         q.zip(&self.limits).map(|(value, [lower, upper])| value.max(*lower).min(*upper)).collect()
     }
 

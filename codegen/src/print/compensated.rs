@@ -3,7 +3,7 @@
 //! The algorithm and its constants are those of [`abbe_core::compensator`].
 
 use abbe_core::VariableKind;
-use abbe_core::compensator::{DAMPING, ITERATIONS, LEAST_SINE, LEVER, REST};
+use abbe_core::compensator::{DAMPING, ITERATIONS, LEAST_SINE, LEVER, PASSES, REACHED, REST, Status};
 use abbe_spec::Spec;
 
 /// Tolerances that depend on the precision.
@@ -13,6 +13,8 @@ pub(super) struct Tolerances {
     pub(super) damping: f64,
     /// Step size for convergence, in radians and metres.
     pub(super) rest: f64,
+    /// Largest error of a pose that is reached: position in metres, rotation in rad.
+    pub(super) reached: [f64; 2],
     /// Below this value the square of twice the sine of an angle underflows, and the angle itself
     /// is used.
     pub(super) least_sine: f64,
@@ -20,7 +22,8 @@ pub(super) struct Tolerances {
 
 impl Tolerances {
     /// Tolerances of double precision.
-    pub(super) const DOUBLE: Self = Self { damping: DAMPING, rest: REST, least_sine: LEAST_SINE };
+    pub(super) const DOUBLE: Self =
+        Self { damping: DAMPING, rest: REST, reached: REACHED, least_sine: LEAST_SINE };
 }
 
 /// Returns 1 rad or 1 m in the unit of each variable.
@@ -35,7 +38,7 @@ pub(super) fn units(spec: &Spec) -> impl Iterator<Item = f64> {
 pub(super) fn numbered(
     text: &str,
     spec: &Spec,
-    Tolerances { damping, rest, least_sine }: &Tolerances,
+    Tolerances { damping, rest, reached, least_sine }: &Tolerances,
     number: impl Fn(f64) -> String,
 ) -> String {
     let units: Vec<String> = units(spec).map(&number).collect();
@@ -43,6 +46,9 @@ pub(super) fn numbered(
         ("COUNT", units.len().to_string()),
         ("UNIT_LIST", units.join(", ")),
         ("ITERATIONS", ITERATIONS.to_string()),
+        ("PASSES", PASSES.to_string()),
+        ("REACHED_POSITION", number(reached[0])),
+        ("REACHED_ROTATION", number(reached[1] * LEVER)),
         ("METRE", number(1.0 / metre(spec))),
         ("LEVER", number(LEVER)),
         ("DAMPING", number(*damping)),
@@ -50,6 +56,29 @@ pub(super) fn numbered(
         ("LEAST_SINE", number(*least_sine)),
     ];
     placed.iter().fold(text.to_owned(), |text, (word, value)| text.replace(word, value))
+}
+
+/// Returns the statuses with their numbers and meanings.
+pub(super) fn statuses(tolerances: &Tolerances) -> String {
+    let one =
+        |status: Status| format!("{} `{}`: {}", status.code(), status.name(), meaning(status, tolerances));
+    Status::ALL.map(one).join(" ")
+}
+
+/// Returns the meaning of a status, with the bound of what is left where it is reached.
+pub(super) fn meaning(
+    status: Status,
+    Tolerances { reached: [position, rotation], .. }: &Tolerances,
+) -> String {
+    match status {
+        Status::Reached => format!(
+            "{} At most {} μm and {} μrad of the rotations are left, up to rounding errors.",
+            status.meaning(),
+            (position * 1e6).round(),
+            (rotation * 1e6).round()
+        ),
+        _ => status.meaning().to_owned(),
+    }
 }
 
 /// Returns a metre in the manipulator's unit.

@@ -1,6 +1,7 @@
 //! The description of a manipulator as nested records.
 
 use abbe_core::Description;
+use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
 use abbe_spec::literal::quoted;
 
 use super::layout::Writer;
@@ -37,7 +38,10 @@ pub(super) fn records(
         let kind = format!("{:?}", variable.kind).to_ascii_lowercase();
         let (limits, home) = (pair(variable.limits), number(variable.home));
         let name = quoted(&variable.name);
-        record(&[("name", name), ("kind", quoted(&kind)), ("limits", limits), ("home", home)])
+        let [change, largest] =
+            [CHANGE, LARGEST].map(|bounds| number(bound(description, variable.kind, bounds)));
+        let fields = [("name", name), ("kind", quoted(&kind)), ("limits", limits), ("home", home)];
+        record(&[&fields[..], &[("change", change), ("largest", largest)]].concat())
     });
     list("variables", variables.collect());
     let parameters = description.parameters.iter().map(|parameter| {
@@ -52,4 +56,8 @@ pub(super) fn records(
     });
     list("inputs", inputs.collect());
     list("sources", description.sources.iter().map(|source| quoted(&source.name)).collect());
+    if !description.variables.is_empty() {
+        let statuses = Status::ALL.map(|status| (status.name(), status.code().to_string()));
+        writer.lines(&format!("{}: {},", key("statuses"), record(&statuses)));
+    }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
-use abbe::compensator::norms;
+use abbe::compensator::{Status, norms};
 use abbe::{Orientation, deviation};
 use firmware::pps::{self, DESCRIPTION, Inputs, Parameters};
 use firmware::{Controller, Fault, Joints};
@@ -29,12 +29,18 @@ fn off(command: &Joints, drives: &Joints) -> Result<f64, abbe::Error> {
 
 fn main() -> Result<(), Fault> {
     let mut controller = Controller::new(Parameters::NOMINAL, Inputs::NOMINAL, command(0.0));
+    // The correction moves in before the path begins.
+    let mut moving_in = 1;
+    while controller.cycle(&command(0.0))?.status != Status::Reached {
+        moving_in += 1;
+    }
+    println!("the first correction took {moving_in} cycles");
     let (mut without, mut with, mut slowest) = (0.0_f64, 0.0_f64, Duration::ZERO);
     let begin = Instant::now();
     for cycle in 0..CYCLES {
         let command = command(f64::from(cycle) / f64::from(CYCLES));
         let started = Instant::now();
-        let drives = controller.cycle(&command)?;
+        let drives = controller.cycle(&command)?.q;
         slowest = slowest.max(started.elapsed());
         without = without.max(off(&command, &command).map_err(Fault::Model)?);
         with = with.max(off(&command, &drives).map_err(Fault::Model)?);
@@ -49,29 +55,45 @@ fn main() -> Result<(), Fault> {
 mod tests {
     use super::*;
 
+    /// Returns a controller whose correction has moved in.
+    fn begun() -> Controller {
+        let mut controller = Controller::new(Parameters::NOMINAL, Inputs::NOMINAL, command(0.0));
+        let cycles = (0..20).find(|_| controller.cycle(&command(0.0)).unwrap().status == Status::Reached);
+        assert!((1..10).contains(&cycles.unwrap()), "it moves in by 1 mm and 2 mrad a cycle");
+        controller
+    }
+
     #[test]
     fn the_tool_is_where_it_should_be() {
-        let mut controller = Controller::new(Parameters::NOMINAL, Inputs::NOMINAL, command(0.0));
+        let mut controller = begun();
         for cycle in 0..200 {
-            let command = command(f64::from(cycle) / 200.0);
-            let drives = controller.cycle(&command).unwrap();
-            let [without, with] = [&command, &drives].map(|drives| off(&command, drives).unwrap());
+            let command = command(f64::from(cycle) / 2000.0);
+            let before = *controller.drives();
+            let done = controller.cycle(&command).unwrap();
+            let [without, with] = [&command, &done.q].map(|drives| off(&command, drives).unwrap());
             assert!(without > 1.0 && with < 1e-6, "{without} mm became {with} mm");
-            assert_eq!(controller.drives(), &drives);
+            assert_eq!((done.status, controller.drives()), (Status::Reached, &done.q));
+            let moved = (0..3).map(|j| (done.q[j] - before[j]).abs()).fold(0.0, f64::max);
+            assert!(moved < 10.0, "{moved} mm in a cycle");
         }
     }
 
     #[test]
     fn a_fault_holds_the_drives() {
-        let mut controller = Controller::new(Parameters::NOMINAL, Inputs::NOMINAL, command(0.0));
-        let drives = controller.cycle(&command(0.1)).unwrap();
-        let mut wrong = command(0.1);
+        let mut controller = begun();
+        let drives = controller.cycle(&command(0.0)).unwrap().q;
+        let mut wrong = command(0.0);
         wrong[2] = f64::NAN;
         assert!(matches!(controller.cycle(&wrong), Err(Fault::Model(_))));
-        // An implausible deflection of one millimetre per newton.
-        let soft = Parameters { arm_EI: Parameters::NOMINAL.arm_EI / 100.0, ..Parameters::NOMINAL };
+        wrong[2] = -30.0;
+        assert_eq!(controller.cycle(&wrong), Err(Fault::OutsideLimits));
+        // A wrong model: an arm a thousand times as soft.
+        let soft = Parameters { arm_EI: Parameters::NOMINAL.arm_EI / 1000.0, ..Parameters::NOMINAL };
         let mut soft = Controller::new(soft, Inputs::NOMINAL, drives);
-        assert!(matches!(soft.cycle(&command(0.1)), Err(Fault::TooFar(_))));
-        assert_eq!([controller.drives(), soft.drives()], [&drives; 2]);
+        let faults = (0..60).filter(|_| matches!(soft.cycle(&command(0.0)), Err(Fault::OffTarget(_))));
+        assert_eq!(faults.count(), 10);
+        assert_eq!(controller.drives(), &drives);
+        let far = soft.drives().iter().zip(&command(0.0)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(far <= 20.0 + 1e-9, "{far} mm");
     }
 }

@@ -32,9 +32,10 @@ class CompensationNode : public rclcpp::Node {
             switch (joints_.correct(trajectory.joint_names, point.positions)) {
                 case machine::Status::corrected:
                     break;
-                case machine::Status::best_so_far:
-                    RCLCPP_WARN(get_logger(), "a point is at a limit or near a singular pose: its correction is not complete");
-                    break;
+                case machine::Status::not_reached:
+                    RCLCPP_ERROR(get_logger(), "a point is at a limit or near a singular pose, where the tool cannot be "
+                                               "corrected: the trajectory is not passed on");
+                    return;
                 case machine::Status::failed:
                     RCLCPP_ERROR(get_logger(), "a point cannot be corrected: the trajectory is not passed on");
                     return;

@@ -1,6 +1,7 @@
 #include "machine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -18,16 +19,22 @@ Status correct(const std::vector<double> &q, std::vector<double> &drives)
     if (q.size() != PPS_VARIABLES) {
         return Status::failed;
     }
+    // The points of a trajectory are no cycles: only the size of a correction is bounded.
+    const double last[PPS_VARIABLES] = {};
+    double change[PPS_VARIABLES];
+    std::fill_n(change, PPS_VARIABLES, HUGE_VAL);
     double corrected[PPS_VARIABLES];
+    double correction[PPS_VARIABLES];
     double before[6];
     double after[6];
     // The nominal inputs: the heaviest patient. A load cell would give those of this patient.
-    const int status = pps_compensated(q.data(), pps_parameters, pps_inputs, corrected, before, after);
-    if (status != PPS_OK && status != PPS_NOT_CONVERGED) {
-        return Status::failed;
+    const int status = pps_compensated(q.data(), pps_parameters, pps_inputs, last, change, pps_largest, pps_whole_pose,
+                                       corrected, correction, before, after);
+    if (status != PPS_OK) {
+        return status >= PPS_NOT_CONVERGED ? Status::not_reached : Status::failed;
     }
     drives.assign(corrected, corrected + PPS_VARIABLES);
-    return status == PPS_OK ? Status::corrected : Status::best_so_far;
+    return Status::corrected;
 }
 
 Joints::Joints(std::vector<std::string> names, std::vector<double> scales)

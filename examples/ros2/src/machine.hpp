@@ -8,17 +8,18 @@ namespace machine {
 
 /// Outcome of one command.
 enum class Status {
+    /// The real tool is within 1 um and 10 urad of the ideal one.
     corrected,
-    /// Not converged, at a limit or near a singular pose: the best command so far.
-    best_so_far,
-    /// Invalid: must not be sent to the drives.
+    /// It is not: the command is beyond a limit, needs a joint beyond one, or is near a singular pose.
+    not_reached,
+    /// A number is not finite, or an input is outside its range.
     failed,
 };
 
 /// Returns the number of joints of the machine.
 int joints();
 
-/// Computes drive commands, in the spec's units and order, that put the real tool where the ideal one is at `q`.
+/// If it is possible, computes drive commands, in the spec's units and order, that put the real tool where the ideal one is at `q`.
 Status correct(const std::vector<double> &q, std::vector<double> &drives);
 
 /// Returns whether this compiler, its library and this processor reproduce the generator's results.
@@ -31,7 +32,7 @@ class Joints {
     Joints(std::vector<std::string> names, std::vector<double> scales);
 
     /// Corrects one point of a trajectory with the joints `names`. Positions are unchanged unless the outcome is
-    /// `corrected` or `best_so_far`.
+    /// `corrected`.
     Status correct(const std::vector<std::string> &names, std::vector<double> &positions) const;
 
   private:

@@ -25,18 +25,27 @@ macro_rules! checked_functions {
             $crate::for_each_function!($crate::checked_arrays);
         }
 
+        /// Returns the first cycle of a controller. In each later one,
+        /// [`last`](::abbe::compensator::Cycle::last) is the correction that the one before
+        /// returned.
+        pub fn first_cycle() -> $crate::compensator::Cycle<[f64; VARIABLES]> {
+            $crate::compensator::Cycle::first(&DESCRIPTION)
+        }
+
         /// Computes joint commands that put the real tool where the ideal one is at `q`, within the
-        /// limits of the variables.
+        /// limits of the variables and the bounds of `cycle`.
         ///
-        /// Returns the commands, with ΔX at `q` and at the commands; see
+        /// Returns the commands, with ΔX at `q` and at the commands, and a
+        /// [`Status`](::abbe::compensator::Status); see
         /// [`compensate`](::abbe::compensator::compensate). Fails if an input is outside its range
-        /// or a number is not finite.
+        /// or a number is not finite, except the bounds.
         pub fn compensated(
             q: &[f64; VARIABLES],
             s: &Parameters,
             u: &Inputs,
+            cycle: &$crate::compensator::Cycle<[f64; VARIABLES]>,
         ) -> Result<$crate::compensator::Compensated<[f64; VARIABLES]>, $crate::Error> {
-            compensated_to(&pose(q, s)?, q, s, u)
+            compensated_to(&pose(q, s)?, q, s, u, cycle)
         }
 
         /// Computes joint commands that put the real tool at `target`, a pose in `F_0`, starting
@@ -50,12 +59,15 @@ macro_rules! checked_functions {
             q: &[f64; VARIABLES],
             s: &Parameters,
             u: &Inputs,
+            cycle: &$crate::compensator::Cycle<[f64; VARIABLES]>,
         ) -> Result<$crate::compensator::Compensated<[f64; VARIABLES]>, $crate::Error> {
             let (s, u) = (&s.to_array(), &u.to_array());
             $crate::checks::use_case(&DESCRIPTION, q, s, u)?;
             $crate::checks::finite($crate::Quantity::Pose, target.0.as_flattened())?;
+            $crate::checks::finite($crate::Quantity::Corrections, &cycle.last)?;
+            $crate::checks::finite($crate::Quantity::Rotations, &cycle.rotations)?;
             let columns = [[0.0; 6]; VARIABLES];
-            $crate::compensator::compensate(&DESCRIPTION, target, q, columns, |q, columns| {
+            $crate::compensator::compensate(&DESCRIPTION, target, q, cycle, columns, |q, columns| {
                 let mut pose = [[0.0; 3]; 4];
                 checked::compensator_step(q, s, u, &mut pose, columns)?;
                 Ok($crate::Pose(pose))

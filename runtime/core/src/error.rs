@@ -37,6 +37,10 @@ pub enum Quantity {
     Lanes,
     /// Displacement of the tool point, its covariance, or given variances.
     Displacement,
+    /// Corrections of joint commands, and their bounds.
+    Corrections,
+    /// Weights of rotations that are to be reached.
+    Rotations,
 }
 
 impl fmt::Display for Quantity {
@@ -55,6 +59,8 @@ impl fmt::Display for Quantity {
             Self::Configurations => "configuration of a batch",
             Self::Lanes => "lane",
             Self::Displacement => "displacement entry",
+            Self::Corrections => "correction",
+            Self::Rotations => "rotation",
         })
     }
 }

@@ -6,7 +6,7 @@ mod signature;
 mod table;
 
 pub use signature::{Array, Count, Signature};
-pub use table::{COMPENSATED, CONVERGED};
+pub use table::COMPENSATED;
 
 macro_rules! functions {
     (: $($function:ident = $name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?:

@@ -71,7 +71,7 @@ fn called(robot: &dyn Manipulator) -> Value {
     let functions = functions
         .into_iter()
         .map(|signature| one(signature, signature.has_margin(description.orientation).then_some("margin")));
-    let functions = functions.chain([one(&COMPENSATED, Some("converged"))]);
+    let functions = functions.chain([one(&COMPENSATED, Some("status"))]);
     json!({ "arrays": arrays.collect::<Vec<_>>(), "functions": functions.collect::<Vec<_>>() })
 }
 

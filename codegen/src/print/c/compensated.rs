@@ -1,12 +1,13 @@
 //! Corrected commands in C, by the fixed number of steps of `abbe::compensator`.
 
+use abbe_core::compensator::Status;
 use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::{documentation, head};
 use super::real::Real;
 use super::shortest::Solver;
-use crate::print::compensated::{numbered, units};
+use crate::print::compensated::{meaning, numbered, units};
 use crate::print::layout::Writer;
 use crate::program::Routines;
 
@@ -15,8 +16,17 @@ pub(super) fn declaration(writer: &mut Writer, spec: &Spec, routines: &Routines,
         return;
     }
     writer.blank();
-    documentation(writer, &routines.description, &COMPENSATED, Some("NOT_CONVERGED"), None);
-    writer.lines(&format!("{};", head(&spec.name, &COMPENSATED, real, "ABBE_RESTRICT")));
+    let own = Status::ALL.into_iter().filter(|status| *status != Status::Reached);
+    let own: Vec<&'static str> = own.map(Status::name).collect();
+    let upper = spec.name.to_ascii_uppercase();
+    let end = format!(
+        "With `{upper}_OK` and the statuses from `{upper}_NOT_CONVERGED` on, the commands are within the limits and the \
+         bounds, and `after` is what is left at them. `{upper}_OK`: {} With any other status, nothing is written. Arrays \
+         may overlap: `corrected` may be `q`, and `correction` may be `last`",
+        meaning(Status::Reached, &Solver::new(real).tolerances)
+    );
+    documentation(writer, &routines.description, &COMPENSATED, &own, Some(&end));
+    writer.lines(&format!("{};", head(&spec.name, &COMPENSATED, real, "")));
 }
 
 pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
@@ -27,9 +37,9 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
     writer.lines("/* 1 rad or 1 m in the unit of each variable. */");
     let units: Vec<String> = units(spec).map(|unit| real.number(unit)).collect();
     writer.braces(&format!("static const {real} UNITS[{}] = ", units.len()), &units, ";");
-    let more_than_six = units.len() > 6;
+    let six_or_more = units.len() >= 6;
     let Solver { texts, tolerances } = Solver::new(real);
-    let [before, shortest] = [texts[0], texts[if more_than_six { 2 } else { 1 }]];
+    let [before, shortest] = [texts[0], texts[if six_or_more { 2 } else { 1 }]];
     let written = TEXT.replace("SHORTEST", &[before, shortest].concat());
     let placed = [
         ("FULL", units.len().max(6).to_string()),
@@ -43,16 +53,17 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
         let text = numbered(&real.text(text), spec, &tolerances, |value| real.number(value));
         placed.iter().fold(text, |text, (what, value)| text.replace(what, value))
     });
-    let text = [before, head(&spec.name, &COMPENSATED, real, "restrict"), after].concat();
+    let text = [before, head(&spec.name, &COMPENSATED, real, ""), after].concat();
     writer.blank();
     writer.lines(text.trim_end());
 }
 
 const TEXT: &str = "\
-static double clamped(int j, double value)
+/* Returns the nearest value of an interval, and its lower end for NaN. */
+static double clamped(double value, double lower, double upper)
 {
-    const double above = (value > NAME_limits[j][0]) ? value : NAME_limits[j][0];
-    return (above < NAME_limits[j][1]) ? above : NAME_limits[j][1];
+    const double above = (value > lower) ? value : lower;
+    return (above < upper) ? above : upper;
 }
 
 static double dot(const double *a, const double *b, int count)
@@ -62,6 +73,13 @@ static double dot(const double *a, const double *b, int count)
         sum += a[k] * b[k];
     }
     return sum;
+}
+
+static void copied(const double *from, double *to, int count)
+{
+    for (int k = 0; k < count; k++) {
+        to[k] = from[k];
+    }
 }
 
 /* Deviation of the real from the ideal pose: position in F_0, and the rotation vector of R_real R_ideal^T. */
@@ -86,33 +104,35 @@ static void deviation(const double *ideal, const double *real, double *rows)
     }
 }
 
-/* Weights the rows in metres and rad: 1 rad counts as 1 mm, so that the position has priority. */
-static void weigh(const double *rows, double factor, double *weighted)
+/* Weights the position in metres, and the rotations about the weighted axes of the tool in rad: 1 rad counts as 1 mm,
+ * so that the position has priority. */
+static void weigh(double axes[3][3], const double *rows, double factor, double *weighted)
 {
     for (int i = 0; i < 3; i++) {
         weighted[i] = rows[i] * factor * METRE;
-        weighted[3 + i] = rows[3 + i] * factor * LEVER;
+        weighted[3 + i] = dot(axes[i], &rows[3], 3) * factor * LEVER;
     }
 }
 
-static double cost(const double *rows)
+static double cost(double axes[3][3], const double *rows)
 {
     double weighted[6];
-    weigh(rows, 1.0, weighted);
+    weigh(axes, rows, 1.0, weighted);
     return dot(weighted, weighted, 6);
 }
 
 SHORTEST
-/* Sets q to start + step. Variables that exceed a limit are held at it, one at a time, the one with the
+/* Sets q to start + step. Variables that exceed a bound are held at it, one at a time, the one with the
  * largest excess first. */
-static void depart(const double *start, double *q, const double *twists, const double *after)
+static void depart(double axes[3][3], const double *start, double bounds[COUNT][2], double *q, const double *twists,
+                   const double *after)
 {
     double columns[COUNT][6];
     double wanted[6];
     double step[COUNT];
-    weigh(after, -1.0, wanted);
+    weigh(axes, after, -1.0, wanted);
     for (int j = 0; j < COUNT; j++) {
-        weigh(&twists[6 * j], UNITS[j], columns[j]);
+        weigh(axes, &twists[6 * j], UNITS[j], columns[j]);
         for (int i = 0; i < 6; i++) {
             wanted[i] += columns[j][i] * ((q[j] - start[j]) / UNITS[j]);
         }
@@ -125,7 +145,7 @@ static void depart(const double *start, double *q, const double *twists, const d
             /* Skip variables that are held or do not move the tool. */
             if (dot(columns[j], columns[j], 6) > 0.0) {
                 q[j] = start[j] + step[j] * UNITS[j];
-                const double beyond = fabs(q[j] - clamped(j, q[j])) / UNITS[j];
+                const double beyond = fabs(q[j] - clamped(q[j], bounds[j][0], bounds[j][1])) / UNITS[j];
                 if (beyond > furthest) {
                     furthest = beyond;
                     held = j;
@@ -135,53 +155,90 @@ static void depart(const double *start, double *q, const double *twists, const d
         if (held < 0) {
             break;
         }
-        q[held] = clamped(held, q[held]);
+        q[held] = clamped(q[held], bounds[held][0], bounds[held][1]);
         for (int i = 0; i < 6; i++) {
             wanted[i] += columns[held][i] * ((start[held] - q[held]) / UNITS[held]);
             columns[held][i] = 0.0;
         }
     }
     for (int j = 0; j < COUNT; j++) {
-        q[j] = clamped(j, q[j]);
+        q[j] = clamped(q[j], bounds[j][0], bounds[j][1]);
     }
+}
+
+/* Interval of a correction, within its change and, where that permits it, its largest size; and of the command with it,
+ * within the limits. Bounds that are not positive are 0. */
+static void bound(int j, double command, double last, double change, double largest, double *bounds)
+{
+    const double far = (change > 0.0) ? change : 0.0;
+    const double size = (largest > 0.0) ? largest : 0.0;
+    const double lower = NAME_limits[j][0];
+    const double upper = NAME_limits[j][1];
+    bounds[0] = clamped(command + clamped(-size, last - far, last + far), lower, upper);
+    bounds[1] = clamped(command + clamped(size, last - far, last + far), lower, upper);
 }
 
 HEAD
 {
     double target[12];
     double real[12];
+    double axes[3][3];
     double columns[6 * COUNT];
+    double start[COUNT];
+    double bounds[COUNT][2];
     double at[COUNT];
+    double best[COUNT];
+    double first[6];
     double now[6];
-    double least_cost = HUGE_VAL;
+    double left[6];
+    double least = HUGE_VAL;
     double moved = 0.0;
+    int outside = 0;
     int inside = 1;
+    int begins_elsewhere = 0;
+    int held = 0;
     int status = NAME_pose(q, s, target);
+    if (is_finite(q, COUNT) == 0 || is_finite(last, COUNT) == 0 || is_finite(rotations, 3) == 0) {
+        return UPPER_NOT_FINITE;
+    }
     if (status == UPPER_OK) {
         status = NAME_compensator_step(q, s, u, real, columns);
     }
     if (status != UPPER_OK) {
         return status;
     }
-    deviation(target, real, before);
-    for (int i = 0; i < 6; i++) {
-        now[i] = before[i];
-        after[i] = before[i];
+    deviation(target, real, first);
+    copied(first, now, 6);
+    for (int k = 0; k < 9; k++) {
+        axes[k / 3][k % 3] = target[k] * rotations[k / 3];
     }
     for (int j = 0; j < COUNT; j++) {
-        at[j] = q[j];
-        corrected[j] = q[j];
-        inside = (inside != 0 && q[j] >= NAME_limits[j][0] && q[j] <= NAME_limits[j][1]) ? 1 : 0;
+        start[j] = clamped(q[j], NAME_limits[j][0], NAME_limits[j][1]);
+        bound(j, start[j], last[j], change[j], largest[j], bounds[j]);
+        at[j] = clamped(start[j] + last[j], bounds[j][0], bounds[j][1]);
+        outside = (start[j] < q[j] || start[j] > q[j]) ? 1 : outside;
+        inside = (q[j] >= bounds[j][0] && q[j] <= bounds[j][1]) ? inside : 0;
+        begins_elsewhere = (at[j] < q[j] || at[j] > q[j]) ? 1 : begins_elsewhere;
     }
-    if (inside != 0) {
-        least_cost = cost(before);
+    if (begins_elsewhere != 0) {
+        status = NAME_compensator_step(at, s, u, real, columns);
+        if (status != UPPER_OK) {
+            return status;
+        }
+        deviation(target, real, now);
+    }
+    least = cost(axes, now);
+    copied(at, best, COUNT);
+    copied(now, left, 6);
+    if (inside != 0 && cost(axes, first) < least) {
+        least = cost(axes, first);
+        copied(q, best, COUNT);
+        copied(first, left, 6);
     }
     for (int iteration = 0; iteration < ITERATIONS; iteration++) {
         double from[COUNT];
-        for (int j = 0; j < COUNT; j++) {
-            from[j] = at[j];
-        }
-        depart(q, at, columns, now);
+        copied(at, from, COUNT);
+        depart(axes, start, bounds, at, columns, now);
         moved = 0.0;
         for (int j = 0; j < COUNT; j++) {
             const double far = fabs(at[j] - from[j]) / UNITS[j];
@@ -192,16 +249,29 @@ HEAD
             return status;
         }
         deviation(target, real, now);
-        if (cost(now) < least_cost) {
-            least_cost = cost(now);
-            for (int i = 0; i < 6; i++) {
-                after[i] = now[i];
-            }
-            for (int j = 0; j < COUNT; j++) {
-                corrected[j] = at[j];
-            }
+        if (cost(axes, now) < least) {
+            least = cost(axes, now);
+            copied(at, best, COUNT);
+            copied(now, left, 6);
         }
     }
-    return (moved <= REST) ? UPPER_OK : UPPER_NOT_CONVERGED;
+    for (int j = 0; j < COUNT; j++) {
+        held = (best[j] <= bounds[j][0] || best[j] >= bounds[j][1]) ? 1 : held;
+        corrected[j] = best[j];
+        correction[j] = best[j] - start[j];
+    }
+    copied(first, before, 6);
+    copied(left, after, 6);
+    weigh(axes, left, 1.0, now);
+    if (outside != 0) {
+        status = UPPER_OUTSIDE_LIMITS;
+    } else if (sqrt(dot(now, now, 3)) <= REACHED_POSITION && sqrt(dot(&now[3], &now[3], 3)) <= REACHED_ROTATION) {
+        status = UPPER_OK;
+    } else if (held != 0) {
+        status = UPPER_HELD;
+    } else {
+        status = (moved > REST) ? UPPER_NOT_CONVERGED : UPPER_NOT_REACHED;
+    }
+    return status;
 }
 ";

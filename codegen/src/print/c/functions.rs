@@ -28,21 +28,22 @@ fn helper_head(prefix: &str, routine: &Routine, real: Real) -> String {
 }
 
 fn arguments(arrays: impl Iterator<Item = (&'static str, Role)>, real: Real, restrict: &str) -> String {
+    let restrict = if restrict.is_empty() { String::new() } else { format!("{restrict} ") };
     let outside = arrays.filter_map(|(name, role)| match role {
-        Role::Argument => Some(format!("const {real} *{restrict} {name}")),
-        Role::Result => Some(format!("{real} *{restrict} {name}")),
+        Role::Argument => Some(format!("const {real} *{restrict}{name}")),
+        Role::Result => Some(format!("{real} *{restrict}{name}")),
         Role::Margin | Role::Zeros => None,
     });
     outside.collect::<Vec<_>>().join(", ")
 }
 
-/// Prints the documentation of a declaration, with an additional status code and a closing
-/// paragraph if given.
+/// Prints the documentation of a declaration, with additional status codes and a closing paragraph
+/// if given.
 pub(super) fn documentation(
     writer: &mut Writer,
     description: &Description,
     signature: &Signature,
-    code: Option<&str>,
+    further: &[&'static str],
     end: Option<&str>,
 ) {
     let upper = description.name.to_ascii_uppercase();
@@ -68,7 +69,7 @@ pub(super) fn documentation(
     let mut codes = vec!["OK", "NOT_FINITE"];
     codes.extend(signature.has_margin(description.orientation).then_some("SINGULAR"));
     codes.extend(takes_inputs.then_some("OUT_OF_RANGE"));
-    codes.extend(code);
+    codes.extend(further);
     let codes: Vec<String> = codes.into_iter().map(|code| format!("`{upper}_{code}`")).collect();
     writer.documentation(&format!("@return {}.", codes.join(", ")));
     if let Some(end) = end {

@@ -11,6 +11,7 @@ mod self_test;
 mod shortest;
 mod support;
 
+use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
@@ -66,8 +67,8 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     writer.documentation_line("");
     writer.documentation(
         "Arrays are flat and in column-major order: a Jacobian has one column of six numbers after the other. The \
-         functions allocate nothing and have no state. Output arrays must not overlap other arrays. Every function \
-         returns 0 if its results are valid.",
+         functions allocate nothing and have no state. Arrays that a function fills must not overlap others, except \
+         where it says so. Every function returns 0 if its results are valid.",
     );
     if real == Real::Float {
         writer.documentation_line("");
@@ -80,31 +81,25 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     writer.lines(&format!("#define {upper}_GENERATOR \"{}\"", env!("CARGO_PKG_VERSION")));
     writer.lines(&format!("#define {upper}_SPEC \"{}\"", &spec.hash[..16]));
     writer.blank();
-    enumeration(
-        &mut writer,
-        "Status codes returned by the functions.",
-        &[
-            (format!("{upper}_OK = 0"), "The results are valid."),
-            (format!("{upper}_NOT_FINITE = 1"), "A result is not finite."),
-            (
-                format!("{upper}_SINGULAR = 2"),
-                "Rows 4 to 6 are Euler angles, which are undefined at this pose.",
-            ),
-            (format!("{upper}_OUT_OF_RANGE = 3"), "An input is outside its range."),
-            (
-                format!("{upper}_NOT_CONVERGED = 4"),
-                "The steps did not converge; the commands are the best result so far.",
-            ),
-        ],
+    let mut statuses = vec![
+        (format!("{upper}_OK = 0"), "The results are valid."),
+        (format!("{upper}_NOT_FINITE = 1"), "An argument or a result is not finite."),
+        (format!("{upper}_SINGULAR = 2"), "Rows 4 to 6 are Euler angles, which are undefined at this pose."),
+        (format!("{upper}_OUT_OF_RANGE = 3"), "An input is outside its range."),
+    ];
+    let own = Status::ALL.into_iter().filter(|status| *status != Status::Reached);
+    statuses.extend(
+        own.map(|status| (format!("{upper}_{} = {}", status.name(), status.code()), status.meaning())),
     );
+    enumeration(&mut writer, "Status codes returned by the functions.", &statuses);
     counts(&mut writer, &upper, routines);
     indices(&mut writer, &upper, routines);
-    values(&mut writer, spec, real, "extern ", false);
+    values(&mut writer, spec, routines, real, "extern ", false);
     for routine in &routines.list {
         let Some(function) = routine.function else { continue };
         writer.blank();
         let (signature, end) = (function.signature(), operations(routine));
-        documentation(&mut writer, &routines.description, signature, None, Some(&end));
+        documentation(&mut writer, &routines.description, signature, &[], Some(&end));
         writer.lines(&format!("{};", head(&spec.name, signature, real, "ABBE_RESTRICT")));
     }
     compensated::declaration(&mut writer, spec, routines, real);
@@ -121,7 +116,7 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> S
         &format!("Definitions of the functions declared and documented in {}.h. Do not edit.", spec.name),
     );
     writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>", spec.name));
-    values(&mut writer, spec, real, "", true);
+    values(&mut writer, spec, routines, real, "", true);
     for table in routines.used_tables() {
         writer.blank();
         comment(&mut writer, table.documentation);
@@ -151,7 +146,7 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> S
 /// A test of `abbe` checks these measured figures for the shipped manipulators.
 const SINGLE: &str = "This code computes in single precision. Over 1000 configurations of every shipped manipulator, the difference \
      from double precision was at most 1.6e-7 of the length of the arm in positions and 3.2e-7 of the largest entry in `J_e`; \
-     converged corrected commands brought the tool to within 3.2e-7 of that length and 8.7e-7 rad.";
+     corrected commands brought the tool to within 3.2e-7 of that length and 1.3e-5 rad where the pose is reached.";
 
 const BEGIN: &str = "\
 #ifdef __cplusplus
@@ -238,7 +233,14 @@ fn indices(writer: &mut Writer, upper: &str, routines: &Routines) {
 }
 
 /// Prints limits, home, nominal values and ranges, either as declarations or as definitions.
-fn values(writer: &mut Writer, spec: &Spec, real: Real, before: &str, with_numbers: bool) {
+fn values(
+    writer: &mut Writer,
+    spec: &Spec,
+    routines: &Routines,
+    real: Real,
+    before: &str,
+    with_numbers: bool,
+) {
     let number = |value: f64| real.number(value);
     let mut one = |what: &str, name: &str, pairs: bool, values: Vec<f64>| {
         if values.is_empty() {
@@ -264,6 +266,28 @@ fn values(writer: &mut Writer, spec: &Spec, real: Real, before: &str, with_numbe
     let limits = spec.variables.iter().flat_map(|variable| variable.limits).collect();
     one("Lower and upper limits of the variables.", "limits", true, limits);
     one("Home position of the variables.", "home", false, spec.variables.iter().map(|v| v.home).collect());
+    let bounds = |bounds| {
+        let each = spec.variables.iter();
+        each.map(|variable| bound(&routines.description, variable.kind, bounds)).collect::<Vec<f64>>()
+    };
+    one(
+        &format!(
+            "Largest change of a correction in a cycle, by default: {} rad, {} m.",
+            CHANGE[0], CHANGE[1]
+        ),
+        "change",
+        false,
+        bounds(CHANGE),
+    );
+    one(
+        &format!("Largest correction, by default: {} rad, {} m.", LARGEST[0], LARGEST[1]),
+        "largest",
+        false,
+        bounds(LARGEST),
+    );
+    if !spec.variables.is_empty() {
+        one("`rotations` of the whole pose.", "whole_pose", false, vec![1.0; 3]);
+    }
     let nominal = spec.parameters.iter().map(|parameter| parameter.value).collect();
     one("Nominal values of the parameters `s`.", "parameters", false, nominal);
     one("Default values of the inputs `u`.", "inputs", false, spec.inputs.iter().map(|i| i.value).collect());

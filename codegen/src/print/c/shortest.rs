@@ -6,7 +6,7 @@ use crate::print::compensated::Tolerances;
 
 /// Solver of a step, with the constants that depend on the precision.
 pub(super) struct Solver {
-    /// Helper functions, the solver for up to six joints, and the solver for more.
+    /// Helper functions, the solver for fewer than six joints, and the solver for more.
     pub(super) texts: [&'static str; 3],
     pub(super) tolerances: Tolerances,
 }
@@ -18,19 +18,24 @@ impl Solver {
             // Rounding errors of a Jacobian of about one metre are 6e-8 and must not act like a
             // direction in which the tool moves. Rotations are weighted by 1/1000 and must be
             // solved down to a least singular value of 0.1, that is 1e-4. The damping lies between
-            // the two. A pose is accurate to about 1e-6 m; such a singular value amplifies that to
-            // 1e-5.
+            // the two, as in double precision. A pose is accurate to about 1e-6 m; such a singular
+            // value amplifies that to 1e-5.
             Real::Float => Self {
                 texts: [ORTHOGONALIZE, ORTHOGONAL_COLUMNS, ORTHOGONAL_ROWS],
-                tolerances: Tolerances { damping: 3e-6, rest: 1e-5, least_sine: 1e-18 },
+                tolerances: Tolerances {
+                    damping: f64::sqrt(abbe_core::compensator::DAMPING),
+                    rest: 1e-5,
+                    reached: [1e-5; 2],
+                    least_sine: 1e-18,
+                },
             },
         }
     }
 }
 
-/// Solver for up to six joints.
+/// Solver for fewer than six joints.
 const BY_COLUMNS: &str = "\
-/* Returns the shortest step, (J^T J + lambda)^-1 J^T b. */
+/* Returns the shortest step: of (J^T J) x = J^T b. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double m[6][6] = { { 0.0 } };
@@ -48,9 +53,9 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
 }
 ";
 
-/// Solver for more than six joints.
+/// Solver for six joints or more.
 const BY_ROWS: &str = "\
-/* Returns the shortest step, J^T (J J^T + lambda)^-1 b. */
+/* Returns the shortest step: J^T x of (J J^T) x = b. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double m[6][6] = { { 0.0 } };
@@ -71,9 +76,11 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
 ";
 
 const SOLVE: &str = "\
-/* Solves (M + lambda) x = b by Cholesky factorization, for positive semidefinite M; x overwrites b. */
+/* Iterated Tikhonov regularization by Cholesky factorization of M + lambda, for positive semidefinite M: the first
+ * pass solves (M + lambda) x = b, each other one adds lambda (M + lambda)^-1 of the one before. x overwrites b. */
 static void solve(double m[6][6], double *b)
 {
+    double x[6] = { 0.0 };
     for (int i = 0; i < 6; i++) {
         for (int j = 0; j <= i; j++) {
             const double rest = m[i][j] - dot(m[i], m[j], j);
@@ -83,14 +90,25 @@ static void solve(double m[6][6], double *b)
                 m[i][j] = rest / m[j][j];
             }
         }
-        b[i] = (b[i] - dot(m[i], b, i)) / m[i][i];
     }
-    for (int i = 5; i >= 0; i--) {
-        double known = 0.0;
-        for (int j = i + 1; j < 6; j++) {
-            known += m[j][i] * b[j];
+    for (int pass = 0; pass < PASSES; pass++) {
+        for (int i = 0; i < 6; i++) {
+            b[i] = (b[i] - dot(m[i], b, i)) / m[i][i];
         }
-        b[i] = (b[i] - known) / m[i][i];
+        for (int i = 5; i >= 0; i--) {
+            double known = 0.0;
+            for (int j = i + 1; j < 6; j++) {
+                known += m[j][i] * b[j];
+            }
+            b[i] = (b[i] - known) / m[i][i];
+        }
+        for (int i = 0; i < 6; i++) {
+            x[i] += b[i];
+            b[i] *= DAMPING;
+        }
+    }
+    for (int i = 0; i < 6; i++) {
+        b[i] = x[i];
     }
 }
 
@@ -119,9 +137,10 @@ static void orthogonalize(double a[RANK][LONG], double r[RANK][RANK])
 
 ";
 
-/// Solver for up to six joints.
+/// Solver for fewer than six joints.
 const ORTHOGONAL_COLUMNS: &str = "\
-/* Returns the shortest step, min |J x - b|^2 + lambda |x|^2, with one iterative refinement. */
+/* Returns the shortest step, by iterated Tikhonov regularization: each pass adds min |J x - b|^2 + lambda |x|^2 of
+ * what b has left. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double a[COUNT][LONG] = { { 0.0 } };
@@ -138,7 +157,7 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
     for (int i = 0; i < 6; i++) {
         left[i] = b[i];
     }
-    for (int time = 0; time < 2; time++) {
+    for (int pass = 0; pass < PASSES; pass++) {
         double x[COUNT];
         for (int j = COUNT - 1; j >= 0; j--) {
             x[j] = dot(a[j], left, 6);
@@ -157,9 +176,10 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
 }
 ";
 
-/// Solver for more than six joints.
+/// Solver for six joints or more.
 const ORTHOGONAL_ROWS: &str = "\
-/* Returns the shortest step, J^T (J J^T + lambda)^-1 b, with one iterative refinement. */
+/* Returns the shortest step, by iterated Tikhonov regularization: each pass adds J^T (J J^T + lambda)^-1 of what b has
+ * left. */
 static void shortest(double columns[COUNT][6], const double *b, double *step)
 {
     double a[6][LONG] = { { 0.0 } };
@@ -176,7 +196,7 @@ static void shortest(double columns[COUNT][6], const double *b, double *step)
         step[j] = 0.0;
     }
     orthogonalize(a, r);
-    for (int time = 0; time < 2; time++) {
+    for (int pass = 0; pass < PASSES; pass++) {
         double y[6];
         for (int i = 0; i < 6; i++) {
             y[i] = left[i];

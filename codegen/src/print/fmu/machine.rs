@@ -13,7 +13,7 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
     let mut writer = Writer::new(" *");
     writer.paragraphs(&format!(
         "/* Constants of the machine. Do not edit. */\n#ifndef FMI_MACHINE_H\n#define FMI_MACHINE_H\n\n\
-         #include \"{name}.h\"\n\n#include <stddef.h>\n\n#define TOKEN \"{token}\"\n\n\
+         #include \"{name}.h\"\n\n#include <math.h>\n#include <stddef.h>\n\n#define TOKEN \"{token}\"\n\n\
          /* Value references of the first variable of each array. */"
     ));
     writer.open("enum");
@@ -52,11 +52,17 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
     if variables.corrected {
         let corrected = CORRECTED.to_ascii_uppercase();
         writer.open(&format!("if (status == {upper}_OK)"));
-        writer.lines("double before[6];\ndouble after[6];");
+        let count = spec.variables.len();
+        let infinite = vec![Real::Double.number(f64::INFINITY); count];
+        writer.lines("/* Steps of a simulation are no cycles: corrections of any size. */");
+        writer.lines(&format!("const double last[{count}] = {{ 0.0 }};"));
+        writer.braces(&format!("const double any[{count}] = "), &infinite, ";");
+        writer.lines(&format!("double difference[{count}];\ndouble before[6];\ndouble after[6];"));
         writer.lines(&format!(
-            "*correction = {name}_compensated(q, s, u, &values[AT_{corrected}], before, after);"
+            "*correction = {name}_compensated(q, s, u, last, any, any, {name}_whole_pose, &values[AT_{corrected}], difference, \
+             before, after);"
         ));
-        writer.lines(&format!("status = (*correction == {upper}_NOT_CONVERGED) ? {upper}_OK : *correction;"));
+        writer.lines(&format!("status = (*correction >= {upper}_NOT_CONVERGED) ? {upper}_OK : *correction;"));
         writer.close("}");
     } else {
         writer.lines("*correction = 0;");

@@ -55,7 +55,8 @@ pub(super) const CORRECTED: &str = "corrected";
 /// Name and description of the status of the corrected commands.
 pub(super) const CORRECTION: (&str, &str) = (
     "correction",
-    "0: converged; 4: not converged at a limit or near a singular pose, corrected is the best result so far",
+    "0: reached to 1 um and 10 urad; not reached: 4 further steps would help, 5 a limit holds a variable, 7 no variable \
+     helps; 6: the inputs are beyond the limits",
 );
 
 impl Variables {

@@ -8,6 +8,7 @@ mod compensated;
 mod functions;
 mod operators;
 
+use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
@@ -66,13 +67,15 @@ fn class_name(spec: &Spec, routines: &Routines) -> String {
     name
 }
 
-const PROPERTIES: [&str; 11] = [
+const PROPERTIES: [&str; 13] = [
     "title",
     "length_unit",
     "orientation",
     "variables",
     "limits",
     "home",
+    "change",
+    "largest",
     "parameter_names",
     "parameters",
     "input_names",
@@ -108,6 +111,9 @@ fn properties(writer: &mut Writer, spec: &Spec, routines: &Routines) {
         &variables().map(|variable| pair(variable.limits)).collect::<Vec<_>>(),
     );
     list(writer, "home", ["[", "]"], &numbers(variables().map(|variable| variable.home).collect()));
+    let bounds = |bounds| numbers(variables().map(|one| bound(description, one.kind, bounds)).collect());
+    list(writer, "change", ["[", "]"], &bounds(CHANGE));
+    list(writer, "largest", ["[", "]"], &bounds(LARGEST));
     list(writer, "parameter_names", ["{", "}"], &names(parameters().map(|one| &one.name[..]).collect()));
     list(writer, "parameters", ["[", "]"], &numbers(parameters().map(|one| one.nominal).collect()));
     list(writer, "input_names", ["{", "}"], &names(inputs().map(|one| &one.name[..]).collect()));

@@ -1,12 +1,12 @@
 //! Corrected commands on NumPy arrays of configurations, by the fixed number of steps of
 //! `abbe::compensator`.
 
-use abbe_core::function::{COMPENSATED, CONVERGED};
+use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::face;
 use super::operators::number;
-use crate::print::compensated::{Tolerances, numbered};
+use crate::print::compensated::{Tolerances, numbered, statuses};
 use crate::print::layout::Writer;
 use crate::program::Routines;
 
@@ -14,11 +14,17 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     if spec.variables.is_empty() {
         return;
     }
-    face(writer, &routines.description, &COMPENSATED, Some(["converged", CONVERGED]), None);
+    let statuses = statuses(&Tolerances::DOUBLE);
+    face(writer, &routines.description, &COMPENSATED, Some(["status", &statuses]), Some(WITHOUT_LAST));
     writer.blank();
     writer.blank();
     writer.paragraphs(&numbered(TEXT, spec, &Tolerances::DOUBLE, number));
 }
+
+/// Arguments that may be left out.
+const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have any size. With it, `change` and `largest` are \
+     those of the variables in `description` if they are left out, and `rotations` is the whole pose. Raises ValueError if \
+     a number is not finite or an input is outside its range";
 
 const TEXT: &str = r#"
 def _deviation(ideal, real):
@@ -32,45 +38,60 @@ def _deviation(ideal, real):
     return np.concatenate([b[..., 3, :] - a[..., 3, :], v * scale[..., None]], axis=-1)
 
 
-def _weighed(rows):
-    """Weight the rows in metres and rad: 1 rad counts as 1 mm, so that the position has priority."""
-    return rows * np.repeat([METRE, LEVER], 3)
+def _weighed(axes, rows):
+    """Weight the position in metres, and the rotations about the weighted axes of the tool in rad.
+
+    1 rad counts as 1 mm, so that the position has priority.
+    """
+    turns = np.sum(axes * rows[..., None, 3:], axis=-1)
+    return np.concatenate([rows[..., :3] * METRE, turns * LEVER], axis=-1)
+
+
+def _clamped(value, lower, upper):
+    """Return the nearest value of an interval, and its lower end for NaN."""
+    return np.fmin(np.fmax(value, lower), upper)
 
 
 def _solve(m, b):
-    """Solve (M + lambda) x = b by Cholesky factorization, for positive semidefinite M."""
-    lower, x = np.zeros(m.shape), np.zeros(b.shape)
+    """Iterated Tikhonov regularization by Cholesky factorization of M + lambda, for positive semidefinite M.
+
+    The first pass solves (M + lambda) x = b, each other one adds lambda (M + lambda)^-1 of the one before.
+    """
+    lower, x, b = np.zeros(m.shape), np.zeros(b.shape), b.copy()
     for i in range(b.shape[-1]):
         for j in range(i + 1):
             rest = m[..., i, j] - np.sum(lower[..., i, :j] * lower[..., j, :j], axis=-1)
             is_pivot = i == j
             lower[..., i, j] = np.sqrt(np.maximum(rest, 0.0) + DAMPING) if is_pivot else rest / lower[..., j, j]
-        x[..., i] = (b[..., i] - np.sum(lower[..., i, :i] * x[..., :i], axis=-1)) / lower[..., i, i]
-    for i in reversed(range(b.shape[-1])):
-        known = np.sum(lower[..., i + 1 :, i] * x[..., i + 1 :], axis=-1)
-        x[..., i] = (x[..., i] - known) / lower[..., i, i]
+    for _ in range(PASSES):
+        for i in range(b.shape[-1]):
+            b[..., i] = (b[..., i] - np.sum(lower[..., i, :i] * b[..., :i], axis=-1)) / lower[..., i, i]
+        for i in reversed(range(b.shape[-1])):
+            known = np.sum(lower[..., i + 1 :, i] * b[..., i + 1 :], axis=-1)
+            b[..., i] = (b[..., i] - known) / lower[..., i, i]
+        x, b = x + b, b * DAMPING
     return x
 
 
 def _shortest(columns, b):
-    """Return the shortest step, (J^T J + lambda)^-1 J^T b; for more than six joints J^T (J J^T + lambda)^-1 b."""
-    if columns.shape[-2] <= 6:
+    """Return the shortest step: x of (J^T J) x = J^T b, and for six joints or more J^T x of (J J^T) x = b."""
+    if columns.shape[-2] < 6:
         m = np.sum(columns[..., :, None, :] * columns[..., None, :, :], axis=-1)
         return _solve(m, np.sum(columns * b[..., None, :], axis=-1))
     m = np.sum(columns[..., :, None] * columns[..., None, :], axis=-3)
     return np.sum(columns * _solve(m, b)[..., None, :], axis=-1)
 
 
-def _depart(start, q, twists, after, units, limits):
-    """Return start + step, with variables that exceed a limit held at it, the one with the largest excess first."""
-    columns = _weighed(twists.reshape(twists.shape[:-1] + (COUNT, 6)) * units[:, None])
-    wanted = -_weighed(after) + np.sum(columns * ((q - start) / units)[..., None], axis=-2)
+def _depart(axes, start, bounds, q, twists, after, units):
+    """Return start + step, with variables that exceed a bound held at it, the one with the largest excess first."""
+    columns = _weighed(axes[..., None, :, :], twists.reshape(twists.shape[:-1] + (COUNT, 6)) * units[:, None])
+    wanted = -_weighed(axes, after) + np.sum(columns * ((q - start) / units)[..., None], axis=-2)
     for _ in range(COUNT + 1):
         step = _shortest(columns, wanted)
         # Skip variables that are held or do not move the tool.
         moves = np.any(columns != 0.0, axis=-1)
         q = np.where(moves, start + step * units, q)
-        clamped = np.clip(q, *limits)
+        clamped = _clamped(q, *bounds)
         beyond = np.where(moves, np.abs(q - clamped) / units, 0.0)
         held = (np.arange(COUNT) == np.argmax(beyond, axis=-1)[..., None]) & (beyond > 0.0)
         if not np.any(held):
@@ -79,30 +100,57 @@ def _depart(start, q, twists, after, units, limits):
         shift = np.where(held, (start - q) / units, 0.0)
         wanted = wanted + np.sum(columns * shift[..., None], axis=-2)
         columns = np.where(held[..., None], 0.0, columns)
-    return np.clip(q, *limits)
+    return _clamped(q, *bounds)
 
 
-def _compensated(batch, q, s, u):
+def _compensated(batch, q, s, u, last, change, largest, rotations):
+    arguments = {"q": q, "s": s, "u": u, "last": last, "rotations": rotations}
+    for name, array in arguments.items():
+        if not np.all(np.isfinite(array)):
+            raise ValueError(f"{name}: a number is not finite")
     units = np.array([UNIT_LIST])
     limits = np.array([variable["limits"] for variable in description["variables"]]).T
-    start = np.broadcast_to(q, batch + (COUNT,))
+    start, last, rotations = (
+        np.broadcast_to(array, batch + array.shape[-1:]) for array in (_clamped(q, *limits), last, rotations)
+    )
+    far, size = (np.where(bound > 0.0, bound, 0.0) for bound in (change, largest))
+    bounds = [_clamped(start + _clamped(end, last - far, last + far), *limits) for end in (-size, size)]
     target = _pose(batch, q, s)
-    real, columns = _compensator_step(batch, q, s, u)
-    before = _deviation(target, real)
-    inside = np.all((start >= limits[0]) & (start <= limits[1]), axis=-1)
-    least = np.where(inside, np.sum(_weighed(before) ** 2, axis=-1), np.inf)
-    corrected, after = start, before
-    at, now = start, before
+    axes = target[..., :9].reshape(batch + (3, 3)) * rotations[..., None]
+
+    def error(q):
+        real, columns = _compensator_step(batch, q, s, u)
+        rows = _deviation(target, real)
+        if not np.all(np.isfinite(rows)):
+            raise ValueError("a result is not finite")
+        return rows, columns, np.sum(_weighed(axes, rows) ** 2, axis=-1)
+
+    before, _, cost = error(q)
+    at = _clamped(start + last, *bounds)
+    now, columns, least = error(at)
+    inside = np.all((q >= bounds[0]) & (q <= bounds[1]), axis=-1)
+    better = inside & (cost < least)
+    least = np.where(better, cost, least)
+    corrected, after = (np.where(better[..., None], *pair) for pair in ((q, at), (before, now)))
     for _ in range(ITERATIONS):
         before_step = at
-        at = _depart(start, at, columns, now, units, limits)
+        at = _depart(axes, start, bounds, at, columns, now, units)
         moved = np.max(np.abs(at - before_step) / units, axis=-1)
-        real, columns = _compensator_step(batch, at, s, u)
-        now = _deviation(target, real)
-        cost = np.sum(_weighed(now) ** 2, axis=-1)
+        now, columns, cost = error(at)
         better = cost < least
         least = np.where(better, cost, least)
         corrected = np.where(better[..., None], at, corrected)
         after = np.where(better[..., None], now, after)
-    return corrected, before, after, moved <= REST
+    outside = np.any(start != q, axis=-1)
+    position, turn = (np.sqrt(np.sum(rows**2, axis=-1)) for rows in np.split(_weighed(axes, after), 2, axis=-1))
+    held = np.any((corrected <= bounds[0]) | (corrected >= bounds[1]), axis=-1)
+    cases = {
+        "OUTSIDE_LIMITS": outside,
+        "OK": (position <= REACHED_POSITION) & (turn <= REACHED_ROTATION),
+        "HELD": held,
+        "NOT_CONVERGED": moved > REST,
+    }
+    statuses = description["statuses"]
+    status = np.select(list(cases.values()), [statuses[name] for name in cases], statuses["NOT_REACHED"])
+    return corrected, corrected - start, before, after, status
 "#;

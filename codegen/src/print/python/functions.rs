@@ -22,7 +22,8 @@ pub(super) fn face(
     end: Option<&str>,
 ) {
     let name = signature.name;
-    let optional = signature.arguments.iter().all(|array| matches!(array.name, "q" | "s" | "u"));
+    let has_default = |name| matches!(name, "s" | "u" | "last" | "change" | "largest" | "rotations");
+    let optional = signature.arguments.iter().all(|array| array.name == "q" || has_default(array.name));
     let arguments: Vec<String> = signature
         .arguments
         .iter()

@@ -119,7 +119,13 @@ def _given(**arguments):
     nominal = {
         "s": [parameter["nominal"] for parameter in description["parameters"]],
         "u": [value["nominal"] for value in description["inputs"]],
+        "last": [0.0 for variable in description["variables"]],
+        "rotations": [1.0, 1.0, 1.0],
     }
+    if "last" in arguments:
+        is_first = arguments["last"][0] is None
+        for bound in ("change", "largest"):
+            nominal[bound] = [np.inf if is_first else variable[bound] for variable in description["variables"]]
     flat = []
     for name, (array, shape) in arguments.items():
         array = np.asarray(nominal[name] if array is None else array, dtype=float)

@@ -203,6 +203,52 @@ macro_rules! function_array {
             "Commands to use instead of `q`, in the same order."
         )
     };
+    (last: $($then:tt)+) => {
+        $($then)+!(
+            "last",
+            Corrections,
+            [f64; VARIABLES],
+            "length unit, rad",
+            "`correction` of the previous cycle; zeros at first."
+        )
+    };
+    (change: $($then:tt)+) => {
+        $($then)+!(
+            "change",
+            Corrections,
+            [f64; VARIABLES],
+            "length unit, rad",
+            "Largest change of each correction from `last`. A number that is not positive permits none."
+        )
+    };
+    (largest: $($then:tt)+) => {
+        $($then)+!(
+            "largest",
+            Corrections,
+            [f64; VARIABLES],
+            "length unit, rad",
+            "Largest size of each correction. A number that is not positive permits none."
+        )
+    };
+    (rotations: $($then:tt)+) => {
+        $($then)+!(
+            "rotations",
+            Rotations,
+            [f64; 3],
+            "1",
+            "Weights of the rotations about the x, y and z axis of the tool: 1 to be reached, 0 to be left free. 1 1 1 is the \
+             whole pose, 0 0 0 the position, 1 1 0 the position and the direction of the z axis."
+        )
+    };
+    (correction: $($then:tt)+) => {
+        $($then)+!(
+            "correction",
+            Corrections,
+            [f64; VARIABLES],
+            "length unit, rad",
+            "`corrected` minus `q`, or minus its nearest value within the limits: `last` of the next cycle."
+        )
+    };
     (before: $($then:tt)+) => {
         $($then)+!(
             "before",
@@ -309,14 +355,11 @@ pub(crate) use {constant, count, counts, is_oriented, signature};
 /// Signature of `compensated` in generated code. It is no function of nodes, but an iteration with
 /// `pose` and `compensator_step`, as in [`compensator`](crate::compensator).
 ///
-/// In addition to its results it returns whether it converged: [`CONVERGED`].
+/// In addition to its results it returns a [`Status`](crate::compensator::Status).
 pub const COMPENSATED: super::Signature = signature!(
-    compensated(q, s, u) -> (corrected, before, after):
-        "Corrected commands, at which the real tool has the pose of the ideal tool at `q`, within the limits of the \
-         variables. The number of steps is fixed. If the pose cannot be reached, the position has priority over the \
-         orientation."
+    compensated(q, s, u, last, change, largest, rotations) -> (corrected, correction, before, after):
+        "Corrected commands, at which the real tool has the pose of the ideal tool at `q`, for one cycle of a controller. Each \
+         is within the limits of its variable, and within `change` of the command corrected by `last`: from one cycle to the \
+         next no variable moves further than its command and `change`. The number of steps is fixed. If the pose cannot be \
+         reached, the position has priority over the orientation."
 );
-
-/// Documentation of the convergence flag of corrected commands.
-pub const CONVERGED: &str = "True if the steps converged. If not, more steps are needed, at a limit or near a singular pose; \
-                             `corrected` is then the best result so far.";

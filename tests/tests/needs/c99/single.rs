@@ -74,7 +74,7 @@ fn differences(spec: &Spec, given: Vec<Vec<f64>>) -> Differences {
         let of = |numbers: &mut std::vec::IntoIter<f64>| {
             let status = numbers.next().unwrap();
             let corrected: Vec<f64> = numbers.take(q.len()).collect();
-            numbers.nth(11);
+            numbers.nth(q.len() + 11);
             (status, corrected)
         };
         let (double, single) = (of(&mut double), of(&mut single));

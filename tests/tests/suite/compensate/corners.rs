@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use abbe::analysis::{compensated, sampling};
-use abbe::compensator::norms;
+use abbe::compensator::{Status, norms};
 use abbe::{Delegate, Description, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_tests::thorough;
@@ -45,7 +45,7 @@ fn searches_at_singular_corners_make_progress() {
         assert!(within(&robot, &found.q), "{q:?}");
         assert!(length * description.length.in_metres() < 1e-9, "{q:?}: {length}");
         largest = largest.max(angle);
-        moving += usize::from(!found.converged);
+        moving += usize::from(found.status == Status::NotConverged);
         nodes += 1;
     }
     let each = counted.1.into_inner() / nodes;

@@ -3,11 +3,12 @@
 
 mod bounded;
 mod corners;
+mod cycles;
 
 use abbe::analysis::{
     Axis, Missing, Presentation, Workspace, compensated, mobility, obstacle, presented_volume, sampling,
 };
-use abbe::compensator::norms;
+use abbe::compensator::{Cycle, Status, norms};
 use abbe::{
     Error, Manipulator, Orientation, Quantity, VariableKind, deviation, drawn_pose, repeatable_magnitudes,
 };
@@ -55,7 +56,7 @@ fn the_treatment_volume_is_compensated_within_limits() {
         let s = place.s;
         let tool = |name| s[pps::DESCRIPTION.parameters.iter().position(|p| p.name == name).unwrap()];
         let s = pps::Parameters { x: tool("x"), y: tool("y"), z: tool("z"), ..pps::Parameters::NOMINAL };
-        let command = pps::compensated(&q, &s, &u).unwrap();
+        let command = pps::compensated(&q, &s, &u, &Cycle::UNBOUNDED).unwrap();
         assert!(within(&pps::Pps, &command.q), "{:?}", command.q);
         // On the exact chain, frame by frame, independently of the compensator.
         let (mut transforms, errors) =
@@ -80,8 +81,12 @@ fn the_treatment_volume_is_compensated_within_limits() {
 
 /// Returns a shipped spec with additional errors of half a millimetre and a milliradian.
 fn with_errors(shipped: &str) -> Spec {
-    let shipped = SHIPPED.iter().find(|s| s.name == shipped).unwrap();
-    let nominal = Spec::parse("nominal", shipped.spec).unwrap();
+    with_errors_in(SHIPPED.iter().find(|s| s.name == shipped).unwrap().spec)
+}
+
+/// Returns a spec with additional errors of half a millimetre and a milliradian.
+fn with_errors_in(text: &str) -> Spec {
+    let nominal = Spec::parse("nominal", text).unwrap();
     let effects = nominal.frames.iter().enumerate().map(|(i, frame)| {
         let size = |k: usize| ((6 * i + k) as f64 * 1.7).sin();
         format!(
@@ -95,8 +100,7 @@ fn with_errors(shipped: &str) -> Spec {
         )
     });
     let text = format!(
-        "{}\n[[source]]\nname = \"for the compensator\"\nclass = \"repeatable\"\n{}",
-        shipped.spec,
+        "{text}\n[[source]]\nname = \"for the compensator\"\nclass = \"repeatable\"\n{}",
         effects.collect::<String>()
     );
     Spec::parse("with errors", &text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)))
@@ -213,7 +217,9 @@ fn limits_hold() {
     let mut held = 0;
     for d1 in [300.0, 1128.0, 2000.0] {
         for sign in [-1.0, 1.0] {
-            let command = pps::compensated(&[d1, 280.0, 300.0, sign * q4, 0.0, 0.0], &s, &u).unwrap();
+            let command =
+                pps::compensated(&[d1, 280.0, 300.0, sign * q4, 0.0, 0.0], &s, &u, &Cycle::UNBOUNDED)
+                    .unwrap();
             assert!(within(&pps::Pps, &command.q));
             assert!(norms(&command.after).0 < 1e-6);
             held += usize::from(norms(&command.after).1 > 1e-4 && command.q[3] == sign * q4);
@@ -221,18 +227,19 @@ fn limits_hold() {
     }
     assert!(held > 0, "a spin at its limit cannot be turned further");
     // Commands beyond a limit are clamped, and the remaining error is reported.
-    let command = pps::compensated(&[-5.0, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u).unwrap();
+    let command = pps::compensated(&[-5.0, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u, &Cycle::UNBOUNDED).unwrap();
     assert!(command.q[0] == 0.0 && norms(&command.after).1 > 1e-3);
+    assert_eq!(command.status, Status::OutsideLimits);
 }
 
 #[test]
 fn bad_input_is_an_error() {
     let (s, u) = (pps::Parameters::NOMINAL, pps::Inputs::NOMINAL);
-    let nan = pps::compensated(&[f64::NAN, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u);
+    let nan = pps::compensated(&[f64::NAN, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u, &Cycle::UNBOUNDED);
     assert_eq!(nan.err(), Some(Error::NotFinite { quantity: Quantity::Variables, index: 0 }));
     let home = [1128.0, 280.0, 300.0, 0.0, 0.0, 0.0];
     let far = abbe::Pose([[f64::INFINITY; 3]; 4]);
-    let far = pps::compensated_to(&far, &home, &s, &u);
+    let far = pps::compensated_to(&far, &home, &s, &u, &Cycle::UNBOUNDED);
     assert_eq!(far.err(), Some(Error::NotFinite { quantity: Quantity::Pose, index: 0 }));
 }
 
@@ -293,17 +300,20 @@ fn a_five_axis_machine_is_not_singular() {
     assert_eq!(mobility(&robot, &[]).unwrap(), 5);
     let q = [0.0, 0.0, 0.0, 0.0, 0.4, 0.3];
     let found = compensated(&robot, None, &q, &[], &[]).unwrap();
-    assert!(found.converged && norms(&found.after).0 < 1e-7 && norms(&found.after).1 > 1e-4);
+    assert!(
+        found.status == Status::NotReached && norms(&found.after).0 < 1e-7 && norms(&found.after).1 > 1e-4
+    );
     let obstacle = obstacle(&robot, None, &q, &[], &[], &found, [1e-3, 1e-6]).unwrap().unwrap();
     assert!(obstacle.immobile && matches!(obstacle.missing, Missing::Turn(_)), "{obstacle:?}");
 }
 
 /// Checks the convergence flag of the compensator of fixed cost.
 #[test]
-fn whether_six_steps_were_enough_is_said() {
+fn whether_the_steps_were_enough_is_said() {
     let (s, u) = (pps::Parameters::NOMINAL, pps::Inputs::NOMINAL);
-    let command = pps::compensated(&[1128.0, 280.0, 300.0, 0.3, 0.0, 0.0], &s, &u).unwrap();
-    assert!(command.converged && norms(&command.after).0 < 1e-6);
+    let command =
+        pps::compensated(&[1128.0, 280.0, 300.0, 0.3, 0.0, 0.0], &s, &u, &Cycle::UNBOUNDED).unwrap();
+    assert!(command.status == Status::Reached && norms(&command.after).0 < 1e-6);
     // More steps than necessary change nothing; fewer are reported: near singular poses some rows
     // need more.
     let robot = Interpreter::new(with_errors("puma560"));
@@ -312,7 +322,9 @@ fn whether_six_steps_were_enough_is_said() {
     for q in hard_rows(&robot, &s, 60) {
         let fixed = fixed_cost(&robot, &q, &s);
         let best = compensated(&robot, None, &q, &s, &[]).unwrap();
-        more += usize::from(!fixed.converged && norms(&best.after).0 < norms(&fixed.after).0 - 1e-6);
+        more += usize::from(
+            fixed.status == Status::NotConverged && norms(&best.after).0 < norms(&fixed.after).0 - 1e-6,
+        );
         assert!(norms(&best.after).0 <= norms(&fixed.after).0 + 1e-9);
     }
     assert!(more > 0);
@@ -323,9 +335,16 @@ fn fixed_cost(robot: &Interpreter, q: &[f64], s: &[f64]) -> abbe::compensator::C
     let magnitudes = repeatable_magnitudes(robot.description());
     let target = robot.pose(q, s).unwrap();
     let room = vec![[0.0; 6]; q.len()];
-    abbe::compensator::compensate(robot.description(), &target, &q.to_vec(), room, |q, columns| {
-        robot.joint_jacobian(q, s, columns)?;
-        drawn_pose(robot, q, s, &[], &magnitudes)
-    })
+    abbe::compensator::compensate(
+        robot.description(),
+        &target,
+        &q.to_vec(),
+        &Cycle::<[f64; 0]>::UNBOUNDED,
+        room,
+        |q, columns| {
+            robot.joint_jacobian(q, s, columns)?;
+            drawn_pose(robot, q, s, &[], &magnitudes)
+        },
+    )
     .unwrap()
 }
