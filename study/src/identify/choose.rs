@@ -72,7 +72,8 @@ pub(super) fn choose(
     let alone = selected.flatten().min_by(|(_, a), (_, b)| a.mean().total_cmp(&b.mean()));
     let best = match (together, alone) {
         (Some(together), Some(alone)) => {
-            let is_worse = |one: Comparison| one.gain <= 0.0 || one.p > CHANCE;
+            // By chance, one of several sets is better.
+            let is_worse = |one: Comparison| one.gain <= 0.0 || one.p * sets.len() as f64 > CHANCE;
             if together.1.compared_with(&alone.1).is_some_and(is_worse) { alone.0 } else { together.0 }
         }
         (together, alone) => together.or(alone).map(|(chosen, _)| chosen).unwrap_or_default(),
