@@ -1256,6 +1256,9 @@ class IdentifyReport(Report):
     instruments: list[InstrumentFit]
     """Instruments that are read one by one, with statistics of their residuals."""
 
+    known_distances: list[KnownDistanceFit] | None
+    """Known distances between instruments, with their residuals; absent if there are none."""
+
     coordinates: list[InstrumentFit]
     """Positions and rotations, with statistics of their residuals, where poses are measured or their uncertainty was
     estimated from the data; otherwise empty.
@@ -1548,6 +1551,25 @@ class JointProfiles(Fields):
 
     sentence: str
     """Statement of the result in one sentence."""
+
+
+class KnownDistanceFit(Fields):
+    """Known distance between the points of two instruments, and its residual in the fit."""
+
+    between: list[str]
+    """Names of the instruments."""
+
+    value: float
+    """Stated distance, in the length unit."""
+
+    uncertainty: float
+    """Its stated standard deviation, in the length unit."""
+
+    found: float
+    """Distance of the identified points, in the length unit."""
+
+    residual: float
+    """Found minus stated distance, in units of the uncertainty."""
 
 
 class Law(Fields):

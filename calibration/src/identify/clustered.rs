@@ -62,7 +62,7 @@ impl Solver<'_> {
         let configurations = Configurations::new(data());
         let numbers = configurations.numbers(data());
         let at_most = |most: usize| numbers.iter().map(|count| (*count as usize).min(most)).sum::<usize>();
-        let n: usize = data().map(super::Observation::count).sum();
+        let n = self.model.count(data());
         let p = self.x.len();
         let (means, bounded) = (at_most(usize::MAX), at_most(POSE));
         let several = at_most(3) < means;
@@ -74,7 +74,8 @@ impl Solver<'_> {
             independent,
             configurations: count,
         };
-        if !several && n == means {
+        let distances = self.model.known_distances.len();
+        if !several && n == means + distances {
             let freedom = n as f64 - p as f64;
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
             return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
@@ -88,11 +89,11 @@ impl Solver<'_> {
         let groups = configurations.rows().with_indices(&used);
         let groups = groups.slices();
         if several {
-            let (covariance, sigma) = self.sandwich(&groups, n)?;
+            let (covariance, sigma) = self.sandwich(&groups, n - distances)?;
             let freedom = (count as f64 - 1.0).min(bounded as f64 - p as f64);
             return Ok(known(covariance, sigma, freedom, Independent::Configurations));
         }
-        let (covariance, sigma, freedom) = self.visits(&groups, [n, means])?;
+        let (covariance, sigma, freedom) = self.visits(&groups, [n - distances, means])?;
         Ok(known(covariance, sigma, freedom, Independent::Points))
     }
 
@@ -206,6 +207,10 @@ impl Solver<'_> {
             squares += part.1;
             n -= part.2;
         })?;
+        self.model.distance_rows(self.x.as_slice(), |_, row| {
+            let row = l.tr_mul(&DVector::from_column_slice(row));
+            meat.ger(1.0, &row, &row, 1.0);
+        });
         for (k, prior) in self.priors.iter().enumerate() {
             if let Some(sigma) = prior {
                 let row = l.row(k).transpose() / *sigma;

@@ -114,7 +114,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
         true => identifiable(&plain, data, &at)?,
         false => knowable(&plain, data, &at, &options.expected, options.noise)?,
     };
-    let numbers = data.iter().map(Observation::count).sum();
+    let numbers = model.count(data.iter());
     // Repeated visits add no information about the machine; weakly determined unknowns count as
     // fitted parameters.
     let (independent, configurations) = Configurations::independent(data);

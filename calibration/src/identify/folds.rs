@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::fit::REJECTED;
-use super::linearize::{push, with_priors};
+use super::linearize::{push, push_distances, with_priors};
 use super::triangle::{Problem, Triangle};
 use super::{Configurations, Distances, Failure, Fit, Model, Observation};
 use abbe_analysis::in_order;
@@ -78,8 +78,9 @@ pub fn cross_validate(
         fit.identifiable.kept.iter().map(|k| fit.priors.get(*k).copied().flatten()).collect();
     let parts = triangles(&kept, data, &x, &fit.weights, &folds)?;
     let solve = |left_out: usize| {
-        let step =
-            others(&parts, left_out, &priors, &x).solve(0.0).unwrap_or_else(|| DVector::zeros(x.len()));
+        let step = others(&kept, &parts, left_out, &priors, &x)
+            .solve(0.0)
+            .unwrap_or_else(|| DVector::zeros(x.len()));
         x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()
     };
     let solutions: Vec<Vec<f64>> = (0..folds.count).map(solve).collect();
@@ -88,10 +89,11 @@ pub fn cross_validate(
     })
 }
 
-/// Returns the triangle of all folds but one.
-fn others(parts: &[Triangle], left_out: usize, priors: &[Option<f64>], x: &[f64]) -> Problem {
+/// Returns the triangle of all folds but one, with the known distances, which belong to none.
+fn others(model: &Model, parts: &[Triangle], left_out: usize, priors: &[Option<f64>], x: &[f64]) -> Problem {
     let rest = parts.iter().enumerate().filter(|(fold, _)| *fold != left_out);
     let mut all = Triangle::new(x.len());
     rest.for_each(|(_, part)| all.merge(part.clone()));
+    push_distances(model, x, &mut all);
     with_priors(all, priors, x)
 }

@@ -5,8 +5,8 @@ use super::scratch::Scratch;
 use super::triangle::{Problem, Triangle};
 use super::{Failure, Model, Observation};
 
-/// Accumulates residuals and derivatives of all observations at `x`, with optional weights for each
-/// observation.
+/// Accumulates residuals and derivatives of all observations and known distances at `x`, with
+/// optional weights for each observation.
 pub(super) fn linearize(
     model: &Model,
     data: &[Observation],
@@ -26,6 +26,7 @@ pub(super) fn linearize(
     };
     let mut all = Triangle::new(model.unknowns.len());
     by_blocks(data, block, |part| all.merge(part))?;
+    push_distances(model, x, &mut all);
     Ok(all)
 }
 
@@ -40,6 +41,11 @@ pub(super) fn push(
 ) -> Result<(), Failure> {
     let weight = weight.sqrt();
     model.linear(scratch, observation, x, |residual, row| triangle.push(row, -residual, weight))
+}
+
+/// Appends the rows of the known distances.
+pub(super) fn push_distances(model: &Model, x: &[f64], triangle: &mut Triangle) {
+    model.distance_rows(x, |residual, row| triangle.push(row, -residual, 1.0));
 }
 
 /// Appends a row `x/σ` for each prior.

@@ -88,6 +88,7 @@ mod identifiable;
 mod information;
 mod instrument;
 mod joints_at_values;
+mod known_distance;
 mod left_out;
 mod linearize;
 mod model;
@@ -133,8 +134,8 @@ pub use groups::{Group, Reason, groups};
 pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
 pub use information::Criterion;
 pub use instrument::{
-    CAMERA, CONTACT, Camera, Fixture, FixtureGeometry, INSTRUMENTS, INTRINSICS, InstrumentKind, Observable,
-    Reference, SizeInformation, tangents,
+    CAMERA, CONTACT, Camera, Fixture, FixtureGeometry, INSTRUMENTS, INTRINSICS, InstrumentKind,
+    KnownDistance, Observable, Reference, SizeInformation, tangents,
 };
 pub use joints_at_values::joints_at_values;
 pub use model::{Model, ReferenceLength};

@@ -10,7 +10,8 @@
 use std::ops::Range;
 
 use super::{
-    Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, Observable, Role, Station, Uncertainty, Unknown,
+    Camera, Failure, Fixture, FixtureGeometry, INTRINSICS, KnownDistance, Observable, Role, Station,
+    Uncertainty, Unknown,
 };
 use abbe_analysis::sampling;
 use abbe_core::{Class, Component, Manipulator, Pose};
@@ -43,6 +44,8 @@ pub struct Model<'a> {
     pub targets: Vec<[f64; 3]>,
     /// Fixtures, in the axes of `F_0`.
     pub fixtures: Vec<Fixture>,
+    /// Known distances of fixtures from each other, which every fit takes into account.
+    pub known_distances: Vec<KnownDistance>,
     /// Observables of the [readings](super::Measurement::Readings) of an observation.
     pub observables: Vec<Observable>,
     /// Camera on the tool, or in the room with a board on the tool; its pixels are the observables.
@@ -72,6 +75,7 @@ impl<'a> Model<'a> {
             stations: vec![Station::at(Pose::IDENTITY)],
             targets,
             fixtures: Vec::new(),
+            known_distances: Vec::new(),
             observables: Vec::new(),
             camera: None,
             mountings: vec![Pose::IDENTITY],

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use abbe::identify::{Camera, Fixture, InstrumentKind, Observable, Reference};
+use abbe::identify::{Camera, Fixture, InstrumentKind, KnownDistance, Observable, Reference};
 
 use super::column::Column;
 
@@ -42,6 +42,8 @@ pub struct Instruments {
     pub targets: Vec<Option<[f64; 3]>>,
     /// Fixtures in `F_0`.
     pub fixtures: Vec<Fixture>,
+    /// Known distances between fixtures.
+    pub known_distances: Vec<KnownDistance>,
     /// Observables of all instruments.
     pub observables: Vec<Observable>,
     /// Indices of the instruments whose fixture and zero were identified before.
@@ -78,6 +80,11 @@ impl Instruments {
     /// Returns the index of the fixture of an instrument, if it has one.
     pub fn fixture_of(&self, instrument: usize) -> Option<usize> {
         self.observables[self.list[instrument].observables.start].fixture
+    }
+
+    /// Returns the index of the first instrument that observes a fixture.
+    pub(crate) fn instrument_at(&self, fixture: usize) -> Option<usize> {
+        (0..self.list.len()).find(|instrument| self.fixture_of(*instrument) == Some(fixture))
     }
 
     /// Iterates over the instruments at unknown positions.

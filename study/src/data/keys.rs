@@ -58,6 +58,8 @@ abbe_spec::tables! {
             "Identified position of the targets, or of the measured frame, on the tool";
         "place": Tables("[[place]]"), "-", "about where `[[instrument]]` says",
             "Identified position, direction and zero of an instrument";
+        "distance": Tables("[[distance]]"), "-", "none",
+            "Known distances between the points of instruments, such as a bar between two nests: they give the machine its scale";
         "accept": Table("[accept]"), "-", "no limits",
             "Limits for the errors of rows that were not used in a fit; without any, there is no verdict";
         "record": Table("[record]"), "-", "nothing stated",
@@ -207,6 +209,11 @@ abbe_spec::tables! {
             "Fitted fx fy cx cy k1 k2 p1 p2 k3";
         "covariance": MATRIX, "length unit and rad", "none",
             "Covariance of x, y, z of the position or of the two tilts of the direction, and of the zero; not used by any command";
+    ]
+    DISTANCE: ["[[distance]]"], [
+        "between": List("two names of instruments", Some(2), &TEXT), "-", "required", "The two instruments whose points are this far apart: each a `\"contact\"`, `\"distance\"` or `\"sphere\"`";
+        "value": NUMBER, "length unit", "required", "Their distance, positive";
+        "uncertainty": Number("number, positive"), "length unit", "required", "Standard deviation of that distance, from its certificate";
     ]
     ACCEPT: ["[accept]"], [
         "mean": NUMBER, "length unit", "no limit", "Limit of the mean position error";

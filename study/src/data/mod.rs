@@ -22,6 +22,7 @@ mod raw_table;
 mod read;
 mod read_camera;
 mod read_channels;
+mod read_distances;
 mod read_instruments;
 mod read_places;
 mod read_values;

@@ -15,6 +15,7 @@ use super::configurations::resolution;
 use super::keys;
 use super::map::{Base, Layout, Map, Target};
 use super::read_channels::{inputs, joints};
+use super::read_distances::distances;
 use super::read_instruments::{instruments, target_position};
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, deviation, initial_deviation, unit};
@@ -100,6 +101,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     let target_frame = TargetFrame::read(&head, document, spec)?;
     let layout = layout(root, stated, setup.flatten(), &target_frame, document, spec);
     let layout = found_places(root, layout, document, spec);
+    let layout = distances(root, layout, document, spec);
     let length = match &layout {
         Some(Layout::Instruments(all)) if stated.flatten().is_none() => Some(Some(all.uncertainty())),
         _ => stated,

@@ -26,6 +26,7 @@ use super::families::{Family, Harmonics};
 use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
 use super::instruments::{coordinate_fits, instrument_fits, unequal_note};
+use super::known_distances::known_distance_fits;
 use super::options::{LOSSES, Settings, TERMS};
 use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, tool_note};
@@ -315,6 +316,7 @@ fn report(
         uncertainty_factor: fit.sigma,
         certainty: Certainty::new(fit),
         instruments,
+        known_distances: known_distance_fits(model, fit),
         coordinates,
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,

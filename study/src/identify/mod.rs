@@ -22,8 +22,8 @@
 //! the map; `read_back` evaluates both. The `report` contains `counts`, `as_joint_errors` (errors
 //! as `chain_numbers`: zeros and lengths) and their `alternatives`, what is `indistinguishable` or
 //! `weakly_determined`, `parameters`, `drift`, `extrapolation`, the `scale`, the `gain` over other
-//! models, and `point_residuals` for plots. `unread` are instruments without a reading. `job` runs
-//! all of it.
+//! models, `known_distances` with their residuals, and `point_residuals` for plots. `unread` are
+//! instruments without a reading. `job` runs all of it.
 
 mod alternatives;
 mod as_joint_errors;
@@ -50,6 +50,7 @@ mod instruments;
 mod interpretation_check;
 mod job;
 mod joint_profiles;
+mod known_distances;
 mod line_of_sight;
 mod magnitude;
 mod map_interpretation;
@@ -95,6 +96,7 @@ pub use indistinguishable::Indistinguishable;
 pub use instruments::InstrumentFit;
 pub use job::Identify;
 pub use joint_profiles::{JointProfile, JointProfiles};
+pub use known_distances::KnownDistanceFit;
 pub use options::Settings;
 pub use outliers::shown_lines;
 pub use point_residuals::PointResidual;

@@ -13,6 +13,7 @@ use super::gain::Gain;
 use super::indistinguishable::Indistinguishable;
 use super::instruments::InstrumentFit;
 use super::joint_profiles::JointProfiles;
+use super::known_distances::KnownDistanceFit;
 use super::point_residuals::PointResidual;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Summary, Unusable};
@@ -65,6 +66,9 @@ pub struct Report {
     pub certainty: Certainty,
     /// Instruments that are read one by one, with statistics of their residuals.
     pub instruments: Vec<InstrumentFit>,
+    /// Known distances between instruments, with their residuals; absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub known_distances: Vec<KnownDistanceFit>,
     /// Positions and rotations, with statistics of their residuals, where poses are measured or
     /// their uncertainty was estimated from the data; otherwise empty.
     pub coordinates: Vec<InstrumentFit>,

@@ -2,7 +2,8 @@
 //!
 //! If all lengths of a machine and of its fixtures grow by a share s, every reading grows by s
 //! times its gauge value: contacts stay in contact, and an unknown zero absorbs whatever is the
-//! same in all rows. Prismatic joints have known travel and so define the scale.
+//! same in all rows. Prismatic joints have known travel, and known distances between fixtures are
+//! lengths, so that both define the scale.
 
 use abbe::analysis::sampling;
 use abbe::identify::{
@@ -45,6 +46,7 @@ fn scale_uncertainty(ideal: &Model, rows: &[Observation], moved: &[usize]) -> Re
         };
         information += values.iter().map(|v| ((v - absorbed) / observable.uncertainty).powi(2)).sum::<f64>();
     }
+    information += ideal.known_distances.iter().map(|d| (d.length / d.uncertainty).powi(2)).sum::<f64>();
     Ok(1.0 / information.sqrt())
 }
 
@@ -79,8 +81,8 @@ pub(crate) fn scale_note(
     })
 }
 
-/// Returns the largest length of the chain whose error is equivalent to no other; none if slides or
-/// all readings determine the size of the machine, or without such a length.
+/// Returns the largest length of the chain whose error is equivalent to no other; none if slides,
+/// known distances or all readings determine the size of the machine, or without such a length.
 ///
 /// Errors up to the first joint that moves are left out: they act as a displacement of the
 /// fixtures.
@@ -91,7 +93,8 @@ pub(super) fn reference_length(
 ) -> Result<Option<ReferenceLength>, Error> {
     let description = ideal.manipulator.description();
     let has_slides = moved.iter().any(|j| description.variables[*j].kind == VariableKind::Prismatic);
-    if has_slides || !ideal.observables.iter().any(Observable::is_blind_to_size) {
+    let is_determined = has_slides || !ideal.known_distances.is_empty();
+    if is_determined || !ideal.observables.iter().any(Observable::is_blind_to_size) {
         return Ok(None);
     }
     let moves = |frame: &abbe::Frame| frame.variable.is_some_and(|variable| moved.contains(&variable));

@@ -6,6 +6,7 @@ use abbe::{Class, Description, Manipulator, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::board_check::check_board;
+use super::known_distances::check_known_distances;
 use super::registered::{OpenPlaces, register_in_turn, registered};
 use super::scale::reference_length;
 use crate::data::{Base, Data, Map};
@@ -60,6 +61,7 @@ impl<'a> Setup<'a> {
         }
         setup.set_stations(&stations);
         setup.place_tool(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        check_known_distances(&setup.real, map, data)?;
         setup.place_fixtures(map, data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         if let Some(row) = data.observations.first() {
             let length = reference_length(&setup.ideal, &row.q, &setup.moved(&data.observations));
@@ -295,6 +297,7 @@ fn ideal_model<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
     match map.instruments() {
         Some(all) => Model {
             fixtures: all.fixtures.clone(),
+            known_distances: all.known_distances.clone(),
             observables: all.observables.clone(),
             camera: all.camera,
             ..ideal

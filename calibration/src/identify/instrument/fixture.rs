@@ -11,6 +11,17 @@ pub struct Fixture {
     pub geometry: FixtureGeometry,
 }
 
+/// Known distance of two fixtures that are points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownDistance {
+    /// Indices of the fixtures.
+    pub fixtures: [usize; 2],
+    /// The distance; the length unit.
+    pub length: f64,
+    /// Its standard deviation; the length unit.
+    pub uncertainty: f64,
+}
+
 /// Position or direction of a fixture, in the axes of `F_0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FixtureGeometry {

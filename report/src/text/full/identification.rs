@@ -208,6 +208,7 @@ fn errors(spec: &Spec, report: &Report) -> String {
     text += &format!("{}\n", wrapped(&fitted_ranges(spec, report), 0));
     text += &extrapolation(report);
     text += &instruments(report);
+    text += &known_distances(report);
     text += &(wrapped(&residuals(report), 0)
         + "
 ");
@@ -378,6 +379,35 @@ fn instruments(report: &Report) -> String {
         ]);
     }
     format!("\n{}", table.right(&[1, 2, 4]))
+}
+
+/// Tabulates the known distances between instruments.
+fn known_distances(report: &Report) -> String {
+    if report.known_distances.is_empty() {
+        return String::new();
+    }
+    let mut table = Table::new(&[
+        "known distance between",
+        "",
+        "stated",
+        "standard deviation",
+        "found",
+        "",
+        "residual / σ",
+    ]);
+    for known in &report.known_distances {
+        let [a, b] = &known.between;
+        table.row(vec![
+            a.clone(),
+            b.clone(),
+            digits(known.value, 7),
+            digits(known.uncertainty, 2),
+            digits(known.found, 7),
+            report.length.to_owned(),
+            fixed(known.residual, 2),
+        ]);
+    }
+    format!("\n{}", table.right(&[2, 3, 4, 6]))
 }
 
 /// Tabulates the profiles of joints.

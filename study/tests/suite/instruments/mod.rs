@@ -220,6 +220,80 @@ fn contacts_need_no_position() {
     assert!(mistake.contains("add `at`"), "{mistake}");
 }
 
+/// Distance of the first two places, in mm.
+const APART: f64 = 758.287_544_405_155;
+
+/// Returns sockets at unknown positions, the first two at a known distance, `off` mm wrong.
+fn sockets_apart(off: f64) -> Map {
+    let sockets = in_setups("contact", &["uncertainty = \"0.01 mm\""; 4]);
+    map(&format!(
+        "{sockets}[[distance]]\nbetween = [\"contact1\", \"contact2\"]\nvalue = \"{} mm\"\nuncertainty = \"0.005 mm\"\n",
+        APART + off
+    ))
+}
+
+/// A known distance between two sockets at unknown positions gives the machine its scale: one more
+/// combination is identifiable, and the length to which the others were relative is found. A wrong
+/// distance scales the machine.
+#[test]
+fn a_distance_between_sockets_gives_the_scale() {
+    let rows = simulated(&contacts(), 240, 3);
+    let without = map(&in_setups("contact", &["uncertainty = \"0.01 mm\""; 4]));
+    let [without, with, wrong] =
+        [&without, &sockets_apart(0.0), &sockets_apart(0.8)].map(|map| identified(map, rows.clone(), 0.002));
+    assert_eq!(with.rank, without.rank + 1);
+    // The displacements of the sockets are relative to where the nominal machine has them.
+    let mut far = z_scores(&with);
+    far.retain(|(name, z)| !name.starts_with("contact") && z.abs() > 4.0);
+    assert!(far.is_empty(), "{far:?}");
+    assert!(without.notes.iter().any(|note| note.contains("do not determine the scale")));
+    assert!(with.notes.iter().any(|note| note.contains("determine the scale of the machine to 0.0066 mm")));
+    let [known] = &with.known_distances[..] else { panic!("one distance") };
+    assert_eq!(known.between, ["contact1", "contact2"]);
+    assert!((known.found - APART - 0.005 * known.residual).abs() < 1e-9, "{known:?}");
+    assert!(known.residual.abs() < 4.0, "{known:?}");
+    let length = |report: &Report| {
+        let found = report.parameters.iter().find(|one| one.name == "e_x2").unwrap();
+        (found.value, found.standard_deviation)
+    };
+    // 0.8 of 758 mm lengthen the upper arm of -425 mm.
+    let ((found, deviation), (wrong, _)) = (length(&with), length(&wrong));
+    assert!((found - 0.6).abs() < 4.0 * deviation && deviation < 0.05, "{found} {deviation}");
+    assert!((wrong - found + 425.0 * 0.8 / APART).abs() < 0.05, "{wrong} {found}");
+}
+
+/// The standard deviation of the length holds over simulated data and distances.
+#[test]
+fn a_distance_is_as_uncertain_as_stated() {
+    use rand::{RngExt, SeedableRng};
+    let mut random = rand_xoshiro::Xoshiro256PlusPlus::seed_from_u64(7);
+    // Uniform within √3 standard deviations.
+    let mut off = || (random.random::<f64>() - 0.5) * 0.005 * 12.0_f64.sqrt();
+    let z = |seed: usize| {
+        let report = identified(&sockets_apart(off()), simulated(&contacts(), 160, seed as u64), 0.002);
+        let all = z_scores(&report);
+        all.iter().find(|(name, _)| name == "e_x2").unwrap().1
+    };
+    let z: Vec<f64> = (0..super::thorough::sample_size(60)).map(z).collect();
+    let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
+    println!("{} machines: mean square {square:.2}", z.len());
+    let spread = 4.0 * (2.0 / z.len() as f64).sqrt();
+    assert!((square - 1.0).abs() < spread, "{square} {spread}");
+}
+
+/// A distance to an instrument that no row reads is refused.
+#[test]
+fn a_distance_needs_rows_at_both_ends() {
+    let rows = simulated(&contacts(), 240, 3);
+    let observations = rows.observations.iter().filter(|row| {
+        matches!(&row.measured, abbe::identify::Measurement::Readings(readings) if readings[3].is_none())
+    });
+    let rows = Data { observations: observations.cloned().collect(), ..rows.clone() };
+    let refused = identification(&sockets_apart(0.0), rows, None, 0.002).unwrap_err().to_string();
+    assert!(refused.contains("no row reads the instrument `contact2`"), "{refused}");
+    assert!(refused.contains("remove its [[distance]]"), "{refused}");
+}
+
 /// Six axes and a point at an unknown place on the tool have 4 · 6 + 3 = 27 identifiable
 /// combinations, of which 6 are the pose of the machine.
 #[test]
