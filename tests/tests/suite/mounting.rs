@@ -208,8 +208,9 @@ impl ByDifferences {
 }
 
 /// The printed standard deviations are those of an independent computation. The advised place
-/// brings 90 % of the information of any place within the limit, no much nearer one does, and one
-/// 2 mm beside the axis is useless.
+/// brings 90 % of the information of the best place that the plan compares, which is at least 88 %
+/// of that of any place within the limit; no much nearer one does, and one 2 mm beside the axis is
+/// useless.
 #[test]
 fn advised_place_is_the_nearest_that_brings_most_of_the_information() {
     let report = planned_point(0.0, "");
