@@ -34,7 +34,8 @@ fn rows(robot: &Interpreter, classes: &[Class]) -> Vec<Row> {
         let u = arguments(robot, Function::RealPose.signature(), given);
         let (q, rest) = u.split_at(robot.description().variables.len());
         let (s, u) = rest.split_at(robot.description().parameters.len());
-        let drawn = &given[given.len() - classes.len()..];
+        let drawn = arguments(robot, Function::DrawnPose.signature(), given);
+        let drawn = &drawn[drawn.len() - classes.len()..];
         let magnitude = |(class, drawn): (&Class, &f64)| match class {
             Class::Random(_) => 0.0,
             Class::Repeatable if index < EACH => 1.0,
