@@ -73,7 +73,7 @@ impl<'a> Setup<'a> {
 
     /// Places the manipulator as the map states, or at `F_0` of the instrument.
     pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self, Diagnostics> {
-        Self::with_stations(manipulator, map, map.station_names())
+        Self::with_stations(manipulator, map, &map.station_names())
     }
 
     /// Places the manipulator at every station named in rows that are to be simulated. Returns an
@@ -87,14 +87,14 @@ impl<'a> Setup<'a> {
         match data.stations.iter().find(is_unstated) {
             Some(name) if !map.stations.stated.is_empty() => Err(missing_station(map, data, name)),
             _ if data.stations.is_empty() => Self::at_home(manipulator, map),
-            _ => Self::with_stations(manipulator, map, data.stations.clone()),
+            _ => Self::with_stations(manipulator, map, &data.stations),
         }
     }
 
     fn with_stations(
         manipulator: &'a dyn Manipulator,
         map: &Map,
-        names: Vec<String>,
+        names: &[String],
     ) -> Result<Self, Diagnostics> {
         if let Some(all) = map.instruments()
             && let Some(instrument) = all.at_unknown_positions().next()
@@ -114,7 +114,7 @@ impl<'a> Setup<'a> {
         if setup.ideal.camera.is_some() && !map.is_placed() {
             return Err(unplaced(map));
         }
-        setup.name_stations(map, &names);
+        setup.name_stations(map, names);
         Ok(setup)
     }
 

@@ -64,7 +64,7 @@ fn commands(description: &Description, report: &Report) -> String {
     for row in &report.row_summary.first {
         let values = description.variables.iter().zip(&row.q.0);
         let values = values.map(|(variable, (_, value))| match variable.kind {
-            VariableKind::Revolute => format!("{:.4}", value.to_degrees()),
+            VariableKind::Revolute => fixed(value.to_degrees(), 4),
             VariableKind::Prismatic => fixed(*value, error_decimals(description.length)),
         });
         let left = [row.before.length, row.after.length]

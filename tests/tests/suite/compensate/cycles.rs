@@ -181,7 +181,7 @@ impl Path {
             middle: vec![0.0; count],
             swing: vec![0.0; count],
             speed: (0..count).map(|_| random.random_range(0.2..1.0)).collect(),
-            phase: (0..count).map(|_| random.random_range(0.0..6.28)).collect(),
+            phase: (0..count).map(|_| random.random_range(0.0..core::f64::consts::TAU)).collect(),
             through: case.singular.get(index % (case.singular.len() + 1)).copied(),
         };
         for j in 0..count {
@@ -196,7 +196,10 @@ impl Path {
     fn at(&self, t: f64) -> Vec<f64> {
         let one = |j| match self.through == Some(j) {
             true => 0.4 - 0.8 * t,
-            false => self.middle[j] + self.swing[j] * (6.283 * self.speed[j] * t + self.phase[j]).sin(),
+            false => {
+                self.middle[j]
+                    + self.swing[j] * (core::f64::consts::TAU * self.speed[j] * t + self.phase[j]).sin()
+            }
         };
         (0..self.middle.len()).map(one).collect()
     }
@@ -272,7 +275,7 @@ fn ok_is_true_at_random_commands() {
                 match random.random_range(0..5) {
                     0 => {
                         (cycle.change[j], cycle.largest[j], cycle.last[j]) =
-                            (f64::INFINITY, f64::INFINITY, 0.0)
+                            (f64::INFINITY, f64::INFINITY, 0.0);
                     }
                     1 => cycle.change[j] = [0.0, -1.0, f64::NAN][index % 3],
                     2 => cycle.largest[j] = [0.0, -1.0, f64::NAN][index % 3],
