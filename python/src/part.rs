@@ -113,7 +113,6 @@ pub(crate) fn merge(
             }
         });
     }
-    let (report, notes) =
-        run(py, threads, progress, |notes| parts::Merge::new(named, notes)?.report(notes))?;
+    let (report, notes) = run(py, threads, progress, |notes| parts::Merge::new(named, notes)?.report(notes))?;
     analysis(py, report, notes)
 }

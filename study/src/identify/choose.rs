@@ -52,14 +52,18 @@ pub(super) fn choose(
     let model = offered.model(&solved, setup.declared + own.len());
     let begin = Instant::now();
     let mut selector = Selector { input, offered, solved: &solved, model, groups, tried: 0, begin };
-    let mut skipped = Vec::new();
-    let mut selected = Vec::new();
+    let (mut skipped, mut selected) = (Vec::new(), Vec::new());
+    let mut tried = 0;
     for (i, stages) in sets.iter().enumerate() {
         if i > 0 && selector.is_over() {
             break;
         }
         let mut chosen = selector.forward(stages, notes)?;
         skipped.append(&mut chosen.notes);
+        if i == 0 {
+            // Those of the families alone are among them.
+            tried = selector.tried;
+        }
         match chosen.determined(input, &constant, notes) {
             Ok(one) => selected.push(one),
             Err(mistake) if i == 0 => return Err(mistake),
@@ -78,7 +82,7 @@ pub(super) fn choose(
         }
         (together, alone) => together.or(alone).map(|(chosen, _)| chosen).unwrap_or_default(),
     };
-    Ok(Chosen { constant: Some(constant), tried: selector.tried, notes: skipped, ..best })
+    Ok(Chosen { constant: Some(constant), tried, notes: skipped, ..best })
 }
 
 /// Distinct carriers and factors of the candidate terms. The interpreter computes only the error of
