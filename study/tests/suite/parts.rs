@@ -259,7 +259,7 @@ fn damage(value: &mut Value, random: &mut Xoshiro256PlusPlus) {
 
 #[test]
 fn a_damaged_part_merges_or_is_refused() {
-    let times = sample_size(400);
+    let times = sample_size(150);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(32);
     let (mut merged, mut refused) = (0, 0);
     for question in questions() {
