@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
-use abbe::LengthUnit;
 use abbe::identify::{
     Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Selection,
     deviation_beyond, drift, student_factor,
@@ -17,6 +16,7 @@ use super::as_joint_errors::AsJointErrors;
 use super::between_stations::include_between_stations;
 use super::candidates::competing;
 use super::choose::{Chosen, choose};
+use super::compare::compare;
 use super::complete_fit::FitInput;
 use super::counts::Counts;
 use super::derived::{Derived, derived, has_one_station, with_columns, with_inputs};
@@ -32,7 +32,7 @@ use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::profiles::find_profiles;
-use super::read_back::{ReadBack, read_back};
+use super::read_back::{ReadBack, not_read_back, read_back};
 use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
 use super::scale::scale_note;
 use super::setup::Setup;
@@ -204,9 +204,6 @@ impl CrossValidated {
 /// the residual.
 const CONVERSION_TOLERANCE: f64 = 0.01;
 
-/// Probability by chance at which terms count as worse than constant errors on the test rows.
-const WORSE: f64 = 0.05;
-
 fn report(
     job: &Identify,
     identified: &Identified,
@@ -264,9 +261,12 @@ fn report(
         unexplained: unexplained(setup, solved, rows, left).map_err(fail)?,
         ..FoundModel::new(spec, solved, converted, data, setup.pose, [left, cross_validated.rms])
     };
-    let written = read_back(&found, machine, map, data, |i| fit.is_kept(i))?;
     let note = |written: &ReadBack| found.read_back_note(spec, [written.figures.rms, left], length);
-    let read_back_note = written.as_ref().and_then(note);
+    let (read_back_note, written) = match read_back(&found, machine, map, data, |i| fit.is_kept(i)) {
+        Ok(written) => (written.as_ref().and_then(note), written),
+        // The fit is not lost.
+        Err(mistake) => (Some(not_read_back(&mistake)), None),
+    };
     let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let drift_test = drift_test.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let extrapolation = |test: &Data| match &written {
@@ -436,56 +436,6 @@ fn nothing_placed(file: &str) -> Diagnostics {
     let message = "the fitted rows read none of the instruments of these rows, whose places are unknown";
     let help = "fit rows that read the same instruments, or omit --test and rely on cross-validation";
     mistake::with_help(file, message, help)
-}
-
-fn compare(
-    solved: &Solved,
-    constant: Option<&Solved>,
-    delivered: &Model,
-    data: &Data,
-    used: impl Fn(usize) -> bool + Sync,
-) -> Result<Compared, Diagnostics> {
-    let rows = &data.observations;
-    let distances = |model: &Model, x: &[f64]| {
-        let distances = model.distances_where(rows, |i| used(i).then_some(x));
-        distances.map_err(|failure| mistake::whole(&data.file, &failure))
-    };
-    // Few models at a time, to limit the memory for a million rows.
-    let before = distances(delivered, &[])?.into_figures();
-    let simple = distances(&solved.simple, &solved.simple_x)?;
-    let after = distances(&solved.model, &solved.fit.x)?;
-    let gain = after.compared_with(&simple);
-    let base_and_tool = simple.into_figures();
-    let constant = constant.map(|constant| distances(&constant.model, &constant.fit.x)).transpose()?;
-    let gain_of_terms = constant.as_ref().map(|constant| after.compared_with(constant).into());
-    let left = after.into_figures();
-    Ok(Compared {
-        rows: (0..rows.len()).filter(|i| used(*i)).count(),
-        configurations: left.configurations,
-        before: before.into(),
-        base_and_tool: base_and_tool.into(),
-        constant: constant.map(|constant| constant.into_figures().into()),
-        after: left.into(),
-        gain: gain.into(),
-        gain_of_terms,
-    })
-}
-
-impl Compared {
-    /// Returns a note if constant errors alone leave significantly less on these rows, which were
-    /// not fitted.
-    fn note_on_terms(&self, unit: LengthUnit) -> Option<String> {
-        let (constant, gain) = (self.constant?, self.gain_of_terms?);
-        let length = |value| number::length(value, unit);
-        (gain.mean < 0.0 && gain.p <= WORSE).then(|| {
-            format!(
-                "note: on the test rows, constant errors alone leave {} in the mean, and {} with the \
-                 terms: for such configurations, identify without `--terms`",
-                length(constant.mean),
-                length(self.after.mean)
-            )
-        })
-    }
 }
 
 impl Certainty {

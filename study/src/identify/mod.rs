@@ -22,8 +22,8 @@
 //! the map; `read_back` evaluates both. The `report` contains `counts`, `as_joint_errors` (errors
 //! as `chain_numbers`: zeros and lengths) and their `alternatives`, what is `indistinguishable` or
 //! `weakly_determined`, `parameters`, `drift`, `extrapolation`, the `scale`, the `gain` over other
-//! models, `known_distances` with their residuals, and `point_residuals` for plots. `unread` are
-//! instruments without a reading. `job` runs all of it.
+//! models (`compare`), `known_distances` with their residuals, and `point_residuals` for plots.
+//! `unread` are instruments without a reading. `job` runs all of it.
 
 mod alternatives;
 mod as_joint_errors;
@@ -32,6 +32,7 @@ mod board_check;
 mod candidates;
 mod chain_numbers;
 mod choose;
+mod compare;
 mod complete_fit;
 mod compliance_writer;
 mod counts;

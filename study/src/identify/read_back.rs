@@ -27,8 +27,8 @@ pub(super) struct ReadBack {
 }
 
 /// Reads the written spec and map back, and compares them with the rows of the fit that `is_kept`
-/// accepts. Returns none if the text of the nominal spec is not at hand or the
-/// placement cannot be written.
+/// accepts. Returns none if the text of the nominal spec is not at hand or the placement cannot be
+/// written.
 pub(super) fn read_back(
     found: &FoundModel,
     machine: &Machine,
@@ -56,6 +56,12 @@ pub(super) fn read_back(
     Ok(Some(ReadBack { machine, figures }))
 }
 
+/// Returns the note that the written spec could not be read back.
+pub(super) fn not_read_back(mistake: &Diagnostics) -> String {
+    let reason = mistake.list.first().map_or("", |first| &first.message);
+    format!("note: the written spec was not read back on the rows of the fit: {reason}")
+}
+
 impl FoundModel {
     /// Returns the rows with the inputs of the written spec: those of the spec and the derived ones
     /// that its terms need.
@@ -74,9 +80,7 @@ impl FoundModel {
         }
         Cow::Owned(data)
     }
-}
 
-impl FoundModel {
     /// Returns a note if the written spec leaves other errors on the rows of the fit than the fit
     /// does, by more than the uncertainty of the instrument resolves.
     pub(super) fn read_back_note(

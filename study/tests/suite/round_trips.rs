@@ -10,22 +10,10 @@ use abbe_study::plan::{Choice, Plan, Sets};
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
 
-/// Errors of the simulated UR5.
-const ERRORS: &str = r#"
-[[source]]
-name = "truth"
-class = "repeatable"
+use super::simulated_ur5::ERRORS;
 
-[[source.effect]]
-frame = "shoulder"
-e_x = "0.6 mm"
-e_s = "0.8 mrad"
-
-[[source.effect]]
-frame = "elbow"
-e_y = "-0.5 mm"
-e_p = "-1.1 mrad"
-
+/// A further error of the simulated UR5.
+const WRIST: &str = r#"
 [[source.effect]]
 frame = "wrist 1"
 e_z = "0.3 mm"
@@ -44,7 +32,7 @@ pub(super) fn machine(name: &str, text: &str) -> Machine {
 }
 
 pub(super) fn real() -> Machine {
-    machine("real.toml", &format!("{}{ERRORS}", ur5().text().unwrap()))
+    machine("real.toml", &format!("{}{ERRORS}{WRIST}", ur5().text().unwrap()))
 }
 
 /// Measuring method: layout of the file with nominal targets, and the actual placement.
