@@ -62,7 +62,7 @@ mod tests;
 pub use batches::{batches, sweeps};
 pub use contract::{contract, pose};
 pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian, source_displacements};
-pub use failure::{Discrepancy, Failure};
+pub use failure::{Configuration, Discrepancy, Failure};
 pub use remainder::{Slope, remainder_slope};
 
 use crate::lanes::Sweepable;

@@ -41,9 +41,19 @@ pub(super) fn face(
     let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
     let names = names.join(", ");
     writer.lines(&format!("batch, {names} = _given({})", given.collect::<Vec<_>>().join(", ")));
+    // Moves the axes of the numbers behind those of the configurations.
     let shaped = |array: &function::Array| {
-        let reshaped = format!("{}.reshape(batch + {})", array.name, shape(array));
-        if is_matrix(array) { format!("np.swapaxes({reshaped}, -1, -2)") } else { reshaped }
+        let axes = array.shape.len();
+        if axes == 1 {
+            return format!("np.moveaxis({}, 0, -1)", array.name);
+        }
+        let from: Vec<String> = (0..axes).map(|axis| axis.to_string()).collect();
+        let mut to: Vec<String> = (1..=axes).rev().map(|axis| format!("-{axis}")).collect();
+        if is_matrix(array) {
+            to.swap(axes - 2, axes - 1);
+        }
+        let [from, to] = [from, to].map(|axes| axes.join(", "));
+        format!("np.moveaxis({}.reshape({} + batch), ({from}), ({to}))", array.name, shape(array))
     };
     let behind = behind.map(|[name, _]| name);
     let results: Vec<&str> = signature.results.iter().map(|array| array.name).chain(behind).collect();
@@ -101,7 +111,8 @@ fn documentation(
     writer.lines("\"\"\"");
 }
 
-/// Prints the routine on flat arrays.
+/// Prints the routine on flat arrays, whose first axis counts their numbers: each number is an array
+/// of the configurations, which NumPy runs through without strides.
 pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
     let Statements { list, .. } =
         Statements::new(spec, &routines.description, routine, &Python(&spec.tables));
@@ -138,21 +149,21 @@ impl Printer<'_> {
     /// Returns element k of row `index` of a place, in every configuration.
     fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
         let listed = |table: &str, column| format!("{table}[i][{column}]");
-        format!("{}[..., {}]", self.name(place.array), self.flat.index(place, index, k, listed))
+        format!("{}[{}]", self.name(place.array), self.flat.index(place, index, k, listed))
     }
 
     /// Returns the expression of some rows, in every configuration.
     fn part(&self, place: ArrayRows) -> String {
         let name = self.name(place.array);
         match (place.row, self.flat.range(place)) {
-            (Row::First, [_, end]) => format!("{name}[..., :{end}]"),
-            (Row::Last | Row::AllButFirst, [begin, _]) => format!("{name}[..., {begin}:]"),
+            (Row::First, [_, end]) => format!("{name}[:{end}]"),
+            (Row::Last | Row::AllButFirst, [begin, _]) => format!("{name}[{begin}:]"),
             _ => name.to_owned(),
         }
     }
 
     fn declare(&mut self, array: usize) {
-        self.writer.lines(&format!("{} = np.zeros(batch + ({},))", self.name(array), self.flat.len(array)));
+        self.writer.lines(&format!("{} = np.zeros(({},) + batch)", self.name(array), self.flat.len(array)));
     }
 
     fn statement(&mut self, statement: &Statement) {
@@ -197,9 +208,11 @@ impl Printer<'_> {
             Statement::Sums { sums, terms, entries } => {
                 let name = self.flat.routines.sums[*sums].name;
                 let [terms, entries] = [terms, entries].map(|array| self.name(*array));
-                self.writer.lines(&format!("{entries}[...] = {name}_CONSTANTS"));
+                self.writer.begin(&format!("for entry, constant in enumerate({name}_CONSTANTS):"));
+                self.writer.lines(&format!("{entries}[entry] = constant"));
+                self.writer.end();
                 self.writer.begin(&format!("for entry, term, factor in {name}_FACTORS:"));
-                self.writer.lines(&format!("{entries}[..., entry] += factor * {terms}[..., term]"));
+                self.writer.lines(&format!("{entries}[entry] += factor * {terms}[term]"));
                 self.writer.end();
             }
             Statement::For { repeated, body } => {
@@ -244,7 +257,7 @@ impl Printer<'_> {
         let arrays = self.flat.routine.arrays.iter().enumerate();
         let results = arrays.filter(|(_, array)| array.role == Role::Result).map(|(index, _)| {
             match self.flat.len(index) {
-                0 => "np.zeros(batch + (0,))".to_owned(),
+                0 => "np.zeros((0,) + batch)".to_owned(),
                 _ => self.name(index).to_owned(),
             }
         });

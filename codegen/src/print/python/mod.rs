@@ -115,7 +115,7 @@ fn comment(writer: &mut Writer, text: &str) {
 /// Checks arguments and broadcasts them.
 const GIVEN: &str = r#"
 def _given(**arguments):
-    """Return the common leading shape of the arguments, and each argument flattened behind its leading axes."""
+    """Return the common leading shape of the arguments, and each argument with its numbers in the first axis."""
     nominal = {
         "s": [parameter["nominal"] for parameter in description["parameters"]],
         "u": [value["nominal"] for value in description["inputs"]],
@@ -134,12 +134,14 @@ def _given(**arguments):
             expected = ", ".join(map(str, ("...", *shape)))
             raise ValueError(f"{name}: expected shape ({expected}), found {array.shape}")
         count = int(np.prod(shape))
-        flat.append(array.reshape(array.shape[:leading] + (count,)))
-    for value, record in zip(np.moveaxis(flat[2], -1, 0) if "u" in arguments else [], description["inputs"]):
+        flat.append(np.moveaxis(array.reshape(array.shape[:leading] + (count,)), -1, 0))
+    for value, record in zip(flat[2] if "u" in arguments else [], description["inputs"]):
         lower, upper = record["range"]
         if np.any((value < lower) | (value > upper)):
             raise ValueError(f"input {record['name']} is outside its range, {lower} to {upper}")
-    return np.broadcast_shapes(*(array.shape[:-1] for array in flat)), *flat
+    batch = np.broadcast_shapes(*(array.shape[1:] for array in flat))
+    padded = (array.reshape(array.shape[:1] + (1,) * (len(batch) + 1 - array.ndim) + array.shape[1:]) for array in flat)
+    return batch, *map(np.ascontiguousarray, padded)
 "#;
 
 /// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate

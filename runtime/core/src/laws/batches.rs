@@ -47,9 +47,9 @@ fn compare(
             for (i, sample) in samples.iter().enumerate() {
                 let given = signature.arguments.iter().flat_map(|array| -> Vec<f64> {
                     match array.quantity {
-                        Quantity::Variables => sample.q.clone(),
-                        Quantity::Parameters => subject.s.clone(),
-                        Quantity::Inputs => subject.u.clone(),
+                        Quantity::Variables => sample.given.q.clone(),
+                        Quantity::Parameters => sample.given.s.clone(),
+                        Quantity::Inputs => sample.given.u.clone(),
                         // Errors or variances: small values.
                         _ => (0..array.len(description))
                             .map(|k| 1e-3 * sampling::halton(i + 1, k % 30))
@@ -60,7 +60,7 @@ fn compare(
             }
             arguments.pad();
             let mut results = Tiles::new(set, signature.results_len(description), samples.len());
-            let at_first = |error| Failure::Evaluation { q: samples[0].q.clone(), error };
+            let at_first = |error| Failure::Evaluation { at: samples[0].given.clone(), error };
             if expected.is_none() {
                 one_by_one(manipulator, *function, &arguments, &mut results).map_err(at_first)?;
                 expected = Some(results.clone());
@@ -71,9 +71,9 @@ fn compare(
                 for (row, scale) in (0..results.rows()).zip(&scales) {
                     let (found, expected) = (results.get(row, i), expected.get(row, i));
                     if !found.is_finite() {
-                        return Err(Failure::NotFinite { method: function.name(), q: sample.q.clone() });
+                        return Err(Failure::NotFinite { method: function.name(), at: sample.given.clone() });
                     }
-                    discrepancy.add((found - expected).abs() / scale.max(expected.abs()), &sample.q);
+                    discrepancy.add((found - expected).abs() / scale.max(expected.abs()), &sample.given);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The promises of the trait besides derivatives: one pose, finite outputs, guarded inputs.
 
 use super::samples::{Sample, Subject};
-use super::{Discrepancy, Failure};
+use super::{Configuration, Discrepancy, Failure};
 use crate::{Error, Manipulator, Pose};
 
 /// Compares the pose, from every method that returns it, with the product of the transforms.
@@ -11,7 +11,7 @@ pub fn pose(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy
     let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Default::default() };
     for at in &samples {
         for pose in Outputs::at(&subject, at)?.poses {
-            discrepancy.add(difference(&subject, &pose, &at.pose), &at.q);
+            discrepancy.add(difference(&subject, &pose, &at.pose), &at.given);
         }
     }
     Ok(discrepancy)
@@ -28,7 +28,7 @@ pub fn contract(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrep
         let single = Outputs::at(&subject, at)?;
         let [errors, sums] = single.errors.each_ref().map(|errors| errors.as_flattened());
         for (error, sum) in errors.iter().zip(sums) {
-            discrepancy.add((error - sum).abs() / sum.abs().max(1.0), &at.q);
+            discrepancy.add((error - sum).abs() / sum.abs().max(1.0), &at.given);
         }
     }
     Ok(discrepancy)
@@ -44,7 +44,8 @@ struct Outputs {
 
 impl Outputs {
     fn at(subject: &Subject, at: &Sample) -> Result<Self, Failure> {
-        let Subject { manipulator, s, u, .. } = subject;
+        let manipulator = subject.manipulator;
+        let Configuration { q, s, u } = &at.given;
         let description = manipulator.description();
         let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
         let mut joint_columns = vec![[0.0; 6]; description.variables.len()];
@@ -52,16 +53,16 @@ impl Outputs {
         let mut effects = vec![0.0; description.effects.len()];
         let mut errors = [vec![[0.0; 6]; description.frames.len()], vec![[0.0; 6]; description.frames.len()]];
         let mut evaluate = || -> Result<[Pose; 4], Error> {
-            manipulator.effects(&at.q, s, u, &mut effects)?;
-            manipulator.generalized_errors(&at.q, s, u, &mut errors[0])?;
+            manipulator.effects(q, s, u, &mut effects)?;
+            manipulator.generalized_errors(q, s, u, &mut errors[0])?;
             Ok([
-                manipulator.pose(&at.q, s)?,
-                manipulator.error_jacobian(&at.q, s, &mut columns)?,
-                manipulator.joint_jacobian(&at.q, s, &mut joint_columns)?,
-                manipulator.parameter_jacobian(&at.q, s, &mut parameter_columns)?,
+                manipulator.pose(q, s)?,
+                manipulator.error_jacobian(q, s, &mut columns)?,
+                manipulator.joint_jacobian(q, s, &mut joint_columns)?,
+                manipulator.parameter_jacobian(q, s, &mut parameter_columns)?,
             ])
         };
-        let poses = evaluate().map_err(|error| Failure::Evaluation { q: at.q.clone(), error })?;
+        let poses = evaluate().map_err(|error| Failure::Evaluation { at: at.given.clone(), error })?;
         description.generalized_errors(&effects, &mut errors[1]);
 
         for (method, values) in [
@@ -73,7 +74,7 @@ impl Outputs {
             ("generalized_errors", errors[0].as_flattened()),
         ] {
             if values.iter().any(|value| !value.is_finite()) {
-                return Err(Failure::NotFinite { method, q: at.q.clone() });
+                return Err(Failure::NotFinite { method, at: at.given.clone() });
             }
         }
         Ok(Self { poses, errors })
@@ -90,7 +91,8 @@ fn difference(subject: &Subject, a: &Pose, b: &Pose) -> f64 {
 
 /// Checks that `pose`, `error_jacobian` and `effects` refuse NaN and slices that are too long.
 fn guarded(subject: &Subject, at: &Sample) -> Result<(), Failure> {
-    let Subject { manipulator, s, u, .. } = subject;
+    let manipulator = subject.manipulator;
+    let Configuration { q, s, u } = &at.given;
     let description = manipulator.description();
     let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
     let mut effects = vec![0.0; description.effects.len()];
@@ -106,9 +108,9 @@ fn guarded(subject: &Subject, at: &Sample) -> Result<(), Failure> {
         }
         Ok(())
     };
-    check("one joint variable too many", &[at.q.as_slice(), &[0.0]].concat())?;
-    for i in 0..at.q.len() {
-        let mut q = at.q.clone();
+    check("one joint variable too many", &[q.as_slice(), &[0.0]].concat())?;
+    for i in 0..q.len() {
+        let mut q = q.clone();
         q[i] = f64::NAN;
         check("NaN as a joint variable", &q)?;
     }

@@ -27,7 +27,7 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
     let orientation = manipulator.description().orientation;
     let frames = manipulator.description().frames.len();
     compare(manipulator, samples, 6 * frames, |subject, _, at, columns| {
-        manipulator.error_jacobian(&at.q, &subject.s, columns)?;
+        manipulator.error_jacobian(&at.given.q, &at.given.s, columns)?;
         // With one error, equation (6) is `(A_1 … A_i) E_i (A_{i+1} … T)`: multiply both factors
         // once.
         let mut after = at.transforms.clone();
@@ -60,15 +60,15 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
 pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     compare(manipulator, samples, description.variables.len(), |subject, sample, at, columns| {
-        manipulator.joint_jacobian(&at.q, &subject.s, columns)?;
+        manipulator.joint_jacobian(&at.given.q, &at.given.s, columns)?;
         let units = description.variables.iter().map(|variable| match variable.kind {
             VariableKind::Revolute => 1.0,
             VariableKind::Prismatic => subject.arm,
         });
         let expected = directions(units, sample).into_iter().map(|direction| {
             let moved = |step: f64| {
-                let q = direction.from(&at.q, step);
-                subject.transforms(&q, &subject.s).ok().map(|transforms| chain(&transforms))
+                let q = direction.from(&at.given.q, step);
+                subject.transforms(&q, &at.given.s).ok().map(|transforms| chain(&transforms))
             };
             let found = direction.sum(columns);
             (found, differences(subject, description.orientation, at, found, moved))
@@ -82,15 +82,15 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
 pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     compare(manipulator, samples, description.parameters.len(), |subject, sample, at, columns| {
-        manipulator.parameter_jacobian(&at.q, &subject.s, columns)?;
+        manipulator.parameter_jacobian(&at.given.q, &at.given.s, columns)?;
         let units = description
             .parameters
             .iter()
             .map(|parameter| if parameter.unit == description.length.symbol() { subject.arm } else { 1.0 });
         let expected = directions(units, sample).into_iter().map(|direction| {
             let changed = |step: f64| {
-                let s = direction.from(&subject.s, step);
-                subject.transforms(&at.q, &s).ok().map(|transforms| chain(&transforms))
+                let s = direction.from(&at.given.s, step);
+                subject.transforms(&at.given.q, &s).ok().map(|transforms| chain(&transforms))
             };
             let found = direction.sum(columns);
             (found, differences(subject, description.orientation, at, found, changed))
@@ -107,8 +107,8 @@ pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Re
     compare(manipulator, samples, sources, |subject, _, at, columns| {
         let mut by_error = vec![[0.0; 6]; 6 * description.frames.len()];
         let mut effects = vec![0.0; description.effects.len()];
-        manipulator.error_jacobian(&at.q, &subject.s, &mut by_error)?;
-        manipulator.effects(&at.q, &subject.s, &subject.u, &mut effects)?;
+        manipulator.error_jacobian(&at.given.q, &at.given.s, &mut by_error)?;
+        manipulator.effects(&at.given.q, &at.given.s, &at.given.u, &mut effects)?;
         columns.fill([0.0; 6]);
         // The largest error of each source, in rad or arm lengths; its inverse scales the steps to
         // order 1.
@@ -126,7 +126,7 @@ pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Re
             let real = |step: f64| {
                 let mut magnitudes = vec![0.0; sources];
                 magnitudes[source] = step * unit;
-                drawn_pose(manipulator, &at.q, &subject.s, &subject.u, &magnitudes).ok()
+                drawn_pose(manipulator, &at.given.q, &at.given.s, &at.given.u, &magnitudes).ok()
             };
             let found = columns[source].map(|entry| entry * unit);
             (found, differences(subject, description.orientation, at, found, real))
@@ -217,7 +217,7 @@ fn compare(
     let mut columns = vec![[0.0; 6]; count];
     for (sample, at) in samples.iter().enumerate() {
         let compared = evaluate(&subject, sample, at, &mut columns)
-            .map_err(|error| Failure::Evaluation { q: at.q.clone(), error })?;
+            .map_err(|error| Failure::Evaluation { at: at.given.clone(), error })?;
         let (mut difference, mut largest) = (0.0, 0.0);
         for (found, expected) in compared {
             let expected = expected.unwrap_or([f64::NAN; 6]);
@@ -227,7 +227,7 @@ fn compare(
             }
         }
         // An empty or zero Jacobian has no scale of its own: 1 is the order of all others.
-        discrepancy.add(difference / if largest > 0.0 { largest } else { 1.0 }, &at.q);
+        discrepancy.add(difference / if largest > 0.0 { largest } else { 1.0 }, &at.given);
     }
     Ok(discrepancy)
 }

@@ -1,7 +1,7 @@
 //! The remainder that `ΔX ≈ J_e ε` neglects is of second order.
 
-use super::Failure;
 use super::samples::{Sample, Subject};
+use super::{Configuration, Failure};
 use crate::{Component, Manipulator, deviation, real_pose};
 
 /// Sizes of the errors, in rad and arm lengths.
@@ -12,8 +12,8 @@ const SIZES: [f64; 5] = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 pub struct Slope {
     /// Fitted `d log ‖deviation − J_e ε‖ / d log ‖ε‖`.
     pub slope: f64,
-    /// Joint variables at which it occurs.
-    pub q: Vec<f64>,
+    /// Configuration at which it occurs.
+    pub at: Configuration,
     /// Number of configurations fitted.
     pub fitted: usize,
     /// Number of configurations skipped because Euler rows are nearly singular there.
@@ -26,7 +26,7 @@ impl Slope {
         if (self.slope - 2.0).abs() <= tolerance {
             return Ok(());
         }
-        Err(Failure::Slope { slope: self.slope, q: self.q.clone() })
+        Err(Failure::Slope { slope: self.slope, at: self.at.clone() })
     }
 }
 
@@ -38,12 +38,12 @@ impl Slope {
 pub fn remainder_slope(manipulator: &dyn Manipulator, samples: usize) -> Result<Slope, Failure> {
     let subject = Subject::new(manipulator)?;
     let (samples, skipped) = subject.samples(samples)?;
-    let mut worst = Slope { slope: 2.0, q: Vec::new(), fitted: samples.len(), skipped };
+    let mut worst = Slope { slope: 2.0, at: Configuration::default(), fitted: samples.len(), skipped };
     for (i, at) in samples.iter().enumerate() {
         let slope = slope_at(&subject, at, i)?;
         if (slope - 2.0).abs() >= (worst.slope - 2.0).abs() || slope.is_nan() {
             worst.slope = if slope.is_nan() { f64::INFINITY } else { slope };
-            worst.q = at.q.clone();
+            worst.at = at.given.clone();
         }
     }
     Ok(worst)
@@ -55,8 +55,8 @@ fn slope_at(subject: &Subject, at: &Sample, sample: usize) -> Result<f64, Failur
     let mut columns = vec![[0.0; 6]; 6 * frames];
     subject
         .manipulator
-        .error_jacobian(&at.q, &subject.s, &mut columns)
-        .map_err(|error| Failure::Evaluation { q: at.q.clone(), error })?;
+        .error_jacobian(&at.given.q, &at.given.s, &mut columns)
+        .map_err(|error| Failure::Evaluation { at: at.given.clone(), error })?;
 
     let mut points = [[0.0; 2]; SIZES.len()];
     for (point, size) in points.iter_mut().zip(SIZES) {

@@ -1,24 +1,25 @@
 //! The configurations at which laws are checked.
 
-use super::Failure;
+use super::{Configuration, Failure};
 use crate::sampling;
 use crate::{Error, Manipulator, Pose, chain, euler_margin};
 
 /// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
 
-/// Manipulator under test, with its nominal parameters and inputs.
+/// Largest deviation of a sampled parameter from its nominal value, as a share of it.
+const SPREAD: f64 = 0.05;
+
+/// Manipulator under test.
 pub(super) struct Subject<'a> {
     pub(super) manipulator: &'a dyn Manipulator,
-    pub(super) s: Vec<f64>,
-    pub(super) u: Vec<f64>,
     /// Arm length: the unit of lengths.
     pub(super) arm: f64,
 }
 
 /// Configuration with the exact chain evaluated at it.
 pub(super) struct Sample {
-    pub(super) q: Vec<f64>,
+    pub(super) given: Configuration,
     /// `A_1 … A_n` and `T`.
     pub(super) transforms: Vec<Pose>,
     pub(super) pose: Pose,
@@ -30,25 +31,30 @@ impl<'a> Subject<'a> {
     pub(super) fn new(manipulator: &'a dyn Manipulator) -> Result<Self, Failure> {
         let description = manipulator.description();
         let s = sampling::nominal_parameters(description);
-        let u = sampling::nominal_inputs(description);
-        let arm = sampling::arm_length(manipulator, &s)
-            .map_err(|error| Failure::Evaluation { q: sampling::home(description), error })?;
-        Ok(Self { manipulator, s, u, arm })
+        let arm = sampling::arm_length(manipulator, &s).map_err(|error| {
+            let at = Configuration { q: sampling::home(description), s: s.clone(), u: Vec::new() };
+            Failure::Evaluation { at, error }
+        })?;
+        Ok(Self { manipulator, arm })
     }
 
     /// Returns the samples at which all rows exist, and the number of those skipped.
     pub(super) fn samples(&self, count: usize) -> Result<(Vec<Sample>, usize), Failure> {
         let description = self.manipulator.description();
-        let moved = (0..description.variables.len()).collect::<Vec<_>>();
         let mut samples = Vec::with_capacity(count);
         for index in 0..count {
-            let q = sampling::joint_sample(description, self.arm, &moved, index);
-            let transforms =
-                self.transforms(&q, &self.s).map_err(|error| Failure::Evaluation { q: q.clone(), error })?;
+            let mut given = self.configuration(index);
+            let mut transforms = self.transforms(&given.q, &given.s);
+            if transforms.is_err() {
+                // Some values of the parameters may not make a machine.
+                given.s = sampling::nominal_parameters(description);
+                transforms = self.transforms(&given.q, &given.s);
+            }
+            let transforms = transforms.map_err(|error| Failure::Evaluation { at: given.clone(), error })?;
             let pose = chain(&transforms);
             let margin = euler_margin(description.orientation, &pose);
             if margin >= EULER_MARGIN {
-                samples.push(Sample { q, transforms, pose, margin });
+                samples.push(Sample { given, transforms, pose, margin });
             }
         }
         let skipped = count - samples.len();
@@ -56,6 +62,45 @@ impl<'a> Subject<'a> {
             return Err(Failure::Skipped { skipped, samples: count });
         }
         Ok((samples, skipped))
+    }
+
+    /// Returns configuration `index`: joints within their limits, inputs within their ranges, and
+    /// parameters within [`SPREAD`] of their nominal values.
+    fn configuration(&self, index: usize) -> Configuration {
+        let description = self.manipulator.description();
+        let moved = (0..description.variables.len()).collect::<Vec<_>>();
+        let mut dimension = moved.len();
+        let mut between = |[lower, upper]: [f64; 2]| {
+            let share = sampling::halton(index + 1, dimension);
+            dimension += 1;
+            lower + (upper - lower) * share
+        };
+        let u = description.inputs.iter().map(|input| {
+            let size = self.size(input.nominal, &input.unit);
+            let [lower, upper] = input.range;
+            let lower = if lower.is_finite() { lower } else { upper.min(input.nominal) - size };
+            let upper = if upper.is_finite() { upper } else { lower.max(input.nominal) + size };
+            between([lower, upper])
+        });
+        let u = u.collect();
+        let s = description.parameters.iter().map(|parameter| {
+            let size = SPREAD * self.size(parameter.nominal, &parameter.unit);
+            between([parameter.nominal - size, parameter.nominal + size])
+        });
+        let s = s.collect();
+        Configuration { q: sampling::joint_sample(description, self.arm, &moved, index), s, u }
+    }
+
+    /// Returns the order of magnitude of a quantity: its nominal value, or if that is 0 an arm length
+    /// or 1.
+    fn size(&self, nominal: f64, unit: &str) -> f64 {
+        if nominal != 0.0 {
+            nominal.abs()
+        } else if unit == self.manipulator.description().length.symbol() {
+            self.arm
+        } else {
+            1.0
+        }
     }
 
     /// Returns `A_1 … A_n` and `T`.
