@@ -103,13 +103,8 @@ def _depart(axes, start, bounds, q, twists, after, units):
     return _clamped(q, *bounds)
 
 
-def _numbers_last(*arrays):
-    """Move the numbers of each array behind the axes of the configurations."""
-    return [np.moveaxis(array, 0, -1) for array in arrays]
-
-
 def _compensated(batch, *given):
-    q, s, u, last, change, largest, rotations = _numbers_last(*given)
+    q, s, u, last, change, largest, rotations = map(_numbers_last, given)
     arguments = {"q": q, "s": s, "u": u, "last": last, "rotations": rotations}
     for name, array in arguments.items():
         if not np.all(np.isfinite(array)):
@@ -121,11 +116,11 @@ def _compensated(batch, *given):
     )
     far, size = (np.where(bound > 0.0, bound, 0.0) for bound in (change, largest))
     bounds = [_clamped(start + _clamped(end, last - far, last + far), *limits) for end in (-size, size)]
-    [target] = _numbers_last(_pose(batch, *given[:2]))
+    target = _numbers_last(_pose(batch, *given[:2]))
     axes = target[..., :9].reshape(batch + (3, 3)) * rotations[..., None]
 
     def error(q):
-        real, columns = _numbers_last(*_compensator_step(batch, np.moveaxis(q, -1, 0), *given[1:3]))
+        real, columns = map(_numbers_last, _compensator_step(batch, _numbers_first(q), *given[1:3]))
         rows = _deviation(target, real)
         if not np.all(np.isfinite(rows)):
             raise ValueError("a result is not finite")
@@ -159,5 +154,5 @@ def _compensated(batch, *given):
     statuses = description["statuses"]
     status = np.select(list(cases.values()), [statuses[name] for name in cases], statuses["NOT_REACHED"])
     results = (corrected, corrected - start, before, after)
-    return *(np.moveaxis(array, -1, 0) for array in results), status
+    return *map(_numbers_first, results), status
 "#;

@@ -34,26 +34,21 @@ pub(super) fn face(
     writer.begin(&format!("def {name}({}):", arguments.join(", ")));
     documentation(writer, description, signature, behind, end);
     let shape = |array: &function::Array| {
-        let counts = array.shape.iter().map(|count| format!("{},", count.value(description)));
-        format!("({})", counts.collect::<Vec<_>>().join(" "))
+        let counts: Vec<String> =
+            array.shape.iter().map(|count| count.value(description).to_string()).collect();
+        tuple(&counts)
     };
     let given = signature.arguments.iter().map(|array| format!("{0}=({0}, {1})", array.name, shape(array)));
     let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
     let names = names.join(", ");
     writer.lines(&format!("batch, {names} = _given({})", given.collect::<Vec<_>>().join(", ")));
-    // Moves the axes of the numbers behind those of the configurations.
     let shaped = |array: &function::Array| {
-        let axes = array.shape.len();
-        if axes == 1 {
-            return format!("np.moveaxis({}, 0, -1)", array.name);
-        }
-        let from: Vec<String> = (0..axes).map(|axis| axis.to_string()).collect();
-        let mut to: Vec<String> = (1..=axes).rev().map(|axis| format!("-{axis}")).collect();
+        let mut order: Vec<String> = (0..array.shape.len()).map(|axis| axis.to_string()).collect();
         if is_matrix(array) {
-            to.swap(axes - 2, axes - 1);
+            let last = order.len() - 1;
+            order.swap(last - 1, last);
         }
-        let [from, to] = [from, to].map(|axes| axes.join(", "));
-        format!("np.moveaxis({}.reshape({} + batch), ({from}), ({to}))", array.name, shape(array))
+        format!("_behind({}, {}, {}, batch)", array.name, shape(array), tuple(&order))
     };
     let behind = behind.map(|[name, _]| name);
     let results: Vec<&str> = signature.results.iter().map(|array| array.name).chain(behind).collect();
@@ -62,6 +57,12 @@ pub(super) fn face(
         signature.results.iter().map(shaped).chain(behind.map(str::to_owned)).collect();
     writer.lines(&format!("return {}", returned.join(", ")));
     writer.end();
+}
+
+/// Returns a tuple, which has a comma if it has one entry.
+fn tuple(entries: &[String]) -> String {
+    let comma = if entries.len() == 1 { "," } else { "" };
+    format!("({}{comma})", entries.join(", "))
 }
 
 /// Name and documentation of the margin, which follows the results of a function.

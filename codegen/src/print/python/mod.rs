@@ -134,14 +134,30 @@ def _given(**arguments):
             expected = ", ".join(map(str, ("...", *shape)))
             raise ValueError(f"{name}: expected shape ({expected}), found {array.shape}")
         count = int(np.prod(shape))
-        flat.append(np.moveaxis(array.reshape(array.shape[:leading] + (count,)), -1, 0))
+        flat.append(_numbers_first(array.reshape(array.shape[:leading] + (count,))))
     for value, record in zip(flat[2] if "u" in arguments else [], description["inputs"]):
         lower, upper = record["range"]
         if np.any((value < lower) | (value > upper)):
             raise ValueError(f"input {record['name']} is outside its range, {lower} to {upper}")
     batch = np.broadcast_shapes(*(array.shape[1:] for array in flat))
     padded = (array.reshape(array.shape[:1] + (1,) * (len(batch) + 1 - array.ndim) + array.shape[1:]) for array in flat)
-    return batch, *map(np.ascontiguousarray, padded)
+    return batch, *padded
+
+
+def _numbers_first(array):
+    """Move the numbers of each configuration to the first axis."""
+    return array.transpose(array.ndim - 1, *range(array.ndim - 1))
+
+
+def _numbers_last(array):
+    """Move the numbers of each configuration to the last axis."""
+    return array.transpose(*range(1, array.ndim), 0)
+
+
+def _behind(numbers, shape, order, batch):
+    """Give a result its shape and the order of its axes, behind those of the configurations."""
+    first = len(shape)
+    return numbers.reshape(shape + batch).transpose(*range(first, first + len(batch)), *order)
 "#;
 
 /// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate
