@@ -1,9 +1,9 @@
 //! Reference of the generated languages: common arguments, and names with a meaning in one of them.
 
-use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_inputs, nominal_parameters};
+use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_parameters};
 use abbe::compensator::{CHANGE, Cycle, LARGEST, Status, bound, compensate};
 use abbe::function::{Array, COMPENSATED, Signature};
-use abbe::{Description, Function, Manipulator, Pose, VariableKind};
+use abbe::{Description, Function, Input, Manipulator, Pose, VariableKind};
 
 /// Spec with keywords of languages, and names that their functions use.
 pub const NAMES: &str = r#"
@@ -45,7 +45,7 @@ e_r = "-1e-3*atan2(function, class)*sqrt(Math)"
 /// commands, of which every other one is bounded.
 pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     let description = robot.description();
-    let (s, u) = (nominal_parameters(description), nominal_inputs(description));
+    let s = nominal_parameters(description);
     let arm = arm_length(robot, &s).unwrap();
     let moved: Vec<usize> = (0..description.variables.len()).collect();
     let errors = 6 * description.frames.len();
@@ -55,13 +55,22 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
         joint_sample(description, arm, &moved, index)
             .into_iter()
             .chain(s.clone())
-            .chain(u.clone())
+            .chain(inputs(description, index))
             .chain(small)
             .chain(magnitudes)
             .chain(cycle(description, index))
             .collect()
     };
     (0..count).map(configuration).collect()
+}
+
+/// Returns inputs within their ranges, or their nominal values if they have no range.
+fn inputs(description: &Description, index: usize) -> Vec<f64> {
+    let one = |(k, input): (usize, &Input)| match input.range {
+        [lower, upper] if (upper - lower).is_finite() => lower + (upper - lower) * halton(index + 1, k),
+        _ => input.nominal,
+    };
+    description.inputs.iter().enumerate().map(one).collect()
 }
 
 /// Returns `last`, `change`, `largest` and `rotations` of a configuration.

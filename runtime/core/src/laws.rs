@@ -59,7 +59,7 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
-pub use batches::{batches, sweeps};
+pub use batches::{Batch, batches, evaluations, sweeps};
 pub use contract::{contract, pose};
 pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian, source_displacements};
 pub use failure::{Configuration, Discrepancy, Failure};

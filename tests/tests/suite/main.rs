@@ -37,6 +37,7 @@ mod laws;
 mod long_chains;
 mod machine_tool;
 mod mounting;
+mod mutants;
 mod operations;
 mod other_tool;
 mod paths;

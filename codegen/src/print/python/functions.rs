@@ -112,8 +112,8 @@ fn documentation(
     writer.lines("\"\"\"");
 }
 
-/// Prints the routine on flat arrays, whose first axis counts their numbers: each number is an array
-/// of the configurations, which NumPy runs through without strides.
+/// Prints the routine on flat arrays, whose first axis counts their numbers: each number is an
+/// array of the configurations, which NumPy runs through without strides.
 pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
     let Statements { list, .. } =
         Statements::new(spec, &routines.description, routine, &Python(&spec.tables));

@@ -11,7 +11,7 @@ use crate::{Error, Function, Manipulator, Quantity};
 /// Compares every function evaluated in batches with the methods for one configuration, on every
 /// instruction set of this machine. Lengths are relative to the arm length.
 pub fn batches(manipulator: &dyn Batches, samples: usize) -> Result<Discrepancy, Failure> {
-    compare(manipulator, &Function::ALL, samples, &|function, arguments, results| {
+    evaluations(manipulator, &Function::ALL, samples, &|function, arguments, results| {
         manipulator.batch(function, arguments, results)
     })
 }
@@ -19,15 +19,18 @@ pub fn batches(manipulator: &dyn Batches, samples: usize) -> Result<Discrepancy,
 /// Compares the two functions that sweeps need, as [`batches`] does.
 pub fn sweeps(manipulator: &dyn Sweepable, samples: usize) -> Result<Discrepancy, Failure> {
     let functions = [Function::Pose, Function::SourceDisplacements];
-    compare(manipulator, &functions, samples, &|function, arguments, results| match function {
+    evaluations(manipulator, &functions, samples, &|function, arguments, results| match function {
         Function::Pose => manipulator.poses(arguments, results),
         _ => manipulator.source_displacements(arguments, results),
     })
 }
 
-type Batch<'a> = dyn Fn(Function, &Tiles, &mut Tiles) -> Result<(), Error> + 'a;
+/// Evaluation of a function for the configurations of a table.
+pub type Batch<'a> = dyn Fn(Function, &Tiles, &mut Tiles) -> Result<(), Error> + 'a;
 
-fn compare(
+/// Compares functions evaluated by `batch` with the methods for one configuration, as [`batches`]
+/// does.
+pub fn evaluations(
     manipulator: &dyn Manipulator,
     functions: &[Function],
     samples: usize,
@@ -50,6 +53,9 @@ fn compare(
                         Quantity::Variables => sample.given.q.clone(),
                         Quantity::Parameters => sample.given.s.clone(),
                         Quantity::Inputs => sample.given.u.clone(),
+                        Quantity::Magnitudes => (0..array.len(description))
+                            .map(|k| 2.0 * sampling::halton(i + 1, k % 30) - 1.0)
+                            .collect(),
                         // Errors or variances: small values.
                         _ => (0..array.len(description))
                             .map(|k| 1e-3 * sampling::halton(i + 1, k % 30))

@@ -91,8 +91,8 @@ impl<'a> Subject<'a> {
         Configuration { q: sampling::joint_sample(description, self.arm, &moved, index), s, u }
     }
 
-    /// Returns the order of magnitude of a quantity: its nominal value, or if that is 0 an arm length
-    /// or 1.
+    /// Returns the order of magnitude of a quantity: its nominal value, or if that is 0 an arm
+    /// length or 1.
     fn size(&self, nominal: f64, unit: &str) -> f64 {
         if nominal != 0.0 {
             nominal.abs()
