@@ -117,20 +117,23 @@ pub fn arguments(robot: &dyn Manipulator, signature: &Signature, given: &[f64]) 
 /// largest number of a result, and compensated commands to 1e-9. `found` has the results of every
 /// function for the first configuration, then for the next. Returns the largest difference, without
 /// compensated commands.
-pub fn assert_alike(
+///
+/// # Errors
+///
+/// Returns the first difference that is too large.
+pub fn compare(
     robot: &dyn Manipulator,
     evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
     given: &[Vec<f64>],
     found: &[f64],
-) -> f64 {
+) -> Result<f64, String> {
     let mut found = found;
     let mut worst: f64 = 0.0;
     let commands = COMPENSATED.results_len(robot.description());
     for given in given {
         for function in Function::ALL {
             let expected = evaluate(function, &arguments(robot, function.signature(), given));
-            let (results, rest) = found.split_at(expected.len());
-            found = rest;
+            let results = found.split_off(..expected.len()).ok_or("numbers are missing")?;
             let mut first = 0;
             let arrays = function.signature().results.iter().map(|array| array.len(robot.description()));
             for len in arrays.chain([1]) {
@@ -139,29 +142,32 @@ pub fn assert_alike(
                 let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
                 for (a, b) in results.iter().zip(expected) {
                     let difference = (a - b).abs();
-                    assert!(difference <= 1e-13 * largest, "{}: {a} and {b}", function.name());
+                    let is_close = difference <= 1e-13 * largest;
+                    is_close.then_some(()).ok_or_else(|| format!("{}: {a} and {b}", function.name()))?;
                     worst = worst.max(if difference > 0.0 { difference / largest } else { 0.0 });
                 }
                 first += len;
             }
         }
-        let (numbers, rest) = found.split_at(commands);
-        assert_compensated(robot, &evaluate, given, numbers, rest[0]);
-        found = &rest[1..];
+        let numbers = found.split_off(..commands + 1).ok_or("numbers are missing")?;
+        compare_compensated(robot, &evaluate, given, &numbers[..commands], numbers[commands])?;
     }
-    assert!(found.is_empty(), "{} numbers more", found.len());
-    worst
+    if found.is_empty() { Ok(worst) } else { Err(format!("{} numbers more", found.len())) }
 }
 
 /// Compares compensated commands, their status, and the errors before and after, with those in
 /// Rust, to 1e-9 of a metre or a rad where the pose is reached, else to 1e-6.
-pub fn assert_compensated(
+///
+/// # Errors
+///
+/// Returns the first difference that is too large.
+pub fn compare_compensated(
     robot: &dyn Manipulator,
     evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
     given: &[f64],
     found: &[f64],
     status: f64,
-) {
+) -> Result<(), String> {
     let description = robot.description();
     let (name, count) = (&description.name, description.variables.len());
     let given = arguments(robot, &COMPENSATED, given);
@@ -182,7 +188,9 @@ pub fn assert_compensated(
             Ok(pose(real))
         });
     let expected = expected.unwrap();
-    assert_eq!(status, f64::from(expected.status.code()), "{name}: {:?}", expected.status);
+    if status != f64::from(expected.status.code()) {
+        return Err(format!("{name}: status {status} and {:?}", expected.status));
+    }
     // Where the pose is not reached, a singular pose amplifies rounding errors.
     let tolerance = if expected.status == Status::Reached { 1e-9 } else { 1e-6 };
     let metre = 1.0 / description.length.in_metres();
@@ -196,6 +204,8 @@ pub fn assert_compensated(
     let expected =
         expected.q.iter().chain(&expected.correction).chain(&expected.before).chain(&expected.after);
     for ((found, expected), unit) in found.iter().zip(expected).zip(units) {
-        assert!((found - expected).abs() <= tolerance * unit, "{name} {status}: {found} and {expected}");
+        let is_close = (found - expected).abs() <= tolerance * unit;
+        is_close.then_some(()).ok_or_else(|| format!("{name} {status}: {found} and {expected}"))?;
     }
+    Ok(())
 }

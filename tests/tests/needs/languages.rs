@@ -5,26 +5,33 @@
 //! `PYTHON` names a Python that has NumPy, if `python3` has none. Octave is slow and evaluates 20
 //! configurations; `CONFIGURATIONS=1000` sets the number for all.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use abbe::function::{Array, COMPENSATED, Signature};
 use abbe::{Function, Manipulator};
-use abbe_codegen::print::Language;
+use abbe_codegen::print::{Language, SourceFile};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
-use abbe_tests::languages::{NAMES, assert_alike, configurations, given_arrays};
+use abbe_tests::languages::{NAMES, compare, configurations, given_arrays};
+use abbe_tests::mutants::{Mutant, mutants};
 use abbe_tests::needs::{Missing, Tests, python, tool};
-use abbe_tests::{is_tested, specs};
+use abbe_tests::{is_tested, sample_size, specs};
 use serde_json::{Value, json};
 
 pub(crate) const TESTS: Tests = &[
     ("javascript", (|| in_all(Language::JavaScript, 1000))),
     ("python", (|| in_all(Language::Python, 1000))),
     ("octave", (|| in_all(Language::Matlab, 20))),
+    ("mutants_in_javascript", (|| mutants_of(Language::JavaScript))),
+    ("mutants_in_python", (|| mutants_of(Language::Python))),
+    ("mutants_in_octave", (|| mutants_of(Language::Matlab))),
 ];
 
 /// Checks all robots in a language, at this number of configurations unless `CONFIGURATIONS` is
@@ -79,7 +86,19 @@ fn called(robot: &dyn Manipulator) -> Value {
 fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize) {
     let (name, file) = (spec.name.clone(), language.files(&spec).remove(0));
     let robot = Interpreter::new(spec);
-    let given = configurations(&robot, count);
+    let worst = compare_source(language, command, &robot, &file, &configurations(&robot, count)).unwrap();
+    println!("{name}: {worst:e} in {count} configurations");
+}
+
+/// Runs a source and compares its results with Rust. Returns the largest difference, or what is
+/// wrong.
+fn compare_source(
+    language: Language,
+    command: &[String],
+    robot: &Interpreter,
+    file: &SourceFile,
+    given: &[Vec<f64>],
+) -> Result<f64, String> {
     let folder = tempfile::tempdir().unwrap();
     let script = match language {
         Language::JavaScript => "run.mjs",
@@ -91,16 +110,73 @@ fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize
     fs::write(&source, &file.text).unwrap();
     fs::write(&input, given.concat().iter().flat_map(|value| value.to_ne_bytes()).collect::<Vec<u8>>())
         .unwrap();
-    fs::write(&functions, called(&robot).to_string()).unwrap();
+    fs::write(&functions, called(robot).to_string()).unwrap();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("languages").join(script);
+    let errors = folder.path().join("errors");
     let mut run = Command::new(&command[0]);
-    let run = run.args(&command[1..]).arg(script).args([&source, &functions, &input, &output]).output();
-    let run = run.expect("the command is there");
-    assert!(run.status.success(), "{name}: {}", String::from_utf8_lossy(&run.stderr));
+    run.args(&command[1..]).arg(script).args([&source, &functions, &input, &output]);
+    run.stdin(Stdio::null()).stdout(Stdio::null()).stderr(fs::File::create(&errors).unwrap());
+    if !ends_well(&mut run) {
+        return Err(format!("{}: {}", file.name, fs::read_to_string(&errors).unwrap()));
+    }
     let bytes = fs::read(&output).unwrap();
     let found: Vec<f64> =
         bytes.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap())).collect();
     let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
-    let worst = assert_alike(&robot, evaluate, &given, &found);
-    println!("{name}: {worst:e} in {count} configurations");
+    compare(robot, evaluate, given, &found)
+}
+
+/// Runs a command and returns whether it succeeds. A command that has not ended after two minutes is
+/// killed: it is in a loop without end.
+fn ends_well(command: &mut Command) -> bool {
+    let mut run = command.spawn().expect("the command is there");
+    for _ in 0..12_000 {
+        if let Some(status) = run.try_wait().unwrap() {
+            return status.success();
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    false
+}
+
+/// Checks that the comparison finds every mutant of a source: one of each kind in each function in a
+/// thorough run, and a tenth of them otherwise. Functions that all sources share are mutated for
+/// three joints and for six, which take different branches; one of the two has to tell.
+fn mutants_of(language: Language) -> Result<(), Missing> {
+    let command = command(language)?;
+    let six_joints = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();
+    let six_joints = Spec::parse("pps.toml", six_joints.spec).unwrap();
+    let survivors = |spec: &Spec, is_mutated: &dyn Fn(&str) -> bool| {
+        let file = language.files(spec).remove(0);
+        let robot = Interpreter::new(spec.clone());
+        // Octave is slow.
+        let given = configurations(&robot, if language == Language::Matlab { 8 } else { 40 });
+        let all = mutants(&file.text, 1, is_mutated);
+        let chosen = all.iter().step_by(all.len() / sample_size(all.len()));
+        println!("{}: {} mutants in {}", spec.name, chosen.len(), language.name());
+        let survives = |mutant: &&Mutant| {
+            let file = SourceFile { name: file.name.clone(), text: mutant.text.clone() };
+            compare_source(language, &command, &robot, &file, &given).is_ok()
+        };
+        let named = |Mutant { function, kind, line, .. }: &Mutant| ((function.clone(), *kind), line.clone());
+        chosen.filter(survives).map(named).collect::<BTreeMap<_, _>>()
+    };
+    let measured = Spec::read(specs::path("measured")).unwrap();
+    let is_own =
+        |name: &str| Function::ALL.iter().any(|function| function.name() == name.trim_start_matches('_'));
+    let is_shared = |name: &str| !is_own(name) && name.trim_start_matches('_') != "given";
+    let own = survivors(&measured, &is_own);
+    assert!(own.is_empty(), "{own:#?}");
+    let [three, mut six] = [&measured, &six_joints].map(|spec| survivors(spec, &is_shared));
+    // `(JᵀJ + λ)⁻¹Jᵀ = Jᵀ(JJᵀ + λ)⁻¹`: which of the two is solved makes no difference. The largest
+    // and the smallest step are different statuses only if a joint rests while others do not.
+    let equal = [("shortest", "less"), ("compensated", "maximum")];
+    let is_equal = |(function, kind): &(String, &'static str)| {
+        equal.contains(&(function.trim_start_matches('_'), *kind))
+    };
+    six.retain(|mutant, _| three.contains_key(mutant) && !is_equal(mutant));
+    assert!(six.is_empty(), "{six:#?}");
+    Ok(())
 }

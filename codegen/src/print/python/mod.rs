@@ -180,7 +180,7 @@ def _look_up(table, order, x):
         step = 2 ** (table["steps"] - 1) if table["steps"] else 0
         while step >= 1:
             next_one = np.minimum(piece + step, knots.size - 1)
-            piece = np.where((piece + step < knots.size) & (x > knots[next_one]), next_one, piece)
+            piece = np.where(x > knots[next_one], next_one, piece)
             step //= 2
         t = x - knots[piece]
     a, b, c, d = np.moveaxis(pieces[piece], -1, 0)
