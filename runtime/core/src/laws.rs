@@ -88,8 +88,8 @@ pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
     remainder_slope(manipulator, samples)?.within(SLOPE_TOLERANCE)
 }
 
-/// Generates tests of all [`laws`](crate::laws) for one manipulator, at 200 configurations within
-/// its limits.
+/// Generates tests of all [`laws`](crate::laws) for one manipulator, at 200 configurations: joints
+/// within their limits, inputs within their ranges, parameters within 5 % of their nominal values.
 ///
 /// The tests compile all functions for lanes and compare them with single configurations. Wrap a
 /// manipulator without code for lanes in [`OneByOne`](crate::lanes::OneByOne).
