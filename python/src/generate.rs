@@ -13,7 +13,7 @@ use crate::options::named;
 impl Machine {
     /// Returns the closed form as source code in one text.
     ///
-    /// `language`: "rust", "c", "js", "python" or "matlab". `real`: floating-point type of C,
+    /// `language`: "rust", "c", "js", "python", "matlab" or "st". `real`: floating-point type of C,
     /// "double" (default) or "float". The text of C is the header followed by the source;
     /// `generate_files` returns them one by one. The same spec always gives the same text.
     #[pyo3(signature = (language="rust", *, real=None))]

@@ -9,6 +9,7 @@ pub mod frame_loop;
 pub mod languages;
 pub mod mutants;
 pub mod needs;
+pub mod structured_text;
 mod thorough;
 
 pub use thorough::{is_tested, sample_size, thorough};

@@ -15,6 +15,7 @@ use super::values::named;
   abbe generate arm.toml --lang js --out arm.js
   abbe generate arm.toml --lang python --out arm.py
   abbe generate arm.toml --lang matlab --out arm.m
+  abbe generate arm.toml --lang st --out arm.st         for CODESYS, TwinCAT and other PLCs
   abbe generate arm.toml --lang fmu --out arm.fmu       for simulators
 "))]
 pub(crate) struct Generate {

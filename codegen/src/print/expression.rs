@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use abbe_spec::expr::{Function, Lookup};
 
+use super::names::Identifiers;
 use crate::program::Action;
 
 /// Precedence of the outermost operator of an expression.
@@ -29,9 +30,9 @@ pub(super) struct Expression {
 pub(super) trait Syntax {
     /// Returns names that the language or its functions use, separated by spaces.
     fn reserved(&self) -> Cow<'static, str>;
-    /// Returns the function that spells a name of the spec as an identifier of the language.
-    fn spelled(&self) -> fn(&str) -> String {
-        str::to_owned
+    /// Returns the rules for identifiers of the language.
+    fn identifiers(&self) -> Identifiers {
+        Identifiers::default()
     }
     /// Returns a number as an operand.
     fn number(&self, value: f64) -> Expression;

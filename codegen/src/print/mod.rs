@@ -24,6 +24,7 @@ pub mod rust;
 mod source_file;
 mod statement;
 mod statements;
+mod structured_text;
 mod text;
 
 pub use c::Real;
@@ -48,18 +49,21 @@ pub enum Language {
     Python,
     /// A class of static functions, for Matlab and Octave.
     Matlab,
+    /// Function blocks in Structured Text of IEC 61131-3, for programmable logic controllers.
+    StructuredText,
     /// The files of a functional mock-up unit, an archive that simulators load.
     Fmu(Fmi),
 }
 
 impl Language {
     /// Every language; C and the functional mock-up unit in their default variant.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Rust,
         Self::C(Real::Double),
         Self::JavaScript,
         Self::Python,
         Self::Matlab,
+        Self::StructuredText,
         Self::Fmu(Fmi::Three),
     ];
 
@@ -71,6 +75,7 @@ impl Language {
             Self::JavaScript => "js",
             Self::Python => "python",
             Self::Matlab => "matlab",
+            Self::StructuredText => "st",
             Self::Fmu(_) => "fmu",
         }
     }
@@ -97,6 +102,7 @@ impl Language {
             Self::JavaScript => one("js", javascript::module(spec, &routines)),
             Self::Python => one("py", python::module(spec, &routines)),
             Self::Matlab => vec![matlab::class(spec, &routines)],
+            Self::StructuredText => vec![structured_text::file(spec, &routines)],
             Self::Fmu(fmi) => fmu::files(spec, &model, &routines, fmi),
         }
     }

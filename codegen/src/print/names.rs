@@ -8,13 +8,30 @@ use abbe_spec::expr::Symbol;
 
 use crate::program::{Action, Array, Operand, Program, Routine, Stage};
 
+/// Rules for the identifiers of a language.
+#[derive(Clone, Copy)]
+pub(super) struct Identifiers {
+    /// Spells a name of the spec as an identifier.
+    pub(super) spelled: fn(&str) -> String,
+    /// Returns the same key for names that the language does not distinguish.
+    pub(super) key: fn(&str) -> String,
+    /// End of a name that makes it distinct from another one.
+    pub(super) suffix: &'static str,
+}
+
+impl Default for Identifiers {
+    fn default() -> Self {
+        Self { spelled: str::to_owned, key: str::to_owned, suffix: "_" }
+    }
+}
+
 /// The names of one routine.
 #[derive(Clone)]
 pub(super) struct Names<'s> {
     spec: &'s Spec,
+    /// Keys of the names that are not available.
     used: HashSet<String>,
-    /// Spells a name as an identifier of the language.
-    spelled: fn(&str) -> String,
+    identifiers: Identifiers,
     counter: usize,
     variables: Vec<String>,
     parameters: Vec<String>,
@@ -29,12 +46,7 @@ pub(super) struct Names<'s> {
 impl<'s> Names<'s> {
     /// Creates the names of a routine. Reserved words and the names of arrays, called routines and
     /// tables are not available.
-    pub(super) fn new(
-        spec: &'s Spec,
-        routine: &Routine,
-        reserved: &str,
-        spelled: fn(&str) -> String,
-    ) -> Self {
+    pub(super) fn new(spec: &'s Spec, routine: &Routine, reserved: &str, identifiers: Identifiers) -> Self {
         let signatures = Function::ALL.map(Function::signature);
         let arrays =
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
@@ -46,13 +58,14 @@ impl<'s> Names<'s> {
         });
         let tables = spec.tables.iter().map(|table| table.constant_name());
         let taken = reserved.split_whitespace().chain(arrays).map(str::to_owned);
-        let used = taken.chain(called.flatten()).chain(tables).collect();
+        let taken = taken.chain(called.flatten()).chain(tables);
+        let used = taken.map(|name| (identifiers.key)(&name)).collect();
         let (variables, parameters, inputs) = (vec![], vec![], vec![]);
         let (errors, magnitudes, locals) = (vec![], vec![], vec![]);
         let mut names = Self {
             spec,
             used,
-            spelled,
+            identifiers,
             counter: 0,
             variables,
             parameters,
@@ -115,13 +128,13 @@ impl<'s> Names<'s> {
     fn letter(&self, array: &Array) -> char {
         // Links are the transforms A_i.
         let first = if array.name == "links" { 'a' } else { array.name.chars().next().unwrap_or('x') };
-        let is_taken = |letter: &char| self.used.contains(&format!("{letter}_x"));
+        let is_taken = |letter: &char| self.used.contains(&(self.identifiers.key)(&format!("{letter}_x")));
         (first..='z').find(|letter| !is_taken(letter)).unwrap_or(first)
     }
 
     /// Sets the names of the local symbols from `first` on.
     pub(super) fn take_locals(&mut self, first: usize, names: &[Option<String>]) {
-        self.used.extend(names.iter().flatten().cloned());
+        self.used.extend(names.iter().flatten().map(|name| (self.identifiers.key)(name)));
         let last = first + names.len();
         self.locals.resize(self.locals.len().max(last), String::new());
         for (local, name) in self.locals[first..].iter_mut().zip(names) {
@@ -178,9 +191,10 @@ impl<'s> Names<'s> {
     }
 
     fn free(&mut self, name: &str) -> String {
-        let mut name = (self.spelled)(name);
-        while !self.used.insert(name.clone()) {
-            name.push('_');
+        let Identifiers { spelled, key, suffix } = self.identifiers;
+        let mut name = spelled(name);
+        while !self.used.insert(key(&name)) {
+            name.push_str(suffix);
         }
         name
     }

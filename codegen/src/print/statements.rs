@@ -50,7 +50,7 @@ impl Statements {
         syntax: &dyn Syntax,
         by_columns: bool,
     ) -> Self {
-        let names = Names::new(spec, routine, &syntax.reserved(), syntax.spelled());
+        let names = Names::new(spec, routine, &syntax.reserved(), syntax.identifiers());
         let mut writer = Writer {
             routine,
             description,

@@ -49,5 +49,6 @@ mod reference;
 mod reference_pages;
 mod schemas;
 mod selected_models;
+mod structured_text;
 mod tables;
 mod voice;

@@ -6,6 +6,7 @@ use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Lookup};
 
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
+use crate::print::names::Identifiers;
 use crate::program::Action;
 
 /// The syntax of Matlab for a class, whose name precedes its members, and a spec, whose tables are
@@ -31,8 +32,8 @@ impl Syntax for Matlab<'_> {
     }
 
     /// Names start with a letter and have a bounded length.
-    fn spelled(&self) -> fn(&str) -> String {
-        spelled
+    fn identifiers(&self) -> Identifiers {
+        Identifiers { spelled, ..Identifiers::default() }
     }
 
     fn number(&self, value: f64) -> Expression {

@@ -48,13 +48,13 @@ transform = "Tz(-120)"
 
 /// A robot with errors, the rotations that its joints reach, and the joints whose zero is a
 /// singular pose.
-struct Case {
-    robot: Interpreter,
-    rotations: [f64; 3],
+pub(crate) struct Case {
+    pub(crate) robot: Interpreter,
+    pub(crate) rotations: [f64; 3],
     singular: &'static [usize],
 }
 
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let case = |name: &str, rotations, singular| {
         let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
         let text = shipped.map_or(FIVE_AXIS, |shipped| shipped.spec);
@@ -72,16 +72,16 @@ fn cases() -> Vec<Case> {
 }
 
 /// A robot with what the laws need of it.
-struct Machine<'a> {
+pub(crate) struct Machine<'a> {
     robot: &'a Interpreter,
     description: &'a Description,
-    s: Vec<f64>,
-    u: Vec<f64>,
+    pub(crate) s: Vec<f64>,
+    pub(crate) u: Vec<f64>,
     magnitudes: Vec<f64>,
 }
 
 impl<'a> Machine<'a> {
-    fn new(robot: &'a Interpreter) -> Self {
+    pub(crate) fn new(robot: &'a Interpreter) -> Self {
         use abbe::analysis::sampling::{nominal_inputs, nominal_parameters};
         let description = robot.description();
         let (s, u) = (nominal_parameters(description), nominal_inputs(description));
@@ -89,7 +89,11 @@ impl<'a> Machine<'a> {
     }
 
     /// Runs the generated compensator's steps.
-    fn corrected(&self, q: &[f64], cycle: &Cycle<Vec<f64>>) -> Result<Compensated<Vec<f64>>, abbe::Error> {
+    pub(crate) fn corrected(
+        &self,
+        q: &[f64],
+        cycle: &Cycle<Vec<f64>>,
+    ) -> Result<Compensated<Vec<f64>>, abbe::Error> {
         let pose =
             |numbers: &[f64]| Pose(std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j])));
         let target = self.robot.pose(q, &self.s)?;
@@ -118,7 +122,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Returns the first cycle of a controller.
-    fn first(&self, rotations: [f64; 3]) -> Cycle<Vec<f64>> {
+    pub(crate) fn first(&self, rotations: [f64; 3]) -> Cycle<Vec<f64>> {
         let each = |[angle, length]: [f64; 2]| {
             let metre = 1.0 / self.description.length.in_metres();
             let kinds = self.description.variables.iter().map(|variable| variable.kind);
@@ -166,7 +170,7 @@ impl<'a> Machine<'a> {
 
 /// Smooth path of 1 kHz through a singular pose: one joint passes through its zero at constant
 /// speed, the others swing over a part of their range.
-struct Path {
+pub(crate) struct Path {
     middle: Vec<f64>,
     swing: Vec<f64>,
     speed: Vec<f64>,
@@ -175,7 +179,12 @@ struct Path {
 }
 
 impl Path {
-    fn new(case: &Case, machine: &Machine<'_>, index: usize, random: &mut Xoshiro256PlusPlus) -> Self {
+    pub(crate) fn new(
+        case: &Case,
+        machine: &Machine<'_>,
+        index: usize,
+        random: &mut Xoshiro256PlusPlus,
+    ) -> Self {
         let count = machine.description.variables.len();
         let mut path = Self {
             middle: vec![0.0; count],
@@ -193,7 +202,7 @@ impl Path {
         path
     }
 
-    fn at(&self, t: f64) -> Vec<f64> {
+    pub(crate) fn at(&self, t: f64) -> Vec<f64> {
         let one = |j| match self.through == Some(j) {
             true => 0.4 - 0.8 * t,
             false => {

@@ -3,7 +3,7 @@
 
 mod bounded;
 mod corners;
-mod cycles;
+pub(crate) mod cycles;
 
 use abbe::analysis::{
     Axis, Missing, Presentation, Workspace, compensated, mobility, obstacle, presented_volume, sampling,

@@ -1,0 +1,76 @@
+//! IEC 61131-3 Structured Text: function blocks for CODESYS, TwinCAT and other controllers.
+//!
+//! `blocks` prints routines as function blocks, `operators` expressions, `support` the sine and
+//! other functions, `tables` lookup tables, `compensated` the corrected commands, `declarations`
+//! variables. Everything is in the common part of the editions of the standard and of the
+//! dialects: no methods, pointers, references or types of its own.
+//!
+//! Invalid operations stop many controllers, so that nothing computes with NaN: a function that
+//! has no value sets `fault`, which becomes a status.
+
+mod blocks;
+mod compensated;
+mod declarations;
+mod operators;
+mod support;
+mod tables;
+
+use abbe_spec::Spec;
+
+use self::blocks::block;
+use self::declarations::harmless;
+use self::operators::StructuredText;
+use self::support::Support;
+use super::compensated::{Tolerances, statuses};
+use super::header::header;
+use super::layout::Writer;
+use super::source_file::SourceFile;
+use crate::program::Routines;
+
+/// Returns the file of a manipulator.
+pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
+    let syntax = StructuredText::new(spec, routines);
+    let mut writer = Writer::new(" *");
+    writer.lines("(*");
+    let mut head = Writer::new(" *");
+    header(&mut head, spec, routines);
+    writer.lines(&harmless(&head.finish()));
+    writer.documentation_line("");
+    for paragraph in USE {
+        writer.documentation(&paragraph.replace("PREFIX", &syntax.prefix));
+        writer.documentation_line("");
+    }
+    writer.documentation(&format!(
+        "status: 0 `OK`: The results are valid. 1 `NOT_FINITE`: An argument or a result is not finite, or a function has no \
+         value. 2 `SINGULAR`: Rows 4 to 6 are Euler angles, which are undefined at this pose. 3 `OUT_OF_RANGE`: An input is \
+         outside its range. Of {}_compensated also: {}",
+        syntax.prefix,
+        statuses(&Tolerances::DOUBLE)
+    ));
+    writer.lines(" *)");
+    for support in Support::used(spec, routines) {
+        writer.blank();
+        writer.lines(support.text(&syntax.prefix).trim_end());
+    }
+    for (table, name) in spec.tables.iter().zip(&syntax.tables) {
+        tables::function(&mut writer, table, name, &syntax.prefix);
+    }
+    // A block stands behind those that it calls.
+    let (functions, helpers): (Vec<_>, Vec<_>) =
+        routines.list.iter().partition(|routine| routine.function.is_some());
+    for routine in helpers.into_iter().chain(functions) {
+        block(&mut writer, spec, routines, routine, &syntax);
+    }
+    compensated::blocks(&mut writer, spec, routines, &syntax.prefix);
+    SourceFile { name: format!("{}.st", spec.name), text: writer.finish() }
+}
+
+/// Properties of the file that its user must know.
+const USE: [&str; 3] = [
+    "Arrays begin at 0 and are flat, in column-major order: a Jacobian has one column of six numbers after the other. Inputs \
+     that are not connected have the nominal values. Results are valid if status is 0, unless the block says otherwise.",
+    "Nothing is divided by 0, and no root, logarithm or arc is taken of a number that has none: these stop some controllers. \
+     A comparison with NaN must be false or stop the controller. Sine and cosine are PREFIX_sine and PREFIX_cosine up to \
+     100000 rad, the controller's beyond; LREAL must be a double of IEEE 754.",
+    "Numbers of arguments must be smaller than 1.0E30.",
+];
