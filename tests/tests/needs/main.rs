@@ -6,6 +6,7 @@ mod languages;
 mod measured_data;
 mod ros;
 mod rustfmt;
+mod structured_text;
 
 use std::process::ExitCode;
 
@@ -19,5 +20,6 @@ fn main() -> ExitCode {
         ("measured_data", measured_data::TESTS),
         ("ros", ros::TESTS),
         ("rustfmt", rustfmt::TESTS),
+        ("structured_text", structured_text::TESTS),
     ])
 }

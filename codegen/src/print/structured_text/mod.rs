@@ -37,7 +37,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     writer.lines(&harmless(&head.finish()));
     writer.documentation_line("");
     for paragraph in USE {
-        writer.documentation(&paragraph.replace("PREFIX", &syntax.prefix));
+        writer.documentation(paragraph);
         writer.documentation_line("");
     }
     writer.documentation(&format!(
@@ -70,7 +70,7 @@ const USE: [&str; 3] = [
     "Arrays begin at 0 and are flat, in column-major order: a Jacobian has one column of six numbers after the other. Inputs \
      that are not connected have the nominal values. Results are valid if status is 0, unless the block says otherwise.",
     "Nothing is divided by 0, and no root, logarithm or arc is taken of a number that has none: these stop some controllers. \
-     A comparison with NaN must be false or stop the controller. Sine and cosine are PREFIX_sine and PREFIX_cosine up to \
-     100000 rad, the controller's beyond; LREAL must be a double of IEEE 754.",
-    "Numbers of arguments must be smaller than 1.0E30.",
+     A comparison with NaN must be false or stop the controller. Sine and cosine are the file's own up to 100000 rad, the \
+     controller's beyond; LREAL must be a double of IEEE 754.",
+    "The sizes of the numbers in arguments must add up to less than 1.0E30.",
 ];
