@@ -1,9 +1,10 @@
 //! Tables of the volumetric compensation of TwinCAT CNC and the ISG kernel, in their CSV format.
 //!
 //! `EYX` is the error of the carriage X along Y, `ECX` its rotation about Z, both functions of X:
-//! actual minus nominal by ISO 230-1, in mm and rad. `P0X P0Y P0Z` is the tool point with all axes
-//! at 0, from the reference point. The control moves the axes against the resulting error of the
-//! tool point.
+//! actual minus nominal by ISO 230-1, in mm and rad. `ECC` is the rotation about Z of the table C,
+//! a function of C in degrees. `P0X P0Y P0Z` is the tool point with all axes at 0 and `PXC PYC PZC`
+//! a point on the axis C, from the reference point. The control moves the linear axes against the
+//! resulting error of the tool point on the workpiece.
 
 use std::fmt::Write;
 
@@ -13,9 +14,10 @@ use abbe_spec::mistake;
 use abbe_spec::number::digits;
 
 use crate::export::report::unreadable;
-use crate::export::rotary_axes::{Kinematics, RotaryAxis};
+use crate::export::rotary_axes::{Kinematics, RotaryAxis, TabledAxis};
 use crate::export::slides::{Axes, Reference, Slide, interpolated};
 use crate::export::{ExportReport, ExportedFile, RealMachine};
+use crate::vector::{scale, subtract};
 
 /// Writes the tables, with `nodes` values of each slide.
 ///
@@ -29,16 +31,13 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     let evaluated = |error: abbe::Error| mistake::whole(&machine.origin, &error);
     let reference = Reference::new(machine, &axes).map_err(evaluated)?;
     let mm = machine.spec.length.in_metres() * 1e3;
-    let mut text = format!(
-        "// {}: errors of its axes as ISO 230-1 has them, actual minus nominal, in mm and rad\nP0X P0Y P0Z\n{}\n",
-        machine.spec.name,
-        row(&reference.tool.map(|v| v * mm))
-    );
+    let tabled = TabledAxis::all(machine, &axes).map_err(evaluated)?;
+    let rotary: Vec<TabledAxis> = tabled.iter().copied().flatten().collect();
+    let mut text = heading(machine, &reference, &rotary, mm);
     let mut largest = (0.0, String::new());
     for (k, slide) in slides.iter().enumerate() {
         let letter = slide.letter();
-        let names = ["X", "Y", "Z", "A", "B", "C"].map(|direction| format!("E{direction}{letter}"));
-        let _ = writeln!(text, "#\n{letter} {}", names.join(" "));
+        let _ = writeln!(text, "#\n{letter} {}", names(letter).join(" "));
         for value in slide.nodes(nodes) {
             let [x, y, z, a, b, c] = reference.errors(machine, &axes, k, value).map_err(evaluated)?;
             let [at, x, y, z] = [value, x, y, z].map(|v| v * mm);
@@ -50,11 +49,28 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
             }
         }
     }
-    let tables =
-        Tables::read(&text, slides).ok_or_else(|| unreadable("the exported file cannot be read back"))?;
+    for axis in &rotary {
+        let letter = axis.letter();
+        let _ = writeln!(text, "#\n{letter} {}", names(letter).join(" "));
+        for value in abbe::analysis::sampling::grid(axis.range, nodes) {
+            let [x, y, z, a, b, c] = axis.errors(machine, &axes, value).map_err(evaluated)?;
+            let [x, y, z] = [x, y, z].map(|v| v * mm);
+            let _ = writeln!(text, "{}", row(&[value.to_degrees(), x, y, z, a, b, c]));
+        }
+    }
+    let tables = Tables::read(&text, slides, &rotary)
+        .ok_or_else(|| unreadable("the exported file cannot be read back"))?;
     let turned = RotaryAxis::all(machine, &axes).map_err(evaluated)?;
-    let mut left_out: Vec<String> = turned.iter().map(|axis| axis.sentence(mm)).collect();
-    left_out.extend(axes.errors_beyond_own_axis(machine));
+    let without_table = turned.iter().zip(&tabled).filter(|(_, table)| table.is_none());
+    let mut left_out: Vec<String> = without_table.map(|(axis, _)| axis.sentence(mm)).collect();
+    if !rotary.is_empty() {
+        left_out.push(
+            "The tables of the rotary axes hold their errors of location, too: enter their nominal \
+             poses in the kinematic parameters of the control."
+                .to_owned(),
+        );
+    }
+    left_out.extend(axes.errors_beyond_own_axis(machine, &[]));
     left_out.push(
         "The control corrects the position of the tool point, not its orientation, with the tool \
          length set in the control."
@@ -63,18 +79,53 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     left_out.push(
         "Errors of fixed frames and of the tool are not errors of an axis; they are left out.".to_owned(),
     );
-    left_out.push(
-        "Configure the kinematic chain in the control, from the bed to the tool: ".to_owned()
-            + &slides.iter().map(|slide| slide.letter().to_string()).collect::<Vec<_>>().join(", ")
-            + ".",
-    );
+    let letters = |letters: Vec<String>| letters.join(", ");
+    let carriers = letters(slides.iter().map(|slide| slide.letter().to_string()).collect());
+    left_out.push(match rotary.is_empty() {
+        true => {
+            format!("Configure the kinematic chain in the control, from the bed to the tool: {carriers}.")
+        }
+        false => format!(
+            "Configure the kinematic chain in the control, from the workpiece to the tool: {}, then \
+             the bed, then {carriers}.",
+            letters(rotary.iter().map(|axis| axis.letter().to_string()).collect())
+        ),
+    });
     let format = "volumetric compensation tables (ISG CSV)".to_owned();
     let files = vec![ExportedFile { name: format!("{}.volcomp.csv", machine.spec.name), text }];
-    let corrected = |q: &[f64]| tables.corrected(slides, q, mm);
+    let corrected = |q: &[f64], _: &[f64]| tables.corrected(slides, &rotary, q, mm);
     let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
     let report = ExportReport::for_commands(machine, format, files, corrected, sign).map_err(evaluated)?;
-    let placed = Kinematics::new(machine, &axes).remains(corrected).map_err(evaluated)?;
+    // A control that has tables of the axes must not have their poses as well.
+    let placed = match rotary.is_empty() {
+        true => Kinematics::new(machine, &axes, false)
+            .and_then(|kinematics| kinematics.remains(corrected))
+            .map_err(evaluated)?,
+        false => None,
+    };
     Ok(ExportReport { left_out, placed, turned, ..report })
+}
+
+/// Returns the names of the six errors of an axis.
+fn names(letter: char) -> [String; 6] {
+    ["X", "Y", "Z", "A", "B", "C"].map(|direction| format!("E{direction}{letter}"))
+}
+
+/// Returns the first block: the tool point, and a point on each rotary axis.
+fn heading(machine: &RealMachine, reference: &Reference, rotary: &[TabledAxis], mm: f64) -> String {
+    let mut names = vec!["P0X P0Y P0Z".to_owned()];
+    let mut values = reference.tool.to_vec();
+    for axis in rotary {
+        names.push(["X", "Y", "Z"].map(|direction| format!("P{direction}{}", axis.letter())).join(" "));
+        values.extend(subtract(axis.center, reference.point));
+    }
+    let values: Vec<f64> = values.into_iter().map(|value| value * mm).collect();
+    format!(
+        "// {}: errors of its axes as ISO 230-1 has them, actual minus nominal, in mm and rad\n{}\n{}\n",
+        machine.spec.name,
+        names.join(" "),
+        row(&values)
+    )
 }
 
 /// Returns the sentence about the sign: an error in mm of an axis in mm.
@@ -97,26 +148,37 @@ fn row(values: &[f64]) -> String {
     values.iter().map(number).collect::<Vec<_>>().join(" ")
 }
 
+/// Nodes of an axis in mm or degrees, and six errors at each node.
+type Errors = (Vec<f64>, Vec<[f64; 6]>);
+
 /// Tables, read as the control reads them.
 struct Tables {
     /// Tool point from the reference point, in mm.
     tool: [f64; 3],
-    /// Nodes of each slide in mm, and six errors at each node.
-    axes: Vec<(Vec<f64>, Vec<[f64; 6]>)>,
+    /// A point on each rotary axis from the reference point, in mm.
+    centers: Vec<[f64; 3]>,
+    slides: Vec<Errors>,
+    rotary: Vec<Errors>,
 }
 
 impl Tables {
     /// Reads the tables.
-    fn read(text: &str, slides: &[Slide]) -> Option<Self> {
+    fn read(text: &str, slides: &[Slide], rotary: &[TabledAxis]) -> Option<Self> {
         let mut blocks =
             text.split("\n#\n").map(|block| block.lines().filter(|line| !line.starts_with("//")));
         let numbers =
             |line: &str| line.split(' ').map(|cell| cell.parse::<f64>().ok()).collect::<Option<Vec<f64>>>();
-        let tool = numbers(blocks.next()?.nth(1)?)?.try_into().ok()?;
+        let mut points = numbers(blocks.next()?.nth(1)?)?
+            .chunks(3)
+            .map(<[f64; 3]>::try_from)
+            .collect::<Vec<_>>()
+            .into_iter();
+        let tool = points.next()?.ok()?;
+        let centers = points.collect::<Result<Vec<_>, _>>().ok()?;
+        let letters = slides.iter().map(Slide::letter).chain(rotary.iter().map(TabledAxis::letter));
         let mut axes = Vec::new();
-        for (block, slide) in blocks.zip(slides) {
-            let mut lines = block;
-            lines.next()?.starts_with(slide.letter()).then_some(())?;
+        for (mut lines, letter) in blocks.zip(letters) {
+            lines.next()?.starts_with(letter).then_some(())?;
             let rows: Option<Vec<Vec<f64>>> = lines.map(numbers).collect();
             let (mut nodes, mut errors) = (Vec::new(), Vec::new());
             for row in rows? {
@@ -126,28 +188,54 @@ impl Tables {
             }
             axes.push((nodes, errors));
         }
-        (axes.len() == slides.len()).then_some(Self { tool, axes })
+        let is_complete = axes.len() == slides.len() + rotary.len() && centers.len() == rotary.len();
+        let rotary = is_complete.then(|| axes.split_off(slides.len()))?;
+        Some(Self { tool, centers, slides: axes, rotary })
     }
 
-    /// Returns the corrected command: minus the error of the tool point by the product of `T(x)
-    /// T(t) R(θ)` of all axes and the tool.
+    /// Returns the corrected command: minus the error of the tool point on the workpiece, seen from
+    /// the bed.
     ///
-    /// `mm` is the unit of length of `q` in mm.
-    fn corrected(&self, slides: &[Slide], q: &[f64], mm: f64) -> Vec<f64> {
+    /// The tool point is the product of `T(x) T(t) R(θ)` of all slides and the tool; each rotary
+    /// axis of the workpiece takes it to its table by a rotation about its center and the inverse of
+    /// the table's error. `mm` is the unit of length of `q` in mm.
+    fn corrected(&self, slides: &[Slide], rotary: &[TabledAxis], q: &[f64], mm: f64) -> Vec<f64> {
         let (mut real, mut ideal) = (Pose::IDENTITY, self.tool);
-        for (slide, (nodes, errors)) in slides.iter().zip(&self.axes) {
+        for (slide, (nodes, errors)) in slides.iter().zip(&self.slides) {
             let at = q[slide.variable] * mm;
             ideal[slide.axis] += at;
             let [x, y, z, a, b, c] = interpolated(nodes, errors, at);
             let mut shift = [x, y, z];
             shift[slide.axis] += at;
-            let [x, y, z] = shift;
-            // Spin about Y, roll about Z, pitch about X.
-            real = real.then(&real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[x, y, z, b, c, a]]));
+            real = real.then(&small_motion(shift, [a, b, c]));
         }
         let real = real.apply(self.tool);
+        let (mut to_real, mut to_ideal) = (Pose::IDENTITY, Pose::IDENTITY);
+        for ((axis, center), (nodes, errors)) in rotary.iter().zip(&self.centers).zip(&self.rotary) {
+            let angle = q[axis.variable];
+            let mut about = [0.0; 3];
+            about[axis.axis] = angle;
+            let turned = small_motion([0.0; 3], about);
+            let about_center = |pose: &Pose| {
+                let [to, from] = [*center, scale(*center, -1.0)].map(|shift| small_motion(shift, [0.0; 3]));
+                to.then(pose).then(&from)
+            };
+            let [x, y, z, a, b, c] = interpolated(nodes, errors, angle.to_degrees());
+            let error = about_center(&small_motion([x, y, z], [a, b, c]));
+            let turned = about_center(&turned);
+            to_real = to_real.then(&turned).then(&error.inverse());
+            to_ideal = to_ideal.then(&turned);
+        }
+        let on_workpiece = subtract(to_real.apply(real), to_ideal.apply(ideal));
+        let off = to_ideal.inverse().turn(on_workpiece);
         let mut q = q.to_vec();
-        slides.iter().for_each(|slide| q[slide.variable] -= (real[slide.axis] - ideal[slide.axis]) / mm);
+        slides.iter().for_each(|slide| q[slide.variable] -= off[slide.axis] / mm);
         q
     }
+}
+
+/// Returns a translation after a rotation about X, Y and Z; for one angle, or small ones.
+fn small_motion([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> Pose {
+    // Spin about Y, roll about Z, pitch about X.
+    real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[x, y, z, b, c, a]])
 }

@@ -97,7 +97,7 @@ pub fn write(
     let text = text(heading, &rows).unwrap_or_default();
     let corrections =
         read(&text, joints, total).ok_or_else(|| unreadable("the exported file cannot be read back"))?;
-    let corrected = |q: &[f64]| {
+    let corrected = |q: &[f64], _: &[f64]| {
         let added = interpolated(&axes, &corrections, count, q);
         q.iter().zip(added).map(|(q, added)| q + added).collect()
     };

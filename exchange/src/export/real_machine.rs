@@ -9,6 +9,7 @@ use abbe::analysis::{Configuration, Workspace, random_joint_samples, sampling};
 use abbe::{Class, Error, Manipulator, Pose, drawn_pose, real_pose};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::Dimension;
 use abbe_spec::{DhConvention, Spec, mistake, number};
 
 use super::chain_errors::{ChainErrors, Link, about_x, about_z};
@@ -23,6 +24,7 @@ const COMPARED: usize = 50;
 
 /// Machine with all its repeatable errors, evaluated at random configurations.
 pub struct RealMachine {
+    /// Spec whose tables are held at their ends: a correction may exceed a limit by a micrometre.
     pub(crate) spec: Arc<Spec>,
     /// Functions of the spec.
     pub(crate) manipulator: Interpreter,
@@ -42,6 +44,8 @@ pub struct RealMachine {
     pub(crate) mean: ChainErrors,
     /// Names of the sources whose errors vary with the configuration.
     varying: Vec<String>,
+    /// Inputs with a value of the caller.
+    fixed_inputs: Vec<usize>,
     /// Name of the spec in mistakes.
     pub(crate) origin: String,
 }
@@ -62,6 +66,7 @@ impl RealMachine {
         seed: u64,
         origin: &str,
     ) -> Result<Self, Diagnostics> {
+        let spec = Arc::new(spec.with_held_tables());
         let manipulator = Interpreter::new(spec.clone());
         let errors = ErrorModel::new(&spec, &manipulator);
         let description = manipulator.description();
@@ -81,6 +86,7 @@ impl RealMachine {
             manipulator,
             errors,
             s,
+            fixed_inputs: fixed_inputs.to_vec(),
         };
         machine.evaluate(&configurations).map_err(|(i, error)| {
             let at = number::variables(&configurations[i].q, &machine.spec);
@@ -144,6 +150,46 @@ impl RealMachine {
         (q, sampling::nominal_inputs(description))
     }
 
+    /// Returns the inputs that give the direction from which a variable approached its position: 1
+    /// from below, -1 from above.
+    ///
+    /// These are pure numbers from -1 to 1 on which errors of the variable or of its frame depend,
+    /// and which are not set.
+    pub(crate) fn directions(&self, variable: usize) -> Vec<usize> {
+        let is_direction =
+            |input: &abbe_spec::Input| input.range == [-1.0, 1.0] && input.dimension == Dimension::NONE;
+        let named = self.spec.inputs.iter().enumerate().filter(|(_, input)| is_direction(input));
+        let free = named.map(|(i, _)| i).filter(|i| !self.fixed_inputs.contains(i));
+        let own: Vec<usize> = (0..self.errors.causes.len())
+            .filter(|cause| self.errors.causes[*cause].variable(&self.spec) == Some(variable))
+            .collect();
+        let changes = |input: &usize| {
+            self.configurations.iter().take(COMPARED).any(|Configuration { q, u, .. }| {
+                let values = [-1.0, 1.0].map(|side| {
+                    let mut u = u.clone();
+                    u[*input] = side;
+                    self.errors.values(q, &self.s, &u).unwrap_or_default()
+                });
+                own.iter().any(|cause| {
+                    let magnitude = self.errors.magnitudes[self.errors.causes[*cause].source];
+                    let [below, above] = [0, 1].map(|side| values[side].get(*cause).copied().unwrap_or(0.0));
+                    magnitude * (above - below) != 0.0
+                })
+            })
+        };
+        free.filter(changes).collect()
+    }
+
+    /// Replaces the values of inputs that are directions of approach by the nearer one of -1 and 1,
+    /// and compares again.
+    pub(crate) fn approached(&mut self, directions: &[usize]) -> Result<(), Error> {
+        for (i, Configuration { q, u, .. }) in self.configurations.iter_mut().enumerate() {
+            directions.iter().for_each(|input| u[*input] = if u[*input] < 0.0 { -1.0 } else { 1.0 });
+            self.real[i] = drawn_pose(&self.manipulator, q, &self.s, u, &self.errors.magnitudes)?;
+        }
+        Ok(())
+    }
+
     /// Returns the frames of the chain with given errors, and the tool after the last.
     pub(crate) fn links(&self, q: &[f64], errors: &ChainErrors) -> Result<(Vec<Link>, Pose), Error> {
         let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + b).collect::<Vec<f64>>();
@@ -181,25 +227,28 @@ impl RealMachine {
     /// Compares the nominal poses with the real ones at corrected commands.
     pub(crate) fn command_difference(
         &self,
-        corrected: impl Fn(&[f64]) -> Result<Vec<f64>, Error>,
+        corrected: impl Fn(&[f64], &[f64]) -> Result<Vec<f64>, Error>,
     ) -> Result<PoseDifference, Error> {
         let mut pairs = Vec::with_capacity(self.ideal.len());
         for (Configuration { q, u, .. }, ideal) in self.configurations.iter().zip(&self.ideal) {
-            pairs.push([*ideal, self.real_tool(&corrected(q)?, u)?]);
+            pairs.push([*ideal, self.real_tool(&corrected(q, u)?, u)?]);
         }
         Ok(PoseDifference::new(pairs))
     }
 
     /// Returns a sentence about errors of these variables that depend on more than the variable
     /// itself, if there are any.
-    pub(super) fn errors_beyond_own_axis(&self, variables: &[usize]) -> Option<String> {
+    ///
+    /// The inputs `followed` are known to the format.
+    pub(super) fn errors_beyond_own_axis(&self, variables: &[usize], followed: &[usize]) -> Option<String> {
         let sources: Vec<&str> = self.spec.enabled_sources().map(|source| source.name.as_str()).collect();
         let has_magnitude = |cause: &Cause| self.errors.magnitudes[cause.source] != 0.0;
         let mut names: Vec<String> = Vec::new();
         for Configuration { q, u, .. } in self.configurations.iter().take(COMPARED) {
             let Ok(all) = self.errors.values(q, &self.s, u) else { continue };
             for variable in variables {
-                let (at, inputs) = self.at_home(*variable, q[*variable]);
+                let (at, mut inputs) = self.at_home(*variable, q[*variable]);
+                followed.iter().for_each(|input| inputs[*input] = u[*input]);
                 let Ok(alone) = self.errors.values(&at, &self.s, &inputs) else { continue };
                 for (cause, (all, alone)) in self.errors.causes.iter().zip(all.iter().zip(&alone)) {
                     let name = format!("\"{}\"", sources[cause.source]);

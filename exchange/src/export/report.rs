@@ -72,16 +72,16 @@ impl ExportReport {
         Self::new(machine, format, files, ["nominal", "exported"], machine.model_difference(model), sign)
     }
 
-    /// Reports a format that corrects commands: compares the real pose of the tool at corrected
-    /// commands with the nominal one.
+    /// Reports a format that corrects commands: compares the real pose of the tool at commands
+    /// corrected for a configuration and its inputs with the nominal one.
     pub(crate) fn for_commands(
         machine: &RealMachine,
         format: String,
         files: Vec<ExportedFile>,
-        corrected: impl Fn(&[f64]) -> Vec<f64>,
+        corrected: impl Fn(&[f64], &[f64]) -> Vec<f64>,
         sign: String,
     ) -> Result<Self, Error> {
-        let remains = machine.command_difference(|q| Ok(corrected(q)))?;
+        let remains = machine.command_difference(|q, u| Ok(corrected(q, u)))?;
         Ok(Self::new(machine, format, files, ["as commanded", "corrected"], remains, sign))
     }
 

@@ -122,11 +122,14 @@ impl Axes {
         (q, u)
     }
 
-    /// Returns a sentence about errors of a slide that depend on more than its position, which a
+    /// Returns a sentence about errors of an axis that depend on more than its position, which a
     /// table over one axis cannot hold.
-    pub(crate) fn errors_beyond_own_axis(&self, machine: &RealMachine) -> Option<String> {
-        let variables: Vec<usize> = self.slides.iter().map(|slide| slide.variable).collect();
-        machine.errors_beyond_own_axis(&variables)
+    ///
+    /// The inputs `followed` are known to the format.
+    pub(crate) fn errors_beyond_own_axis(&self, machine: &RealMachine, followed: &[usize]) -> Option<String> {
+        let slides = self.slides.iter().map(|slide| slide.variable);
+        let variables: Vec<usize> = slides.chain(self.rotary.iter().copied()).collect();
+        machine.errors_beyond_own_axis(&variables, followed)
     }
 
     /// Returns the errors of the slides and of the frames after them.
@@ -145,7 +148,7 @@ impl Axes {
 /// Reference point: the origin of the frame of the first slide where all variables are 0.
 pub(crate) struct Reference {
     /// Position in `F_0`.
-    point: [f64; 3],
+    pub(crate) point: [f64; 3],
     /// Nominal tool point, from the reference point along the axes of `F_0`.
     pub(crate) tool: [f64; 3],
 }

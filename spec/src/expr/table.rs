@@ -82,6 +82,13 @@ impl Table {
         table
     }
 
+    /// Returns the same function with the values at the ends held beyond them.
+    #[must_use]
+    pub fn held(&self) -> Self {
+        let Self { name, description, dimensions, points, interpolation, .. } = self.clone();
+        Self::new(name, description, dimensions, points, interpolation, Extrapolation::Hold)
+    }
+
     /// Returns the data of generated code.
     pub fn lookup(&self) -> LookupTable<'_> {
         LookupTable {

@@ -77,6 +77,14 @@ impl Spec {
         self.frames.iter().map(|frame| &frame.factors).chain([&self.tool]).map(variables).collect()
     }
 
+    /// Returns the same manipulator with all tables held at their ends: where corrected commands
+    /// exceed the limit of a joint by a micrometre, its errors are those at the limit.
+    #[must_use]
+    pub fn with_held_tables(&self) -> Self {
+        let tables = self.tables.iter().map(|table| Arc::new(table.held())).collect();
+        Self { tables, ..self.clone() }
+    }
+
     /// Returns `true` if any enabled source is repeatable.
     pub fn has_repeatable_source(&self) -> bool {
         self.enabled_sources().any(|source| source.class == Class::Repeatable)

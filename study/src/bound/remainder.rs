@@ -28,7 +28,8 @@ impl Domain {
         Some(Remainder::new(&self.largest_on_curve(&mut graph, &magnitude, share, requested, watch)))
     }
 
-    /// Bounds the error of the repeatable sources after one step of compensation; `None` without
+    /// Bounds the error of the repeatable sources after one step of compensation, where tables hold
+    /// their last value if the step goes beyond their ends; `None` without
     /// repeatable sources or with too few joints. Stops where it may exceed `before`, the error
     /// without compensation.
     pub(super) fn after_step(
@@ -40,7 +41,8 @@ impl Domain {
         if !Classes::enabled(&self.spec).repeatable {
             return None;
         }
-        let chain::Residual { mut graph, point, turn, share } = chain::Residual::new(&self.spec)?;
+        let chain::Residual { mut graph, point, turn, share } =
+            chain::Residual::new(&self.spec.with_held_tables())?;
         let mut largest = |magnitude: &Magnitude, before: f64| {
             let mut watch = |progress: &Progress| {
                 let is_given_up = progress.certified.is_infinite() && progress.boxes >= GIVE_UP_BOXES;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use abbe::{Class, Orientation};
 use abbe_bound::Effort;
+use abbe_spec::expr::Extrapolation;
 use abbe_spec::{Fitted, Spec};
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -147,6 +148,9 @@ pub struct StepResidual {
     /// singularity.
     #[serde(skip)]
     pub near_singularity: Option<String>,
+    /// Indicates that tables of the spec have ends, beyond which the bound holds their last value.
+    #[serde(skip)]
+    pub holds_tables: bool,
 }
 
 /// Smallest singular value of the joint Jacobian `J_q`, in metres and radians: the smallest motion
@@ -228,6 +232,7 @@ impl StepResidual {
             boxes: all.map(|(bound, _)| bound.boxes).sum(),
             corrects_orientation,
             near_singularity: hard.map(|(bound, _)| domain.describe(&bound.at).1),
+            holds_tables: domain.spec.tables.iter().any(|table| table.outside == Extrapolation::Nothing),
         }
     }
 }

@@ -30,7 +30,8 @@ impl Export {
     /// Writes the files as text, reads them back and compares the poses of the tool.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
-        let machine = RealMachine::new(spec.clone(), self.machine.fixed_inputs(), *samples, *seed, origin)?;
+        let mut machine =
+            RealMachine::new(spec.clone(), self.machine.fixed_inputs(), *samples, *seed, origin)?;
         if machine.is_nominal() {
             notes.warn("this spec has no repeatable source: the nominal machine is exported");
         }
@@ -41,7 +42,7 @@ impl Export {
             }
             Format::UrCalibration => ur_calibration::write(&machine)?,
             Format::IsgCsv { nodes } => isg_csv::write(&machine, *nodes)?,
-            Format::LinuxCnc { nodes } => linuxcnc::write(&machine, *nodes)?,
+            Format::LinuxCnc { nodes } => linuxcnc::write(&mut machine, *nodes)?,
             Format::Table { nodes } => joint_corrections::write(&machine, *nodes, notes)?,
         };
         let Report { before, remains, .. } = &report;

@@ -150,10 +150,15 @@ pub(in crate::text) fn after_one_step(report: &Report) -> Option<String> {
     let shown = |value: f64| number::rounded_up(value, number::decimals(value, 2));
     let turned =
         left.orientation.map(|angle| format!(", and its orientation error {} mrad", shown(1e3 * angle)));
+    let ends = if left.holds_tables {
+        ". Tables keep their last value where the step goes beyond their ends."
+    } else {
+        "."
+    };
     Some(format!(
         "After one step of compensation, q − J_q⁻¹ J_e ε, the repeatable error of the tool point \
          is at most {} {}{} in the exact chain, if the inputs are known and the joint limits \
-         allow the step.",
+         allow the step{ends}",
         shown(position),
         report.length,
         turned.unwrap_or_default()

@@ -3,6 +3,7 @@
 use abbe::analysis::{Workspace, random_joint_samples, sampling};
 use abbe::{Manipulator, drawn_pose, repeatable_magnitudes};
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_study::export::{Export, Format};
 use abbe_study::{Changes, Machine, Notes};
 use nalgebra::Vector3;
@@ -105,8 +106,8 @@ fn what_tables_leave_is_said() {
     assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("256"));
 }
 
-/// Checks that LinuxCNC, which adds `nominal − forward` to the command, leaves no error along each
-/// axis with the others at home.
+/// Checks that LinuxCNC, which adds `nominal − forward` to the command, leaves along each axis
+/// with the others at home no error but that at home, where it adds nothing.
 #[test]
 fn files_of_linuxcnc_hold_where_the_axis_is() {
     let machine = mill();
@@ -128,15 +129,80 @@ fn files_of_linuxcnc_hold_where_the_axis_is() {
                 q[i] = value;
                 drawn_pose(&arm, &q, &s, &[0.0], &magnitudes).unwrap().position()[i]
             };
-            let mut q = home.clone();
-            q[i] = nominal;
-            let ideal = arm.pose(&q, &s).unwrap().position()[i];
-            before = before.max((at(nominal) - ideal).abs());
-            after = after.max((at(nominal + (nominal - forward)) - ideal).abs());
+            let ideal = |value: f64| {
+                let mut q = home.clone();
+                q[i] = value;
+                arm.pose(&q, &s).unwrap().position()[i]
+            };
+            let at_home = at(home[i]) - ideal(home[i]);
+            before = before.max((at(nominal) - ideal(nominal)).abs());
+            after = after.max((at(nominal + (nominal - forward)) - ideal(nominal) - at_home).abs());
         }
+        let home = between(&lines, home[i]);
+        assert!((home[1] - home[0]).abs() < 2e-6, "{names:?} {i}: {home:?}");
         assert!(before > 1e-3 && after < 1e-5, "{names:?} {i}: {before} {after}");
     }
     assert!(report.remains.position.rms < report.before.position.rms);
+}
+
+/// A slide with a screw that was measured from one limit to the other, and backlash of 5 µm that
+/// depends on the direction of approach.
+const SCREW: &str = r#"
+[manipulator]
+name = "screw"
+length = "mm"
+[inputs]
+x_from = { value = 1, range = [-1, 1], description = "1 from below, -1 from above" }
+[tables.exx]
+x = { values = [0, 100, 200, 300, 400], unit = "mm" }
+y = { values = [5, 2, -3, 4, 8], unit = "um" }
+interpolation = "linear"
+[[frame]]
+name = "X"
+variable = { name = "x", kind = "prismatic", limits = [0, 400], home = 100 }
+transform = "Tx(x)"
+[[source]]
+name = "EXX"
+class = "repeatable"
+frame = "X"
+e_x = "exx(x)"
+[[source]]
+name = "backlash"
+class = "repeatable"
+joint = "x"
+error = "x_from * 2.5 um"
+"#;
+
+/// Checks the forward and reverse columns: trims are 0 at home, as the mean of both directions, and
+/// the axis is then where it is commanded in both, but for the error at home.
+#[test]
+fn columns_of_linuxcnc_hold_both_directions() {
+    let machine = Machine::of_spec(Spec::parse("screw.toml", SCREW).unwrap(), "screw");
+    let report = exported(&machine, Format::LinuxCnc { nodes: 5 });
+    let expected = "0.000000 0.005500 0.000500\n100.000000 100.002500 99.997500\n200.000000 199.997500 \
+                    199.992500\n300.000000 300.004500 299.999500\n400.000000 400.008500 400.003500\n";
+    assert_eq!(report.files[0].text, expected);
+    assert!(report.remains.position.largest < 1e-6, "{:?}", report.remains);
+    assert!(report.before.position.largest > 0.007, "{:?}", report.before);
+    let said = report.left_out.join("\n");
+    assert!(said.contains("forward column holds for `x_from` = 1, the reverse column for -1"), "{said}");
+    // An input with a value holds in both directions.
+    let mut below = machine;
+    below.change(&Changes::read(&["x_from=1".to_owned()], &[], &[], &below.spec).unwrap());
+    let report = exported(&below, Format::LinuxCnc { nodes: 5 });
+    assert!(rows(&report.files[0].text).iter().all(|line| line[1] == line[2]), "{:?}", report.files);
+}
+
+/// Checks that tables that end at the limits of the axis can be corrected there, where commands
+/// exceed the limit by the correction.
+#[test]
+fn tables_that_end_at_a_limit_are_exported() {
+    let machine = Machine::of_spec(Spec::parse("screw.toml", SCREW).unwrap(), "screw");
+    let report = exported(&machine, Format::Table { nodes: Some(5) });
+    let line = report.files[0].text.lines().nth(1).unwrap();
+    let added: f64 = line.split_once(',').unwrap().1.parse().unwrap();
+    assert!((added + 0.0075).abs() < 1e-9, "{line}");
+    assert!(report.at_nodes.unwrap().position.largest < 1e-9, "{:?}", report.at_nodes);
 }
 
 /// Checks a table of corrections: no error at a node, the reported error between nodes, and a

@@ -7,7 +7,7 @@ use abbe_study::Machine;
 use abbe_study::export::{Export, Format};
 use nalgebra::Vector3;
 
-use super::slides::mill;
+use super::slides::{mill, rows};
 use super::{exported, matrix};
 
 /// Trunnion: the table rotates about Z on a cradle that tilts about X, 50 mm below; slides along X,
@@ -156,24 +156,82 @@ fn axes_that_turn_stand_where_the_report_says() {
     assert!((c.position[0] + 0.012).abs() < 1e-6 && (c.angles[0] + 40e-6).abs() < 1e-8, "{c:?}");
 }
 
-/// Checks that the tables hold the remaining errors of a machine with error-free rotary motion if
-/// the axes are located, and not otherwise.
+/// Errors of the axes that vary with their angles, and of their encoders.
+const TURNING: &str = r#"
+[[source]]
+name = "run-out of C"
+class = "repeatable"
+frame = "C"
+e_x = "3 um * cos(c)"
+e_p = "15e-6 * sin(c)"
+[[source]]
+name = "encoder of C"
+class = "repeatable"
+joint = "c"
+error = "30e-6 * sin(c)"
+[[source]]
+name = "encoder of A"
+class = "repeatable"
+joint = "a"
+error = "-20e-6 * a"
+"#;
+
+/// Checks that tables of the rotary axes hold their locations and what varies with their angles,
+/// and that LinuxCNC, whose files hold only the angle, needs their locations as well.
 #[test]
-fn tables_and_placed_axes_hold_a_machine_whose_axes_turn_true() {
-    for format in [Format::IsgCsv { nodes: 11 }, Format::LinuxCnc { nodes: 11 }] {
-        let report = exported(&trunnion(ELSEWHERE), format);
-        let placed = report.placed.unwrap();
-        assert!(report.before.position.rms > 0.02 && placed.position.largest < 1e-9, "{placed:?}");
-        assert!((report.remains.position.rms / report.before.position.rms - 1.0).abs() < 0.01);
-    }
-    let report = exported(&trunnion(&[ELSEWHERE, SLIDES].concat()), Format::IsgCsv { nodes: 101 });
-    let placed = report.placed.unwrap();
-    assert!(report.remains.position.rms > 0.01 && placed.position.largest < 2e-5, "{placed:?}");
+fn tables_hold_the_errors_of_axes_that_turn() {
+    let all = trunnion(&[ELSEWHERE, SLIDES, TURNING].concat());
+    let report = exported(&all, Format::IsgCsv { nodes: 101 });
+    assert!(report.before.position.rms > 0.02 && report.placed.is_none(), "{:?}", report.before);
+    assert!(report.remains.position.largest < 2e-5, "{:?}", report.remains);
     // Orientations are unchanged, up to the effect of 0.1 mm of the slides.
-    assert!((placed.angle.rms / report.before.angle.rms - 1.0).abs() < 1e-3, "{placed:?}");
+    assert!((report.remains.angle.rms / report.before.angle.rms - 1.0).abs() < 1e-3, "{report:?}");
+    let report = exported(&trunnion(&[ELSEWHERE, TURNING].concat()), Format::LinuxCnc { nodes: 201 });
+    let names: Vec<&str> = report.files.iter().map(|file| file.name.as_str()).collect();
+    assert_eq!(names, ["x.comp", "y.comp", "z.comp", "c.comp", "a.comp"]);
+    let placed = report.placed.unwrap();
+    // The run-out of C stays: 3 um, and 15 urad with the lever of the tool above the trunnion.
+    assert!(report.remains.position.rms > 0.02 && placed.position.largest < 0.012, "{placed:?}");
+    // Only the encoder turns C about itself; nothing is added at home.
+    for line in rows(&report.files[3].text) {
+        let error = (30e-6 * line[0].to_radians().sin()).to_degrees();
+        assert!((line[1] - line[0] - error).abs() < 1e-6 && line[1] == line[2], "{line:?}");
+    }
     // Without rotary axes of the workpiece there is nothing to locate.
     let mill = exported(&mill(), Format::IsgCsv { nodes: 11 });
     assert!(mill.placed.is_none() && mill.turned.is_empty());
+}
+
+/// Checks that located axes leave nothing in LinuxCNC if only their locations are wrong.
+#[test]
+fn located_axes_hold_a_machine_whose_axes_turn_true() {
+    let report = exported(&trunnion(ELSEWHERE), Format::LinuxCnc { nodes: 11 });
+    let placed = report.placed.unwrap();
+    // The files have six decimals of a degree.
+    assert!(report.before.position.rms > 0.02 && placed.position.largest < 1e-6, "{placed:?}");
+    assert!((report.remains.position.rms / report.before.position.rms - 1.0).abs() < 0.05, "{report:?}");
+}
+
+/// Checks the sign of the tables of rotary axes against ISO 230-1: the error of the table is its
+/// displacement, seen from the bed. `E_i` displaces the bed against the table.
+#[test]
+fn tables_of_rotary_axes_hold_the_displacement_of_the_table() {
+    let report = exported(&trunnion(ELSEWHERE), Format::IsgCsv { nodes: 5 });
+    let block = report.files[0].text.split("\n#\n").nth(4).unwrap();
+    let (heading, lines) = block.split_once('\n').unwrap();
+    assert_eq!(heading, "C EXC EYC EZC EAC EBC ECC");
+    let lines = rows(lines);
+    assert_eq!(lines.iter().map(|line| line[0]).collect::<Vec<_>>(), [-180.0, -90.0, 0.0, 90.0, 180.0]);
+    for line in &lines {
+        let expected = [-0.012, 0.018, 0.0, -40e-6, 25e-6, 0.0];
+        assert!(line[1..].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{line:?}");
+        assert!((line[4] + 40e-6).abs() < 2e-9 && (line[5] - 25e-6).abs() < 2e-9, "{line:?}");
+    }
+    let first = report.files[0].text.lines().nth(1).unwrap();
+    assert_eq!(first, "P0X P0Y P0Z PXC PYC PZC PXA PYA PZA");
+    let points = rows(report.files[0].text.lines().nth(2).unwrap());
+    // C is at the origin of F_0, which is 250, 200 and -200 mm from the reference point.
+    assert_eq!(points[0], [0.0, 0.0, -120.0, 250.0, 200.0, -200.0, 250.0, 200.0, -250.0]);
 }
 
 /// Checks that a swivel head after the slides is refused: its angles change the lever arm.
