@@ -8,14 +8,14 @@
 
 use std::fmt::Write;
 
-use abbe::{Pose, real_pose};
+use abbe::Pose;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::mistake;
 use abbe_spec::number::digits;
 
 use crate::export::report::unreadable;
 use crate::export::rotary_axes::{Kinematics, RotaryAxis, TabledAxis};
-use crate::export::slides::{Axes, Reference, Slide, interpolated};
+use crate::export::slides::{Axes, ErrorTable, Reference, Slide, interpolated, small_motion, tool_points};
 use crate::export::{ExportReport, ExportedFile, RealMachine};
 use crate::vector::{scale, subtract};
 
@@ -82,9 +82,11 @@ pub fn write(machine: &RealMachine, nodes: usize) -> Result<ExportReport, Diagno
     let letters = |letters: Vec<String>| letters.join(", ");
     let carriers = letters(slides.iter().map(|slide| slide.letter().to_string()).collect());
     left_out.push(match rotary.is_empty() {
-        true => {
-            format!("Configure the kinematic chain in the control, from the bed to the tool: {carriers}.")
-        }
+        true => format!(
+            "Configure the kinematic chain in the control, from the bed to the tool: {carriers}. The chain \
+             of the spec must lead from the workpiece to the tool: errors of a slide that carries the \
+             workpiece have the opposite signs."
+        ),
         false => format!(
             "Configure the kinematic chain in the control, from the workpiece to the tool: {}, then \
              the bed, then {carriers}.",
@@ -148,17 +150,14 @@ fn row(values: &[f64]) -> String {
     values.iter().map(number).collect::<Vec<_>>().join(" ")
 }
 
-/// Nodes of an axis in mm or degrees, and six errors at each node.
-type Errors = (Vec<f64>, Vec<[f64; 6]>);
-
 /// Tables, read as the control reads them.
 struct Tables {
     /// Tool point from the reference point, in mm.
     tool: [f64; 3],
     /// A point on each rotary axis from the reference point, in mm.
     centers: Vec<[f64; 3]>,
-    slides: Vec<Errors>,
-    rotary: Vec<Errors>,
+    slides: Vec<ErrorTable>,
+    rotary: Vec<ErrorTable>,
 }
 
 impl Tables {
@@ -196,20 +195,10 @@ impl Tables {
     /// Returns the corrected command: minus the error of the tool point on the workpiece, seen from
     /// the bed.
     ///
-    /// The tool point is the product of `T(x) T(t) R(θ)` of all slides and the tool; each rotary
-    /// axis of the workpiece takes it to its table by a rotation about its center and the inverse of
-    /// the table's error. `mm` is the unit of length of `q` in mm.
+    /// Each rotary axis of the workpiece takes the tool point to its table by a rotation about its
+    /// center and the inverse of the table's error. `mm` is the unit of length of `q` in mm.
     fn corrected(&self, slides: &[Slide], rotary: &[TabledAxis], q: &[f64], mm: f64) -> Vec<f64> {
-        let (mut real, mut ideal) = (Pose::IDENTITY, self.tool);
-        for (slide, (nodes, errors)) in slides.iter().zip(&self.slides) {
-            let at = q[slide.variable] * mm;
-            ideal[slide.axis] += at;
-            let [x, y, z, a, b, c] = interpolated(nodes, errors, at);
-            let mut shift = [x, y, z];
-            shift[slide.axis] += at;
-            real = real.then(&small_motion(shift, [a, b, c]));
-        }
-        let real = real.apply(self.tool);
+        let [real, ideal] = tool_points(slides, &self.slides, self.tool, q, mm);
         let (mut to_real, mut to_ideal) = (Pose::IDENTITY, Pose::IDENTITY);
         for ((axis, center), (nodes, errors)) in rotary.iter().zip(&self.centers).zip(&self.rotary) {
             let angle = q[axis.variable];
@@ -232,10 +221,4 @@ impl Tables {
         slides.iter().for_each(|slide| q[slide.variable] -= off[slide.axis] / mm);
         q
     }
-}
-
-/// Returns a translation after a rotation about X, Y and Z; for one angle, or small ones.
-fn small_motion([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> Pose {
-    // Spin about Y, roll about Z, pitch about X.
-    real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[x, y, z, b, c, a]])
 }

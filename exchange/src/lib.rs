@@ -39,6 +39,7 @@ pub mod export;
 pub mod import;
 pub mod isg_csv;
 pub mod joint_corrections;
+pub mod kinematics_comp;
 pub mod linuxcnc;
 pub mod ur_calibration;
 pub mod urdf;

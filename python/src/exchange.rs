@@ -149,7 +149,9 @@ impl Machine {
         let of_axis = nodes.unwrap_or(Exported::NODES);
         let format = match (to, urdf) {
             ("isg-csv", _) => Exported::IsgCsv { nodes: of_axis },
-            ("linuxcnc", _) => Exported::LinuxCnc { nodes: of_axis },
+            ("kinematics-comp", _) => Exported::KinematicsComp { nodes: of_axis },
+            ("linuxcnc", _) => Exported::LinuxCnc { nodes: of_axis, has_matrix: false },
+            ("linuxcnc-matrixkins", _) => Exported::LinuxCnc { nodes: of_axis, has_matrix: true },
             ("table", _) => Exported::Table { nodes },
             ("urdf", Some(file)) => Exported::Urdf { file, base, tip },
             ("urdf", None) => {

@@ -15,6 +15,7 @@ use crate::failure::Failure;
   abbe export ur5 --to ur-calibration -o calibration.yaml
   abbe export machine3 --to isg-csv --set temperature_rise=3K -o volcomp.csv
   abbe export machine3 --to linuxcnc --nodes 61 -o comp
+  abbe export machine3 --to linuxcnc-matrixkins -o comp
   abbe export machine3 --to table --nodes 11 -o corrections.csv
 "))]
 pub(crate) struct Export {
@@ -80,7 +81,9 @@ impl Export {
             }
             ("ur-calibration", None) => Ok(Format::UrCalibration),
             ("isg-csv", None) => Ok(Format::IsgCsv { nodes: of_axis }),
-            ("linuxcnc", None) => Ok(Format::LinuxCnc { nodes: of_axis }),
+            ("kinematics-comp", None) => Ok(Format::KinematicsComp { nodes: of_axis }),
+            ("linuxcnc", None) => Ok(Format::LinuxCnc { nodes: of_axis, has_matrix: false }),
+            ("linuxcnc-matrixkins", None) => Ok(Format::LinuxCnc { nodes: of_axis, has_matrix: true }),
             ("table", None) => Ok(Format::Table { nodes: *nodes }),
             ("dh", None) => Ok(Format::Dh),
             (to, None) => Err(Failure::new("--to", format!("`{to}` is not implemented"))

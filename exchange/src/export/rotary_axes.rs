@@ -75,15 +75,17 @@ pub(crate) struct TabledAxis {
     pub(crate) range: [f64; 2],
     /// Point on the axis in `F_0`, where all variables are 0.
     pub(crate) center: [f64; 3],
-    /// The same point in its own frame.
+    /// Point on the axis in its own frame.
     own_center: [f64; 3],
     /// Its frame in `F_0`, where all variables are 0.
     base: Pose,
 }
 
 impl TabledAxis {
-    /// Finds the rotary axes that tables can hold, from the table of the workpiece to the bed; `None`
-    /// for an axis without limits, in another direction, or with the letter of one before it.
+    /// Finds the rotary axes that tables can hold, from the table of the workpiece to the bed.
+    ///
+    /// `None` stands for an axis without limits, in another direction, or with the letter of one
+    /// before it.
     pub(crate) fn all(machine: &RealMachine, axes: &Axes) -> Result<Vec<Option<Self>>, Error> {
         let zero = vec![0.0; machine.spec.variables.len()];
         let (nominal, _) = machine.links(&zero, &ChainErrors::none(&machine.spec))?;

@@ -3,11 +3,11 @@
 //!
 //! The workpiece is at rest or on rotary axes, which are at 0 where errors of slides are evaluated.
 
-use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation};
+use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation, real_pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::mistake;
 
-use super::chain_errors::ChainErrors;
+use super::chain_errors::{ChainErrors, product};
 use super::real_machine::RealMachine;
 use crate::vector::{add, cross, subtract};
 
@@ -165,6 +165,15 @@ impl Reference {
         Ok(Self { point, tool: subtract(tool, point) })
     }
 
+    /// Takes the origin of the last frame as the reference point: the tool reference point.
+    pub(crate) fn at_tool(machine: &RealMachine) -> Result<Self, Error> {
+        let zero = vec![0.0; machine.spec.variables.len()];
+        let (links, _) = machine.links(&zero, &ChainErrors::none(&machine.spec))?;
+        let point = product(&links).position();
+        let tool = machine.manipulator.pose(&zero, &machine.s)?.position();
+        Ok(Self { point, tool: subtract(tool, point) })
+    }
+
     /// Returns the six errors of the carriage of slide `k` at `value` by ISO 230-1, actual minus
     /// nominal.
     ///
@@ -208,4 +217,37 @@ pub(crate) fn interpolated<const N: usize>(nodes: &[f64], rows: &[[f64; N]], x: 
         (None, Some((_, row))) => *row,
         (None, None) => [0.0; N],
     }
+}
+
+/// Nodes of an axis in mm or degrees, and at each of them its errors along X, Y and Z in mm, then
+/// about X, Y and Z in rad.
+pub(crate) type ErrorTable = (Vec<f64>, Vec<[f64; 6]>);
+
+/// Returns the real and the ideal tool point from the reference point in mm: the product of `T(x)
+/// T(t) R(θ)` of all slides, and the tool.
+///
+/// `mm` is the unit of length of `q` in mm.
+pub(crate) fn tool_points(
+    slides: &[Slide],
+    tables: &[ErrorTable],
+    tool: [f64; 3],
+    q: &[f64],
+    mm: f64,
+) -> [[f64; 3]; 2] {
+    let (mut real, mut ideal) = (Pose::IDENTITY, tool);
+    for (slide, (nodes, errors)) in slides.iter().zip(tables) {
+        let at = q[slide.variable] * mm;
+        ideal[slide.axis] += at;
+        let [x, y, z, a, b, c] = interpolated(nodes, errors, at);
+        let mut shift = [x, y, z];
+        shift[slide.axis] += at;
+        real = real.then(&small_motion(shift, [a, b, c]));
+    }
+    [real.apply(tool), ideal]
+}
+
+/// Returns a translation after a rotation about X, Y and Z; for one angle, or small ones.
+pub(crate) fn small_motion([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> Pose {
+    // Spin about Y, roll about Z, pitch about X.
+    real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[x, y, z, b, c, a]])
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use abbe_exchange::export::RealMachine;
-use abbe_exchange::{dh, isg_csv, joint_corrections, linuxcnc, ur_calibration, urdf};
+use abbe_exchange::{dh, isg_csv, joint_corrections, kinematics_comp, linuxcnc, ur_calibration, urdf};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::Report;
@@ -42,7 +42,8 @@ impl Export {
             }
             Format::UrCalibration => ur_calibration::write(&machine)?,
             Format::IsgCsv { nodes } => isg_csv::write(&machine, *nodes)?,
-            Format::LinuxCnc { nodes } => linuxcnc::write(&mut machine, *nodes)?,
+            Format::KinematicsComp { nodes } => kinematics_comp::write(&machine, *nodes)?,
+            Format::LinuxCnc { nodes, has_matrix } => linuxcnc::write(&mut machine, *nodes, *has_matrix)?,
             Format::Table { nodes } => joint_corrections::write(&machine, *nodes, notes)?,
         };
         let Report { before, remains, .. } = &report;

@@ -30,10 +30,17 @@ pub enum Format {
         /// Number of values of each axis.
         nodes: usize,
     },
+    /// Rows of HEIDENHAIN's KinematicsComp, and a table for each linear axis.
+    KinematicsComp {
+        /// Number of values of each axis.
+        nodes: usize,
+    },
     /// Compensation files of LinuxCNC, one for each axis.
     LinuxCnc {
         /// Number of values of each axis.
         nodes: usize,
+        /// The matrix of `matrixkins` comes before the files.
+        has_matrix: bool,
     },
     /// Corrections of the joints on a grid.
     Table {
@@ -44,7 +51,16 @@ pub enum Format {
 
 impl Format {
     /// Names of all formats.
-    pub const NAMES: [&str; 6] = ["dh", "urdf", "ur-calibration", "isg-csv", "linuxcnc", "table"];
+    pub const NAMES: [&str; 8] = [
+        "dh",
+        "urdf",
+        "ur-calibration",
+        "isg-csv",
+        "kinematics-comp",
+        "linuxcnc",
+        "linuxcnc-matrixkins",
+        "table",
+    ];
 
     /// Default number of values of a table over one axis.
     pub const NODES: usize = 101;
@@ -53,5 +69,6 @@ impl Format {
     pub const NODES_RANGE: RangeInclusive<usize> = 2..=1_000_000;
 
     /// Names of the formats with nodes.
-    pub const WITH_NODES: [&str; 3] = ["isg-csv", "linuxcnc", "table"];
+    pub const WITH_NODES: [&str; 5] =
+        ["isg-csv", "kinematics-comp", "linuxcnc", "linuxcnc-matrixkins", "table"];
 }

@@ -88,6 +88,33 @@ fn volumetric_tables_hold_errors_that_the_control_subtracts() {
     assert!(!report.left_out[0].contains("depends on more"), "{:?}", report.left_out);
 }
 
+/// Checks the rows of KinematicsComp: from the tool, each error stands before its axis, and the
+/// tables hold the errors at the tool reference point.
+#[test]
+fn rows_of_kinematics_comp_stand_before_their_axis() {
+    let machine = mill();
+    let report = exported(&machine, Format::KinematicsComp { nodes: 601 });
+    let text = &report.files[0].text;
+    let docs: Vec<&str> = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    let expected = "EXZ EYZ EAZ EBZ ECZ - EXY EZY EAY EBY ECY - EYX EZX EAX EBX ECX -";
+    let expected: Vec<&str> = expected.split(' ').map(|doc| doc.trim_matches('-')).collect();
+    assert_eq!(docs, expected);
+    assert!(
+        text.contains("\n5,,MachAxis,Z,,\n") && text.contains("\n16,ECX,Trans,C,,column C6 of X\n"),
+        "{text}"
+    );
+    let names: Vec<&str> = report.files.iter().map(|file| file.name.as_str()).collect();
+    assert_eq!(names, ["rows.csv", "x.csv", "y.csv", "z.csv"]);
+    // EYX is 4 um and EAX 12 urad in the middle of X; the spindle nose is on the axis.
+    let middle = report.files[1].text.lines().nth(301).unwrap();
+    let middle: Vec<f64> = middle.split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert!(middle[0] == 300.0 && (middle[2] - 0.004).abs() < 1e-8, "{middle:?}");
+    assert!((middle[4] - 12e-6_f64.to_degrees()).abs() < 2e-9, "{middle:?}");
+    assert!(report.remains.position.largest < report.before.position.largest / 30.0, "{:?}", report.remains);
+    let said = report.left_out.join("\n");
+    assert!(said.contains("not the bytes of the files"), "{said}");
+}
+
 /// Checks that coarse tables leave the errors of the screws between their nodes, and that the
 /// effect of an input that is not set remains and is named.
 #[test]
@@ -97,12 +124,17 @@ fn what_tables_leave_is_said() {
     let warm = exported(&machine("machine3", ""), Format::IsgCsv { nodes: 101 });
     assert!(warm.remains.position.largest > 0.05, "{:?}", warm.remains);
     assert!(warm.left_out[0].ends_with("\"thermal expansion\"."), "{:?}", warm.left_out);
-    for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5 }] {
+    for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5, has_matrix: false }] {
         let job = Export { machine: machine("pps", ""), format, samples: 5, seed: 0 };
         let message = job.run(&mut ()).unwrap_err().list[0].message.clone();
         assert!(message.contains("rotary axis") || message.contains("slide"), "{message}");
     }
-    let job = Export { machine: mill(), format: Format::LinuxCnc { nodes: 257 }, samples: 5, seed: 0 };
+    let job = Export {
+        machine: mill(),
+        format: Format::LinuxCnc { nodes: 257, has_matrix: false },
+        samples: 5,
+        seed: 0,
+    };
     assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("256"));
 }
 
@@ -111,7 +143,7 @@ fn what_tables_leave_is_said() {
 #[test]
 fn files_of_linuxcnc_hold_where_the_axis_is() {
     let machine = mill();
-    let report = exported(&machine, Format::LinuxCnc { nodes: 256 });
+    let report = exported(&machine, Format::LinuxCnc { nodes: 256, has_matrix: false });
     let names: Vec<&str> = report.files.iter().map(|file| file.name.as_str()).collect();
     assert_eq!(names, ["x.comp", "y.comp", "z.comp"]);
     let arm = Interpreter::new(machine.spec.clone());
@@ -178,7 +210,7 @@ error = "x_from * 2.5 um"
 #[test]
 fn columns_of_linuxcnc_hold_both_directions() {
     let machine = Machine::of_spec(Spec::parse("screw.toml", SCREW).unwrap(), "screw");
-    let report = exported(&machine, Format::LinuxCnc { nodes: 5 });
+    let report = exported(&machine, Format::LinuxCnc { nodes: 5, has_matrix: false });
     let expected = "0.000000 0.005500 0.000500\n100.000000 100.002500 99.997500\n200.000000 199.997500 \
                     199.992500\n300.000000 300.004500 299.999500\n400.000000 400.008500 400.003500\n";
     assert_eq!(report.files[0].text, expected);
@@ -189,8 +221,69 @@ fn columns_of_linuxcnc_hold_both_directions() {
     // An input with a value holds in both directions.
     let mut below = machine;
     below.change(&Changes::read(&["x_from=1".to_owned()], &[], &[], &below.spec).unwrap());
-    let report = exported(&below, Format::LinuxCnc { nodes: 5 });
+    let report = exported(&below, Format::LinuxCnc { nodes: 5, has_matrix: false });
     assert!(rows(&report.files[0].text).iter().all(|line| line[1] == line[2]), "{:?}", report.files);
+}
+
+/// Checks the matrix of `matrixkins`: the joints that it commands leave nothing of scales and
+/// squareness, and the files nothing of what remains along an axis.
+#[test]
+fn a_matrix_of_linuxcnc_holds_scales_and_squareness() {
+    let frames = &SCREW[..SCREW.find("[[source]]").unwrap()];
+    let axes = r#"
+[[frame]]
+name = "Y"
+variable = { name = "y", kind = "prismatic", limits = [0, 300], home = 50 }
+transform = "Ty(y)"
+[[frame]]
+name = "Z"
+variable = { name = "z", kind = "prismatic", limits = [-200, 0] }
+transform = "Tz(z)"
+[[source]]
+name = "scales and squareness"
+class = "repeatable"
+[[source.effect]]
+frame = "X"
+e_x = "30e-6 * x"
+[[source.effect]]
+frame = "Y"
+e_x = "-25e-6 * y"
+[[source.effect]]
+frame = "Z"
+e_x = "15e-6 * z"
+e_y = "-20e-6 * z"
+e_z = "-10e-6 * z + 0.01 mm"
+"#;
+    let linear = [frames, axes].concat();
+    let machine = Machine::of_spec(Spec::parse("mill.toml", &linear).unwrap(), "mill");
+    let report = exported(&machine, Format::LinuxCnc { nodes: 11, has_matrix: true });
+    let mut lines = report.files[0].text.lines().skip(1);
+    let expected = [[1.0 - 30e-6, 25e-6, -15e-6], [0.0, 1.0, 20e-6], [0.0, 0.0, 1.0 + 10e-6]];
+    for (i, joint) in ["x", "y", "z"].into_iter().enumerate() {
+        for (j, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            let line = lines.next().unwrap();
+            let value = line.strip_prefix(&format!("setp matrixkins.C_{joint}{axis} ")).unwrap();
+            assert!((value.parse::<f64>().unwrap() - expected[i][j]).abs() < 1e-11, "{line}");
+        }
+    }
+    assert_eq!(report.files[0].name, "matrixkins.hal");
+    assert!(report.before.position.largest > 0.01 && report.remains.position.largest < 1e-5, "{report:?}");
+    for file in &report.files[1..] {
+        assert!(rows(&file.text).iter().all(|line| (line[1] - line[0]).abs() < 2e-6), "{file:?}");
+    }
+    // The screw and its backlash stay for the files.
+    let screw = &SCREW[SCREW.find("[[source]]").unwrap()..];
+    let machine = Machine::of_spec(Spec::parse("mill.toml", &[&linear, screw].concat()).unwrap(), "mill");
+    let [with, without] = [true, false].map(|has_matrix| {
+        exported(&machine, Format::LinuxCnc { nodes: 101, has_matrix }).remains.position.largest
+    });
+    assert!(with < 1e-5 && without > 0.005, "{with} {without}");
+    // A rotary axis is refused.
+    let table = linear.replace("[[frame]]\nname = \"X\"", "[[frame]]\nname = \"C\"\nvariable = { name = \"c\", kind = \"revolute\", limits = [-1, 1] }\ntransform = \"Rz(c)\"\n[[frame]]\nname = \"X\"");
+    let machine = Machine::of_spec(Spec::parse("table.toml", &table).unwrap(), "table");
+    let format = Format::LinuxCnc { nodes: 5, has_matrix: true };
+    let mistake = Export { machine, format, samples: 5, seed: 0 }.run(&mut ()).unwrap_err();
+    assert!(mistake.list[0].message.contains("matrixkins has none"), "{mistake:?}");
 }
 
 /// Checks that tables that end at the limits of the axis can be corrected there, where commands

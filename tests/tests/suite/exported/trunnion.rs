@@ -186,7 +186,10 @@ fn tables_hold_the_errors_of_axes_that_turn() {
     assert!(report.remains.position.largest < 2e-5, "{:?}", report.remains);
     // Orientations are unchanged, up to the effect of 0.1 mm of the slides.
     assert!((report.remains.angle.rms / report.before.angle.rms - 1.0).abs() < 1e-3, "{report:?}");
-    let report = exported(&trunnion(&[ELSEWHERE, TURNING].concat()), Format::LinuxCnc { nodes: 201 });
+    let report = exported(
+        &trunnion(&[ELSEWHERE, TURNING].concat()),
+        Format::LinuxCnc { nodes: 201, has_matrix: false },
+    );
     let names: Vec<&str> = report.files.iter().map(|file| file.name.as_str()).collect();
     assert_eq!(names, ["x.comp", "y.comp", "z.comp", "c.comp", "a.comp"]);
     let placed = report.placed.unwrap();
@@ -205,7 +208,7 @@ fn tables_hold_the_errors_of_axes_that_turn() {
 /// Checks that located axes leave nothing in LinuxCNC if only their locations are wrong.
 #[test]
 fn located_axes_hold_a_machine_whose_axes_turn_true() {
-    let report = exported(&trunnion(ELSEWHERE), Format::LinuxCnc { nodes: 11 });
+    let report = exported(&trunnion(ELSEWHERE), Format::LinuxCnc { nodes: 11, has_matrix: false });
     let placed = report.placed.unwrap();
     // The files have six decimals of a degree.
     assert!(report.before.position.rms > 0.02 && placed.position.largest < 1e-6, "{placed:?}");
@@ -239,7 +242,7 @@ fn tables_of_rotary_axes_hold_the_displacement_of_the_table() {
 fn a_head_is_refused() {
     let head = TRUNNION.replace("[tool]", "[[frame]]\nname = \"B\"\nvariable = { name = \"b\", kind = \"revolute\", limits = [-1, 1] }\ntransform = \"Ry(b)\"\n[tool]");
     let machine = Machine::of_spec(Spec::parse("head.toml", &head).unwrap(), "head");
-    for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5 }] {
+    for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5, has_matrix: false }] {
         let mistake =
             Export { machine: machine.clone(), format, samples: 5, seed: 0 }.run(&mut ()).unwrap_err();
         assert!(mistake.list[0].message.contains("`b` is a rotary axis of the tool"), "{mistake:?}");
