@@ -3,6 +3,7 @@
 mod c99;
 mod kernels;
 mod languages;
+mod linuxcnc;
 mod measured_data;
 mod ros;
 mod rustfmt;
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
         ("c99", c99::TESTS),
         ("kernels", kernels::TESTS),
         ("languages", languages::TESTS),
+        ("linuxcnc", linuxcnc::TESTS),
         ("measured_data", measured_data::TESTS),
         ("ros", ros::TESTS),
         ("rustfmt", rustfmt::TESTS),
