@@ -152,6 +152,11 @@ impl Machine {
         self.stated_changes.iter().cloned().chain(others).collect()
     }
 
+    /// Returns the machine with all tables held at their ends.
+    pub(crate) fn with_held_tables(&self) -> Self {
+        Self { spec: Arc::new(self.spec.with_held_tables()), ..self.clone() }
+    }
+
     /// Returns the functions of the manipulator: generated code if it is shipped, unchanged and
     /// `compiled` allows it, else an interpreter of its spec.
     pub fn evaluator(&self, compiled: bool) -> Evaluator {

@@ -159,3 +159,27 @@ fn bad_input_writes_nothing() {
         "no row can be compensated: line 2: `temperature_rise` is 50 K, outside its range -15 … 15";
     assert!(run.stderr.contains(expected) && !out.exists(), "{}", run.stderr);
 }
+
+/// A table that ends at the limits, as measured from end to end: corrections that stay within the
+/// limits are found, and others name the limit.
+#[test]
+fn tables_that_end_at_a_limit_are_compensated_there() {
+    let folder = tempdir().unwrap();
+    let spec = write(
+        folder.path(),
+        "screw.toml",
+        "[manipulator]\nname = \"screw\"\nlength = \"mm\"\n[tables.exx]\n\
+         x = { values = [0, 200, 400], unit = \"mm\" }\ny = { values = [5, -3, 8], unit = \"um\" }\n\
+         interpolation = \"linear\"\n[[frame]]\nname = \"X\"\n\
+         variable = { name = \"x\", kind = \"prismatic\", limits = [0, 400] }\ntransform = \"Tx(x)\"\n\
+         [[source]]\nname = \"EXX\"\nclass = \"repeatable\"\nframe = \"X\"\ne_x = \"exx(x)\"\n",
+    );
+    let commands = write(folder.path(), "commands.csv", "x\n400\n200\n0\n");
+    let run = abbe(&["compensate", path(&spec), path(&commands)]);
+    let text = run.stdout;
+    assert!(run.status == 1 && text.contains("2 of 3 commands corrected to within 0.001 mm"), "{text}");
+    assert!(
+        text.contains("Line 4    x is at its limit 0 mm and would have to exceed it; 0.005 mm left"),
+        "{text}"
+    );
+}

@@ -189,7 +189,8 @@ impl Compensate {
         if self.poses {
             check_poses(map)?;
         }
-        let manipulator = machine.evaluator(true);
+        // The search tries commands beyond the limits.
+        let manipulator = machine.with_held_tables().evaluator(true);
         let data = self.data.completed(map, &*manipulator, &machine.spec);
         let configurations = || data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         let (spec, tool_point) = (&machine.spec, [[0.0; 3]]);
