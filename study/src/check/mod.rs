@@ -21,6 +21,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::finite;
+use crate::iso230::IsoAxis;
 use crate::machine::Machine;
 use crate::notes::Notes;
 
@@ -43,6 +44,9 @@ pub struct Report {
     /// Content of the spec.
     #[serde(flatten)]
     pub facts: Facts,
+    /// Names of ISO 230-1 of the errors of each axis, of a machine with slides along X, Y and Z.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub iso_axes: Vec<IsoAxis>,
     /// Nominal chain at home; `None` if its pose is not finite.
     pub home: Option<Chain>,
     /// Suspicious numbers in the spec.
@@ -76,6 +80,7 @@ impl Check {
         let configurations = laws::configurations(spec);
         let report = Report {
             facts,
+            iso_axes: IsoAxis::all(spec, &interpreter),
             home: Chain::at_home(spec, &interpreter),
             warnings: angles::warnings(spec, self.machine.text().ok().as_deref()),
             notes: [unused::notes(spec), axes::notes(spec)].concat(),

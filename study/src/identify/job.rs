@@ -245,7 +245,7 @@ fn report(
         None => job.accept.verdict("cross-validation", &cross_validated.into()),
     };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
-    let parameters = parameters(setup, solved, spec.length);
+    let parameters = parameters(setup, solved, spec);
     let joint_errors = AsJointErrors::new(spec, model, fit);
     let left = compared_fit.after.rms;
     let difference = joint_errors.difference(spec, setup, solved, rows);

@@ -1,6 +1,5 @@
 //! Values of the identified unknowns, for the report.
 
-use abbe::LengthUnit;
 use abbe::identify::{Camera, FixtureGeometry, Unknown};
 use abbe_spec::Spec;
 
@@ -9,6 +8,7 @@ use super::magnitude::OwnMagnitude;
 use super::report::{Kind, Magnitude, Parameter};
 use super::setup::Setup;
 use super::solve::Solved;
+use crate::iso230::IsoAxis;
 use crate::number::digits;
 
 /// Returns the identified magnitudes of the sources of the spec.
@@ -58,9 +58,10 @@ pub(super) fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
 }
 
 /// Returns the values of the kept unknowns with their standard deviations.
-pub(super) fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Parameter> {
+pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Parameter> {
     let Solved { model, fit, .. } = solved;
     let (deviations, hardly) = (fit.standard_deviations(), fit.weakly_determined());
+    let axes = IsoAxis::all(spec, setup.ideal.manipulator);
     let parameter = |k: &usize| {
         let unknown = model.unknowns[*k];
         let (frame, rotation) = match unknown {
@@ -84,6 +85,10 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> 
             kind,
             name: model.name(unknown),
             frame,
+            iso: match unknown {
+                Unknown::Error(frame, component) => IsoAxis::name_of(&axes, frame + 1, component),
+                _ => None,
+            },
             frame_name: frame.map(|frame| frame_name(frame).to_owned()),
             value: fit.x[*k] + solved.own_magnitude(*k).map_or(0.0, |own| own.declared.value) + 0.0,
             standard_deviation: deviations[*k].unwrap_or_default(),
@@ -91,7 +96,7 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> 
                 Unknown::Intrinsic(parameter) if Camera::is_pixel(parameter) => "px",
                 Unknown::Magnitude(_) | Unknown::Intrinsic(_) => "",
                 _ if rotation => "rad",
-                _ => length.symbol(),
+                _ => spec.length.symbol(),
             },
             hardly_known: hardly.contains(k),
         }

@@ -181,6 +181,10 @@ pub struct Parameter {
     pub frame: Option<usize>,
     /// Name of that frame.
     pub frame_name: Option<String>,
+    /// Name of the error by ISO 230-1, of a machine with slides along X, Y and Z; with a minus sign
+    /// where the frame has the opposite one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iso: Option<String>,
     /// Identified value, in `unit`.
     pub value: f64,
     /// Standard deviation of the value, in `unit`.

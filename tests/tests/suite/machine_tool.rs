@@ -4,7 +4,11 @@
 use std::collections::HashMap;
 
 use abbe::Manipulator;
+use abbe_manipulators::SHIPPED;
 use abbe_manipulators::machine3::{DESCRIPTION, EFFECTS, ERRORS, FRAMES, Inputs, Machine3, Parameters};
+use abbe_spec::Spec;
+use abbe_study::check::Check;
+use abbe_study::{IsoAxis, Machine};
 
 /// The volumetric error of a chain X, Y, Z with tool length L below the nose, by hand:
 ///
@@ -77,4 +81,29 @@ fn squareness_is_one_angle() {
         let (near, far) = (angle(name, [1.0, 2.0, 3.0], along), angle(name, [500.0, 390.0, 440.0], along));
         assert!((near - far).abs() < 1e-18 && near != 0.0, "{name}: {near} and {far}");
     }
+}
+
+/// Checks the names of ISO 230-1: the roll of X is EAX, and on the side of the workpiece the frame
+/// has the opposite sign.
+#[test]
+fn errors_of_axes_have_the_names_of_iso_230() {
+    let named = |machine: Machine| {
+        let report = Check { machine }.run(&mut ()).unwrap();
+        let one = |axis: &IsoAxis| (axis.name.clone(), axis.carries_workpiece, axis.errors.join(" "));
+        report.iso_axes.iter().map(one).collect::<Vec<_>>()
+    };
+    let own = |name: &str, errors: &str| (name.to_owned(), false, errors.to_owned());
+    let slides = [
+        own("X", "EXX EYX EZX EBX ECX EAX"),
+        own("Y", "EXY EYY EZY EBY ECY EAY"),
+        own("Z", "EXZ EYZ EZZ EBZ ECZ EAZ"),
+    ];
+    let shipped = |name: &str| SHIPPED.iter().find(|shipped| shipped.name == name).unwrap();
+    assert_eq!(named(Machine::shipped(shipped("machine3")).unwrap()), slides);
+    assert!(named(Machine::shipped(shipped("ur5")).unwrap()).is_empty());
+    let table = "[[frame]]\nname = \"C\"\nvariable = { name = \"c\", kind = \"revolute\" }\ntransform = \"Rz(c)\"\n\n[[frame]]\nname = \"bed\"";
+    let text = shipped("machine3").spec.replace("[[frame]]\nname = \"bed\"", table);
+    let machine = Machine::of_spec(Spec::parse("table.toml", &text).unwrap(), "table");
+    let turned = ("C".to_owned(), true, "-EXC -EYC -EZC -EBC -ECC -EAC".to_owned());
+    assert_eq!(named(machine), [&[turned][..], &slides].concat());
 }

@@ -112,7 +112,10 @@ fn table(spec: &Spec, report: &Report, wanted: impl Fn(&Parameter) -> bool) -> T
         };
         let remark = if parameter.hardly_known { "prior-dominated" } else { "" };
         table.row(vec![
-            parameter.name.clone(),
+            match &parameter.iso {
+                Some(iso) => format!("{} ({iso})", parameter.name),
+                None => parameter.name.clone(),
+            },
             parameter.frame_name.clone().unwrap_or_default(),
             show(parameter.value),
             show(parameter.standard_deviation),

@@ -22,6 +22,9 @@ pub(in crate::text) fn check(report: &Report) -> String {
     parts[0] += &format!("{}\n", verdict(report));
     parts[0] += &format!("\nLengths in {length}, orientation {}\n", report.facts.orientation);
     parts.push(format!("Frames\n{}", frames(spec)));
+    if !report.iso_axes.is_empty() {
+        parts.push(iso_axes(report));
+    }
     if let Some(home) = &report.home {
         parts.push(chain::text(home, length));
     }
@@ -85,6 +88,23 @@ fn frames(spec: &Spec) -> String {
         [number, frame.name.clone(), variable.name.clone(), kind, limits, home]
     });
     table(&["", "frame", "variable", "kind", "limits", "home"], rows)
+}
+
+/// Lists the names of ISO 230-1.
+fn iso_axes(report: &Report) -> String {
+    let rows = report.iso_axes.iter().map(|axis| {
+        let [x, y, z, s, r, p] = axis.errors.clone();
+        let carried = if axis.carries_workpiece { "workpiece" } else { "tool" };
+        [axis.name.clone(), carried.to_owned(), x, y, z, s, r, p]
+    });
+    let header = ["frame", "carries", "e_x", "e_y", "e_z", "e_s", "e_r", "e_p"];
+    let mut text = format!("Errors of the axes by ISO 230-1\n{}", table(&header, rows));
+    if report.iso_axes.iter().any(|axis| axis.carries_workpiece) {
+        let sign = "ISO 230-1 states the error of an axis that carries the workpiece as seen from the part \
+            that carries it: the error of the frame has the opposite sign.";
+        text += &(wrapped(sign, 0) + "\n");
+    }
+    text
 }
 
 /// Returns the kind, the limits and the home of a joint, in deg or in the length unit.
