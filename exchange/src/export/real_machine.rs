@@ -60,7 +60,7 @@ impl RealMachine {
     ///
     /// A configuration cannot be evaluated.
     pub fn new(
-        spec: Arc<Spec>,
+        spec: &Spec,
         fixed_inputs: &[usize],
         samples: usize,
         seed: u64,

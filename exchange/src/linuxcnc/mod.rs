@@ -158,7 +158,7 @@ fn origin_sentence(joints: &[CompensatedJoint], at_home: &[f64]) -> Option<Strin
         .collect();
     (!shifts.is_empty()).then(|| {
         format!(
-            "The trims are 0 at home. The errors there ({}) are a shift of the origin; the figures \
+            "The trims are 0 at home, as the mean of both directions. The errors there ({}) are a shift of the origin; the figures \
              assume that the work offset takes it.",
             shifts.join(", ")
         )
