@@ -29,6 +29,7 @@ mod new;
 mod number;
 mod output;
 mod plan;
+mod positioning;
 mod schema;
 mod simulate;
 
@@ -72,6 +73,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Doctor(arguments)) => doctor::run(arguments),
         Some(Command::Generate(arguments)) => generate::run(arguments),
         Some(Command::Plan(arguments)) => plan::run(arguments),
+        Some(Command::Positioning(arguments)) => positioning::run(arguments),
         Some(Command::Simulate(arguments)) => simulate::run(arguments),
         Some(Command::Measure(arguments)) => measure::run(arguments),
         Some(Command::Identify(arguments)) => identify::run(arguments),

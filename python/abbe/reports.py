@@ -161,6 +161,53 @@ class AnalyzeReport(Report):
     """Stated date; absent if there is none."""
 
 
+class ApproachResult(Fields):
+    """Approaches of one target position in one direction. Values are in `unit`."""
+
+    count: int
+    """Number of approaches."""
+
+    mean: float
+    """Mean deviation `x̄_i↑` or `x̄_i↓`.
+
+    Unit: `unit`.
+    """
+
+    standard_deviation: float | None
+    """Standard deviation `s_i↑` or `s_i↓`; none for a single approach.
+
+    Unit: `unit`.
+    """
+
+    repeatability: float | None
+    """Repeatability `R_i↑` or `R_i↓`.
+
+    Unit: `unit`.
+    """
+
+
+class Bidirectional(Fields):
+    """Characteristics of both directions."""
+
+    accuracy: Characteristic | None
+    """Accuracy `A`; none if a position has a single approach."""
+
+    systematic: Characteristic
+    """Systematic positioning error `E`."""
+
+    mean: Characteristic
+    """Mean positioning error `M`."""
+
+    repeatability: Characteristic | None
+    """Repeatability `R`; none if a position has a single approach."""
+
+    reversal: Characteristic
+    """Reversal error `B`."""
+
+    mean_reversal: Characteristic
+    """Mean reversal error `B̄`."""
+
+
 class BoundReport(Report):
     """Bounds on the errors over a box of configurations. Lengths are in the spec's unit, angles in rad. To first
     order in the errors of the sources, the true maximum of each error lies between `found` and `certified`.
@@ -317,6 +364,22 @@ class ChangeZero(Fields):
     """
 
 
+class Characteristic(Fields):
+    """Value of a characteristic, in `unit`."""
+
+    value: float
+    """Value.
+
+    Unit: `unit`.
+    """
+
+    uncertainty: float | None
+    """Expanded uncertainty, k = 2, from that of the instrument; none if that is not stated.
+
+    Unit: `unit`.
+    """
+
+
 class Chart(Fields):
     """Control chart of one error, or of the residual."""
 
@@ -380,6 +443,9 @@ class CheckReport(Report):
 
     operations: list[FunctionOperations]
     """Operation counts of the generated functions."""
+
+    iso_axes: list[IsoAxis] | None
+    """Names of ISO 230-1 of the errors of each axis, of a machine with slides along X, Y and Z."""
 
     home: Chain | None
     """Nominal chain at home; None if its pose is not finite."""
@@ -636,6 +702,18 @@ class Dh(Fields):
 
     Unit: length unit or rad.
     """
+
+
+class DiagonalResult(Fields):
+    """Largest characteristics of all body diagonals."""
+
+    systematic: Characteristic | None
+    """Diagonal systematic deviation of positioning `E_d`: the largest `E`; none unless all diagonals have both
+    directions.
+    """
+
+    reversal: Characteristic | None
+    """Diagonal reversal error `B_d`: the largest `B`."""
 
 
 class Directions(Fields):
@@ -1482,6 +1560,25 @@ class Interpretation(Fields):
     """Differences from the spec."""
 
 
+class IsoAxis(Fields):
+    """Axis of a machine tool, and the names of its errors."""
+
+    frame: int
+    """Frame of the axis, from 1."""
+
+    name: str
+    """Name of the frame."""
+
+    letter: str
+    """Letter of the axis."""
+
+    carries_workpiece: bool
+    """The axis carries the workpiece: the errors of the frame have the opposite sign of those that ISO 230-1 names."""
+
+    errors: list[str]
+    """Names of `e_x e_y e_z e_s e_r e_p`, with a minus sign on the side of the workpiece."""
+
+
 class JointError(Fields):
     """Identified error of a number of the chain."""
 
@@ -2189,6 +2286,11 @@ class Parameter(Fields):
     frame_name: str | None
     """Name of that frame."""
 
+    iso: str | None = None
+    """Name of the error by ISO 230-1, of a machine with slides along X, Y and Z; with a minus sign where the frame
+    has the opposite one.
+    """
+
     value: float
     """Identified value, in `unit`."""
 
@@ -2364,6 +2466,85 @@ class PoseFormatRotationVector(Fields):
 
     degrees: bool
     """Is true if the angle is in degrees, false for radians."""
+
+
+class PositionResult(Fields):
+    """Results at one target position. Deviations are in `unit`."""
+
+    position: float
+    """Target position `P_i`, in the `position_unit`."""
+
+    forward: ApproachResult | None
+    """Approaches from below, ↑; none if there are none."""
+
+    reverse: ApproachResult | None
+    """Approaches from above, ↓."""
+
+    mean: float | None
+    """Mean bidirectional deviation `x̄_i`; none unless there are both directions.
+
+    Unit: `unit`.
+    """
+
+    reversal: float | None
+    """Reversal error `B_i`.
+
+    Unit: `unit`.
+    """
+
+    repeatability: float | None
+    """Bidirectional repeatability `R_i`.
+
+    Unit: `unit`.
+    """
+
+
+class PositioningLine(Fields):
+    """Results of an axis or a diagonal."""
+
+    name: str
+    """Name of the diagonal; empty for an axis."""
+
+    positions: list[PositionResult]
+    """Results by position, ascending."""
+
+    forward: Unidirectional | None
+    """Characteristics of the approaches from below; none unless every position has them."""
+
+    reverse: Unidirectional | None
+    """Characteristics of the approaches from above."""
+
+    bidirectional: Bidirectional | None
+    """Characteristics of both directions."""
+
+
+class PositioningReport(Report):
+    """Results of one axis, or of several diagonals. Positions are in mm or deg, deviations in um or arcsec."""
+
+    __slots__ = ()
+
+    file: str
+    """Name of the file."""
+
+    unit: str
+    """Unit of deviations and characteristics: `um` or `arcsec`."""
+
+    position_unit: str
+    """Unit of positions: `mm` or `deg`."""
+
+    approaches: list[int]
+    """Smallest and largest number of approaches of a position in one direction."""
+
+    instrument: list[float] | None
+    """Standard uncertainties of the instrument: of a reading in `unit`, of the scale in `unit` by `position_unit`;
+    none if they are not stated.
+    """
+
+    lines: list[PositioningLine]
+    """Results of the axis, or of each diagonal."""
+
+    diagonals: DiagonalResult | None
+    """Results of all diagonals together; none for an axis."""
 
 
 class Predicted(Fields):
@@ -3055,6 +3236,19 @@ class UndeterminedError(Fields):
 
     per: str
     """Unit of the error: `mrad`, or the length unit."""
+
+
+class Unidirectional(Fields):
+    """Characteristics of one direction."""
+
+    accuracy: Characteristic | None
+    """Accuracy `A↑` or `A↓`; none if a position has a single approach."""
+
+    systematic: Characteristic
+    """Systematic positioning error `E↑` or `E↓`."""
+
+    repeatability: Characteristic | None
+    """Repeatability `R↑` or `R↓`; none if a position has a single approach."""
 
 
 class UnreachableReason(Fields):

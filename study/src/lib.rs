@@ -58,6 +58,7 @@ pub mod list;
 pub mod measure;
 pub mod monitor;
 pub mod plan;
+pub mod positioning;
 pub mod simulate;
 
 pub mod data;
@@ -76,8 +77,8 @@ mod changed_text;
 mod changes;
 mod extrapolation;
 mod finite;
-mod iso230;
 mod interpretations;
+mod iso230;
 mod lines;
 mod listing;
 mod machine;

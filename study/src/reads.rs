@@ -15,6 +15,7 @@ use crate::machine::Machine;
 use crate::measure::Measure;
 use crate::monitor::{Checks, Monitor};
 use crate::plan::{Choice, Plan, Sets};
+use crate::positioning::Positioning;
 use crate::simulate::{Places, Simulate};
 use crate::study_file::Study;
 
@@ -93,6 +94,13 @@ impl Reads for Places {
 
 // The patterns name every field, so that a new field does not compile until its files are
 // considered.
+
+impl Reads for Positioning {
+    fn files(&self) -> Vec<PathBuf> {
+        let Self { data, reading: _, scale: _ } = self;
+        vec![data.clone()]
+    }
+}
 
 impl Reads for Check {
     fn files(&self) -> Vec<PathBuf> {

@@ -21,6 +21,7 @@ mod merge;
 mod monitor;
 mod new;
 mod plan;
+mod positioning;
 mod schema;
 mod shared;
 mod simulate;
@@ -44,6 +45,7 @@ pub(crate) use merge::Merge;
 pub(crate) use monitor::Monitor;
 pub(crate) use new::New;
 pub(crate) use plan::Plan;
+pub(crate) use positioning::Positioning;
 pub(crate) use schema::Schema;
 pub(crate) use shared::{Showing, study};
 pub(crate) use simulate::Simulate;
@@ -103,6 +105,11 @@ pub(crate) enum Command {
     /// Evaluate measurements of a machine: accuracy, repeatability, and the part that its sources
     /// explain
     Measure(Measure),
+    /// Evaluate runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6
+    ///
+    /// The characteristics A, E, M, R and B come with their uncertainty, if that of the instrument
+    /// is stated.
+    Positioning(Positioning),
     /// Identify the errors of a real machine from measurements
     Identify(Identify),
     /// Compute joint commands that compensate the errors of the machine

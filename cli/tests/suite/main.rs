@@ -28,6 +28,7 @@ mod new;
 mod outputs;
 mod pages;
 mod paths;
+mod positioning;
 #[cfg(unix)]
 mod progress;
 mod readme;

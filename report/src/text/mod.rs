@@ -14,7 +14,9 @@ use abbe::Description;
 use abbe_spec::Spec;
 use abbe_study::RunRecord;
 use abbe_study::data::Map;
-use abbe_study::{analyze, bound, check, compensate, doctor, export, identify, measure, monitor, plan};
+use abbe_study::{
+    analyze, bound, check, compensate, doctor, export, identify, measure, monitor, plan, positioning,
+};
 
 pub use answer::next;
 pub(crate) use full::analysis::explained as draws_explained;
@@ -94,6 +96,11 @@ pub fn compensation(machine: &Description, report: &compensate::Report, detail: 
 /// Prints a plan of measurements, without the file that it wrote.
 pub fn plan(spec: &Spec, map: &Map, report: &plan::Report, detail: Detail) -> String {
     detail.choose::<fn(&_, &_, &_) -> _>(answer::plan, full::plan)(spec, map, report)
+}
+
+/// Prints the characteristics of a positioning test.
+pub fn positioning(report: &positioning::Report, detail: Detail) -> String {
+    detail.choose::<fn(&_) -> _>(answer::positioning, full::positioning)(report)
 }
 
 /// Prints control charts and the alarm they raise.

@@ -12,6 +12,7 @@ mod identification;
 mod measurement;
 mod monitoring;
 mod plan;
+mod positioning;
 
 use abbe_study::data::Summary;
 use abbe_study::number::{digits, unbroken};
@@ -29,6 +30,7 @@ pub(super) use identification::identification;
 pub(super) use measurement::measurement;
 pub(super) use monitoring::monitoring;
 pub(super) use plan::plan;
+pub(super) use positioning::positioning;
 
 /// Number of values of a configuration that are shown.
 const NAMED: usize = 12;

@@ -11,6 +11,7 @@ mod indistinguishable;
 pub(super) mod measurement;
 pub(super) mod monitoring;
 mod plan;
+mod positioning;
 
 use super::{Table, listed, wrapped};
 
@@ -24,6 +25,7 @@ pub(super) use identification::identification;
 pub(super) use measurement::measurement;
 pub(super) use monitoring::monitoring;
 pub(super) use plan::plan;
+pub(super) use positioning::positioning;
 
 /// Sets rows below a header.
 fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> String {

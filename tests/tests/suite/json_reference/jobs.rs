@@ -19,6 +19,7 @@ use abbe_study::list::List;
 use abbe_study::measure::Measure;
 use abbe_study::monitor::{Checks, Monitor};
 use abbe_study::plan::{Choice, Plan};
+use abbe_study::positioning::Positioning;
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Machine, Study, monitor};
 use serde::Serialize;
@@ -82,6 +83,7 @@ fn machine(name: &str) -> Machine {
 pub(super) fn reports() -> Vec<(&'static str, Value)> {
     let mut all = vec![
         ("CheckReport", json(&Check { machine: machine("pps") }.run(&mut ()).unwrap())),
+        ("CheckReport", json(&Check { machine: machine("machine3") }.run(&mut ()).unwrap())),
         ("CheckReport", json(&Check { machine: machine("ur5") }.run(&mut ()).unwrap())),
         ("JacobianReport", json(&Jacobian { machine: machine("pps"), q: None }.run(&mut ()).unwrap())),
     ];
@@ -90,6 +92,7 @@ pub(super) fn reports() -> Vec<(&'static str, Value)> {
     all.extend(predicted());
     all.extend(exchanged());
     all.extend(measured());
+    all.extend(positioned());
     all
 }
 
@@ -112,6 +115,21 @@ fn predicted() -> Vec<(&'static str, Value)> {
         all.push(("BoundReport", json(&job.run(&mut ()).unwrap())));
     }
     all
+}
+
+fn positioned() -> Vec<(&'static str, Value)> {
+    let folder = tempfile::tempdir().unwrap();
+    let report = |name: &str, text: &str, reading: Option<&str>| {
+        let data = folder.path().join(name);
+        std::fs::write(&data, text).unwrap();
+        let job = Positioning { data, reading: reading.map(str::to_owned), scale: None };
+        ("PositioningReport", json(&job.run(&mut ()).unwrap()))
+    };
+    vec![
+        report("axis.csv", "position (mm),1+ (um),1- (um),2+ (um)\n0,1,2,1\n9,3,4,5\n", Some("1um")),
+        report("diagonals.csv", "diagonal,position (mm),1+ (um),1- (um)\nPPP,0,1,2\nPPP,9,3,4\n", None),
+        report("up.csv", "position (deg),1+ (arcsec)\n0,1\n9,3\n", None),
+    ]
 }
 
 fn exchanged() -> Vec<(&'static str, Value)> {

@@ -1,7 +1,7 @@
 //! Commands with `--json`, and their reports.
 
 /// Name of the report's class in Python, its type, and the commands that print it.
-pub(super) const REPORTS: [(&str, &str, &[&str]); 14] = [
+pub(super) const REPORTS: [(&str, &str, &[&str]); 15] = [
     ("AnalyzeReport", "abbe_study::analyze::report::Report", &["analyze", "merge"]),
     ("BoundReport", "abbe_study::bound::report::Report", &["bound"]),
     ("CheckReport", "abbe_study::check::Report", &["check"]),
@@ -14,6 +14,7 @@ pub(super) const REPORTS: [(&str, &str, &[&str]); 14] = [
     ("MeasureReport", "abbe_study::measure::Report", &["measure"]),
     ("MonitorReport", "abbe_study::monitor::report::Report", &["monitor"]),
     ("PlanReport", "abbe_study::plan::report::Report", &["plan"]),
+    ("PositioningReport", "abbe_study::positioning::Report", &["positioning"]),
     ("ShippedManipulator", "abbe_study::list::ShippedManipulator", &["list"]),
     ("SimulateReport", "abbe_study::simulate::Report", &["simulate"]),
 ];

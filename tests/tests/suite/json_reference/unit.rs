@@ -2,7 +2,7 @@
 
 /// Phrases of sentences, and the unit that they say; `1` for numbers without one. The first that
 /// occurs decides.
-const PHRASES: [(&str, &str); 45] = [
+const PHRASES: [(&str, &str); 46] = [
     ("in the squared length unit", "length unit²"),
     ("in pixels and 1", "px, 1"),
     ("in products of these units", "products of the units"),
@@ -15,6 +15,7 @@ const PHRASES: [(&str, &str); 45] = [
     ("unit of length of the spec and rad", "length unit, rad"),
     ("in the tolerance's unit", "unit of the tolerance"),
     ("in the units of the map", "units of the map"),
+    ("in the `position_unit`", "`position_unit`"),
     ("in `unit`", "`unit`"),
     ("in the unit of `value`", "unit of `value`"),
     ("in coherent units", "coherent"),

@@ -1,0 +1,131 @@
+//! The answer of a positioning test: the characteristics of ISO 230-2 or ISO 230-6.
+
+use abbe_study::number::digits;
+use abbe_study::positioning::{Bidirectional, Characteristic, PositioningLine, Report, Unidirectional};
+
+use super::{Answer, aligned};
+
+pub(in crate::text) fn positioning(report: &Report) -> String {
+    let mut answer = Answer::new(&headline(report));
+    answer.block(&match &report.lines[..] {
+        [line] if report.diagonals.is_none() => of_axis(line, report.unit),
+        lines => of_diagonals(lines, report.unit),
+    });
+    answer.facts(facts(report));
+    answer.0
+}
+
+/// Returns the verdict: the characteristics that are quoted most.
+fn headline(report: &Report) -> String {
+    let unit = report.unit;
+    let named = |name: &str, value: Option<Characteristic>| {
+        value.map(|value| format!("{name} {} {unit}", digits(value.value, 3)))
+    };
+    let (standard, figures) = match (&report.diagonals, &report.lines[..]) {
+        (Some(diagonals), _) => {
+            ("ISO 230-6", vec![named("E_d", diagonals.systematic), named("B_d", diagonals.reversal)])
+        }
+        (None, [PositioningLine { evaluation, .. }, ..]) => {
+            let figures = match (&evaluation.bidirectional, evaluation.forward.or(evaluation.reverse)) {
+                (Some(Bidirectional { accuracy, systematic, repeatability, reversal, .. }), _) => vec![
+                    named("A", *accuracy),
+                    named("E", Some(*systematic)),
+                    named("R", *repeatability),
+                    named("B", Some(*reversal)),
+                ],
+                (None, Some(Unidirectional { accuracy, systematic, repeatability })) => vec![
+                    named("one direction: A", accuracy),
+                    named("E", Some(systematic)),
+                    named("R", repeatability),
+                ],
+                (None, None) => vec![Some("no direction has readings at every position".to_owned())],
+            };
+            ("ISO 230-2", figures)
+        }
+        (None, []) => ("ISO 230-2", Vec::new()),
+    };
+    let figures: Vec<String> = figures.into_iter().flatten().collect();
+    format!("{}: {} ({standard})", report.file, figures.join(", "))
+}
+
+/// Formats a characteristic with its uncertainty.
+fn shown(value: Option<Characteristic>) -> String {
+    let Some(Characteristic { value, uncertainty }) = value else { return "-".to_owned() };
+    let spread = uncertainty.map_or(String::new(), |uncertainty| format!(" ± {}", digits(uncertainty, 2)));
+    digits(value, 3) + &spread
+}
+
+fn of_axis(PositioningLine { evaluation, .. }: &PositioningLine, unit: &str) -> String {
+    let both = evaluation.bidirectional.as_ref();
+    let sides = [evaluation.forward.as_ref(), evaluation.reverse.as_ref()];
+    let row =
+        |name: &str, both: Option<Characteristic>, one: fn(&Unidirectional) -> Option<Characteristic>| {
+            let [up, down] = sides.map(|side| shown(side.and_then(one)));
+            [name.to_owned(), shown(both), up, down]
+        };
+    let none = |_: &Unidirectional| None;
+    let rows = [
+        [unit, "bidirectional", "forward", "reverse"].map(str::to_owned),
+        row("A   accuracy", both.and_then(|both| both.accuracy), |side| side.accuracy),
+        row("E   systematic error", both.map(|both| both.systematic), |side| Some(side.systematic)),
+        row("M   mean error", both.map(|both| both.mean), none),
+        row("R   repeatability", both.and_then(|both| both.repeatability), |side| side.repeatability),
+        row("B   reversal error", both.map(|both| both.reversal), none),
+        row("B̄   mean reversal error", both.map(|both| both.mean_reversal), none),
+    ];
+    aligned(&rows, [false, true, true, true])
+}
+
+fn of_diagonals(lines: &[PositioningLine], unit: &str) -> String {
+    let mut rows = vec![["diagonal", &format!("E {unit}"), "M", "R", "B"].map(str::to_owned)];
+    for PositioningLine { name, evaluation } in lines {
+        let both = evaluation.bidirectional.as_ref();
+        rows.push([
+            name.clone(),
+            shown(both.map(|both| both.systematic)),
+            shown(both.map(|both| both.mean)),
+            shown(both.and_then(|both| both.repeatability)),
+            shown(both.map(|both| both.reversal)),
+        ]);
+    }
+    aligned(&rows, [false, true, true, true, true])
+}
+
+/// Returns the facts about the runs and the uncertainty.
+pub(in crate::text) fn facts(report: &Report) -> Vec<(&'static str, String)> {
+    let targets: Vec<usize> = report.lines.iter().map(|line| line.evaluation.positions.len()).collect();
+    let all = || report.lines.iter().flat_map(|line| &line.evaluation.positions).map(|one| one.position);
+    let (least, most) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    let range = |[least, most]: [usize; 2]| match least == most {
+        true => least.to_string(),
+        false => format!("{least} to {most}"),
+    };
+    let positions = [targets.iter().min(), targets.iter().max()].map(|one| one.copied().unwrap_or_default());
+    let mut facts = vec![(
+        "Runs",
+        format!(
+            "{} target positions from {} to {} {}, {} approaches in each direction",
+            range(positions),
+            digits(least, 6),
+            digits(most, 6),
+            report.position_unit,
+            range(report.approaches)
+        ),
+    )];
+    facts.push((
+        "±",
+        match report.instrument {
+            None => "not known: --reading-uncertainty and --scale-uncertainty state those of the instrument"
+                .to_owned(),
+            Some([reading, scale]) => format!(
+                "expanded uncertainty, k = 2, to first order: {} {unit} of a reading, {} {unit}/{} of the \
+                 scale (standard uncertainties)",
+                digits(reading, 3),
+                digits(scale, 3),
+                report.position_unit,
+                unit = report.unit
+            ),
+        },
+    ));
+    facts
+}
