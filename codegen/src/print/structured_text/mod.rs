@@ -48,7 +48,8 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         statuses(&Tolerances::DOUBLE)
     ));
     writer.lines(" *)");
-    for support in Support::used(spec, routines) {
+    let has_compensated = compensated::is_complete(spec, routines);
+    for support in Support::used(spec, routines, has_compensated) {
         writer.blank();
         writer.lines(support.text(&syntax.prefix).trim_end());
     }
@@ -61,7 +62,9 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     for routine in helpers.into_iter().chain(functions) {
         block(&mut writer, spec, routines, routine, &syntax);
     }
-    compensated::blocks(&mut writer, spec, routines, &syntax.prefix);
+    if has_compensated {
+        compensated::blocks(&mut writer, spec, routines, &syntax.prefix);
+    }
     SourceFile { name: format!("{}.st", spec.name), text: writer.finish() }
 }
 

@@ -50,7 +50,7 @@ impl Support {
     ];
 
     /// Returns the functions that a file uses.
-    pub(super) fn used(spec: &Spec, routines: &Routines) -> BTreeSet<Self> {
+    pub(super) fn used(spec: &Spec, routines: &Routines, has_compensated: bool) -> BTreeSet<Self> {
         let programs = routines.programs();
         let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
         let used = actions.filter_map(|action| match action {
@@ -58,7 +58,7 @@ impl Support {
             _ => Self::for_action(action),
         });
         let mut used: BTreeSet<Self> = used.chain([Self::IsWithin]).collect();
-        if !spec.variables.is_empty() {
+        if has_compensated {
             used.insert(Self::Arctangent);
         }
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
