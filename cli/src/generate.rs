@@ -12,7 +12,12 @@ use crate::output::{Outcome, Outputs, Pending, note};
 
 pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
     let language = language(arguments)?;
-    let job = generate::Generate { machine: Machine::find(&arguments.spec)?, language };
+    let job = generate::Generate {
+        machine: Machine::find(&arguments.spec)?,
+        language,
+        only: arguments.only.clone(),
+        name: arguments.name.clone(),
+    };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     if let Language::Fmu(_) = language {
         return unit(arguments, &job, outputs);

@@ -524,14 +524,17 @@ class Machine:
         >>> report.files[0].name, report.remains.position.largest < report.before.position.largest
         ('machine3.volcomp.csv', True)
         """
-    def generate(self, language: options.Language = "rust", *, real: options.Real | None = None) -> str:
+    def generate(self, language: options.Language = "rust", *, real: options.Real | None = None, only: str | None = None, name: str | None = None) -> str:
         """Returns the closed form as source code in one text.
 
         `language`: "rust", "c", "js", "python", "matlab" or "st". `real`: floating-point type of C,
         "double" (default) or "float". The text of C is the header followed by the source;
         `generate_files` returns them one by one. The same spec always gives the same text.
+
+        `only`: functions to write, with what they need, separated by commas, for "c", "js",
+        "python" and "matlab"; None for all. `name`: name in the code instead of the machine's.
         """
-    def generate_files(self, language: options.Language = "rust", *, real: options.Real | None = None) -> dict[str, str]:
+    def generate_files(self, language: options.Language = "rust", *, real: options.Real | None = None, only: str | None = None, name: str | None = None) -> dict[str, str]:
         """Returns the closed form as source files: their names and texts, to be written to one folder.
 
         Options as for `generate`.

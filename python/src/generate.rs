@@ -16,9 +16,20 @@ impl Machine {
     /// `language`: "rust", "c", "js", "python", "matlab" or "st". `real`: floating-point type of C,
     /// "double" (default) or "float". The text of C is the header followed by the source;
     /// `generate_files` returns them one by one. The same spec always gives the same text.
-    #[pyo3(signature = (language="rust", *, real=None))]
-    fn generate(&self, py: Python<'_>, language: &str, real: Option<&str>) -> PyResult<String> {
-        Ok(self.generated(py, language, real)?.into_iter().map(|file| file.text).collect())
+    ///
+    /// `only`: functions to write, with what they need, separated by commas, for "c", "js",
+    /// "python" and "matlab"; None for all. `name`: name in the code instead of the machine's.
+    #[pyo3(signature = (language="rust", *, real=None, only=None, name=None))]
+    fn generate(
+        &self,
+        py: Python<'_>,
+        language: &str,
+        real: Option<&str>,
+        only: Option<String>,
+        name: Option<String>,
+    ) -> PyResult<String> {
+        let files = self.generated(py, language, real, only, name)?;
+        Ok(files.into_iter().map(|file| file.text).collect())
     }
 
     /// Returns the closed form as source files: their names and texts, to be written to one folder.
@@ -28,22 +39,31 @@ impl Machine {
     /// >>> import abbe
     /// >>> list(abbe.load("scara").generate_files("c"))
     /// ['scara.h', 'scara.c']
-    #[pyo3(signature = (language="rust", *, real=None))]
+    #[pyo3(signature = (language="rust", *, real=None, only=None, name=None))]
     fn generate_files<'py>(
         &self,
         py: Python<'py>,
         language: &str,
         real: Option<&str>,
+        only: Option<String>,
+        name: Option<String>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let files = PyDict::new(py);
-        let generated = self.generated(py, language, real)?;
+        let generated = self.generated(py, language, real, only, name)?;
         generated.into_iter().try_for_each(|file| files.set_item(file.name, file.text))?;
         Ok(files)
     }
 }
 
 impl Machine {
-    fn generated(&self, py: Python<'_>, language: &str, real: Option<&str>) -> PyResult<Vec<SourceFile>> {
+    fn generated(
+        &self,
+        py: Python<'_>,
+        language: &str,
+        real: Option<&str>,
+        only: Option<String>,
+        name: Option<String>,
+    ) -> PyResult<Vec<SourceFile>> {
         let language = match named("language", language, Generate::LANGUAGES)? {
             Language::Fmu(_) => {
                 return Err(PyValueError::new_err(
@@ -58,7 +78,7 @@ impl Machine {
             (Language::C(_), Some(real)) => Language::C(real),
             (_, Some(_)) => return Err(PyValueError::new_err("`real` is for language=\"c\": leave it out")),
         };
-        let job = Generate { machine: self.machine.clone(), language };
+        let job = Generate { machine: self.machine.clone(), language, only, name };
         Ok(run(py, None, None, |notes| job.run(notes))?.0)
     }
 }

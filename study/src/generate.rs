@@ -1,7 +1,12 @@
 //! Closed form of a manipulator as source code.
 
+use std::borrow::Cow;
+
 pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
+use abbe_spec::value::find_name;
+use abbe_spec::{Spec, check_name};
 
 pub use crate::archive::archive;
 use crate::machine::Machine;
@@ -16,6 +21,10 @@ pub struct Generate {
     pub machine: Machine,
     /// Target language.
     pub language: Language,
+    /// Functions to write, separated by commas; `None` for all.
+    pub only: Option<String>,
+    /// Name in the code instead of the manipulator's own.
+    pub name: Option<String>,
 }
 
 /// Creates one entry for each value of a constant `ALL`.
@@ -38,20 +47,49 @@ impl Generate {
     /// Versions of FMI.
     pub const VERSIONS: Choices<Fmi> = all!(Fmi: 0 1);
 
-    /// Returns the generated files, one or several. The bytes depend only on the spec. Fails if a
-    /// number of the spec does not fit the language's floating-point type.
+    /// Returns the generated files, one or several. The bytes depend only on the spec and the
+    /// options. Fails if the language has no such function, the name is not valid, or a number of
+    /// the spec does not fit the language's floating-point type.
     pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>, Diagnostics> {
-        let spec = &self.machine.spec;
-        match self.language.lost(spec) {
-            None => Ok(self.language.files(spec)),
-            Some(number) => Err(mistake::with_help(
+        let mut spec = Cow::Borrowed(&*self.machine.spec);
+        if let Some(name) = &self.name {
+            check_name("--name", name)?;
+            spec.to_mut().name.clone_from(name);
+        }
+        if let Some(number) = self.language.lost(&spec) {
+            return Err(mistake::with_help(
                 &spec.file,
                 format!(
                     "the code contains the number {number:e}, which single precision cannot \
                     represent"
                 ),
                 "remove `--real float`, or check the units of the spec",
-            )),
+            ));
         }
+        match &self.only {
+            None => Ok(self.language.files(&spec)),
+            Some(only) => Ok(self.language.files_of(&spec, &self.selected(only, &spec)?)),
+        }
+    }
+
+    /// Returns the functions of a list of names.
+    fn selected(&self, only: &str, spec: &Spec) -> Result<Vec<&'static str>, Diagnostics> {
+        let possible = self.language.functions(spec);
+        if possible.is_empty() {
+            let message = format!("`--only` has no effect on {}", self.language.name());
+            let help = "generate c, js, python or matlab, or leave `--only` out";
+            return Err(mistake::with_help("--only", message, help));
+        }
+        let mut document = Document::new("--only", only);
+        let mut found = Vec::new();
+        let mut start = 0;
+        for name in only.split(',') {
+            let at = start + name.len() - name.trim_start().len();
+            start += name.len() + 1;
+            let name = name.trim();
+            let index = find_name(&mut document, at..at + name.len(), name, &possible, "function");
+            found.extend(index.map(|index| possible[index]));
+        }
+        document.finish(Some(found))
     }
 }

@@ -133,7 +133,7 @@ impl Reads for Export {
 
 impl Reads for Generate {
     fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, language: _ } = self;
+        let Self { machine, language: _, only: _, name: _ } = self;
         machine.files()
     }
 }

@@ -30,7 +30,7 @@ pub fn write(out: &Path, c: &[PathBuf], cpp: &[PathBuf], rust: &[PathBuf], ours:
         for (kind, function) in OURS {
             let function = format!("{manipulator}_{function}");
             text.push_str(&format!(
-                "    fn {function}(q: *const f64, s: *const f64, second: *mut f64, result: *mut f64) -> i32;\n"
+                "    fn {function}(q: *const f64, second: *mut f64, result: *mut f64) -> i32;\n"
             ));
             own.push_str(&format!("    (\"{manipulator}_{kind}\", {function}),\n"));
         }

@@ -16,13 +16,16 @@ pub enum Rounding {
     AsWritten,
 }
 
+/// Functions that are compared.
+const FUNCTIONS: [&str; 4] = ["error_jacobian", "error_jacobian_distinct", "displacement", "covariance"];
+
 /// Writes header and source of a spec. Returns the path of the source.
 pub fn write(spec: &Spec, rounding: Rounding, out: &Path) -> PathBuf {
     let mut spec = spec.clone();
     if rounding == Rounding::Contracted {
         spec.name += CONTRACTED;
     }
-    for file in Language::C(Real::Double).files(&spec) {
+    for file in Language::C(Real::Double).files_of(&spec, &FUNCTIONS) {
         fs::write(out.join(&file.name), &file.text).expect("our code");
     }
     out.join(format!("{}.c", spec.name))

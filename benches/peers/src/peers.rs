@@ -12,7 +12,7 @@ pub type Function = unsafe extern "C" fn(q: *const f64, second: *mut f64, result
 
 /// Function of our C code: takes parameters, of which there are none here, and returns 0 if all
 /// results are finite.
-pub type Ours = unsafe extern "C" fn(q: *const f64, s: *const f64, second: *mut f64, result: *mut f64) -> i32;
+pub type Ours = unsafe extern "C" fn(q: *const f64, second: *mut f64, result: *mut f64) -> i32;
 
 include!(concat!(env!("OUT_DIR"), "/peers/bindings.rs"));
 
@@ -58,21 +58,17 @@ pub fn ours(robot: &str) -> Vec<Row> {
         for kind in Kind::ALL {
             let name = format!("{robot}{ending}_{}", kind.name());
             let function = OURS.iter().find(|(listed, _)| **listed == name).expect("it was generated").1;
-            let none = std::ptr::null();
             // Safety: generated for this robot, which has no parameters; a row has room for all
             // that it reads and writes.
             rows.push(match kind {
                 Kind::Dense | Kind::Distinct => {
                     Row::jacobian(shown, Side::OurC, kind, move |q, pose, result| unsafe {
-                        assert_eq!(function(q.as_ptr(), none, pose.as_mut_ptr(), result.as_mut_ptr()), 0);
+                        assert_eq!(function(q.as_ptr(), pose.as_mut_ptr(), result.as_mut_ptr()), 0);
                     })
                 }
                 Kind::Displacement | Kind::Covariance => {
                     Row::given(shown, Side::OurC, kind, move |q, given, result| unsafe {
-                        assert_eq!(
-                            function(q.as_ptr(), none, given.as_ptr().cast_mut(), result.as_mut_ptr()),
-                            0
-                        );
+                        assert_eq!(function(q.as_ptr(), given.as_ptr().cast_mut(), result.as_mut_ptr()), 0);
                     })
                 }
             });

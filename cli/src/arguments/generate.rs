@@ -12,6 +12,7 @@ use super::values::named;
     "  abbe generate arm.toml --out arm.rs
   abbe generate arm.toml --lang c --out controller
   abbe generate arm.toml --lang c --real float --out controller
+  abbe generate arm.toml --lang c --only compensated,pose --name left_arm --out controller
   abbe generate arm.toml --lang js --out arm.js
   abbe generate arm.toml --lang python --out arm.py
   abbe generate arm.toml --lang matlab --out arm.m
@@ -29,6 +30,13 @@ pub(crate) struct Generate {
     /// [default: double]
     #[arg(long, value_parser = named(generate::Generate::REALS))]
     pub(crate) real: Option<Real>,
+    /// Write only these functions and what they need, in C, JavaScript, Python and Matlab; separated
+    /// by commas. [default: all]
+    #[arg(long, value_name = "FUNCTIONS")]
+    pub(crate) only: Option<String>,
+    /// Name in the code, such that several machines can be linked. [default: the spec's]
+    #[arg(long)]
+    pub(crate) name: Option<String>,
     /// FMI version of the unit that --lang fmu writes. [default: 3]
     #[arg(long, value_name = "VERSION", value_parser = named(generate::Generate::VERSIONS))]
     pub(crate) fmi: Option<Fmi>,

@@ -57,6 +57,52 @@ fn c_is_two_files() {
     }
 }
 
+/// Only the selected functions are public, under the name that was given; what is wrong is refused
+/// with its place.
+#[test]
+fn functions_are_selected_by_name() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("controller");
+    let out = out.to_str().unwrap();
+    prints(&[
+        "generate",
+        "ur5",
+        "--lang",
+        "c",
+        "--only",
+        "pose, compensated",
+        "--name",
+        "left_arm",
+        "--out",
+        out,
+    ]);
+    let header = fs::read_to_string(folder.path().join("controller/left_arm.h")).unwrap();
+    let functions: Vec<&str> =
+        header.lines().filter_map(|line| line.strip_prefix("int left_arm_")?.split('(').next()).collect();
+    assert_eq!(functions, ["pose", "compensated", "self_test"]);
+    assert!(!header.contains("real_pose"));
+    for (language, exported, other) in [
+        ("js", "export function pose(", "export function real_pose("),
+        ("python", "def pose(", "def real_pose("),
+        ("matlab", "= pose(", "effects"),
+    ] {
+        let code = prints(&["generate", "ur5", "--lang", language, "--only", "pose,compensated"]);
+        assert!(code.contains(exported) && !code.contains(other), "{language}");
+        assert!(!code.contains("error_jacobian"), "{language}");
+    }
+    let wrong = |arguments: &[&str], expected: &[&str]| {
+        let run = abbe(&[&["generate", "ur5"], arguments].concat());
+        assert_eq!(run.status, 2);
+        assert!(expected.iter().all(|part| run.stderr.contains(part)), "{}", run.stderr);
+    };
+    let unknown = ["--only:1:6", "no function `pse`", "did you mean `pose`", "`compensated`"];
+    wrong(&["--lang", "js", "--only", "pose,pse"], &unknown);
+    wrong(&["--lang", "js", "--only", "parameter_jacobian"], &["no function `parameter_jacobian`"]);
+    wrong(&["--only", "pose"], &["--only", "rust"]);
+    wrong(&["--lang", "fmu", "--only", "pose", "--out", "ur5.fmu"], &["--only", "fmu"]);
+    wrong(&["--lang", "js", "--name", "Left"], &["--name", "lower case"]);
+}
+
 /// An FMU has the same bytes wherever it is written, is not printed to a terminal, and follows the
 /// chosen version.
 #[test]
@@ -86,13 +132,13 @@ fn c_in_single_precision() {
     prints(&[&["generate", "pps"][..], &asked].concat());
     for file in ["pps.h", "pps.c"] {
         let text = fs::read_to_string(out.join(file)).unwrap();
-        let double = ["double *", "const double ", "    double "].iter().any(|what| text.contains(what));
-        assert!(text.contains("const float *") && !double, "{file}");
+        let double = ["double q", "const double ", "    double "].iter().any(|what| text.contains(what));
+        assert!(text.contains("const float q[") && !double, "{file}");
     }
     let spec =
         prints(&["generate", "pps", "--lang", "c", "--real", "double", "--out", out.to_str().unwrap()]);
     assert_eq!(spec, "");
-    assert!(fs::read_to_string(out.join("pps.h")).unwrap().contains("const double *"));
+    assert!(fs::read_to_string(out.join("pps.h")).unwrap().contains("const double q["));
     for (number, told) in [("1e39", "1e39"), ("2e-50", "2e-50")] {
         let text = format!(
             "[manipulator]\nname = \"tiny\"\nlength = \"m\"\n[[frame]]\nname = \"a\"\n\

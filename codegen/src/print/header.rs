@@ -44,8 +44,13 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     let mut row = |text: &str| writer.documentation_line(text);
     row(&format!("- Units: {length}, rad; masses kg, times s, temperatures K."));
     row("- Poses are in `F_0`, column-major: x, y, z axis, then position.");
-    row(&format!("- Rows: {}.", rows(spec.orientation)));
-    row("- Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).");
+    let mut signatures = routines.signatures();
+    if signatures.any(|signature| signature.oriented) {
+        row(&format!("- Rows: {}.", rows(spec.orientation)));
+        row(
+            "- Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).",
+        );
+    }
     if let Some(places) = one_sided(spec) {
         writer.documentation_line("");
         writer.documentation(&format!("Derivatives are one-sided (0 for `sign`) in {places}."));
@@ -69,13 +74,13 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     row("");
     row("| function | operations |");
     row("|---|---|");
-    for routine in routines.list.iter().filter(|routine| routine.function.is_some()) {
+    for routine in routines.list.iter().filter(|routine| routines.exports(routine)) {
         row(&format!("| `{}` | {} |", routine.name, operations(routine)));
     }
 }
 
 /// Returns the operation counts of a function, and whether they include a loop over the frames.
-pub(super) fn operations(routine: &Routine) -> String {
+fn operations(routine: &Routine) -> String {
     let is_loop = |stage: &Stage| matches!(stage, Stage::Block(Block { repeated: Some(_), .. }));
     let loops = if routine.stages.iter().any(is_loop) { ", in a loop over the frames" } else { "" };
     format!("{}{loops}", routine.operations)

@@ -3,7 +3,7 @@
 use super::text::{harmless, wrapped};
 
 /// Maximum length of a line.
-const LINE: usize = 100;
+pub(super) const LINE: usize = 100;
 
 /// Maximum width of an expression, an array or the arguments of a call on one line.
 pub(super) const NARROW: usize = 60;

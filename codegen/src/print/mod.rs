@@ -80,6 +80,15 @@ impl Language {
         }
     }
 
+    /// Returns the names of the functions that the code of a manipulator can consist of. Empty if
+    /// the code is one whole.
+    pub fn functions(self, spec: &Spec) -> Vec<&'static str> {
+        match self {
+            Self::Rust | Self::Fmu(_) => Vec::new(),
+            _ => Routines::new(spec, &Model::new(spec)).selectable(),
+        }
+    }
+
     /// Returns a number of the manipulator that the code cannot represent, if any.
     pub fn lost(self, spec: &Spec) -> Option<f64> {
         match self {
@@ -90,10 +99,30 @@ impl Language {
 
     /// Returns the code of a manipulator: one file, or several that belong together.
     pub fn files(self, spec: &Spec) -> Vec<SourceFile> {
+        self.files_with(spec, |routines| match self {
+            // Functions on arrays without elements.
+            Self::C(_) => routines.meaningful(),
+            Self::Fmu(_) => fmu::FUNCTIONS.to_vec(),
+            _ => routines.exported.clone(),
+        })
+    }
+
+    /// Returns the code of some of the [`functions`](Self::functions) of a manipulator.
+    pub fn files_of(self, spec: &Spec, functions: &[&'static str]) -> Vec<SourceFile> {
+        self.files_with(spec, |_| functions.to_vec())
+    }
+
+    fn files_with(
+        self,
+        spec: &Spec,
+        functions: impl FnOnce(&Routines) -> Vec<&'static str>,
+    ) -> Vec<SourceFile> {
         let tunable = matches!(self, Self::Fmu(_)).then(|| spec.with_magnitudes_as_inputs());
         let spec = tunable.as_ref().unwrap_or(spec);
         let model = Model::new(spec);
         let routines = Routines::new(spec, &model);
+        let functions = functions(&routines);
+        let routines = routines.only(&functions);
         let one =
             |extension: &str, text| vec![SourceFile { name: format!("{}.{extension}", spec.name), text }];
         match self {

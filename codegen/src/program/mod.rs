@@ -4,8 +4,11 @@
 //! `outputs` gives the nodes of each function. A [`Routine`] computes one function: usually with
 //! one program, for long chains with several programs in loops (`loops`). [`Routines`] holds all
 //! functions of a manipulator. `select` chooses, among equal nodes, those that take the fewest
-//! operations together; `write` converts them to steps.
+//! operations together; `write` converts them to steps. `bounds` proves that results are finite,
+//! `checked` tells which numbers a function has to check at run time.
 
+mod bounds;
+mod checked;
 mod count;
 mod description;
 mod fuse;
@@ -20,6 +23,7 @@ mod step;
 mod straight_line;
 mod write;
 
+pub use checked::Checks;
 pub use count::Operations;
 pub use outputs::{results, straight_line};
 pub use rounding::Rounded;

@@ -146,14 +146,20 @@ pub enum Row {
 impl Routine {
     /// Returns the number of stages that write an array.
     pub fn writes(&self, array: usize) -> usize {
-        let writes = |stage: &&Stage| match stage {
-            Stage::Block(block) => block.writes.iter().any(|place| place.array == array),
-            Stage::Call { arrays, .. } => arrays.contains(&array),
-            Stage::Sums { entries: filled, .. } | Stage::Copy { to: filled, .. } | Stage::Clear(filled) => {
+        self.stages.iter().filter(|stage| stage.writes(array)).count()
+    }
+}
+
+impl Stage {
+    /// Returns `true` if the stage writes an array, or passes it to another routine.
+    pub fn writes(&self, array: usize) -> bool {
+        match self {
+            Self::Block(block) => block.writes.iter().any(|place| place.array == array),
+            Self::Call { arrays, .. } => arrays.contains(&array),
+            Self::Sums { entries: filled, .. } | Self::Copy { to: filled, .. } | Self::Clear(filled) => {
                 *filled == array
             }
-        };
-        self.stages.iter().filter(writes).count()
+        }
     }
 }
 

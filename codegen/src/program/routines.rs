@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_core::function::{Count, Signature};
+use abbe_core::function::{COMPENSATED, Count, Signature};
 use abbe_core::{Description, Function, Orientation};
 use abbe_spec::Spec;
 use abbe_spec::expr::Table as LookupTable;
@@ -12,7 +12,7 @@ use super::loops::Loops;
 use super::outputs::{Outputs, alternatives, fewest};
 use super::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage, Sums, Table};
 use super::select::Selections;
-use super::{Operations, Program};
+use super::{Action, Operations, Program};
 use crate::chain::{EffectNode, Model, is_long};
 
 /// The functions of a manipulator and their shared data.
@@ -22,6 +22,9 @@ pub struct Routines {
     pub description: Description,
     /// The functions in the order of [`Function::ALL`], then the helpers.
     pub list: Vec<Routine>,
+    /// Names of the functions that users call, those of corrected commands among them. Others are
+    /// there because these call them.
+    pub exported: Vec<&'static str>,
     /// Tables that loops use.
     pub tables: Vec<Table>,
     /// Sums that loops use.
@@ -89,11 +92,69 @@ impl Routines {
         let (helpers, tables, sums) = loops.map_or_else(Default::default, Loops::finish);
         list.extend(helpers);
         let lookup_tables = spec.tables.clone();
-        let mut routines = Self { description, list, tables, sums, lookup_tables };
+        let commands = Some(&COMPENSATED).filter(|_| !description.variables.is_empty());
+        let exported = Function::ALL.map(Function::signature).into_iter().chain(commands);
+        let exported = exported.map(|signature| signature.name).collect();
+        let mut routines = Self { description, list, exported, tables, sums, lookup_tables };
         for index in 0..routines.list.len() {
             routines.list[index].operations = routines.operations(&routines.list[index]);
         }
         routines
+    }
+
+    /// Keeps the functions with these names and what they call.
+    #[must_use]
+    pub fn only(mut self, exported: &[&'static str]) -> Self {
+        let mut needed = exported.to_vec();
+        if exported.contains(&COMPENSATED.name) {
+            needed.extend([Function::Pose, Function::CompensatorStep].map(Function::name));
+        }
+        let mut next = 0;
+        while let Some(name) = needed.get(next).copied() {
+            next += 1;
+            let stages = self.list.iter().filter(|routine| routine.name == name).flat_map(|r| &r.stages);
+            needed.extend(stages.filter_map(|stage| match stage {
+                Stage::Call { routine, .. } => Some(*routine),
+                _ => None,
+            }));
+        }
+        self.list.retain(|routine| needed.contains(&routine.name));
+        self.exported.retain(|name| exported.contains(name));
+        self
+    }
+
+    /// Returns the names of the exported functions that have results.
+    pub fn selectable(&self) -> Vec<&'static str> {
+        let has_results = |signature: &&Signature| {
+            let mut results = signature.results.iter();
+            results.all(|array| !array.is_empty(&self.description))
+        };
+        self.signatures().filter(has_results).map(|signature| signature.name).collect()
+    }
+
+    /// Returns the names of the selectable functions that depend on what the manipulator has:
+    /// without sources, none that take inputs.
+    pub fn meaningful(&self) -> Vec<&'static str> {
+        let takes_inputs = |signature: &&Signature| signature.arguments.iter().any(|array| array.name == "u");
+        let without = self.signatures().filter(takes_inputs).map(|signature| signature.name);
+        let without: Vec<_> = without.filter(|_| self.description.sources.is_empty()).collect();
+        self.selectable().into_iter().filter(|name| !without.contains(name)).collect()
+    }
+
+    /// Iterates over the signatures of the exported functions, in their order.
+    pub fn signatures(&self) -> impl Iterator<Item = &'static Signature> {
+        let all = Function::ALL.map(Function::signature).into_iter().chain([&COMPENSATED]);
+        all.filter(|signature| self.exported.contains(&signature.name))
+    }
+
+    /// Returns `true` if users call the routine.
+    pub fn exports(&self, routine: &Routine) -> bool {
+        self.exported.contains(&routine.name)
+    }
+
+    /// Returns `true` if there are corrected commands.
+    pub fn has_compensated(&self) -> bool {
+        self.exported.contains(&COMPENSATED.name)
     }
 
     /// Returns the routine with this name.
@@ -125,6 +186,17 @@ impl Routines {
         let is_used =
             |index| self.stages().any(|stage| matches!(stage, Stage::Sums { sums, .. } if *sums == index));
         self.sums.iter().enumerate().filter(move |(index, _)| is_used(*index)).map(|(_, sums)| sums)
+    }
+
+    /// Iterates over the lookup tables that routines use.
+    pub fn used_lookup_tables(&self) -> impl Iterator<Item = &Arc<LookupTable>> {
+        let is_used = |index| {
+            let actions = self.programs().flat_map(|program| program.steps.iter().map(|step| step.action));
+            actions.into_iter().any(
+                |action| matches!(action, Action::Lookup(lookup, _) if usize::from(lookup.table) == index),
+            )
+        };
+        self.lookup_tables.iter().enumerate().filter(move |(k, _)| is_used(*k)).map(|(_, table)| table)
     }
 
     /// Iterates over the programs of all routines.

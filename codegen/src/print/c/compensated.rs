@@ -4,7 +4,7 @@ use abbe_core::compensator::Status;
 use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
-use super::functions::{documentation, head};
+use super::functions::{SIZE, documentation, head};
 use super::real::Real;
 use super::shortest::Solver;
 use crate::print::compensated::{meaning, numbered, units};
@@ -12,7 +12,7 @@ use crate::print::layout::Writer;
 use crate::program::Routines;
 
 pub(super) fn declaration(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
-    if spec.variables.is_empty() {
+    if !routines.has_compensated() {
         return;
     }
     writer.blank();
@@ -26,11 +26,11 @@ pub(super) fn declaration(writer: &mut Writer, spec: &Spec, routines: &Routines,
         meaning(Status::Reached, &Solver::new(real).tolerances)
     );
     documentation(writer, &routines.description, &COMPENSATED, &own, Some(&end));
-    writer.lines(&format!("{};", head(&spec.name, &COMPENSATED, real, "")));
+    writer.lines(&format!("{};", head(routines, &COMPENSATED, real, SIZE)));
 }
 
-pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
-    if spec.variables.is_empty() {
+pub(super) fn definition(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
+    if !routines.has_compensated() {
         return;
     }
     writer.blank();
@@ -53,7 +53,10 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
         let text = numbered(&real.text(text), spec, &tolerances, |value| real.number(value));
         placed.iter().fold(text, |text, (what, value)| text.replace(what, value))
     });
-    let text = [before, head(&spec.name, &COMPENSATED, real, ""), after].concat();
+    let [s, u] = [("s", spec.parameters.len()), ("u", spec.inputs.len())]
+        .map(|(name, len)| if len > 0 { format!(" {name},") } else { String::new() });
+    let after = after.replace("_ALL", &[&s[..], &u].concat()).replace("_IDEAL", &s);
+    let text = [before, head(routines, &COMPENSATED, real, SIZE), after].concat();
     writer.blank();
     writer.lines(text.trim_end());
 }
@@ -197,12 +200,12 @@ HEAD
     int inside = 1;
     int begins_elsewhere = 0;
     int held = 0;
-    int status = NAME_pose(q, s, target);
-    if (is_finite(q, COUNT) == 0 || is_finite(last, COUNT) == 0 || is_finite(rotations, 3) == 0) {
+    int status = NAME_pose(q,_IDEAL target);
+    if (are_below(last, COUNT, HUGE_VAL) == 0 || are_below(rotations, 3, HUGE_VAL) == 0) {
         return UPPER_NOT_FINITE;
     }
     if (status == UPPER_OK) {
-        status = NAME_compensator_step(q, s, u, real, columns);
+        status = NAME_compensator_step(q,_ALL real, columns);
     }
     if (status != UPPER_OK) {
         return status;
@@ -221,7 +224,7 @@ HEAD
         begins_elsewhere = (at[j] < q[j] || at[j] > q[j]) ? 1 : begins_elsewhere;
     }
     if (begins_elsewhere != 0) {
-        status = NAME_compensator_step(at, s, u, real, columns);
+        status = NAME_compensator_step(at,_ALL real, columns);
         if (status != UPPER_OK) {
             return status;
         }
@@ -244,7 +247,7 @@ HEAD
             const double far = fabs(at[j] - from[j]) / UNITS[j];
             moved = (far > moved) ? far : moved;
         }
-        status = NAME_compensator_step(at, s, u, real, columns);
+        status = NAME_compensator_step(at,_ALL real, columns);
         if (status != UPPER_OK) {
             return status;
         }

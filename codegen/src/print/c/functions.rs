@@ -8,37 +8,56 @@ use super::operators::C;
 use super::real::Real;
 use crate::print::expression::Value;
 use crate::print::flat::{Flat, filled};
-use crate::print::layout::Writer;
+use crate::print::layout::{LINE, Writer, width};
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
-use crate::program::{ArrayRows, Role, Routine, Routines, Row};
+use crate::program::{Array, ArrayRows, Checks, Role, Routine, Routines, Row, Stage};
 
-/// Returns the head of a function without its end: `int pps_pose(const double *restrict q, …)`.
-pub(super) fn head(prefix: &str, signature: &Signature, real: Real, restrict: &str) -> String {
-    let given = signature.arguments.iter().map(|array| (array.name, Role::Argument));
-    let filled = signature.results.iter().map(|array| (array.name, Role::Result));
-    format!("int {prefix}_{}({})", signature.name, arguments(given.chain(filled), real, restrict))
+/// Macro of the sizes of arrays that must not overlap others.
+pub(super) const RESTRICT: &str = "ABBE_RESTRICT";
+
+/// Macro of the sizes of arrays that may overlap others.
+pub(super) const SIZE: &str = "ABBE_SIZE";
+
+/// Returns the head of a function without its end: `int pps_pose(const double q[ABBE_RESTRICT(6)],
+/// …)`. `size` is the macro of the sizes of its arrays.
+pub(super) fn head(routines: &Routines, signature: &Signature, real: Real, size: &str) -> String {
+    let description = &routines.description;
+    let given = signature.arguments.iter().map(|array| (array, Role::Argument));
+    let filled = signature.results.iter().map(|array| (array, Role::Result));
+    let arrays = given.chain(filled).map(|(array, role)| (array.name, role, array.len(description)));
+    let local = if routines.exported.contains(&signature.name) { "" } else { "static " };
+    head_of(&format!("{local}int {}_{}", description.name, signature.name), arrays, real, size)
 }
 
 /// Returns the head of a helper function.
-fn helper_head(prefix: &str, routine: &Routine, real: Real) -> String {
-    let arrays = routine.arrays.iter().map(|array| (array.name, array.role));
-    format!("static void {prefix}_{}({})", routine.name, arguments(arrays, real, "restrict"))
+fn helper_head(routines: &Routines, routine: &Routine, real: Real) -> String {
+    let len = |array: &Array| array.len(&routines.description);
+    let arrays = routine.arrays.iter().map(|array| (array.name, array.role, len(array)));
+    head_of(&format!("static void {}_{}", routines.description.name, routine.name), arrays, real, RESTRICT)
 }
 
-fn arguments(arrays: impl Iterator<Item = (&'static str, Role)>, real: Real, restrict: &str) -> String {
-    let restrict = if restrict.is_empty() { String::new() } else { format!("{restrict} ") };
-    let outside = arrays.filter_map(|(name, role)| match role {
-        Role::Argument => Some(format!("const {real} *{restrict}{name}")),
-        Role::Result => Some(format!("{real} *{restrict}{name}")),
+/// Returns a head with the declarations of its arrays, on several lines if it is long. An array
+/// without elements is no argument.
+fn head_of(
+    name: &str,
+    arrays: impl Iterator<Item = (&'static str, Role, usize)>,
+    real: Real,
+    size: &str,
+) -> String {
+    let declared = arrays.filter(|(.., len)| *len > 0).filter_map(|(name, role, len)| match role {
+        Role::Argument => Some(format!("const {real} {name}[{size}({len})]")),
+        Role::Result => Some(format!("{real} {name}[{size}({len})]")),
         Role::Margin | Role::Zeros => None,
     });
-    outside.collect::<Vec<_>>().join(", ")
+    let declared: Vec<String> = declared.collect();
+    let line = format!("{name}({})", declared.join(", "));
+    if width(&line) < LINE { line } else { format!("{name}(\n    {})", declared.join(",\n    ")) }
 }
 
 /// Prints the documentation of a declaration, with additional status codes and a closing paragraph
-/// if given.
+/// if given. An array without elements is no argument.
 pub(super) fn documentation(
     writer: &mut Writer,
     description: &Description,
@@ -55,6 +74,7 @@ pub(super) fn documentation(
         .iter()
         .map(|array| (array, "in"))
         .chain(signature.results.iter().map(|array| (array, "out")))
+        .filter(|(array, _)| !array.is_empty(description))
     {
         let shape = array.shape.iter().map(|count| count.value(description).to_string());
         writer.documentation(&format!(
@@ -65,7 +85,8 @@ pub(super) fn documentation(
             array.unit
         ));
     }
-    let takes_inputs = signature.arguments.iter().any(|array| array.name == "u");
+    let is_input = |array: &abbe_core::function::Array| array.name == "u" && !array.is_empty(description);
+    let takes_inputs = signature.arguments.iter().any(is_input);
     let mut codes = vec!["OK", "NOT_FINITE"];
     codes.extend(signature.has_margin(description.orientation).then_some("SINGULAR"));
     codes.extend(takes_inputs.then_some("OUT_OF_RANGE"));
@@ -89,19 +110,20 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
         comment(writer, routine.documentation);
     }
     writer.lines(&match routine.function {
-        Some(function) => head(prefix, function.signature(), real, "restrict"),
-        None => helper_head(prefix, routine, real),
+        Some(function) => head(routines, function.signature(), real, RESTRICT),
+        None => helper_head(routines, routine, real),
     });
     writer.open_alone();
     let mut printer = Printer { writer, flat: Flat { routines, routine }, prefix, real };
-    printer.begin(&used, !list.is_empty());
+    let checks = routines.checks(routine, real.largest());
+    printer.begin(&used, !list.is_empty(), &checks);
     list.iter().for_each(|statement| printer.statement(statement));
     let margin = list.iter().find_map(|statement| match statement {
         // The status code of the called function covers its margin.
         Statement::Return(value) if value != "margin" => Some(value.as_str()),
         _ => None,
     });
-    printer.end(margin);
+    printer.end(margin, &checks);
     writer.close("}");
 }
 
@@ -133,31 +155,67 @@ impl Printer<'_> {
         self.prefix.to_ascii_uppercase()
     }
 
-    /// Prints the beginning of a body: marks unused arguments and checks the ranges of inputs.
-    fn begin(&mut self, used: &[bool], some: bool) {
+    /// Prints the beginning of a body: marks unused arguments, and checks the arguments.
+    fn begin(&mut self, used: &[bool], some: bool, checks: &Checks) {
+        let is_function = self.flat.routine.function.is_some();
         let outside = self.flat.routine.arrays.iter().enumerate();
         let outside = outside.filter(|(_, array)| matches!(array.role, Role::Argument | Role::Result));
         for (index, array) in outside {
-            let is_checked =
-                self.flat.routine.function.is_some() && (array.name == "u" || array.role == Role::Result);
-            if self.flat.len(index) == 0 || !(used[index] && some || is_checked) {
+            let is_used = used[index] && some || is_function;
+            if self.flat.len(index) > 0 && !is_used {
                 self.writer.lines(&format!("(void){};", array.name));
             }
         }
-        let takes_inputs =
-            |(index, array): (usize, &crate::program::Array)| array.name == "u" && self.flat.len(index) > 0;
-        if self.flat.routine.function.is_some()
-            && self.flat.routine.arrays.iter().enumerate().any(takes_inputs)
-        {
-            let upper = self.upper();
+        if is_function {
+            self.check_arguments(checks);
+        }
+    }
+
+    /// Prints the checks of the arguments that no called function checks.
+    fn check_arguments(&mut self, checks: &Checks) {
+        let upper = self.upper();
+        let all = (0..self.flat.routine.arrays.len())
+            .filter(|array| self.flat.routine.arrays[*array].role == Role::Argument)
+            .filter(|array| self.flat.len(*array) > 0);
+        let mut wrong: Vec<String> =
+            checks.arguments.iter().map(|array| self.below(*array, f64::INFINITY, "== 0")).collect();
+        if self.is_within(checks) {
+            let below: Vec<String> = all.map(|array| self.below(array, checks.limit, "!= 0")).collect();
+            self.writer.lines("/* Results need no check if no argument is huge. */");
+            self.writer.lines(&format!("const int is_within = ({}) ? 1 : 0;", below.join(" && ")));
+            if !wrong.is_empty() {
+                let several = if wrong.len() > 1 { ["(", ")"] } else { ["", ""] };
+                let any = several.join(&wrong.join(" || "));
+                wrong = vec![format!("is_within == 0 && {any}")];
+            }
+        }
+        if !wrong.is_empty() {
+            self.writer.open(&format!("if ({})", wrong.join(" || ")));
+            self.writer.lines(&format!("return {upper}_NOT_FINITE;"));
+            self.writer.close("}");
+        }
+        if checks.arguments.iter().any(|array| self.name(*array) == "u") {
             self.writer.open("if (inputs_are_in_range(u) == 0)");
             self.writer.lines(&format!("return {upper}_OUT_OF_RANGE;"));
             self.writer.close("}");
         }
     }
 
+    /// Returns `true` if results are finite because the arguments are not huge.
+    fn is_within(&self, checks: &Checks) -> bool {
+        let arrays = self.flat.routine.arrays.iter().enumerate();
+        let mut given = arrays.filter(|(_, array)| array.role == Role::Argument);
+        !checks.bounded.is_empty() && given.any(|(index, _)| self.flat.len(index) > 0)
+    }
+
+    /// Returns the comparison of an array with a limit.
+    fn below(&self, array: usize, limit: f64, compared: &str) -> String {
+        let (name, len) = (self.name(array), self.flat.len(array));
+        format!("are_below({name}, {len}, {}) {compared}", self.real.number(limit))
+    }
+
     /// Prints the checks of the results and the return statement.
-    fn end(&mut self, margin: Option<&str>) {
+    fn end(&mut self, margin: Option<&str>, checks: &Checks) {
         let (Flat { routine, .. }, real) = (self.flat, self.real);
         if routine.function.is_none() {
             return;
@@ -170,14 +228,21 @@ impl Printer<'_> {
                 .lines(&format!("return (isnan(margin) != 0) ? {upper}_NOT_FINITE : {upper}_SINGULAR;"));
             self.writer.close("}");
         }
-        let results: Vec<String> = (0..routine.arrays.len())
-            .filter(|array| routine.arrays[*array].role == Role::Result && self.flat.len(*array) > 0)
-            .map(|array| format!("is_finite({}, {}) != 0", self.name(array), self.flat.len(array)))
-            .collect();
-        match &results[..] {
+        let finite = |arrays: &[usize]| -> Vec<String> {
+            arrays.iter().map(|array| self.below(*array, f64::INFINITY, "!= 0")).collect()
+        };
+        let mut conditions = finite(&checks.unbounded);
+        if self.is_within(checks) {
+            let bounded = finite(&checks.bounded);
+            let several = if bounded.len() > 1 { ["(", ")"] } else { ["", ""] };
+            let either = format!("is_within != 0 || {}", several.join(&bounded.join(" && ")));
+            let either = if conditions.is_empty() { either } else { format!("({either})") };
+            conditions.insert(0, either);
+        }
+        match &conditions[..] {
             [] => self.writer.lines(&format!("return {upper}_OK;")),
-            results => {
-                let all = results.join(" && ");
+            all => {
+                let all = all.join(" && ");
                 self.writer.lines(&format!("return ({all}) ? {upper}_OK : {upper}_NOT_FINITE;"));
             }
         }
@@ -227,9 +292,10 @@ impl Printer<'_> {
                 self.writer.braces(&format!("{real} {name}[{}] = ", values.len()), &values, ";");
             }
             Statement::Assign { to, index, values, fresh: false } => {
-                // Results and local arrays have been initialized with zeros.
-                let is_result = self.flat.routine.arrays[to.array].role == Role::Result;
-                let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
+                // Results that are not written as a whole have been cleared.
+                let is_cleared =
+                    self.flat.routine.arrays[to.array].role == Role::Result && !self.is_whole(to.array);
+                let values = values.iter().enumerate().filter(|(_, value)| !(is_cleared && value.is_zero));
                 let entry =
                     |(k, value): (usize, &Value)| format!("{} = {}", self.place(*to, *index, k), value.text);
                 let entries: Vec<String> = values.map(entry).collect();
@@ -271,8 +337,8 @@ impl Printer<'_> {
     fn declare(&mut self, array: usize) {
         match self.flat.routine.arrays[array].role {
             Role::Zeros => self.zeros(array),
-            _ if self.has_zeros(array) => self.clear(array),
-            _ => {}
+            _ if self.is_whole(array) => {}
+            _ => self.clear(array),
         }
     }
 
@@ -282,24 +348,11 @@ impl Printer<'_> {
         self.writer.lines(&format!("{real} {name}[{len}] = {{ {} }};", real.number(0.0)));
     }
 
-    /// Returns `true` if a result has entries that are not written.
-    fn has_zeros(&self, array: usize) -> bool {
-        use crate::program::{Block, Operand, Stage};
-        let Flat { routine, routines } = self.flat;
-        let zeros = |block: &Block| {
-            let mut outputs = block.program.outputs.iter();
-            block.writes.iter().any(|place| {
-                let len = routine.arrays[place.array].place_len(place.row, &routines.description);
-                let is_zero = |output: &Operand| *output == Operand::Constant(0.0);
-                let some = outputs.by_ref().take(len).fold(false, |some, output| some | is_zero(output));
-                some && place.array == array
-            })
-        };
-        let whole = |block: &Block| {
-            block.writes.iter().any(|place| place.array == array && place.row == Row::All) && !zeros(block)
-        };
-        !routine.stages.iter().any(|stage| match stage {
-            Stage::Block(block) => whole(block),
+    /// Returns `true` if a stage writes all entries of a result.
+    fn is_whole(&self, array: usize) -> bool {
+        let whole = ArrayRows { array, row: Row::All };
+        self.flat.routine.stages.iter().any(|stage| match stage {
+            Stage::Block(block) => block.repeated.is_none() && block.writes.contains(&whole),
             Stage::Sums { entries, .. } => *entries == array,
             Stage::Copy { to, .. } => *to == array,
             _ => false,
@@ -312,6 +365,7 @@ impl Printer<'_> {
             self.zeros(*array);
         }
         let given = arrays.iter().zip(&callee.arrays).filter(|(_, array)| array.role != Role::Margin);
+        let given = given.filter(|(array, _)| self.flat.len(**array) > 0);
         let given: Vec<String> = given.map(|(array, _)| self.name(*array).to_owned()).collect();
         let given = given.join(", ");
         if callee.function.is_none() {

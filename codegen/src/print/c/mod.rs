@@ -12,13 +12,14 @@ mod shortest;
 mod support;
 
 use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
+use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use self::functions::{comment, documentation, function, head};
+use self::functions::{RESTRICT, comment, documentation, function, head};
 pub use self::real::Real;
-use self::support::{IS_FINITE, Support};
-use super::header::{header, operations};
+use self::support::{ARE_BELOW, Support};
+use super::header::header;
 use super::layout::Writer;
 use super::source_file::SourceFile;
 use super::text::escaped;
@@ -70,12 +71,10 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
          functions allocate nothing and have no state. Arrays that a function fills must not overlap others, except \
          where it says so. Every function returns 0 if its results are valid.",
     );
-    if real == Real::Float {
-        writer.documentation_line("");
-        writer.documentation(SINGLE);
-    }
+    writer.documentation_line("");
+    writer.documentation(if real == Real::Float { SINGLE } else { SAME_BITS });
     writer.lines(" */");
-    writer.lines(&format!("#ifndef {upper}_H\n#define {upper}_H\n\n{BEGIN}"));
+    writer.lines(&format!("#ifndef {upper}_H\n#define {upper}_H\n\n{SIZES}\n{BEGIN}"));
     writer.blank();
     writer.lines("/** Version of the generator, and the first digits of the spec's SHA-256. */");
     writer.lines(&format!("#define {upper}_GENERATOR \"{}\"", env!("CARGO_PKG_VERSION")));
@@ -95,12 +94,10 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     counts(&mut writer, &upper, routines);
     indices(&mut writer, &upper, routines);
     values(&mut writer, spec, routines, real, "extern ", false);
-    for routine in &routines.list {
-        let Some(function) = routine.function else { continue };
+    for signature in routines.signatures().filter(|signature| signature.name != COMPENSATED.name) {
         writer.blank();
-        let (signature, end) = (function.signature(), operations(routine));
-        documentation(&mut writer, &routines.description, signature, &[], Some(&end));
-        writer.lines(&format!("{};", head(&spec.name, signature, real, "ABBE_RESTRICT")));
+        documentation(&mut writer, &routines.description, signature, &[], None);
+        writer.lines(&format!("{};", head(routines, signature, real, RESTRICT)));
     }
     compensated::declaration(&mut writer, spec, routines, real);
     self_test::declaration(&mut writer, spec);
@@ -115,7 +112,7 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> S
         &mut writer,
         &format!("Definitions of the functions declared and documented in {}.h. Do not edit.", spec.name),
     );
-    writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>", spec.name));
+    writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>\n\n{REFUSED}\n{SIZES}", spec.name));
     values(&mut writer, spec, routines, real, "", true);
     for table in routines.used_tables() {
         writer.blank();
@@ -125,39 +122,69 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> S
         writer.braces(&format!("static const int {}[{}][2] = ", table.name, rows.len()), &rows, ";");
     }
     routines.used_sums().for_each(|sums| sums_of_terms(&mut writer, sums, real));
-    writer.blank();
-    writer.lines(real.text(IS_FINITE).trim_end());
-    for support in Support::used(routines) {
+    for text in helpers(routines, real) {
         writer.blank();
-        writer.lines(support.text(real).trim_end());
+        writer.lines(text.trim_end());
     }
-    spec.tables.iter().for_each(|table| lookup_table(&mut writer, table, real));
-    ranges(&mut writer, spec, real);
+    routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, table, real));
+    ranges(&mut writer, spec, routines, real);
     let (functions, helpers): (Vec<_>, Vec<_>) =
         routines.list.iter().partition(|routine| routine.function.is_some());
     for routine in helpers.into_iter().chain(functions) {
         function(&mut writer, spec, routines, routine, real);
     }
-    compensated::definition(&mut writer, spec, real);
-    self_test::definition(&mut writer, spec, model, real);
+    compensated::definition(&mut writer, spec, routines, real);
+    self_test::definition(&mut writer, spec, model, routines, real);
     writer.finish()
 }
+
+/// Returns the static helper functions.
+fn helpers(routines: &Routines, real: Real) -> Vec<String> {
+    let used = Support::used(routines);
+    [real.text(ARE_BELOW)].into_iter().chain(used.into_iter().map(|support| support.text(real))).collect()
+}
+
+/// A test of `abbe` compares the bits under these flags.
+const SAME_BITS: &str = "The results have the bits of the Rust code if products and sums are rounded one by one: give gcc and clang the flag \
+     `-ffp-contract=off`. gcc that may use fused multiply-add (`-mfma`, `-march=native`) needs `-fno-tree-slp-vectorize` as \
+     well. Without them results differ by rounding errors.";
 
 /// A test of `abbe` checks these measured figures for the shipped manipulators.
 const SINGLE: &str = "This code computes in single precision. Over 1000 configurations of every shipped manipulator, the difference \
      from double precision was at most 1.6e-7 of the length of the arm in positions and 3.2e-7 of the largest entry in `J_e`; \
      corrected commands brought the tool to within 3.2e-7 of that length and 1.3e-5 rad where the pose is reached.";
 
+/// Compilers that may assume that there is no NaN drop the checks; those that may reassociate sums
+/// break the reduction of angles.
+const REFUSED: &str = "\
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST)
+#error \"This code needs the arithmetic of IEEE 754: compile it without -ffast-math, /fp:fast and the like.\"
+#endif
+#if defined(__FINITE_MATH_ONLY__) && (__FINITE_MATH_ONLY__ > 0)
+#error \"This code recognizes NaN and infinity: compile it without -ffinite-math-only.\"
+#endif
+";
+
+/// `ABBE_PLAIN_SIZES` is for MISRA C, whose rule 17.6 has no `static`.
+const SIZES: &str = "\
+/* Sizes of arrays that functions take: at least so many elements. Arrays with ABBE_RESTRICT overlap no others. */
+#if defined(__cplusplus) || defined(ABBE_PLAIN_SIZES) || (defined(_MSC_VER) && !defined(__clang__))
+#define ABBE_SIZE(count) (count)
+#define ABBE_RESTRICT(count) (count)
+#else
+#define ABBE_SIZE(count) static (count)
+#define ABBE_RESTRICT(count) restrict static (count)
+#endif
+";
+
 const BEGIN: &str = "\
 #ifdef __cplusplus
-#define ABBE_RESTRICT
 extern \"C\" {
-#else
-#define ABBE_RESTRICT restrict
 #endif
 ";
 
 const END: &str = "
+#undef ABBE_SIZE
 #undef ABBE_RESTRICT
 #ifdef __cplusplus
 }
@@ -208,11 +235,18 @@ fn counts(writer: &mut Writer, upper: &str, routines: &Routines) {
         ("SOURCES", Count::Sources, "Number of enabled sources."),
         ("EFFECTS", Count::Effects, "Number of errors that the sources cause."),
     ];
+    let arrays =
+        || routines.signatures().flat_map(|signature| signature.arguments.iter().chain(signature.results));
+    let is_used = |count: &Count| {
+        let is_some = count.value(&routines.description) > 0;
+        is_some && (*count == Count::Frames || arrays().any(|array| array.shape.contains(count)))
+    };
     let entry = |(name, count, documentation): (&str, Count, &'static str)| {
         (format!("{upper}_{name} = {}", count.value(&routines.description)), documentation)
     };
+    let used: Vec<_> = entries.into_iter().filter(|(_, count, _)| is_used(count)).map(entry).collect();
     writer.blank();
-    enumeration(writer, "Sizes of the arrays.", &entries.map(entry));
+    enumeration(writer, "Sizes of the arrays.", &used);
 }
 
 /// Prints the index of each name in `q`, `s` and `u`.
@@ -267,7 +301,7 @@ fn values(
     one("Lower and upper limits of the variables.", "limits", true, limits);
     one("Home position of the variables.", "home", false, spec.variables.iter().map(|v| v.home).collect());
     let bounds = |bounds| {
-        let each = spec.variables.iter();
+        let each = spec.variables.iter().filter(|_| routines.has_compensated());
         each.map(|variable| bound(&routines.description, variable.kind, bounds)).collect::<Vec<f64>>()
     };
     one(
@@ -285,13 +319,14 @@ fn values(
         false,
         bounds(LARGEST),
     );
-    if !spec.variables.is_empty() {
+    if routines.has_compensated() {
         one("`rotations` of the whole pose.", "whole_pose", false, vec![1.0; 3]);
     }
     let nominal = spec.parameters.iter().map(|parameter| parameter.value).collect();
     one("Nominal values of the parameters `s`.", "parameters", false, nominal);
-    one("Default values of the inputs `u`.", "inputs", false, spec.inputs.iter().map(|i| i.value).collect());
-    let ranges = spec.inputs.iter().flat_map(|input| input.range).collect();
+    let inputs = if takes_inputs(routines) { &spec.inputs[..] } else { &[] };
+    one("Default values of the inputs `u`.", "inputs", false, inputs.iter().map(|i| i.value).collect());
+    let ranges = inputs.iter().flat_map(|input| input.range).collect();
     one("Lower and upper ends of the ranges of the inputs.", "ranges", true, ranges);
 }
 
@@ -300,10 +335,17 @@ fn numbers(writer: &mut Writer, name: &str, values: &[f64], real: Real) {
     writer.braces(&format!("static const {real} {name}[{}] = ", values.len()), &entries, ";");
 }
 
+/// Returns `true` if a function takes inputs.
+fn takes_inputs(routines: &Routines) -> bool {
+    let functions = routines.list.iter().filter(|routine| routine.function.is_some());
+    let mut arrays = functions.flat_map(|routine| &routine.arrays);
+    arrays.any(|array| array.name == "u" && !array.is_empty(&routines.description))
+}
+
 /// Prints the function that checks the ranges of inputs.
-fn ranges(writer: &mut Writer, spec: &Spec, real: Real) {
+fn ranges(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
     let count = spec.inputs.len();
-    if count == 0 {
+    if !takes_inputs(routines) {
         return;
     }
     writer.blank();

@@ -43,6 +43,14 @@ impl Real {
         nearest.is_finite() == value.is_finite() && (nearest == 0.0) == (value == 0.0)
     }
 
+    /// Returns the largest number.
+    pub(super) fn largest(self) -> f64 {
+        match self {
+            Self::Double => f64::MAX,
+            Self::Float => f64::from(f32::MAX),
+        }
+    }
+
     /// Returns the unit of roundoff: the maximum relative error of rounding.
     pub(super) fn unit_roundoff(self) -> f64 {
         self.epsilon() / 2.0

@@ -1,67 +1,175 @@
 //! A self-test that compares the functions, as compiled for the target, with values computed by the
 //! generator.
 
+use std::ops::Range;
+
 use abbe_core::Function;
-use abbe_core::function::Array;
+use abbe_core::function::{Array, COMPENSATED, Signature};
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
 use super::real::Real;
+use super::support::Support;
 use crate::chain::Model;
 use crate::print::layout::Writer;
-use crate::program::{Rounded, results, straight_line};
+use crate::program::{Rounded, Routines, results, straight_line};
 
 pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.blank();
     writer.lines("/**");
     writer.documentation(
         "Self-test for the target: evaluates every function at one configuration and compares weighted sums of the results \
-         with those of the generator, within the bound of the rounding errors of all operations.",
+         with those of the generator, within the bound of the rounding errors of all operations. Then it gives every \
+         function infinity and NaN in the place of each argument, which have to be refused.",
     );
     writer.documentation_line("");
     writer.documentation(
-        "@return 0, or the number of the first wrong function, counted from 1 in the order of this file.",
+        "@return 0; the number of the first wrong function, counted from 1 in the order of the source; -1 if the compiler \
+         or the processor does not compute with infinity and NaN or not in the order of the source; -2 if sines are wrong.",
     );
     writer.lines(" */");
     writer.lines(&format!("int {}_self_test(void);", spec.name));
 }
 
-pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, real: Real) {
-    writer.blank();
-    writer.lines(real.text(SUMS_TO).trim_end());
+pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, routines: &Routines, real: Real) {
+    let mut template = |text: &str| {
+        writer.blank();
+        let numbers = [("ROUND", real.rounder()), ("BOUND", real.number(4.0 * real.unit_roundoff()))];
+        let text = numbers.iter().fold(real.text(text), |text, (word, number)| text.replace(word, number));
+        writer.lines(text.trim_end());
+    };
+    template(SUMS_TO);
+    template(FOLLOWS_IEEE);
+    let has_sines = Support::used(routines).contains(&Support::SinCos);
+    if has_sines {
+        template(SINES_ARE_RIGHT);
+    }
+    let functions: Vec<Function> = routines.list.iter().filter_map(|routine| routine.function).collect();
+    let given = where_most_has_a_value(spec, model, &functions, real);
+    let taken = Taken::new(routines, &given);
     writer.blank();
     writer.lines(&format!("int {}_self_test(void)", spec.name));
     writer.open_alone();
-    let given = where_most_has_a_value(spec, model, real);
-    for (name, values) in &given {
-        let entries: Vec<String> = values.iter().map(|value| real.number(*value)).collect();
-        // C has no empty arrays.
-        let (len, zero) = (entries.len().max(1), [real.number(0.0)]);
-        let entries = if entries.is_empty() { &zero[..] } else { &entries[..] };
-        writer.braces(&format!("const {real} given_{name}[{len}] = "), entries, ";");
+    if has_sines {
+        sines(writer, real);
     }
-    for (index, function) in Function::ALL.into_iter().enumerate() {
+    let entries: Vec<String> = taken.values.iter().map(|value| real.number(*value)).collect();
+    // C has no empty arrays.
+    let (len, zero) = (entries.len(), [real.number(0.0)]);
+    let entries = if entries.is_empty() { &zero[..] } else { &entries[..] };
+    writer.braces(&format!("{real} given[{}] = ", len.max(1)), entries, ";");
+    for (name, range) in &taken.ranges {
+        writer.lines(&format!("const {real} *const {name} = &given[{}];", range.start));
+    }
+    writer.lines(&format!("volatile {real} infinity = {};", real.number(f64::INFINITY)));
+    writer.lines("if (follows_ieee() == 0) {\n    return -1;\n}");
+    if has_sines {
+        writer.lines("if (sines_are_right(sines, 10) == 0) {\n    return -2;\n}");
+    }
+    writer.lines("/* First the numbers as they are, then with one of them infinite or NaN. */");
+    writer.open(&format!("for (int trial = -1; trial < {}; trial++)", 2 * len));
+    writer.lines("const int at = (trial < 0) ? 0 : (trial / 2);");
+    writer.lines(&format!("const {real} kept = given[at];"));
+    writer.open("if (trial >= 0)");
+    writer.lines("given[at] = ((trial % 2) == 0) ? infinity : (infinity - infinity);");
+    writer.close("}");
+    for (index, function) in functions.into_iter().enumerate() {
         let known = |sum: &Rounded| sum.value.is_finite() && sum.bound.is_finite();
-        match values(&given, model, function).map(|values| sums(&given, model, function, &values, real)) {
-            Some(sums) if sums.iter().all(|(_, sum)| known(sum)) => {
-                one(writer, spec, function, index + 1, &sums, real);
+        let sums = values(&given, model, function).map(|values| sums(&given, model, function, &values, real));
+        let signature = function.signature();
+        let is_right = match &sums {
+            Some(sums) if sums.iter().all(|(_, sum)| known(sum)) => sums_to(signature, spec, sums, real),
+            _ => {
+                let name = function.name();
+                writer.lines(&format!("/* `{name}` is not finite at this configuration. */"));
+                vec![]
             }
-            _ => writer.lines(&format!("/* `{}` is not finite at this configuration. */", function.name())),
-        }
+        };
+        one(writer, routines, &taken, signature, [&is_right, &[]], index + 1, real);
     }
-    // Arguments that no function takes.
-    given.iter().for_each(|(name, _)| writer.lines(&format!("(void)given_{name};")));
+    if routines.has_compensated() {
+        let upper = spec.name.to_ascii_uppercase();
+        let results = COMPENSATED.results.iter();
+        let finite = results.map(|array| {
+            let (name, len) = (array.name, array.len(&routines.description));
+            format!("are_below({name}, {len}, {}) != 0", real.number(f64::INFINITY))
+        });
+        let finite: Vec<String> = finite.collect();
+        let status = [format!("(status == {upper}_OK || status >= {upper}_NOT_CONVERGED)")];
+        let number = routines.list.iter().filter(|routine| routine.function.is_some()).count() + 1;
+        one(writer, routines, &taken, &COMPENSATED, [&finite, &status], number, real);
+    }
+    writer.lines("given[at] = kept;");
+    writer.close("}");
     writer.lines("return 0;");
     writer.close("}");
+}
+
+/// Arguments that the functions take, one after the other in one array.
+struct Taken {
+    values: Vec<f64>,
+    ranges: Vec<(&'static str, Range<usize>)>,
+}
+
+impl Taken {
+    fn new(routines: &Routines, given: &Given) -> Self {
+        let functions = routines.list.iter().filter_map(|routine| routine.function).map(Function::signature);
+        let compensated = Some(&COMPENSATED).filter(|_| routines.has_compensated());
+        let mut arguments = functions.chain(compensated).flat_map(|signature| signature.arguments);
+        let count = routines.description.variables.len();
+        let cycle = [("last", vec![0.0; count]), ("rotations", vec![1.0; 3])];
+        let mut taken = Self { values: Vec::new(), ranges: Vec::new() };
+        let arrays: Vec<&'static str> = arguments.by_ref().map(|array| array.name).collect();
+        for (name, values) in given.iter().chain(&cycle) {
+            if arrays.contains(name) && !values.is_empty() {
+                let start = taken.values.len();
+                taken.values.extend(values);
+                taken.ranges.push((name, start..taken.values.len()));
+            }
+        }
+        taken
+    }
+
+    /// Returns the condition that a function takes number `at`.
+    fn condition(&self, signature: &Signature) -> String {
+        let mut merged: Vec<Range<usize>> = Vec::new();
+        for (name, range) in &self.ranges {
+            if signature.arguments.iter().any(|array| array.name == *name) {
+                match merged.last_mut() {
+                    Some(last) if last.end == range.start => last.end = range.end,
+                    _ => merged.push(range.clone()),
+                }
+            }
+        }
+        let condition = |Range { start, end }: &Range<usize>| match start {
+            0 => format!("at < {end}"),
+            start => format!("(at >= {start} && at < {end})"),
+        };
+        merged.iter().map(condition).collect::<Vec<_>>().join(" || ")
+    }
+}
+
+/// Prints angles of both signs in every quadrant, two of them large, with their sines and cosines.
+fn sines(writer: &mut Writer, real: Real) {
+    let range = match real {
+        Real::Double => 1e5,
+        Real::Float => 6e3,
+    };
+    let angles = [0.1, -0.7, 0.78, 1.9, -2.3, 2.9, -3.7, 5.1, 0.93 * range, -1.2 * range];
+    let row = |angle: f64| {
+        let angle = real.nearest(angle);
+        format!("{{ {} }}", [angle, angle.sin(), angle.cos()].map(|value| real.number(value)).join(", "))
+    };
+    let head = format!("static const {real} sines[{}][3] = ", angles.len());
+    writer.braces(&head, &angles.map(row), ";");
 }
 
 /// Values of every argument, by name.
 type Given = [(&'static str, Vec<f64>); 6];
 
 /// Returns the first of a few configurations at which the most functions have finite values.
-fn where_most_has_a_value(spec: &Spec, model: &Model, real: Real) -> Given {
-    let count =
-        |given: &Given| Function::ALL.into_iter().filter(|f| values(given, model, *f).is_some()).count();
+fn where_most_has_a_value(spec: &Spec, model: &Model, functions: &[Function], real: Real) -> Given {
+    let count = |given: &Given| functions.iter().filter(|f| values(given, model, **f).is_some()).count();
     let tried = (0..16).map(|start| given(spec, start, real));
     let mut best: Option<(usize, Given)> = None;
     for given in tried {
@@ -69,7 +177,7 @@ fn where_most_has_a_value(spec: &Spec, model: &Model, real: Real) -> Given {
         if best.as_ref().is_none_or(|(most, _)| found > *most) {
             best = Some((found, given));
         }
-        if found == Function::ALL.len() {
+        if found == functions.len() {
             break;
         }
     }
@@ -129,39 +237,54 @@ fn sums(
     arrays.iter().map(one).collect()
 }
 
-/// Prints the test of one function: weighted sums of its results and their expected values.
-fn one(
-    writer: &mut Writer,
-    spec: &Spec,
-    function: Function,
-    count: usize,
-    sums: &[(usize, Rounded)],
-    real: Real,
-) {
-    let signature = function.signature();
-    writer.open_alone();
-    for (array, (len, _)) in signature.results.iter().zip(sums) {
-        // C has no empty arrays.
-        match len {
-            0 => writer.lines(&format!("{real} {}[1] = {{ {} }};", array.name, real.number(0.0))),
-            len => writer.lines(&format!("{real} {}[{len}];", array.name)),
-        }
-    }
-    let given = signature.arguments.iter().map(|array| format!("given_{}", array.name));
-    let results = signature.results.iter().map(|array| array.name.to_owned());
-    let names: Vec<String> = given.chain(results).collect();
-    let (upper, call) = (spec.name.to_ascii_uppercase(), names.join(", "));
-    writer
-        .lines(&format!("int is_right = ({}_{}({call}) == {upper}_OK) ? 1 : 0;", spec.name, signature.name));
+/// Returns the conditions that the results have the expected sums.
+fn sums_to(signature: &Signature, spec: &Spec, sums: &[(usize, Rounded)], real: Real) -> Vec<String> {
     let sum = |(array, (len, sum)): (&Array, &(usize, Rounded))| {
         let [value, bound] = [sum.value, upwards(sum.bound)].map(|value| real.number(value));
-        format!("is_right *= sums_to({}, {len}, {value}, {bound});", array.name)
+        format!("sums_to({}, {len}, {value}, {bound}) != 0", array.name)
     };
     let some = signature.results.iter().zip(sums).filter(|(_, (len, _))| *len > 0);
-    some.map(sum).for_each(|line| writer.lines(&line));
-    writer.open("if (is_right == 0)");
-    writer.lines(&format!("return {count};"));
-    writer.close("}");
+    let is_ok = format!("status == {}_OK", spec.name.to_ascii_uppercase());
+    [is_ok].into_iter().chain(some.map(sum)).collect()
+}
+
+/// Prints the test of one function: conditions on its results, and that wrong arguments are
+/// refused.
+fn one(
+    writer: &mut Writer,
+    routines: &Routines,
+    taken: &Taken,
+    signature: &Signature,
+    conditions: [&[String]; 2],
+    number: usize,
+    real: Real,
+) {
+    let description = &routines.description;
+    let (name, upper) = (&description.name, description.name.to_ascii_uppercase());
+    let some = |array: &&Array| !array.is_empty(description);
+    writer.open_alone();
+    for array in signature.results.iter().filter(some) {
+        writer.lines(&format!("{real} {}[{}];", array.name, array.len(description)));
+    }
+    let bound = |array: &Array| match array.name {
+        "change" | "largest" => format!("{name}_{}", array.name),
+        other => other.to_owned(),
+    };
+    let arrays = signature.arguments.iter().chain(signature.results).filter(some);
+    let call = format!("{name}_{}({})", signature.name, arrays.map(bound).collect::<Vec<_>>().join(", "));
+    writer.lines(&format!("const int status = {call};"));
+    let right = conditions.concat().join(" && ");
+    let refused = taken.condition(signature);
+    if !right.is_empty() {
+        writer.open(&format!("if (trial < 0 && !({right}))"));
+        writer.lines(&format!("return {number};"));
+        writer.close("}");
+    }
+    if !refused.is_empty() {
+        writer.open(&format!("if (trial >= 0 && ({refused}) && status != {upper}_NOT_FINITE)"));
+        writer.lines(&format!("return {number};"));
+        writer.close("}");
+    }
     writer.close("}");
 }
 
@@ -201,5 +324,35 @@ static int sums_to(const double *numbers, int count, double expected, double rou
         sum += (double)(k % 7 + 1) * numbers[k];
     }
     return (fabs(sum - expected) <= rounding) ? 1 : 0;
+}
+";
+
+const FOLLOWS_IEEE: &str = "\
+/* Returns 1 if infinity and NaN are recognized, and sums are computed in the order of the source, else 0. */
+static int follows_ieee(void)
+{
+    volatile double infinity = HUGE_VAL;
+    volatile double fraction = 0.4;
+    const double not_finite[2] = { infinity, infinity - infinity };
+    const double rounded = (fraction + ROUND) - ROUND;
+    const int is_refused = (are_below(not_finite, 1, HUGE_VAL) == 0 && are_below(&not_finite[1], 1, HUGE_VAL) == 0) ? 1 : 0;
+    return (is_refused != 0 && isnan(not_finite[1]) != 0 && fabs(rounded) < 0.25) ? 1 : 0;
+}
+";
+
+const SINES_ARE_RIGHT: &str = "\
+/* Returns 1 if the sine and cosine of each angle are as expected, else 0. */
+static int sines_are_right(const double expected[][3], int count)
+{
+    int is_right = 1;
+    for (int k = 0; k < count; k++) {
+        double s;
+        double c;
+        sin_cos(expected[k][0], &s, &c);
+        if (!(fabs(s - expected[k][1]) <= BOUND && fabs(c - expected[k][2]) <= BOUND)) {
+            is_right = 0;
+        }
+    }
+    return is_right;
 }
 ";

@@ -63,14 +63,14 @@ impl Support {
     }
 }
 
-/// Checks without branches, so that compilers can vectorize the loop.
-pub(super) const IS_FINITE: &str = "\
-/* Returns 1 if all numbers are finite, else 0. */
-static int is_finite(const double *numbers, int count)
+/// Compares without branches, so that compilers can vectorize the loop.
+pub(super) const ARE_BELOW: &str = "\
+/* Returns 1 if the absolute value of every number is below the limit, else 0; NaN is not. */
+static int are_below(const double *numbers, int count, double limit)
 {
     unsigned wrong = 0U;
     for (int k = 0; k < count; k++) {
-        wrong |= (fabs(numbers[k]) < HUGE_VAL) ? 0U : 1U;
+        wrong |= (fabs(numbers[k]) < limit) ? 0U : 1U;
     }
     return (wrong == 0U) ? 1 : 0;
 }

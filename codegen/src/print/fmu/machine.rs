@@ -33,14 +33,17 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
     writer.lines("/* Computes the outputs. Returns an error message, or null. */");
     writer.lines("static const char *evaluate(double *values, int *correction)");
     writer.open_alone();
-    for array in ["q", "u", "s"] {
+    let arrays = [("q", spec.variables.len()), ("u", spec.inputs.len()), ("s", spec.parameters.len())];
+    let some: Vec<&str> = arrays.into_iter().filter(|(_, len)| *len > 0).map(|(name, _)| name).collect();
+    for array in &some {
         writer.lines(&format!("const double *{array} = &values[AT_{}];", array.to_ascii_uppercase()));
     }
     for (k, (function, output)) in OUTPUTS.into_iter().enumerate() {
         let signature = function.signature();
-        let arguments: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
-        let (arguments, output) = (arguments.join(", "), output.to_ascii_uppercase());
-        let call = format!("status = {name}_{}({arguments}, &values[AT_{output}]);", signature.name);
+        let arguments = signature.arguments.iter().filter(|array| some.contains(&array.name));
+        let arguments: String = arguments.map(|array| format!("{}, ", array.name)).collect();
+        let output = output.to_ascii_uppercase();
+        let call = format!("status = {name}_{}({arguments}&values[AT_{output}]);", signature.name);
         if k == 0 {
             writer.lines(&format!("int {call}"));
         } else {
@@ -53,14 +56,16 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
         let corrected = CORRECTED.to_ascii_uppercase();
         writer.open(&format!("if (status == {upper}_OK)"));
         let count = spec.variables.len();
+        let arguments = ["q", "s", "u"].into_iter().filter(|array| some.contains(array));
+        let arguments: String = arguments.map(|array| format!("{array}, ")).collect();
         let infinite = vec![Real::Double.number(f64::INFINITY); count];
         writer.lines("/* Steps of a simulation are no cycles: corrections of any size. */");
         writer.lines(&format!("const double last[{count}] = {{ 0.0 }};"));
         writer.braces(&format!("const double any[{count}] = "), &infinite, ";");
         writer.lines(&format!("double difference[{count}];\ndouble before[6];\ndouble after[6];"));
         writer.lines(&format!(
-            "*correction = {name}_compensated(q, s, u, last, any, any, {name}_whole_pose, &values[AT_{corrected}], difference, \
-             before, after);"
+            "*correction = {name}_compensated({arguments}last, any, any, {name}_whole_pose, &values[AT_{corrected}], \
+             difference, before, after);"
         ));
         writer.lines(&format!("status = (*correction >= {upper}_NOT_CONVERGED) ? {upper}_OK : *correction;"));
         writer.close("}");

@@ -23,6 +23,9 @@ use super::source_file::SourceFile;
 use crate::chain::Model;
 use crate::program::Routines;
 
+/// Functions of the C code that the unit calls.
+pub(super) const FUNCTIONS: [&str; 4] = ["pose", "predicted_displacement", "real_pose", "compensated"];
+
 /// Returns the files of the archive, with their folders. Inputs that scale sources become
 /// parameters of the unit.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, fmi: Fmi) -> Vec<SourceFile> {

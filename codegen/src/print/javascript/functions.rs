@@ -1,12 +1,11 @@
 //! Prints routines as functions.
 
-use abbe_core::Description;
 use abbe_core::function::Signature;
+use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
 use super::operators::{JavaScript, number};
 use crate::print::flat::{Flat, filled};
-use crate::print::header::operations;
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
@@ -18,18 +17,18 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
         Statements::new(spec, &routines.description, routine, &JavaScript(&spec.tables));
     writer.blank();
     writer.lines("/**");
-    if let Some(function) = routine.function {
-        let signature = function.signature();
-        let margin = ["margin", "`cos ρ`; where it is 0, rows 4–6 are not finite."];
-        let behind = signature.has_margin(routines.description.orientation).then_some(margin);
-        documentation(writer, &routines.description, signature, behind);
-        writer.documentation_line("");
+    match routine.function.map(Function::signature) {
+        Some(signature) => {
+            let margin = ["margin", "`cos ρ`; where it is 0, rows 4–6 are not finite."];
+            let behind = signature.has_margin(routines.description.orientation).then_some(margin);
+            documentation(writer, &routines.description, signature, behind);
+        }
+        None => writer.documentation(routine.documentation),
     }
-    writer.documentation(&format!("{}.", operations(routine)));
     writer.lines(" */");
     let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
     let arguments: Vec<&str> = given.map(|array| array.name).collect();
-    let export = if routine.function.is_some() { "export " } else { "" };
+    let export = if routines.exports(routine) { "export " } else { "" };
     writer.open(&format!("{export}function {}({})", routine.name, arguments.join(", ")));
     let mut printer = Printer { writer, flat: Flat { routines, routine } };
     list.iter().for_each(|statement| printer.statement(statement));

@@ -44,10 +44,10 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         let what = "Entry, term, and factor of the term.";
         constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
     }
-    for table in &spec.tables {
+    for table in routines.used_lookup_tables() {
         lookup_table(&mut writer, table);
     }
-    if !spec.tables.is_empty() {
+    if routines.used_lookup_tables().next().is_some() {
         writer.blank();
         writer.lines(LOOKUP.trim_end());
     }

@@ -14,7 +14,7 @@ pub(super) const FUNCTIONS: [&str; 7] =
     ["compensated", "deviation", "weighed", "clamped", "solve", "shortest", "depart"];
 
 pub(super) fn compensated(writer: &mut Writer, class: &str, spec: &Spec, routines: &Routines) {
-    if spec.variables.is_empty() {
+    if !routines.has_compensated() {
         return;
     }
     let description = &routines.description;

@@ -6,7 +6,6 @@ use abbe_spec::Spec;
 
 use super::operators::{Matlab, number};
 use crate::print::flat::Flat;
-use crate::print::header::operations;
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
@@ -37,8 +36,6 @@ pub(super) fn function(
         }
         None => writer.documentation(routine.documentation),
     }
-    writer.documentation_line("");
-    writer.documentation(&format!("{}.", operations(routine)));
     if routine.function.is_some() {
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
         checks(writer, class, given.map(|array| (array.name, array.len(&routines.description))));

@@ -32,11 +32,11 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
         "Call functions as `{class}.pose(q, {class}.parameters)`, for one configuration at a time. A pose is a matrix \
          `[x_axis y_axis z_axis position]` of 3 rows and 4 columns; J_e has 6 rows."
     ));
-    properties(&mut writer, spec, routines);
+    properties(&mut writer, routines);
     writer.blank();
     writer.begin("methods (Static)");
     writer.paragraphs(HELPERS);
-    if !spec.tables.is_empty() {
+    if routines.used_lookup_tables().next().is_some() {
         writer.blank();
         writer.paragraphs(LOOK_UP);
     }
@@ -84,7 +84,7 @@ const PROPERTIES: [&str; 13] = [
 ];
 
 /// Prints names, units, limits, values and the tables of the functions.
-fn properties(writer: &mut Writer, spec: &Spec, routines: &Routines) {
+fn properties(writer: &mut Writer, routines: &Routines) {
     let description = &routines.description;
     writer.blank();
     writer.begin("properties (Constant)");
@@ -133,7 +133,7 @@ fn properties(writer: &mut Writer, spec: &Spec, routines: &Routines) {
         };
         list(writer, &format!("{name}_FACTORS"), ["[", "]"], &factors.iter().map(row).collect::<Vec<_>>());
     }
-    for table in &spec.tables {
+    for table in routines.used_lookup_tables() {
         lookup_table(writer, table);
     }
     writer.close("end");

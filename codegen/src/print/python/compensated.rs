@@ -11,7 +11,7 @@ use crate::print::layout::Writer;
 use crate::program::Routines;
 
 pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines) {
-    if spec.variables.is_empty() {
+    if !routines.has_compensated() {
         return;
     }
     let statuses = statuses(&Tolerances::DOUBLE);

@@ -15,7 +15,7 @@ use abbe_spec::literal::quoted;
 
 use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
-use super::header::{header, operations};
+use super::header::header;
 use super::layout::Writer;
 use super::records::records;
 use super::text::{escaped, harmless};
@@ -55,20 +55,20 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         let what = "Entry, term, and factor of the term.";
         constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
     }
-    spec.tables.iter().for_each(|table| lookup_table(&mut writer, table));
+    routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, table));
     writer.blank();
     writer.blank();
     writer.paragraphs(GIVEN);
-    if !spec.tables.is_empty() {
+    if routines.used_lookup_tables().next().is_some() {
         writer.blank();
         writer.blank();
         writer.paragraphs(LOOK_UP);
     }
     for routine in &routines.list {
-        if let Some(function) = routine.function {
+        if let Some(function) = routine.function.filter(|_| routines.exports(routine)) {
             let (description, signature) = (&routines.description, function.signature());
             let behind = signature.has_margin(description.orientation).then_some(MARGIN);
-            face(&mut writer, description, signature, behind, Some(&operations(routine)));
+            face(&mut writer, description, signature, behind, None);
         }
         kernel(&mut writer, spec, routines, routine);
     }

@@ -1,12 +1,12 @@
 //! A program around generated C.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use abbe::function::{COMPENSATED, Signature};
 use abbe::{Function, Manipulator};
-use abbe_codegen::print::{Language, Real};
+use abbe_codegen::print::{Language, Real, SourceFile};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_tests::languages::given_arrays;
@@ -24,10 +24,25 @@ pub(crate) const STRICT: [&str; 9] = [
     "-ffp-contract=off",
 ];
 
+/// Writes the code of every function that has results, also those that are left out of the code of a
+/// machine without sources.
 pub(crate) fn write(folder: &Path, spec: &Spec, real: Real) {
-    for file in Language::C(real).files(spec) {
+    let language = Language::C(real);
+    write_files(folder, language.files_of(spec, &language.functions(spec)));
+}
+
+pub(crate) fn write_files(folder: &Path, files: Vec<SourceFile>) {
+    for file in files {
         fs::write(folder.join(file.name), file.text).unwrap();
     }
+}
+
+/// Returns the functions that have results.
+pub(crate) fn functions(robot: &Interpreter) -> Vec<Function> {
+    let has_results = |function: &Function| {
+        function.signature().results.iter().all(|array| !array.is_empty(robot.description()))
+    };
+    Function::ALL.into_iter().filter(has_results).collect()
 }
 
 /// Returns the numbers of the self-test, and of every function and of compensated commands at every
@@ -76,8 +91,9 @@ fn caller(robot: &Interpreter, real: Real) -> String {
     });
     let call = |signature: &Signature| {
         let arrays = signature.results.iter().map(|array| (array.name, array.len(description)));
-        let declared = arrays.clone().map(|(name, len)| format!("{real} {name}[{}]; ", len.max(1)));
-        let names = signature.arguments.iter().chain(signature.results).map(|array| array.name);
+        let declared = arrays.clone().map(|(name, len)| format!("{real} {name}[{len}]; "));
+        let names = signature.arguments.iter().chain(signature.results);
+        let names = names.filter(|array| !array.is_empty(description)).map(|array| array.name);
         let written = arrays.map(|(name, len)| format!("put({name}, {len}); "));
         format!(
             "    {{ {}status = {name}_{}({}); put_one(status); {}}}\n",
@@ -87,7 +103,7 @@ fn caller(robot: &Interpreter, real: Real) -> String {
             written.collect::<String>()
         )
     };
-    let functions = Function::ALL.map(Function::signature).into_iter().chain([&COMPENSATED]);
+    let functions = functions(robot).into_iter().map(Function::signature).chain([&COMPENSATED]);
     format!(
         "#include \"{name}.h\"\n#include <stdio.h>\n\
          static void put_one(double number) {{ fwrite(&number, sizeof number, 1, stdout); }}\n\
@@ -98,4 +114,20 @@ fn caller(robot: &Interpreter, real: Real) -> String {
         given.collect::<String>(),
         functions.map(call).collect::<String>(),
     )
+}
+
+/// Returns the result of the self-test, as a byte.
+pub(crate) fn self_test(folder: &Path, name: &str, compiler: &[&str]) -> i32 {
+    let program = folder.join("program");
+    let sources = self_test_sources(folder, name);
+    compiled(compiler, &program, &[&sources[0], &sources[1]]);
+    Command::new(&program).status().unwrap().code().unwrap()
+}
+
+/// Writes a program that returns the result of the self-test, and returns its sources.
+pub(crate) fn self_test_sources(folder: &Path, name: &str) -> [PathBuf; 2] {
+    let source = folder.join("main.c");
+    fs::write(&source, format!("#include \"{name}.h\"\nint main(void) {{ return {name}_self_test(); }}\n"))
+        .unwrap();
+    [folder.join(format!("{name}.c")), source]
 }

@@ -16,7 +16,7 @@ use abbe_tests::languages::{NAMES, configurations};
 use abbe_tests::needs::{Missing, tool};
 use abbe_tests::{is_tested, specs, thorough};
 
-use super::program::{called, compiled, succeeds, write};
+use super::program::{called, compiled, functions, self_test, succeeds, write};
 
 /// Largest differences of single from double precision.
 #[derive(Default)]
@@ -59,7 +59,7 @@ fn differences(spec: &Spec, given: Vec<Vec<f64>>) -> Differences {
     let mut found = Differences::default();
     assert_eq!((double.next(), single.next()), (Some(0.0), Some(0.0)), "{name}: the self-tests");
     for given in &given {
-        for function in Function::ALL {
+        for function in functions(&robot) {
             let [one, other] = [&mut double, &mut single].map(|numbers| numbers.next().unwrap());
             assert!(one == other || euler, "{name} {}: {one} and {other}", function.name());
             let arrays = function.signature().results.iter().map(|array| array.len(robot.description()));
@@ -354,13 +354,4 @@ pub(crate) fn self_tests() -> Result<(), Missing> {
         assert_ne!(self_test(folder.path(), "puma560", &["gcc"]), 0, "{real}");
     }
     Ok(())
-}
-
-/// Returns the result of the self-test.
-fn self_test(folder: &Path, name: &str, compiler: &[&str]) -> i32 {
-    let [source, program] = ["main.c", "program"].map(|file| folder.join(file));
-    fs::write(&source, format!("#include \"{name}.h\"\nint main(void) {{ return {name}_self_test(); }}\n"))
-        .unwrap();
-    compiled(compiler, &program, &[&folder.join(format!("{name}.c")), &source]);
-    Command::new(&program).status().unwrap().code().unwrap()
 }
