@@ -1,4 +1,4 @@
-/* On a board without an operating system: the self-test, then the number of instructions of a compensated command. */
+/* On a board without an operating system: the self-test, then the instructions and the stack of a compensated command. */
 #include HEADER
 
 extern char stack_top;
@@ -45,6 +45,36 @@ static const struct {
     void (*start)(void);
 } vectors __attribute__((section(".vectors"), used)) = { &stack_top, reset };
 
+/* Runs one cycle in a frame of its own. */
+static int __attribute__((noinline)) cycle(const REAL *q, REAL *last)
+{
+    REAL corrected[NAME(VARIABLES)];
+    REAL before[6];
+    REAL after[6];
+    return CALL(compensated)(q, PARAMETERS INPUTS last, CALL(change), CALL(largest), CALL(whole_pose), corrected, last, before,
+                             after);
+}
+
+/* Fills the free stack below the caller with a pattern, and returns its end. */
+static volatile unsigned char *paint(void)
+{
+    volatile unsigned char *const top = __builtin_frame_address(0);
+    for (int k = 64; k < 65536; k++) {
+        top[-k] = 0xA5U;
+    }
+    return top;
+}
+
+/* Returns the number of painted bytes that have been overwritten. */
+static unsigned used(volatile unsigned char *top)
+{
+    unsigned k = 65535U;
+    while (k > 64U && top[-(int)k] == 0xA5U) {
+        k--;
+    }
+    return k;
+}
+
 int main(void)
 {
     volatile unsigned *const control = (volatile unsigned *)0xE000E010U;
@@ -52,9 +82,6 @@ int main(void)
     volatile unsigned *const value = (volatile unsigned *)0xE000E018U;
     REAL q[NAME(VARIABLES)];
     REAL last[NAME(VARIABLES)] = { (REAL)0 };
-    REAL corrected[NAME(VARIABLES)];
-    REAL before[6];
-    REAL after[6];
     const int wrong = CALL(self_test)();
     print("self-test ");
     print(wrong == 0 ? "passed" : "FAILED");
@@ -62,17 +89,20 @@ int main(void)
         const REAL *const limits = CALL(limits)[j];
         q[j] = limits[0] + (REAL)(6 + j) / (REAL)20 * (limits[1] - limits[0]);
     }
+    volatile unsigned char *const top = paint();
     *reload = 0xFFFFFFU;
     *value = 0U;
     *control = 5U;
     const unsigned begun = *value;
-    const int status = CALL(compensated)(q, PARAMETERS, INPUTS, last, CALL(change), CALL(largest), CALL(whole_pose),
-                                         corrected, last, before, after);
+    const int status = cycle(q, last);
     const unsigned ticks = (begun - *value) & 0xFFFFFFU;
     print(", corrected command: status ");
     print_number((unsigned)status);
     print(", instructions ");
     print_number(ticks * TICK);
+    print(", stack used ");
+    print_number(used(top));
+    print(" B");
     print("\n");
     return wrong;
 }

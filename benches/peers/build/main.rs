@@ -27,6 +27,7 @@ fn main() {
         println!("cargo:rerun-if-changed={path}");
     }
     println!("cargo:rerun-if-env-changed=PEERS_PYTHON");
+    println!("cargo:rerun-if-env-changed=PEERS_OPTIMIZATION");
     abbe_codegen::compile("specs");
 
     let root = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
@@ -127,16 +128,27 @@ fn main() {
     let flags = std::env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default().replace('\u{1f}', " ");
     println!("cargo:rustc-env=PEERS_FLAGS={}", if flags.is_empty() { "no flags" } else { &flags });
     println!("cargo:rustc-env=PEERS_PYTHON={python}");
-    println!("cargo:rustc-env=PEERS_GCC=gcc {gcc}");
+    println!("cargo:rustc-env=PEERS_GCC=gcc {gcc} {}", optimization());
     println!(
         "cargo:rustc-env=PEERS_RUSTC={}",
         said(Command::new(std::env::var("RUSTC").expect("rustc")).arg("-V"))
     );
 }
 
-/// Sets the options of the peers: all optimizations for this machine.
+/// Returns the optimization of C and C++: all for this machine, or as `PEERS_OPTIMIZATION` says.
+fn optimization() -> String {
+    std::env::var("PEERS_OPTIMIZATION").unwrap_or_else(|_| "-O3 -march=native".to_owned())
+}
+
+/// Sets the options of the peers.
 fn options(build: &mut cc::Build) -> &mut cc::Build {
-    build.opt_level(3).flag("-march=native").define("NDEBUG", None).warnings(false).force_frame_pointer(false)
+    let flags = optimization();
+    let (level, others) = flags.split_once(' ').unwrap_or((&flags, ""));
+    build.opt_level_str(level.trim_start_matches("-O"));
+    others.split_whitespace().for_each(|flag| {
+        build.flag(flag);
+    });
+    build.define("NDEBUG", None).warnings(false).force_frame_pointer(false)
 }
 
 /// Returns the folder of the wheels' headers.

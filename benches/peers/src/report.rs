@@ -138,7 +138,7 @@ fn ours(robot: &str, spec: &str) -> String {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (rustc, flags, gcc) = (env!("PEERS_RUSTC"), env!("PEERS_FLAGS"), env!("PEERS_GCC"));
-        writeln!(f, "{}; {rustc}, {flags}; {gcc} -O3 -march=native.\n", processor())?;
+        writeln!(f, "{}; {rustc}, {flags}; {gcc}.\n", processor())?;
         let angles = match self.angles {
             Angles::Quarter => "±90°",
             Angles::Limits => "the limits",

@@ -3,6 +3,7 @@
 
 mod accessibility;
 mod browser;
+mod controller;
 mod fmu;
 mod full_disk;
 mod measured_data;
@@ -16,6 +17,7 @@ use abbe_tests::needs::run;
 fn main() -> ExitCode {
     run(&[
         ("accessibility", accessibility::TESTS),
+        ("controller", controller::TESTS),
         ("fmu", fmu::TESTS),
         ("full_disk", full_disk::TESTS),
         ("measured_data", measured_data::TESTS),

@@ -106,7 +106,7 @@ impl Routines {
     #[must_use]
     pub fn only(mut self, exported: &[&'static str]) -> Self {
         let mut needed = exported.to_vec();
-        if exported.contains(&COMPENSATED.name) {
+        if self.has_compensated() && exported.contains(&COMPENSATED.name) {
             needed.extend([Function::Pose, Function::CompensatorStep].map(Function::name));
         }
         let mut next = 0;

@@ -6,7 +6,7 @@ use abbe_spec::Spec;
 
 use super::operators::C;
 use super::real::Real;
-use crate::print::expression::Value;
+use crate::print::expression::{Expression, Value};
 use crate::print::flat::{Flat, filled};
 use crate::print::layout::{LINE, Writer, width};
 use crate::print::statement::Statement;
@@ -268,13 +268,7 @@ impl Printer<'_> {
                 self.writer.lines(&format!("/* {} */", harmless(text)));
             }
             Statement::Let { name, value } => self.writer.lines(&format!("const {real} {name} = {value};")),
-            Statement::SinCos(pairs) => {
-                for ([sine, cosine], angle) in pairs {
-                    self.writer.lines(&format!("{real} {sine};"));
-                    self.writer.lines(&format!("{real} {cosine};"));
-                    self.writer.lines(&format!("sin_cos({}, &{sine}, &{cosine});", angle.text));
-                }
-            }
+            Statement::SinCos(pairs) => self.sines(pairs),
             Statement::Declare(array) => self.declare(*array),
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
@@ -331,6 +325,39 @@ impl Printer<'_> {
             // `end` prints the return; columns go to arrays.
             Statement::Return(_) | Statement::Column { .. } => {}
         }
+    }
+
+    /// Prints sines and cosines: of four or two angles together, or of one.
+    fn sines(&mut self, pairs: &[([String; 2], Expression)]) {
+        let real = self.real;
+        for name in pairs.iter().flat_map(|(names, _)| names) {
+            self.writer.lines(&format!("{real} {name};"));
+        }
+        if let [([sine, cosine], angle)] = pairs {
+            return self.writer.lines(&format!("sin_cos({}, &{sine}, &{cosine});", angle.text));
+        }
+        let counts: Vec<usize> =
+            pairs.chunks(4).map(|some| if some.len() > 2 { 4 } else { some.len() }).collect();
+        let len: usize = counts.iter().sum();
+        let angles = pairs.iter().map(|(_, angle)| angle.text.as_str());
+        let last = pairs.last().map(|(_, angle)| angle.text.as_str());
+        let angles: Vec<&str> = angles.chain(last.into_iter().cycle()).take(len).collect();
+        self.writer.open_alone();
+        self.writer.braces(&format!("const {real} angles[{len}] = "), &angles, ";");
+        self.writer.lines(&format!("{real} sines[{len}];\n{real} cosines[{len}];"));
+        let mut first = 0;
+        for count in counts {
+            let at = |name: &str| if first == 0 { name.to_owned() } else { format!("&{name}[{first}]") };
+            let function = if count > 1 { format!("sin_cos_{count}") } else { "sin_cos".to_owned() };
+            let angle = if count > 1 { at("angles") } else { format!("angles[{first}]") };
+            self.writer.lines(&format!("{function}({angle}, {}, {});", at("sines"), at("cosines")));
+            first += count;
+        }
+        let assigned = pairs.iter().enumerate().flat_map(|(k, ([sine, cosine], _))| {
+            [format!("{sine} = sines[{k}]"), format!("{cosine} = cosines[{k}]")]
+        });
+        filled(self.writer, "", &assigned.collect::<Vec<_>>(), "; ");
+        self.writer.close("}");
     }
 
     /// Declares a local array, or clears a result that has entries that are not written.

@@ -9,6 +9,7 @@ mod operators;
 mod real;
 mod self_test;
 mod shortest;
+mod sines;
 mod support;
 
 use abbe_core::compensator::{CHANGE, LARGEST, Status, bound};
@@ -122,26 +123,24 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> S
         writer.braces(&format!("static const int {}[{}][2] = ", table.name, rows.len()), &rows, ";");
     }
     routines.used_sums().for_each(|sums| sums_of_terms(&mut writer, sums, real));
-    for text in helpers(routines, real) {
+    let (functions, helpers): (Vec<_>, Vec<_>) =
+        routines.list.iter().partition(|routine| routine.function.is_some());
+    let mut body = Writer::new(" *");
+    for routine in helpers.into_iter().chain(functions) {
+        function(&mut body, spec, routines, routine, real);
+    }
+    let body = body.finish();
+    let used = Support::used(routines, &body);
+    for text in [real.text(ARE_BELOW)].into_iter().chain(used.iter().map(|support| support.text(real))) {
         writer.blank();
         writer.lines(text.trim_end());
     }
     routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, table, real));
     ranges(&mut writer, spec, routines, real);
-    let (functions, helpers): (Vec<_>, Vec<_>) =
-        routines.list.iter().partition(|routine| routine.function.is_some());
-    for routine in helpers.into_iter().chain(functions) {
-        function(&mut writer, spec, routines, routine, real);
-    }
+    writer.lines(body.trim_end());
     compensated::definition(&mut writer, spec, routines, real);
-    self_test::definition(&mut writer, spec, model, routines, real);
+    self_test::definition(&mut writer, spec, model, routines, &used, real);
     writer.finish()
-}
-
-/// Returns the static helper functions.
-fn helpers(routines: &Routines, real: Real) -> Vec<String> {
-    let used = Support::used(routines);
-    [real.text(ARE_BELOW)].into_iter().chain(used.into_iter().map(|support| support.text(real))).collect()
 }
 
 /// A test of `abbe` compares the bits under these flags.

@@ -16,15 +16,15 @@ pub(super) struct C<'s> {
     pub(super) real: Real,
 }
 
-const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imaginary abs acos acosf acosh alignas alignof and and_eq are_below asin \
+const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imaginary abs acos acosf acosh alignas alignof and and_eq angles are_below asin \
          asinf asinh asm atan atan2 atan2f atanf atanh auto bitand bitor bool break case catch cbrt ceil char class compl concept const \
          const_cast constexpr continue copysign cos cosf cosh cosine decltype default delete do double dynamic_cast else enum \
          erf erfc exp exp2 expf explicit export expm1 extern fabs fabsf false fdim float floor fma fmax fmin fmod for friend frexp \
          goto greater hypot i if ilogb inline inputs_are_in_range int is_within isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
          llround log log10 log1p log2 logb logf long look_up lrint lround margin modf mutable namespace nan nearbyint new \
          nextafter nexttoward noexcept not not_eq nullptr operator or or_eq pow powf private protected public real register \
-         reinterpret_cast remainder remquo requires restrict return rint round scalbln scalbn short side sign signbit sine cosine \
-         signed sin sin_cos sinf sinh sizeof sqrt sqrtf static static_assert static_cast status struct switch tan tanf tanh template \
+         reinterpret_cast remainder remquo requires restrict return rint round scalbln scalbn short side sign signbit sine sines cosine cosines \
+         signed sin sin_cos sin_cos_2 sin_cos_4 sinf sinh sizeof sqrt sqrtf static static_assert static_cast status struct switch tan tanf tanh template \
          tgamma this thread_local throw true trunc try typedef typeid typename union unsigned using virtual void \
          volatile wchar_t while xor xor_eq y0 y1 yn";
 

@@ -1,6 +1,7 @@
 //! A self-test that compares the functions, as compiled for the target, with values computed by the
 //! generator.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use abbe_core::Function;
@@ -31,7 +32,14 @@ pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.lines(&format!("int {}_self_test(void);", spec.name));
 }
 
-pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, routines: &Routines, real: Real) {
+pub(super) fn definition(
+    writer: &mut Writer,
+    spec: &Spec,
+    model: &Model,
+    routines: &Routines,
+    used: &BTreeSet<Support>,
+    real: Real,
+) {
     let mut template = |text: &str| {
         writer.blank();
         let numbers = [("ROUND", real.rounder()), ("BOUND", real.number(4.0 * real.unit_roundoff()))];
@@ -40,9 +48,15 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, routin
     };
     template(SUMS_TO);
     template(FOLLOWS_IEEE);
-    let has_sines = Support::used(routines).contains(&Support::SinCos);
+    let has_sines = used.contains(&Support::SinCos);
     if has_sines {
         template(SINES_ARE_RIGHT);
+    }
+    let several = [(Support::SinCosTwo, 2), (Support::SinCosFour, 4)];
+    let several: Vec<usize> =
+        several.into_iter().filter(|(support, _)| used.contains(support)).map(|(_, count)| count).collect();
+    for count in &several {
+        template(&SEVERAL_ARE_RIGHT.replace("COUNT", &count.to_string()));
     }
     let functions: Vec<Function> = routines.list.iter().filter_map(|routine| routine.function).collect();
     let given = where_most_has_a_value(spec, model, &functions, real);
@@ -64,7 +78,9 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, routin
     writer.lines(&format!("volatile {real} infinity = {};", real.number(f64::INFINITY)));
     writer.lines("if (follows_ieee() == 0) {\n    return -1;\n}");
     if has_sines {
-        writer.lines("if (sines_are_right(sines, 10) == 0) {\n    return -2;\n}");
+        let further = several.iter().map(|count| format!(" || sines_by_{count}_are_right(sines) == 0"));
+        let further: String = further.collect();
+        writer.lines(&format!("if (sines_are_right(sines) == 0{further}) {{\n    return -2;\n}}"));
     }
     writer.lines("/* First the numbers as they are, then with one of them infinite or NaN. */");
     writer.open(&format!("for (int trial = -1; trial < {}; trial++)", 2 * len));
@@ -155,7 +171,8 @@ fn sines(writer: &mut Writer, real: Real) {
         Real::Double => 1e5,
         Real::Float => 6e3,
     };
-    let angles = [0.1, -0.7, 0.78, 1.9, -2.3, 2.9, -3.7, 5.1, 0.93 * range, -1.2 * range];
+    let [near, far] = [0.93 * range, -1.2 * range];
+    let angles = [0.1, -0.7, 0.78, 1.9, -2.3, 2.9, -3.7, 5.1, near, far, 0.5, -6.2];
     let row = |angle: f64| {
         let angle = real.nearest(angle);
         format!("{{ {} }}", [angle, angle.sin(), angle.cos()].map(|value| real.number(value)).join(", "))
@@ -341,18 +358,42 @@ static int follows_ieee(void)
 ";
 
 const SINES_ARE_RIGHT: &str = "\
-/* Returns 1 if the sine and cosine of each angle are as expected, else 0. */
-static int sines_are_right(const double expected[][3], int count)
+/* Returns 1 if a sine and a cosine are as expected, else 0. */
+static int is_right(const double expected[3], double s, double c)
 {
-    int is_right = 1;
-    for (int k = 0; k < count; k++) {
+    return (fabs(s - expected[1]) <= BOUND && fabs(c - expected[2]) <= BOUND) ? 1 : 0;
+}
+
+/* Returns 1 if the sine and cosine of each of twelve angles are as expected, else 0. */
+static int sines_are_right(const double expected[12][3])
+{
+    int all = 1;
+    for (int k = 0; k < 12; k++) {
         double s;
         double c;
         sin_cos(expected[k][0], &s, &c);
-        if (!(fabs(s - expected[k][1]) <= BOUND && fabs(c - expected[k][2]) <= BOUND)) {
-            is_right = 0;
+        all *= is_right(expected[k], s, c);
+    }
+    return all;
+}
+";
+
+const SEVERAL_ARE_RIGHT: &str = "\
+static int sines_by_COUNT_are_right(const double expected[12][3])
+{
+    int all = 1;
+    for (int k = 0; k < 12; k += COUNT) {
+        double x[COUNT];
+        double s[COUNT];
+        double c[COUNT];
+        for (int i = 0; i < COUNT; i++) {
+            x[i] = expected[k + i][0];
+        }
+        sin_cos_COUNT(x, s, c);
+        for (int i = 0; i < COUNT; i++) {
+            all *= is_right(expected[k + i], s[i], c[i]);
         }
     }
-    return is_right;
+    return all;
 }
 ";

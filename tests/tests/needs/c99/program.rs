@@ -24,8 +24,8 @@ pub(crate) const STRICT: [&str; 9] = [
     "-ffp-contract=off",
 ];
 
-/// Writes the code of every function that has results, also those that are left out of the code of a
-/// machine without sources.
+/// Writes the code of every function that has results, also of those that the code of a machine
+/// without sources leaves out.
 pub(crate) fn write(folder: &Path, spec: &Spec, real: Real) {
     let language = Language::C(real);
     write_files(folder, language.files_of(spec, &language.functions(spec)));
