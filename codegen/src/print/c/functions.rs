@@ -336,21 +336,20 @@ impl Printer<'_> {
         if let [([sine, cosine], angle)] = pairs {
             return self.writer.lines(&format!("sin_cos({}, &{sine}, &{cosine});", angle.text));
         }
-        let counts: Vec<usize> =
-            pairs.chunks(4).map(|some| if some.len() > 2 { 4 } else { some.len() }).collect();
-        let len: usize = counts.iter().sum();
-        let angles = pairs.iter().map(|(_, angle)| angle.text.as_str());
-        let last = pairs.last().map(|(_, angle)| angle.text.as_str());
-        let angles: Vec<&str> = angles.chain(last.into_iter().cycle()).take(len).collect();
+        let len = pairs.len();
+        let angles: Vec<&str> = pairs.iter().map(|(_, angle)| angle.text.as_str()).collect();
         self.writer.open_alone();
         self.writer.braces(&format!("const {real} angles[{len}] = "), &angles, ";");
         self.writer.lines(&format!("{real} sines[{len}];\n{real} cosines[{len}];"));
         let mut first = 0;
-        for count in counts {
+        while first < len {
+            let count = [4, 2, 1].into_iter().find(|count| first + count <= len).unwrap_or(1);
             let at = |name: &str| if first == 0 { name.to_owned() } else { format!("&{name}[{first}]") };
-            let function = if count > 1 { format!("sin_cos_{count}") } else { "sin_cos".to_owned() };
-            let angle = if count > 1 { at("angles") } else { format!("angles[{first}]") };
-            self.writer.lines(&format!("{function}({angle}, {}, {});", at("sines"), at("cosines")));
+            let (function, angles) = match count {
+                1 => ("sin_cos".to_owned(), format!("angles[{first}]")),
+                count => (format!("sin_cos_{count}"), at("angles")),
+            };
+            self.writer.lines(&format!("{function}({angles}, {}, {});", at("sines"), at("cosines")));
             first += count;
         }
         let assigned = pairs.iter().enumerate().flat_map(|(k, ([sine, cosine], _))| {
