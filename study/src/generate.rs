@@ -77,7 +77,7 @@ impl Generate {
         let possible = self.language.functions(spec);
         if possible.is_empty() {
             let message = format!("`--only` has no effect on {}", self.language.name());
-            let help = "generate c, js, python or matlab, or leave `--only` out";
+            let help = "choose another language, or leave `--only` out";
             return Err(mistake::with_help("--only", message, help));
         }
         let mut document = Document::new("--only", only);

@@ -30,8 +30,8 @@ pub(crate) struct Generate {
     /// [default: double]
     #[arg(long, value_parser = named(generate::Generate::REALS))]
     pub(crate) real: Option<Real>,
-    /// Write only these functions, separated by commas, and what they need, in C, JavaScript, Python
-    /// and Matlab. [default: all]
+    /// Write only these functions, separated by commas, and what they need; not in Rust and
+    /// functional mock-up units. [default: all]
     #[arg(long, value_name = "FUNCTIONS")]
     pub(crate) only: Option<String>,
     /// Name in the code, such that several machines can be linked. [default: the spec's]

@@ -85,6 +85,7 @@ fn functions_are_selected_by_name() {
         ("js", "export function pose(", "export function real_pose("),
         ("python", "def pose(", "def real_pose("),
         ("matlab", "= pose(", "effects"),
+        ("st", "FUNCTION_BLOCK ur5_pose", "effects"),
     ] {
         let code = prints(&["generate", "ur5", "--lang", language, "--only", "pose,compensated"]);
         assert!(code.contains(exported) && !code.contains(other), "{language}");

@@ -10,7 +10,6 @@ use super::declarations::{
 };
 use super::operators::{StructuredText, instance, number};
 use crate::print::flat::{Flat, filled};
-use crate::print::header::operations;
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
@@ -27,11 +26,7 @@ pub(super) fn block(
     let Statements { list, .. } = Statements::new(spec, &routines.description, routine, syntax);
     let mut printer = Printer { writer, spec, flat: Flat { routines, routine }, prefix: &syntax.prefix };
     printer.writer.blank();
-    let documentation = match routine.function {
-        Some(_) => format!("{} {}.", routine.documentation, operations(routine)),
-        None => routine.documentation.to_owned(),
-    };
-    comment(printer.writer, &documentation);
+    comment(printer.writer, routine.documentation);
     printer.writer.lines(&format!("FUNCTION_BLOCK {}_{}", syntax.prefix, routine.name));
     printer.arguments();
     printer.results();

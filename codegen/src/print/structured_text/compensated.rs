@@ -2,9 +2,9 @@
 //!
 //! The block keeps the corrections of the cycle before itself.
 
+use abbe_core::Description;
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_core::function::COMPENSATED;
-use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
 use super::declarations::{argument, comment, document, numbers, section};
@@ -12,12 +12,6 @@ use super::operators::number;
 use crate::print::compensated::{Tolerances, numbered};
 use crate::print::layout::Writer;
 use crate::program::Routines;
-
-/// Returns `true` if there are joints, and the routines that corrected commands call.
-pub(super) fn is_complete(spec: &Spec, routines: &Routines) -> bool {
-    let has = |function: Function| routines.list.iter().any(|routine| routine.name == function.name());
-    !spec.variables.is_empty() && has(Function::Pose) && has(Function::CompensatorStep)
-}
 
 /// Prints the block of corrected commands, and those that it calls.
 pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, prefix: &str) {

@@ -48,7 +48,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         statuses(&Tolerances::DOUBLE)
     ));
     writer.lines(" *)");
-    let has_compensated = compensated::is_complete(spec, routines);
+    let has_compensated = routines.has_compensated();
     for support in Support::used(spec, routines, has_compensated) {
         writer.blank();
         writer.lines(support.text(&syntax.prefix).trim_end());
