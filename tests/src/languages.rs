@@ -1,5 +1,7 @@
 //! Reference of the generated languages: common arguments, and names with a meaning in one of them.
 
+use std::f64::consts::FRAC_PI_2;
+
 use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_parameters};
 use abbe::compensator::{CHANGE, Cycle, LARGEST, Status, bound, compensate};
 use abbe::function::{Array, COMPENSATED, Signature};
@@ -49,11 +51,14 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     let arm = arm_length(robot, &s).unwrap();
     let moved: Vec<usize> = (0..description.variables.len()).collect();
     let errors = 6 * description.frames.len();
-    let configuration = |index| {
+    let configuration = |index: usize| {
         let small = (0..2 * errors).map(|k| 1e-3 * halton(index + 1, k % 30));
         let magnitudes = (0..description.sources.len()).map(|k| 2.0 * halton(index + 1, k % 30) - 1.0);
-        joint_sample(description, arm, &moved, index)
-            .into_iter()
+        let mut q = joint_sample(description, arm, &moved, index);
+        if index == 2 {
+            quarter_turns(description, &mut q);
+        }
+        q.into_iter()
             .chain(s.clone())
             .chain(inputs(description, index))
             .chain(small)
@@ -62,6 +67,16 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
             .collect()
     };
     (0..count).map(configuration).collect()
+}
+
+/// Sets joints to a quarter turn, where the cosine has only digits of the last part of π/2.
+fn quarter_turns(description: &Description, q: &mut [f64]) {
+    for (value, variable) in q.iter_mut().zip(&*description.variables) {
+        let [lower, upper] = variable.limits;
+        if variable.kind == VariableKind::Revolute && (lower..=upper).contains(&FRAC_PI_2) {
+            *value = FRAC_PI_2;
+        }
+    }
 }
 
 /// Returns inputs within their ranges, or their nominal values if they have no range.
@@ -84,7 +99,10 @@ fn cycle(description: &Description, index: usize) -> Vec<f64> {
     let share = |j| if count > 7 { 0.0 } else { halton(index, j) - 0.5 };
     let last = each(CHANGE).enumerate().map(|(j, most)| most * share(j));
     let rotations = if index % 4 == 1 { [1.0; 3] } else { [1.0, 1.0, 0.0] };
-    last.chain(each(CHANGE)).chain(each(LARGEST)).chain(rotations).collect()
+    // Every fourth time, the size of a correction holds it.
+    let largest = each(if index % 8 == 3 { CHANGE } else { LARGEST });
+    let largest = largest.map(|most| if index % 8 == 3 { 0.3 * most } else { most });
+    last.chain(each(CHANGE)).chain(largest).chain(rotations).collect()
 }
 
 /// Returns the arrays that functions take, in the order of their numbers in a configuration.

@@ -122,9 +122,10 @@ fn with_another_number(line: &str) -> Option<String> {
         if rest[..end].ends_with('e') {
             end += 1 + rest[end + 1..].find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len() - end - 1);
         }
-        // A number that counts is none that is computed with.
-        let value: f64 =
-            rest[..end].parse().ok().filter(|_| rest.starts_with(|c: char| c.is_ascii_digit()))?;
+        // An index, or letters behind it, make it a whole number in C.
+        let is_number = rest.starts_with(|c: char| c.is_ascii_digit())
+            && !rest[end..].starts_with(|c: char| c.is_ascii_alphabetic() || c == ']');
+        let value: f64 = rest[..end].parse().ok().filter(|_| is_number)?;
         let wrong = if value == 0.0 { 0.5 } else { 1.5 * value };
         Some(format!("{}{wrong:?}{}", &line[..*start], &rest[end..]))
     };

@@ -4,6 +4,8 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
+use std::thread;
+use std::time::Duration;
 
 use libtest_mimic::{Arguments, Completion, Trial};
 
@@ -74,4 +76,22 @@ pub fn tool(program: &str, version: &str) -> Result<String, Missing> {
     printed
         .filter(|printed| printed.ends_with(version))
         .ok_or_else(|| Missing(format!("{program} {version}").trim().to_owned() + " is not installed"))
+}
+
+/// Runs a command and returns whether it succeeds. A command that has not ended after two minutes is
+/// killed: it is in a loop without end.
+///
+/// # Panics
+///
+/// If the command cannot be started.
+pub fn succeeds_in_time(command: &mut Command) -> bool {
+    let mut run = command.spawn().expect("the command is there");
+    for _ in 0..12_000 {
+        if let Some(status) = run.try_wait().expect("it was started") {
+            return status.success();
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    run.kill().and_then(|()| run.wait()).expect("it was started");
+    false
 }

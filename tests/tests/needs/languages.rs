@@ -9,8 +9,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::thread;
-use std::time::Duration;
 
 use abbe::function::{Array, COMPENSATED, Signature};
 use abbe::{Function, Manipulator};
@@ -21,7 +19,7 @@ use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
 use abbe_tests::languages::{NAMES, compare, configurations, given_arrays};
 use abbe_tests::mutants::{Mutant, mutants};
-use abbe_tests::needs::{Missing, Tests, python, tool};
+use abbe_tests::needs::{Missing, Tests, python, succeeds_in_time, tool};
 use abbe_tests::{is_tested, sample_size, specs};
 use serde_json::{Value, json};
 
@@ -116,7 +114,7 @@ fn compare_source(
     let mut run = Command::new(&command[0]);
     run.args(&command[1..]).arg(script).args([&source, &functions, &input, &output]);
     run.stdin(Stdio::null()).stdout(Stdio::null()).stderr(fs::File::create(&errors).unwrap());
-    if !ends_well(&mut run) {
+    if !succeeds_in_time(&mut run) {
         return Err(format!("{}: {}", file.name, fs::read_to_string(&errors).unwrap()));
     }
     let bytes = fs::read(&output).unwrap();
@@ -124,21 +122,6 @@ fn compare_source(
         bytes.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap())).collect();
     let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
     compare(robot, evaluate, given, &found)
-}
-
-/// Runs a command and returns whether it succeeds. A command that has not ended after two minutes is
-/// killed: it is in a loop without end.
-fn ends_well(command: &mut Command) -> bool {
-    let mut run = command.spawn().expect("the command is there");
-    for _ in 0..12_000 {
-        if let Some(status) = run.try_wait().unwrap() {
-            return status.success();
-        }
-        thread::sleep(Duration::from_millis(10));
-    }
-    run.kill().unwrap();
-    run.wait().unwrap();
-    false
 }
 
 /// Checks that the comparison finds every mutant of a source: one of each kind in each function in a

@@ -19,6 +19,7 @@ use abbe_tests::{is_tested, specs};
 use self::program::{STRICT, called, functions, succeeds, write, write_files};
 
 mod arithmetic;
+mod mutants;
 mod program;
 mod selected;
 mod single;
@@ -39,6 +40,7 @@ pub(crate) const TESTS: Tests = &[
     ("a_broken_sine_is_found", arithmetic::a_broken_sine_is_found),
     ("the_named_flags_hold_the_bits", arithmetic::the_named_flags_hold_the_bits),
     ("huge_arguments_give_no_infinite_result", arithmetic::huge_arguments),
+    ("mutants_are_found", mutants::are_found),
     ("the_code_of_the_chapter_compiles", the_code_of_the_chapter_compiles),
     ("departures_from_misra_are_listed", departures_from_misra_are_listed),
 ];
@@ -154,34 +156,76 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
 /// Compares `count` configurations with Rust bit by bit, compensated commands to 1e-9, and runs the
 /// self-test.
 fn assert_equal(spec: Spec, count: usize) {
-    let name = spec.name.clone();
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), &spec, Real::Double);
     let robot = Interpreter::new(spec);
     let given = configurations(&robot, count);
-    let mut found = called(&["cc"], folder.path(), &robot, Real::Double, &given).into_iter();
-    assert_eq!(found.next(), Some(0.0), "{name}: the self-test");
+    let found = called(&["cc"], folder.path(), &robot, Real::Double, &given);
+    assert_eq!(found[0], 0.0, "{}: the self-test", robot.description().name);
+    compare(&robot, &given, &found[1..]).unwrap();
+}
+
+/// Compares the numbers of every function and of compensated commands at every configuration, each
+/// after its status, with Rust. Returns the first difference.
+fn compare(robot: &Interpreter, given: &[Vec<f64>], found: &[f64]) -> Result<(), String> {
+    let description = robot.description();
+    let name = &description.name;
+    let mut found = found.iter().copied();
+    let mut next = || found.next().ok_or_else(|| format!("{name}: numbers are missing"));
     let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
-    let euler = robot.description().orientation != Orientation::RotationVector;
-    for given in &given {
-        for function in functions(&robot) {
-            let mut expected = evaluate(function, &arguments(&robot, function.signature(), given));
-            let has_margin = function.signature().has_margin(robot.description().orientation);
+    let euler = description.orientation != Orientation::RotationVector;
+    for given in given {
+        let is_refused = has_input_beyond_its_range(robot, given);
+        for function in functions(robot) {
+            let has_margin = function.signature().has_margin(description.orientation);
+            if is_refused && function.signature().arguments.iter().any(|array| array.name == "u") {
+                let numbers = function.signature().results_len(description) - usize::from(has_margin);
+                refused(&mut next, numbers, function.name())?;
+                continue;
+            }
+            let mut expected = evaluate(function, &arguments(robot, function.signature(), given));
             expected.truncate(expected.len() - usize::from(has_margin));
-            let status = found.next().unwrap();
-            assert!(status == 0.0 || euler && status == 2.0, "{name} {}: {status}", function.name());
+            let status = next()?;
+            if !(status == 0.0 || euler && status == 2.0) {
+                return Err(format!("{name} {}: {status}", function.name()));
+            }
             for (k, expected) in expected.into_iter().enumerate() {
-                let number = found.next().unwrap();
-                assert!(
-                    number == expected || status != 0.0 && !expected.is_finite(),
-                    "{name} {} {k}: {number:e} and {expected:e}",
-                    function.name()
-                );
+                let number = next()?;
+                if !(number == expected || status != 0.0 && !expected.is_finite()) {
+                    return Err(format!("{name} {} {k}: {number:e} and {expected:e}", function.name()));
+                }
             }
         }
-        let status = found.next().unwrap();
-        let numbers: Vec<f64> = found.by_ref().take(COMPENSATED.results_len(robot.description())).collect();
-        compare_compensated(&robot, evaluate, given, &numbers, status).unwrap();
+        if is_refused {
+            refused(&mut next, COMPENSATED.results_len(description), "compensated")?;
+            continue;
+        }
+        let status = next()?;
+        let numbers: Result<Vec<f64>, String> =
+            (0..COMPENSATED.results_len(description)).map(|_| next()).collect();
+        compare_compensated(robot, evaluate, given, &numbers?, status)?;
     }
-    assert_eq!(found.next(), None, "{name}");
+    match found.next() {
+        None => Ok(()),
+        Some(_) => Err(format!("{name}: too many numbers")),
+    }
+}
+
+/// Skips the numbers of a function. Returns an error if its status is not that of an input beyond
+/// its range.
+fn refused(
+    next: &mut impl FnMut() -> Result<f64, String>,
+    numbers: usize,
+    function: &str,
+) -> Result<(), String> {
+    let status = next()?;
+    (0..numbers).try_for_each(|_| next().map(|_| ()))?;
+    if status == 3.0 { Ok(()) } else { Err(format!("{function}: {status} for an input beyond its range")) }
+}
+
+fn has_input_beyond_its_range(robot: &Interpreter, given: &[f64]) -> bool {
+    let description = robot.description();
+    let first = description.variables.len() + description.parameters.len();
+    let inputs = description.inputs.iter().zip(&given[first..]);
+    inputs.into_iter().any(|(input, value)| *value < input.range[0] || *value > input.range[1])
 }

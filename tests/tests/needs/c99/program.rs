@@ -78,7 +78,7 @@ pub(crate) fn succeeds(command: &mut Command) -> Vec<u8> {
 }
 
 /// Returns a program that reads configurations and writes the results of the functions.
-fn caller(robot: &Interpreter, real: Real) -> String {
+pub(crate) fn caller(robot: &Interpreter, real: Real) -> String {
     let description = robot.description();
     let name = &description.name;
     let sizes: Vec<(&str, usize)> =
