@@ -32,8 +32,8 @@ const KINDS: [(&str, &str, &str); 12] = [
     ("maximum", "max(", "min("),
 ];
 
-/// Returns the mutants of a source in C, JavaScript, Python or Matlab: for each function and kind of
-/// operation at most `most`, evenly distributed. `is_mutated` selects functions by name.
+/// Returns the mutants of a source in C, JavaScript, Python or Matlab: for each function and kind
+/// of operation at most `most`, evenly distributed. `is_mutated` selects functions by name.
 pub fn mutants(text: &str, most: usize, is_mutated: impl Fn(&str) -> bool) -> Vec<Mutant> {
     let lines: Vec<&str> = text.lines().collect();
     let mut sites: BTreeMap<(String, &'static str), Vec<(usize, String)>> = BTreeMap::new();

@@ -78,8 +78,8 @@ pub fn tool(program: &str, version: &str) -> Result<String, Missing> {
         .ok_or_else(|| Missing(format!("{program} {version}").trim().to_owned() + " is not installed"))
 }
 
-/// Runs a command and returns whether it succeeds. A command that has not ended after two minutes is
-/// killed: it is in a loop without end.
+/// Runs a command and returns whether it succeeds. A command that has not ended after two minutes
+/// is killed: it is in a loop without end.
 ///
 /// # Panics
 ///

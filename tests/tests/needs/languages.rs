@@ -124,8 +124,8 @@ fn compare_source(
     compare(robot, evaluate, given, &found)
 }
 
-/// Checks that the comparison finds every mutant of a source: one of each kind in each function in a
-/// thorough run, and a tenth of them otherwise. Functions that all sources share are mutated for
+/// Checks that the comparison finds every mutant of a source: one of each kind in each function in
+/// a thorough run, and a tenth of them otherwise. Functions that all sources share are mutated for
 /// three joints and for six, which take different branches; one of the two has to tell.
 fn mutants_of(language: Language) -> Result<(), Missing> {
     let command = command(language)?;
@@ -153,8 +153,9 @@ fn mutants_of(language: Language) -> Result<(), Missing> {
     let own = survivors(&measured, &is_own);
     assert!(own.is_empty(), "{own:#?}");
     let [three, mut six] = [&measured, &six_joints].map(|spec| survivors(spec, &is_shared));
-    // `(JᵀJ + λ)⁻¹Jᵀ = Jᵀ(JJᵀ + λ)⁻¹`: which of the two is solved makes no difference. The largest
-    // and the smallest step are different statuses only if a joint rests while others do not.
+    // `(JᵀJ + λ)⁻¹Jᵀ = Jᵀ(JJᵀ + λ)⁻¹`: which of the two is solved makes no difference. The
+    // largest and the smallest step are different statuses only if a joint rests while others do
+    // not.
     let equal = [("shortest", "less"), ("compensated", "maximum")];
     let is_equal = |(function, kind): &(String, &'static str)| {
         equal.contains(&(function.trim_start_matches('_'), *kind))

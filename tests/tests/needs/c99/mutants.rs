@@ -25,9 +25,9 @@ enum Finder {
     Nobody,
 }
 
-/// Checks one mutant of each kind in each function in a thorough run, and a tenth of them otherwise.
-/// Functions that all sources share are mutated for three joints and for six, which take different
-/// branches; one of the two has to tell.
+/// Checks one mutant of each kind in each function in a thorough run, and a tenth of them
+/// otherwise. Functions that all sources share are mutated for three joints and for six, which take
+/// different branches; one of the two has to tell.
 pub(crate) fn are_found() -> Result<(), Missing> {
     tool("cc", "")?;
     let six_joints = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();
@@ -64,9 +64,9 @@ pub(crate) fn are_found() -> Result<(), Missing> {
 }
 
 /// Mutants that no run tells from the source. The largest and the smallest step are different
-/// statuses only if a joint rests while others do not, and the command itself is a better start than
-/// the last correction only where no step improves it. A joint that is held where it is changes
-/// nothing. The last part of π/2 has an effect only next to its multiples.
+/// statuses only if a joint rests while others do not, and the command itself is a better start
+/// than the last correction only where no step improves it. A joint that is held where it is
+/// changes nothing. The last part of π/2 has an effect only next to its multiples.
 const WITHOUT_EFFECT: [(&str, &str); 4] =
     [("compensated", "greater"), ("compensated", "less"), ("depart", "negation"), ("sin_cos_2", "number")];
 
