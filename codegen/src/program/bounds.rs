@@ -145,7 +145,7 @@ mod tests {
         let cosine = g.cos(y);
         let quotient = g.div(x, cosine);
         let program = Program::new(&g, &[quotient, cosine]);
-        let margin = Some((program.outputs[1], 1e-6));
+        let margin = Some((program.outputs[1], 1e-5));
         assert_eq!(program.finite_outputs(1e100, margin, f64::MAX), [true, true]);
         assert_eq!(program.finite_outputs(1e100, None, f64::MAX), [false, true]);
     }
