@@ -39,10 +39,10 @@ pub(crate) fn are_found() -> Result<(), Missing> {
         let is_own =
             |function: &str| function.starts_with(&format!("{name}_")) && !function.ends_with("compensated");
         let is_test = ["self_test", "sums_to", "follows_ieee", "_right"];
-        let is_mutated = |function: &str| {
-            !is_test.iter().any(|end| function.ends_with(end)) && !(is_second && is_own(function))
+        let is_left_out = |function: &str| {
+            is_test.iter().any(|end| function.ends_with(end)) || is_second && is_own(function)
         };
-        let all = mutants(&source.text, 1, is_mutated);
+        let all = mutants(&source.text, 1, |function| !is_left_out(function));
         let chosen: Vec<&Mutant> = all.iter().step_by(all.len() / sample_size(all.len())).collect();
         let finders: Vec<Finder> = chosen.iter().map(|mutant| source.finder(&mutant.text)).collect();
         let by_test = finders.iter().filter(|finder| **finder == Finder::SelfTest).count();
