@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 pub struct Mutant {
     /// Name of the function.
     pub function: String,
-    /// What is replaced by what.
+    /// Name of the kind of operation.
     pub kind: &'static str,
     /// The mutated line.
     pub line: String,
@@ -16,7 +16,7 @@ pub struct Mutant {
     pub text: String,
 }
 
-/// What is replaced in a line, as binary operators between spaces and names before a bracket.
+/// Replacements in a line: operators between spaces, and names before a bracket.
 const KINDS: [(&str, &str, &str); 12] = [
     ("sum", " + ", " - "),
     ("difference", " - ", " + "),

@@ -134,8 +134,10 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &spec, real);
         let source = folder.path().join(format!("{}.c", spec.name));
+        // One processor each: checking every combination of macros takes minutes.
+        let processor = if real == Real::Double { "-D__SSE2__" } else { "-D__ARM_FP" };
         let checked = Command::new("cppcheck")
-            .args(["--std=c99", "--addon=misra", "--enable=warning,style,performance,portability"])
+            .args(["--std=c99", "--addon=misra", "--enable=warning,style,performance,portability", processor])
             .arg(&source)
             .output()
             .unwrap();

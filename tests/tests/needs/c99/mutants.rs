@@ -17,7 +17,7 @@ use abbe_tests::{sample_size, specs};
 use super::compare;
 use super::program::caller;
 
-/// Who finds a mutant.
+/// Check that finds a mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Finder {
     SelfTest,
