@@ -47,7 +47,7 @@ def test_the_same_as_the_command():
     assert changed.to_json() + "\n" == printed("analyze", "pps", "--set", "x=25mm", "--disable", "assembly", "--json")
     assert json.loads(printed("check", "scara", "--json")) == abbe.load("scara").check().to_dict()
     assert printed("generate", "scara", "--lang", "rust") == abbe.load("scara").generate()
-    assert "int scara_pose(const float *ABBE_RESTRICT q" in abbe.load("scara").generate("c", real="float")
+    assert "int scara_pose(\n    const float q[ABBE_RESTRICT(4)]," in abbe.load("scara").generate("c", real="float")
 
 
 @pytest.mark.skipif(not COMMAND, reason="the environment variable ABBE does not name the abbe command")
