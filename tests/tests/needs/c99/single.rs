@@ -31,7 +31,7 @@ struct Differences {
     /// commands compensated in single precision, if both precisions converge.
     before: [f64; 2],
     after: [f64; 2],
-    /// Number of compensated commands that converge, in double and in single precision.
+    /// Number of compensated commands that reach their pose in double precision, and in both.
     rest: [usize; 2],
 }
 
@@ -122,7 +122,7 @@ impl Differences {
             *most = [most[0].max(length), most[1].max(angle)];
         };
         self.rest[0] += usize::from(double == 0.0);
-        self.rest[1] += usize::from(single == 0.0);
+        self.rest[1] += usize::from(double == 0.0 && single == 0.0);
         // Targets that neither can reach are no measure of precision.
         let (length, angle) = left(&exact);
         let metre = 1.0 / description.length.in_metres();
