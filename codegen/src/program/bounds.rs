@@ -53,7 +53,9 @@ impl Program {
                 }
                 Action::Atan2(..) | Action::Pow(..) | Action::Lookup(..) => UNKNOWN,
             };
-            let result = if is_bounded(result) { result } else { UNKNOWN };
+            // Far below the largest number, so that rounding errors cannot exceed it.
+            let is_representable = result.iter().all(|end| end.abs() < largest * SLACK);
+            let result = if is_representable { result } else { UNKNOWN };
             let is_pair = matches!(step.action, Action::SinCos(_));
             registers[step.register..=step.register + usize::from(is_pair)].fill(result);
         }
@@ -61,7 +63,7 @@ impl Program {
             Operand::Constant(value) => value.is_finite(),
             Operand::Symbol(Symbol::Local(_)) => false,
             Operand::Symbol(_) => true,
-            Operand::Register(register) => registers[register].iter().all(|end| end.abs() < largest * SLACK),
+            Operand::Register(register) => is_bounded(registers[register]),
         };
         self.outputs.iter().map(is_finite).collect()
     }
@@ -136,6 +138,19 @@ mod tests {
         let sum = g.add(square, other);
         let [root, of_any] = [sum, x].map(|node| g.call(Function::Sqrt, node));
         assert!(finite(&g, root, 1e100) && !finite(&g, of_any, 1.0));
+    }
+
+    /// A small result does not help if a step towards it exceeds the type.
+    #[test]
+    fn every_step_is_bounded_by_the_type() {
+        let mut g = Graph::new();
+        let x = g.symbol(Symbol::Variable(0));
+        let square = g.mul(x, x);
+        let fourth = g.mul(square, square);
+        let bounded = g.sin(fourth);
+        let program = Program::new(&g, &[bounded]);
+        assert_eq!(program.finite_outputs(1e10, None, f64::MAX), [true]);
+        assert_eq!(program.finite_outputs(1e10, None, f64::from(f32::MAX)), [false]);
     }
 
     #[test]
