@@ -99,6 +99,9 @@ fn iso_axes(report: &Report) -> String {
     });
     let header = ["frame", "carries", "e_x", "e_y", "e_z", "e_s", "e_r", "e_p"];
     let mut text = format!("Errors of the axes by ISO 230-1\n{}", table(&header, rows));
+    let slides = "Slides are taken to carry the tool, which a spec does not say: the errors of a slide that carries \
+        the workpiece have the opposite signs.";
+    text += &(wrapped(slides, 0) + "\n");
     if report.iso_axes.iter().any(|axis| axis.carries_workpiece) {
         let sign = "ISO 230-1 states the error of an axis that carries the workpiece as seen from the part \
             that carries it: the error of the frame has the opposite sign.";
