@@ -16,6 +16,18 @@ pub struct Mutant {
     pub text: String,
 }
 
+impl Mutant {
+    /// Returns whether a run tries the mutant. A thorough run tries all, an ordinary one a tenth:
+    /// the same functions and kinds in every source. `prefix` is left out of the function's name.
+    #[must_use]
+    pub fn is_tried(&self, prefix: &str) -> bool {
+        let name = self.function.trim_start_matches(prefix).trim_start_matches('_');
+        let bytes = name.bytes().chain(self.kind.bytes());
+        let hash = bytes.fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(byte.into()));
+        crate::thorough() || hash.is_multiple_of(10)
+    }
+}
+
 /// Replacements in a line: operators between spaces, and names before a bracket.
 const KINDS: [(&str, &str, &str); 12] = [
     ("sum", " + ", " - "),

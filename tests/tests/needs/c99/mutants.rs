@@ -12,7 +12,7 @@ use abbe_spec::Spec;
 use abbe_tests::languages::configurations;
 use abbe_tests::mutants::{Mutant, mutants};
 use abbe_tests::needs::{Missing, succeeds_in_time, tool};
-use abbe_tests::{sample_size, specs};
+use abbe_tests::specs;
 
 use super::compare;
 use super::program::caller;
@@ -43,7 +43,7 @@ pub(crate) fn are_found() -> Result<(), Missing> {
             is_test.iter().any(|end| function.ends_with(end)) || is_second && is_own(function)
         };
         let all = mutants(&source.text, 1, |function| !is_left_out(function));
-        let chosen: Vec<&Mutant> = all.iter().step_by(all.len() / sample_size(all.len())).collect();
+        let chosen: Vec<&Mutant> = all.iter().filter(|mutant| mutant.is_tried(&format!("{name}_"))).collect();
         let finders: Vec<Finder> = chosen.iter().map(|mutant| source.finder(&mutant.text)).collect();
         let by_test = finders.iter().filter(|finder| **finder == Finder::SelfTest).count();
         println!("{name}: {} mutants, {by_test} found by the self-test", chosen.len());
