@@ -22,7 +22,7 @@ struct Row {
     s: Vec<f64>,
 }
 
-/// Number of rows with nominal parameters and magnitudes, and number of rows with others.
+/// Number of rows with nominal inputs, parameters and magnitudes, and number of rows with others.
 const EACH: usize = 30;
 
 /// Number of rows compared with the command itself.
@@ -34,6 +34,8 @@ fn rows(robot: &Interpreter, classes: &[Class]) -> Vec<Row> {
         let u = arguments(robot, Function::RealPose.signature(), given);
         let (q, rest) = u.split_at(robot.description().variables.len());
         let (s, u) = rest.split_at(robot.description().parameters.len());
+        let nominal: Vec<f64> = robot.description().inputs.iter().map(|input| input.nominal).collect();
+        let u = if index < EACH { &nominal } else { u };
         let drawn = arguments(robot, Function::DrawnPose.signature(), given);
         let drawn = &drawn[drawn.len() - classes.len()..];
         let magnitude = |(class, drawn): (&Class, &f64)| match class {
