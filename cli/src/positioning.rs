@@ -12,7 +12,7 @@ pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
     let Positioning { data, reading_uncertainty, scale_uncertainty, out, writing, showing, json: is_json } =
         arguments;
     let job = positioning::Positioning {
-        data: data.clone(),
+        data: data.into(),
         reading: reading_uncertainty.clone(),
         scale: scale_uncertainty.clone(),
     };

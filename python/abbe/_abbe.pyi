@@ -20,10 +20,11 @@ from .reports import (
     MeasureReport,
     MonitorReport,
     PlanReport,
+    PositioningReport,
     SimulateReport,
 )
 
-__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__version__", "_commands", "_part", "_report", "_restore", "_table", "import_dh", "import_urdf", "load", "merge", "shipped"]
+__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__version__", "_commands", "_part", "_report", "_restore", "_table", "import_dh", "import_urdf", "load", "merge", "positioning", "shipped"]
 
 __version__: str
 
@@ -725,6 +726,29 @@ def merge(
     >>> report = abbe.merge(pps.analyze(shard=(i, 3)) for i in (1, 2, 3))
     >>> report.to_json() == pps.analyze().to_json()
     True
+    """
+def positioning(
+    data: _Path | Mapping[str, Any] | Any,
+    *,
+    reading_uncertainty: str | None = None,
+    scale_uncertainty: str | None = None,
+) -> PositioningReport:
+    """Evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
+
+    `data`: a CSV file or a table with columns `position (mm)`, `direction` (`+` or `-`) and
+    `deviation (um)` or `actual (mm)`; or with one column for each pass, `1+ (um)`, `1- (um)`, …
+    A column `diagonal` names the body diagonal of each row. `reading_uncertainty`,
+    `scale_uncertainty`: standard uncertainties of one reading of the instrument, "0.1 um", and of
+    its scale, "1 um/m".
+
+    Positions are in mm or deg, characteristics in um or arcsec. `.table("rows")` has the mean
+    deviations of an axis at its positions. Fields: `abbe.reports.PositioningReport`.
+
+    >>> import abbe
+    >>> runs = {"position (mm)": [0, 100], "1+ (um)": [1.0, 4.0], "1- (um)": [0.0, 2.0]}
+    >>> report = abbe.positioning(runs)
+    >>> report.lines[0].bidirectional.reversal.value
+    2.0
     """
 def shipped() -> list[str]:
     """Returns the names of the shipped manipulators."""

@@ -2524,7 +2524,7 @@ class PositioningReport(Report):
     __slots__ = ()
 
     file: str
-    """Name of the file."""
+    """Name of the file, or of columns in memory."""
 
     unit: str
     """Unit of deviations and characteristics: `um` or `arcsec`."""

@@ -32,6 +32,7 @@ mod monitor;
 mod options;
 mod part;
 mod plan;
+mod positioning;
 mod report;
 mod simulate;
 mod table;
@@ -52,6 +53,8 @@ mod _abbe {
     use super::machine::{Machine, load, restore, shipped};
     #[pymodule_export]
     use super::part::{Part, merge, restore as restore_part};
+    #[pymodule_export]
+    use super::positioning::positioning;
     #[pymodule_export]
     use super::report::{Report, restore as restore_report};
     #[pymodule_export]

@@ -95,10 +95,10 @@ impl Reads for Places {
 // The patterns name every field, so that a new field does not compile until its files are
 // considered.
 
-impl Reads for Positioning {
+impl Reads for Positioning<'_> {
     fn files(&self) -> Vec<PathBuf> {
         let Self { data, reading: _, scale: _ } = self;
-        vec![data.clone()]
+        data.file().map(Path::to_owned).into_iter().collect()
     }
 }
 

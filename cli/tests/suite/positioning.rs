@@ -76,6 +76,25 @@ fn uncertainty_of_the_instrument_is_propagated() {
     assert!((report["instrument"][0].as_f64().unwrap() - 1.0).abs() < 1e-12);
 }
 
+/// Checks that the answer says why characteristics are missing, and at which position.
+#[test]
+fn missing_characteristics_have_their_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = [
+        ("0,1,2,1,3\n100,3,,4,\n", Some("position 100 mm has no approach from above")),
+        ("0,1,2,2,1\n100,3,1,4,\n", Some("position 100 mm has a single approach in a direction")),
+        ("0,1,,2,\n100,3,,4,\n", None),
+        ("0,1,2,2,1\n100,3,1,4,1\n", None),
+    ];
+    for (i, (rows, reason)) in cases.into_iter().enumerate() {
+        let text = format!("position (mm),1+ (um),1- (um),2+ (um),2- (um)\n{rows}");
+        let file = write(folder.path(), &format!("runs{i}.csv"), &text);
+        let answer = prints(&["positioning", file.to_str().unwrap()]);
+        assert_eq!(answer.contains("Missing"), reason.is_some(), "{answer}");
+        assert!(reason.is_none_or(|reason| answer.contains(reason)), "{answer}");
+    }
+}
+
 /// The table of mean deviations is read by a spec: the error of the tool is that of the table.
 #[test]
 fn mean_deviations_are_a_table_of_a_spec() {
@@ -151,4 +170,6 @@ fn files_of_another_form_are_refused() {
     let file = write(folder.path(), "runs.csv", WIDE);
     let run = abbe(&["positioning", file.to_str().unwrap(), "--reading-uncertainty", "3 kg"]);
     assert!(run.status == 2 && run.stderr.contains("--reading-uncertainty"), "{run:?}");
+    let run = abbe(&["positioning", file.to_str().unwrap(), "--scale-uncertainty=-1um/m"]);
+    assert!(run.status == 2 && run.stderr.contains("`--scale-uncertainty` is negative"), "{run:?}");
 }

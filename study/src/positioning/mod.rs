@@ -4,7 +4,7 @@
 
 mod evaluation;
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use abbe::LengthUnit;
 use abbe_spec::diagnostic::Diagnostics;
@@ -14,8 +14,8 @@ use abbe_spec::value::parse_value;
 use serde::Serialize;
 
 use crate::data::{Runs, Source, Table, TargetRuns, runs};
-use crate::finite;
 use crate::notes::Notes;
+use crate::{finite, mistake};
 
 pub use evaluation::{
     ApproachResult, Bidirectional, Characteristic, Evaluation, InstrumentUncertainty, PositionResult,
@@ -26,9 +26,9 @@ pub use evaluation::{
 const APPROACHES: usize = 5;
 
 /// Job that evaluates runs.
-pub struct Positioning {
-    /// CSV file.
-    pub data: PathBuf,
+pub struct Positioning<'a> {
+    /// Runs: a CSV file, or its columns.
+    pub data: Source<'a>,
     /// Standard uncertainty of one reading, such as `0.1 um`.
     pub reading: Option<String>,
     /// Standard uncertainty of the scale of the instrument, such as `1 um/m`.
@@ -39,7 +39,7 @@ pub struct Positioning {
 /// arcsec.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// Name of the file.
+    /// Name of the file, or of columns in memory.
     pub file: String,
     /// Unit of deviations and characteristics: `um` or `arcsec`.
     pub unit: &'static str,
@@ -76,10 +76,10 @@ pub struct DiagonalResult {
     pub reversal: Option<Characteristic>,
 }
 
-impl Positioning {
+impl Positioning<'_> {
     /// Reads and evaluates the runs.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        let Runs { is_rotary, lines } = runs(Source::File(&self.data))?;
+        let Runs { is_rotary, lines } = runs(self.data)?;
         let instrument = self.instrument(is_rotary)?;
         let counts = lines.iter().flat_map(|(_, targets)| targets).flat_map(|target| &target.deviations);
         let counts = counts.map(Vec::len).filter(|count| *count > 0);
@@ -102,7 +102,10 @@ impl Positioning {
         };
         let lines: Vec<PositioningLine> = lines.into_iter().map(line).collect();
         let report = Report {
-            file: self.data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+            file: match self.data.file().and_then(Path::file_name) {
+                Some(name) => name.to_string_lossy().into_owned(),
+                None => self.data.name(),
+            },
             unit: if is_rotary { "arcsec" } else { "um" },
             position_unit: if is_rotary { "deg" } else { "mm" },
             approaches,
@@ -110,7 +113,7 @@ impl Positioning {
             diagonals: (!is_axis).then(|| DiagonalResult::new(&lines)),
             lines,
         };
-        finite(self.data.display(), report)
+        finite(self.data.name(), report)
     }
 
     /// Reads the uncertainties of the instrument, in um or arcsec and in these by mm or deg.
@@ -123,7 +126,15 @@ impl Positioning {
             let mut document = Document::new(option, text.as_str());
             let name = format!("`{option}`");
             let value = parse_value(&mut document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
-            document.finish(value).map(f64::abs)
+            let value = document.finish(value)?;
+            if value < 0.0 {
+                return Err(mistake::with_help(
+                    option,
+                    format!("{name} is negative"),
+                    "give a standard uncertainty: 0 or more",
+                ));
+            }
+            Ok(value)
         };
         let dimension = if is_rotary { Dimension::NONE } else { Dimension::LENGTH };
         let reading = value("--reading-uncertainty", &self.reading, dimension)?;

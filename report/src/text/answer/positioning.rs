@@ -1,7 +1,9 @@
 //! The answer of a positioning test: the characteristics of ISO 230-2 or ISO 230-6.
 
 use abbe_study::number::digits;
-use abbe_study::positioning::{Bidirectional, Characteristic, PositioningLine, Report, Unidirectional};
+use abbe_study::positioning::{
+    Bidirectional, Characteristic, PositionResult, PositioningLine, Report, Unidirectional,
+};
 
 use super::{Answer, aligned};
 
@@ -91,6 +93,32 @@ fn of_diagonals(lines: &[PositioningLine], unit: &str) -> String {
     aligned(&rows, [false, true, true, true, true])
 }
 
+/// Returns why characteristics are missing: approaches in one direction, or only one at a position.
+fn missing(report: &Report) -> Option<String> {
+    let positions = || report.lines.iter().flat_map(|line| &line.evaluation.positions);
+    let [forward, reverse] =
+        [positions().any(|one| one.forward.is_some()), positions().any(|one| one.reverse.is_some())];
+    let one_sided = positions().find(|one| one.forward.is_some() != one.reverse.is_some());
+    if let Some(one) = one_sided.filter(|_| forward && reverse) {
+        let side = if one.forward.is_none() { "below" } else { "above" };
+        return Some(format!(
+            "position {} {} has no approach from {side}: there are no characteristics of both directions",
+            digits(one.position, 6),
+            report.position_unit
+        ));
+    }
+    let is_single = |one: &PositionResult| {
+        [one.forward, one.reverse].into_iter().flatten().any(|own| own.standard_deviation.is_none())
+    };
+    positions().find(|one| is_single(one)).map(|one| {
+        format!(
+            "position {} {} has a single approach in a direction: A and R need two or more",
+            digits(one.position, 6),
+            report.position_unit
+        )
+    })
+}
+
 /// Returns the facts about the runs and the uncertainty.
 pub(in crate::text) fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let targets: Vec<usize> = report.lines.iter().map(|line| line.evaluation.positions.len()).collect();
@@ -104,14 +132,16 @@ pub(in crate::text) fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = vec![(
         "Runs",
         format!(
-            "{} target positions from {} to {} {}, {} approaches in each direction",
+            "{} target positions from {} to {} {}, {} {} in each direction",
             range(positions),
             digits(least, 6),
             digits(most, 6),
             report.position_unit,
-            range(report.approaches)
+            range(report.approaches),
+            if report.approaches == [1, 1] { "approach" } else { "approaches" }
         ),
     )];
+    facts.extend(missing(report).map(|missing| ("Missing", missing)));
     facts.push((
         "±",
         match report.instrument {

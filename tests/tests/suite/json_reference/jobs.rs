@@ -122,7 +122,7 @@ fn positioned() -> Vec<(&'static str, Value)> {
     let report = |name: &str, text: &str, reading: Option<&str>| {
         let data = folder.path().join(name);
         std::fs::write(&data, text).unwrap();
-        let job = Positioning { data, reading: reading.map(str::to_owned), scale: None };
+        let job = Positioning { data: (&data).into(), reading: reading.map(str::to_owned), scale: None };
         ("PositioningReport", json(&job.run(&mut ()).unwrap()))
     };
     vec![
