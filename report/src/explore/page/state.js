@@ -2,43 +2,27 @@
 
 import { exact, parseValue } from "./number.js";
 
+/** Lower and upper end; `null` is infinite. @typedef {[number | null, number | null]} Interval */
+
+/** @typedef {{name: string, kind: "revolute" | "prismatic", limits: Interval, home: number, description: string}} Variable */
+
+/** @typedef {{name: string, nominal: number, range: Interval | null, unit: string, description: string}} Setting */
+
 /**
- * Data of a machine. Numbers are in coherent units: the length unit and rad; `null` is infinite.
- * @typedef {object} Report
- * @property {string} spec
- * @property {string} name
- * @property {string} title
- * @property {string} description
- * @property {string[]} command options of the command line
- * @property {string} length
- * @property {Record<string, [string, number]>} error_unit symbol and factor
- * @property {string} orientation
- * @property {string[]} rows
- * @property {string[]} columns
- * @property {{title: string, tolerance: number | null, orientation_tolerance: number | null}} study
- * @property {{name: string}[]} frames
- * @property {boolean} tool
- * @property {{name: string, kind: "revolute" | "prismatic", limits: Interval, home: number, description: string}[]} variables
- * @property {{name: string, nominal: number, range: Interval, unit: string, description: string}[]} inputs
- * @property {{name: string, nominal: number, range: Interval | null, unit: string, description: string}[]} parameters
- * @property {Source[]} sources
- * @property {[number, number, number][]} effects source, frame and component of each
- * @property {{q: number[][], u: number[][], s: number[][]}} configurations
- * @property {string} code
+ * An error source. `bound` is that of a random one as a multiple of its magnitude, `magnitude` the index of that of a
+ * repeatable one among the inputs of the code, `value` its value, and `follows` the source whose factor applies, if one does.
+ * @typedef {{name: string, class: "repeatable" | "random", distribution: string | null, bound: number, at: string,
+ *     enabled: boolean, magnitude: number | null, value: number, follows: number | null, description: string}} Source
  */
 
-/** @typedef {[number | null, number | null]} Interval */
-
 /**
- * @typedef {object} Source
- * @property {string} name
- * @property {"repeatable" | "random"} class
- * @property {string | null} distribution
- * @property {string} at
- * @property {boolean} enabled
- * @property {number | null} magnitude index of its magnitude among the inputs of the code
- * @property {number | null} value magnitude in the spec
- * @property {string} description
+ * Data of a machine. Numbers are in coherent units: the length unit and rad. `command` and `jacobian_command` are options
+ * of the commands, `effects` source, frame and component of each effect, `configurations` those of the study.
+ * @typedef {{spec: string, name: string, title: string, description: string, command: string[], length: string,
+ *     jacobian_command: string[], error_unit: Record<string, [string, number]>, orientation: string, rows: string[], columns: string[],
+ *     study: {title: string, tolerance: number | null, orientation_tolerance: number | null}, frames: {name: string}[],
+ *     tool: boolean, variables: Variable[], inputs: Setting[], parameters: Setting[], sources: Source[],
+ *     effects: [number, number, number][], configurations: {q: number[][], u: number[][], s: number[][]}, code: string}} Report
  */
 
 /**
@@ -50,16 +34,18 @@ import { exact, parseValue } from "./number.js";
 export const LARGEST_FACTOR = 3;
 
 /** Returns the state of the spec at home. @param {Report} report @returns {State} */
-export function initialState(report) {
-    return {
-        q: report.variables.map(({ home }) => home),
-        s: report.parameters.map(({ nominal }) => nominal),
-        u: report.inputs.map(({ nominal }) => nominal),
-        factors: report.sources.map(({ enabled }) => Number(enabled)),
-    };
+export function initialState({ variables, parameters, inputs, sources }) {
+    const [s, u] = [parameters, inputs].map((all) => all.map(({ nominal }) => nominal));
+    return { q: variables.map(({ home }) => home), s, u, factors: sources.map(({ enabled }) => Number(enabled)) };
 }
 
-/** @param {State} state @returns {State} */
+/** Returns the factor that applies to a source. @param {Report} report @param {State} state @param {number} k @returns {number} */
+export function factorOf({ sources }, { factors }, k) {
+    const { follows } = sources[k];
+    return follows === null ? 1 : factors[follows];
+}
+
+/** Copies a state. @param {State} state @returns {State} */
 export function copyState({ q, s, u, factors }) {
     return { q: [...q], s: [...s], u: [...u], factors: [...factors] };
 }
@@ -74,48 +60,60 @@ export function isWithin(value, interval) {
     return value >= (interval?.[0] ?? -Infinity) && value <= (interval?.[1] ?? Infinity);
 }
 
-/** Returns the key of a parameter or an input; `q` is that of the joints. @param {string} name @returns {string} */
+/** Returns the joint variables with units and all digits. @param {Report} report @param {State} state @returns {string} */
+export function joints(report, { q }) {
+    return q.map((value, i) => exact(value, variableUnit(report, i))).join(",");
+}
+
+/**
+ * Returns the parameters and inputs that differ from the spec, with units and all digits.
+ * @param {Report} report @param {State} state @returns {[string, string][]} names and values
+ */
+export function settings({ parameters, inputs }, { s, u }) {
+    const values = [...s, ...u];
+    return [...parameters, ...inputs].flatMap(({ name, unit, nominal }, i) =>
+        values[i] === nominal ? [] : [[name, exact(values[i], unit)]]);
+}
+
+/** Returns the key of a parameter or input; `q` is that of the joints. @param {string} name @returns {string} */
 const keyOf = (name) => (name === "q" ? "set.q" : name);
 
 /**
- * Returns what differs from the initial state, for the address behind `#`: `q=9,80,987,70deg,0,0&payload=70kg&factor.gear=0.5`.
+ * Returns what differs from the spec at home, for the address: `q=9mm,70deg&payload=70kg&factor.gear=0.5`.
  * @param {Report} report @param {State} state @param {string} [prefix] of the keys, which tells panels apart @returns {string}
  */
 export function encodeState(report, state, prefix = "") {
     const [initial, parts] = [initialState(report), new URLSearchParams()];
-    if (state.q.some((value, i) => value !== initial.q[i])) {
-        parts.set(`${prefix}q`, state.q.map((value, i) => exact(value, variableUnit(report, i))).join(","));
-    }
-    report.parameters.forEach(({ name, unit }, i) => {
-        if (state.s[i] !== initial.s[i]) parts.set(prefix + keyOf(name), exact(state.s[i], unit));
-    });
-    report.inputs.forEach(({ name, unit }, i) => {
-        if (state.u[i] !== initial.u[i]) parts.set(prefix + keyOf(name), exact(state.u[i], unit));
-    });
-    report.sources.forEach(({ name }, i) => {
-        if (state.factors[i] !== initial.factors[i]) parts.set(`${prefix}factor.${name}`, String(state.factors[i]));
+    if (String(state.q) !== String(initial.q)) parts.set(`${prefix}q`, joints(report, state));
+    for (const [name, value] of settings(report, state)) parts.set(prefix + keyOf(name), value);
+    report.sources.forEach(({ name, follows }, k) => {
+        if (follows === k && state.factors[k] !== initial.factors[k]) parts.set(`${prefix}factor.${name}`, String(state.factors[k]));
     });
     return parts.toString().replaceAll("%2C", ",");
 }
 
 /**
- * Returns the state of an address. Values that cannot be parsed, or are outside limits, stay as in the initial state.
+ * Returns the state of an address. What cannot be parsed, or is outside limits, stays as in the spec at home.
  * @param {Report} report @param {string} hash with or without `#` @param {string} [prefix] @returns {State}
  */
 export function decodeState(report, hash, prefix = "") {
-    const [state, parts] = [initialState(report), new URLSearchParams(hash.replace(/^#/, ""))];
+    const [initial, parts] = [initialState(report), new URLSearchParams(hash.replace(/^#/, ""))];
     /** @param {string | null} text @param {string} unit @param {Interval | null} interval @param {number} otherwise */
     const parsed = (text, unit, interval, otherwise) => {
-        const value = text === null ? undefined : parseValue(text, unit, report.length);
+        const value = parseValue(text ?? "", unit, report.length);
         return value !== undefined && isWithin(value, interval) ? value : otherwise;
     };
     const q = parts.get(`${prefix}q`)?.split(",") ?? [];
-    if (q.length === state.q.length) {
-        state.q = state.q.map((home, i) => parsed(q[i], variableUnit(report, i), report.variables[i].limits, home));
-    }
-    state.s = report.parameters.map(({ name, unit, nominal }) => parsed(parts.get(prefix + keyOf(name)), unit, null, nominal));
-    state.u = report.inputs.map(({ name, unit, range, nominal }) => parsed(parts.get(prefix + keyOf(name)), unit, range, nominal));
-    state.factors = report.sources.map(({ name }, i) =>
-        parsed(parts.get(`${prefix}factor.${name}`), "", [0, LARGEST_FACTOR], state.factors[i]));
-    return state;
+    const isWhole = q.length === initial.q.length;
+    /** @param {boolean} isInput @returns {(setting: Setting) => number} */
+    const setting = (isInput) => ({ name, unit, range, nominal }) =>
+        parsed(parts.get(prefix + keyOf(name)), unit, isInput ? range : null, nominal);
+    return {
+        q: initial.q.map((home, i) =>
+            parsed(isWhole ? q[i] : "", variableUnit(report, i), report.variables[i].limits, home)),
+        s: report.parameters.map(setting(false)),
+        u: report.inputs.map(setting(true)),
+        factors: report.sources.map(({ name }, k) =>
+            parsed(parts.get(`${prefix}factor.${name}`), "", [0, LARGEST_FACTOR], initial.factors[k])),
+    };
 }

@@ -1,4 +1,4 @@
-// The search of the worst case beside the page: in a worker made of the page's own scripts, or in slices where none can run.
+// The search of the worst case in a worker made of the page's own scripts, or in slices where none can run.
 
 import { createMachine } from "./machine.js";
 import { worst } from "./search.js";
@@ -11,34 +11,19 @@ import { worst } from "./search.js";
 
 /** @typedef {{report: Report, index: number, state: State, options: Options}} Task of the machine with this index */
 
-/** Milliseconds between reports of progress, after which drawing and input have their turn. */
-const SLICE = 12;
-
 /** Returns the functions of a machine of the page. @param {number} index @returns {Generated} */
 export function generatedCode(index) {
     return /** @type {{abbeMachines: Generated[]}} */ (/** @type {unknown} */ (globalThis)).abbeMachines[index];
 }
 
-/**
- * Runs a task; yields the part that is done after each slice.
- * @param {Task} task @returns {Generator<number, Worst, void>}
- */
-function* run({ report, index, state, options }) {
-    const search = worst(createMachine(generatedCode(index), report), report, state, options);
-    for (let end = performance.now() + SLICE; ; ) {
-        const { done, value } = search.next();
-        if (done) return value;
-        if (performance.now() < end) continue;
-        yield value;
-        end = performance.now() + SLICE;
-    }
-}
+/** Starts the search of a task. @param {Task} task @returns {Generator<number, Worst, void>} */
+const start = ({ report, index, state, options }) =>
+    worst(createMachine(generatedCode(index), report), report, state, options);
 
 /** Answers a task, in a worker. @param {{postMessage: (message: object) => void, onmessage: unknown}} scope */
 export function serve(scope) {
     scope.onmessage = (/** @type {MessageEvent<Task>} */ { data }) => {
-        const search = run(data);
-        for (;;) {
+        for (const search = start(data); ; ) {
             const { done, value } = search.next();
             scope.postMessage(done ? { result: value } : { part: value });
             if (done) return;
@@ -48,8 +33,7 @@ export function serve(scope) {
 
 /** @param {Task} task @param {(part: number) => void} progress @param {AbortSignal} signal @returns {Promise<Worst>} */
 async function inSlices(task, progress, signal) {
-    const search = run(task);
-    for (;;) {
+    for (const search = start(task); ; ) {
         signal.throwIfAborted();
         const { done, value } = search.next();
         if (done) return value;

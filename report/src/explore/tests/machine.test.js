@@ -1,0 +1,155 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+
+import { commands } from "../page/command.js";
+import { createMachine } from "../page/machine.js";
+import { decimals, digits, fixed, percent, roundedDown } from "../page/number.js";
+import { tighten } from "../page/search.js";
+import { factorOf, initialState } from "../page/state.js";
+import { SHIPPED, STATES, evaluated, explored, otherSpecs, randomNumbers, randomState, shell } from "./support.js";
+
+/** Asserts that numbers agree to rounding, relative to a size. */
+function close(found, expected, size, what) {
+    const [all, wanted] = [found, expected].map((numbers) => [numbers].flat(2));
+    assert.equal(all.length, wanted.length, what);
+    all.forEach((value, i) => {
+        assert.ok(Math.abs(value - wanted[i]) <= 1e-11 * size, `${what}: ${value} for ${wanted[i]}`);
+    });
+}
+
+/** Returns the lines of `abbe analyze` that a state's figures lead to. */
+function printed({ error_unit: units, study, sources }, { position, orientation }) {
+    const [symbol, factor] = units.length;
+    const shown = decimals(factor * position.radius, 4);
+    const length = (value) => fixed(factor * value, shown);
+    const row = (...cells) => cells.filter((cell) => cell !== "").join("   ");
+    const times = (value) => `× ${roundedDown(value, decimals(value, 2))}`;
+    const share = (value, tolerance) => (tolerance === null ? "" : percent(value, tolerance));
+    const lines = [row("as built", `${length(position.radius)} ${symbol}`, share(position.radius, study.tolerance))];
+    if (position.randomRadius > 0 && position.repeatableRadius > 0) {
+        lines.push(row("random only", `${length(position.randomRadius)} ${symbol}`, share(position.randomRadius, study.tolerance)));
+    }
+    if (orientation.radius > 0) {
+        lines.push(row("orientation", `${digits(1e3 * orientation.radius, 4)} mrad`, share(orientation.radius, study.orientation_tolerance)));
+    }
+    const sum = [...position.norms].sort((a, b) => b - a).reduce((sum, norm) => sum + norm, 0);
+    const factors = study.tolerance === null ? null : tighten(position, study.tolerance);
+    position.norms.forEach((norm, k) => {
+        const alone = factors?.alone[k] ?? null;
+        lines.push(row(sources[k].name, length(norm), percent(norm, sum), alone === null ? "" : times(alone)));
+    });
+    if (factors?.together) lines.push(row("all, as built", length(position.radius), times(factors.together)));
+    return lines;
+}
+
+/** Asserts that both commands of a state give its numbers, and print them alike. Returns the number of lines compared. */
+function assertAgrees(report, machine, state) {
+    const [analyze, jacobian] = commands(report, state);
+    const evaluation = machine.evaluate(state);
+    const { position, orientation } = evaluation;
+    const size = Math.max(...position.norms, 1e-6);
+    const about = (what) => `${what} of ${analyze}`;
+
+    const exact = JSON.parse(shell(`${jacobian} --json`));
+    assert.deepEqual(exact.q.map((value) => value + 0), state.q, about("q"));
+    const matrices = [exact.pose, exact.real_pose].map((rows) => [0, 1, 2, 3].map((j) => [0, 1, 2].map((i) => rows[i][j])));
+    const reach = Math.max(...matrices[0].flat().map(Math.abs));
+    close(evaluation.pose, matrices[0], reach, about("pose"));
+    close(evaluation.realPose, matrices[1], reach, about("real pose"));
+    close(machine.jacobian(state), exact.error_jacobian, reach, about("J_e"));
+    close(evaluation.displacement, exact.displacement, size, about("ΔX"));
+
+    const budget = JSON.parse(shell(`${analyze} --json`));
+    assert.equal(budget.configurations, 1);
+    const isOn = report.sources.map((_, k) => factorOf(report, state, k) > 0);
+    const active = (numbers) => numbers.filter((_, k) => isOn[k]);
+    assert.deepEqual(budget.sources.map(({ name }) => name), active(report.sources.map(({ name }) => name)));
+    close(active(position.norms), budget.sources.map(({ plain_max: { norm } }) => norm), size, about("norms"));
+    close([position.repeatableRadius, position.randomRadius, position.radius],
+        [budget.combined.repeatable_radius, budget.combined.random_radius, budget.combined.radius], size, about("totals"));
+    close(position.random, budget.combined.random, size, about("random rows"));
+    close(orientation.radius, budget.orientation.radius, orientation.radius + 1e-6, about("orientation"));
+    if (budget.budget) {
+        const { alone, together } = tighten(position, report.study.tolerance);
+        close(together, budget.budget.together, together, about("tighten all"));
+        for (const source of budget.budget.sources) {
+            const k = report.sources.findIndex(({ name }) => name === source.name);
+            close(alone[k], source.alone, alone[k], about("tighten"));
+        }
+    }
+
+    const text = shell(analyze);
+    const lines = text.split("\n").map((line) => line.trim().replaceAll(/ {3,}/g, "   "));
+    const expected = printed(report, evaluation);
+    const named = lines.filter((line) => line.match(/\d/) && expected.some((wanted) => line.startsWith(`${wanted.split("   ")[0]}   `)));
+    // Further cells of a line, such as a probability, are not the page's.
+    for (const line of named) assert.ok(expected.some((wanted) => `${line}   `.startsWith(`${wanted}   `)), `${line}: none of ${expected.join("\n")}\n${text}`);
+    assert.ok(named.some((line) => line.startsWith("as built")) || isOn.every((on) => !on), text);
+    return named.length;
+}
+
+for (const name of [...SHIPPED, ...otherSpecs()]) {
+    test(`${name}: numbers and printed figures are those of the commands`, () => {
+        const { report, machine } = explored(name);
+        const random = randomNumbers(3);
+        assertAgrees(report, machine, initialState(report));
+        for (let i = 0; i < STATES; i++) assertAgrees(report, machine, randomState(report, random));
+    });
+
+    test(`${name}: the frames end at the poses of the tool`, () => {
+        const { report, machine } = explored(name);
+        const random = randomNumbers(4);
+        for (let i = 0; i < 20; i++) {
+            const state = randomState(report, random);
+            const { pose, realPose, displacement, position } = machine.evaluate(state);
+            const { ideal, real } = machine.frames(state, 1);
+            assert.equal(ideal.length, report.frames.length + 2);
+            const reach = Math.max(...pose.map(Math.abs));
+            close(ideal.at(-1), pose, reach, "ideal");
+            // Errors elsewhere on a link differ by terms of second order.
+            const error = Math.max(...position.norms, ...machine.errors(state).orientation.norms.map((angle) => angle * reach));
+            close(real.at(-1), realPose, 1e11 * (1e-12 * reach + 30 * error ** 2 / reach), "real");
+            close(machine.frames(state, 0).real, ideal, reach, "without errors");
+            // Small errors are magnified in proportion.
+            const moved = machine.frames(state, 1e-3).real.at(-1).slice(9).map((value, j) => 1e3 * (value - pose[9 + j]));
+            close(moved, displacement.slice(0, 3), 1e11 * (1e-9 * reach + 30e-3 * error ** 2 / reach), "first order");
+        }
+    });
+}
+
+test("a changed formula is noticed", () => {
+    const { report } = explored("puma560");
+    const state = randomState(report, randomNumbers(5));
+    state.factors = report.sources.map(() => 1);
+    for (const name of ["source_displacements", "pose", "real_pose", "error_jacobian"]) {
+        const [before, rest] = report.code.split(`export function ${name}(`);
+        for (const mutate of [(text) => text.replace(" + ", " - "), (text) => text.replace(/Math\.sin/, "Math.cos")]) {
+            const changed = mutate(rest);
+            assert.notEqual(changed, rest);
+            const machine = createMachine(evaluated(`${before}export function ${name}(${changed}`), report);
+            assert.throws(() => assertAgrees(report, machine, state), assert.AssertionError, name);
+        }
+    }
+    // And so is a combination that is not the command's.
+    const { report: pps, machine } = explored("pps");
+    const wrong = { ...machine, evaluate: (at) => {
+        const evaluation = machine.evaluate(at);
+        return { ...evaluation, position: { ...evaluation.position, radius: evaluation.position.norms.reduce((sum, norm) => sum + norm) } };
+    } };
+    assert.throws(() => assertAgrees(pps, wrong, initialState(pps)), assert.AssertionError);
+});
+
+test("options of the page's own command stay in the copied ones", () => {
+    const { report, machine } = explored("pps", "--study", "pps", "--set", "x=100mm", "--disable", "assembly", "--scale", "spin encoder=2", "--set", "patient=70kg");
+    const state = initialState(report);
+    assert.equal(state.s[report.parameters.findIndex(({ name }) => name === "x")], 100);
+    const assembly = report.sources.findIndex(({ name }) => name === "assembly");
+    assert.equal(state.factors[assembly], 0);
+    assertAgrees(report, machine, state);
+    // Here the state switches on what the command switched off.
+    state.factors = state.factors.map(() => 0.5);
+    state.u[0] = 12.5;
+    const [analyze, jacobian] = commands(report, state);
+    assert.ok(!analyze.includes("--disable") && analyze.includes("--study pps") && !jacobian.includes("--study"), analyze);
+    assertAgrees(report, machine, state);
+});

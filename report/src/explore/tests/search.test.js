@@ -1,0 +1,102 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+
+import { cloud, stateAt, sweep, tighten, worst } from "../page/search.js";
+import { initialState } from "../page/state.js";
+import { SHIPPED, STATES, abbe, explored, randomNumbers, randomState } from "./support.js";
+
+/** Runs a search to its end. */
+function finish(search) {
+    for (let last = 0; ; ) {
+        const { done, value } = search.next();
+        if (done) return value;
+        assert.ok(value >= last && value <= 1, "progress");
+        last = value;
+    }
+}
+
+for (const name of SHIPPED) {
+    test(`${name}: the search finds more than 20,000 random samples, and the same again`, () => {
+        const { report, machine } = explored(name);
+        for (const measurand of ["position", "orientation"]) {
+            const random = randomNumbers(6);
+            const state = randomState(report, random);
+            state.factors = state.factors.map((factor) => factor || 1);
+            const options = { measurand, inputs: true };
+            const found = finish(worst(machine, report, state, options));
+            assert.equal(machine.errors(found.state)[measurand].radius, found.radius);
+            assert.equal(found.evaluation[measurand].radius, found.radius);
+            let most = 0;
+            for (let i = 0; i < 20000; i++) {
+                const other = { ...randomState(report, random), s: state.s, factors: state.factors };
+                most = Math.max(most, machine.errors(other)[measurand].radius || 0);
+            }
+            assert.ok(found.radius >= most * (1 - 1e-12), `${measurand}: ${found.radius} < ${most}`);
+            assert.deepEqual(finish(worst(machine, report, state, options)), found);
+            found.state.q.forEach((value, i) => {
+                const [lower, upper] = report.variables[i].limits;
+                assert.ok(value >= lower && value <= upper, `${report.variables[i].name} = ${value}`);
+            });
+            assert.deepEqual(found.state.s, state.s);
+            assert.deepEqual(finish(worst(machine, report, state, { measurand })).state.u, state.u);
+        }
+    });
+
+    test(`${name}: a sweep has the errors of its states`, () => {
+        const { report, machine } = explored(name);
+        const state = randomState(report, randomNumbers(7));
+        report.variables.forEach(({ limits }, joint) => {
+            const curves = sweep(machine, report, state, joint, 11, "orientation");
+            assert.deepEqual([curves.values[0], curves.values[10]], limits);
+            curves.values.forEach((value, i) => {
+                const { orientation } = machine.errors({ ...state, q: state.q.map((old, j) => (j === joint ? value : old)) });
+                assert.deepEqual([curves.total[i], curves.repeatable[i], curves.random[i]],
+                    [orientation.radius, orientation.repeatableRadius, orientation.randomRadius]);
+                assert.deepEqual(curves.sources.map((source) => source[i]), orientation.norms);
+            });
+        });
+    });
+}
+
+test("the errors over a study's configurations, and the factors for its tolerance, are those of the command", () => {
+    const { report, machine } = explored("pps");
+    const { position, orientation, displacements } = cloud(machine, report, initialState(report));
+    const budget = JSON.parse(abbe("analyze", "pps", "--json"));
+    assert.equal(displacements.length, budget.configurations);
+    const close = (found, expected) => assert.ok(Math.abs(found - expected) <= 1e-11 * expected, `${found} for ${expected}`);
+    close(position.radius, budget.combined.radius);
+    close(orientation.radius, budget.orientation.radius);
+    assert.equal(budget.sources.length, report.sources.filter(({ enabled }) => enabled).length);
+    for (const { name, plain_max: { norm } } of budget.sources) {
+        close(position.norms[report.sources.findIndex((source) => source.name === name)], norm);
+    }
+    const worst = stateAt(report, initialState(report), position.worst);
+    report.variables.forEach(({ name }, i) => close(Math.abs(worst.q[i]), Math.abs(budget.combined.worst[name])));
+    assert.equal(machine.errors(worst).position.radius, position.radius);
+    const factors = tighten(position, report.study.tolerance);
+    close(factors.together, budget.budget.together);
+    close(factors.share, budget.budget.equal_share);
+    for (const { name, alone, equal } of budget.budget.sources) {
+        const k = report.sources.findIndex((source) => source.name === name);
+        close(factors.alone[k], alone);
+        close(factors.equal[k], equal);
+    }
+});
+
+test("the factors meet the tolerance, and no source without effect has one", () => {
+    const { report, machine } = explored("pps");
+    const random = randomNumbers(8);
+    for (let i = 0; i < 10 * STATES; i++) {
+        const state = randomState(report, random);
+        const { position } = machine.errors(state);
+        const { alone, together, share, equal } = tighten(position, 0.5);
+        position.norms.forEach((norm, k) => assert.equal(alone[k] === null, norm === 0));
+        if (together === null) continue;
+        const all = machine.errors({ ...state, factors: state.factors.map((factor) => factor * together) });
+        assert.ok(Math.abs(all.position.radius - 0.5) < 1e-9, `${all.position.radius}`);
+        const shared = machine.errors({ ...state, factors: state.factors.map((factor, k) => factor * (equal[k] ?? 1)) });
+        shared.position.norms.forEach((norm) => assert.ok(norm === 0 || Math.abs(norm - share) < 1e-9));
+        assert.ok(shared.position.radius <= 0.5 + 1e-9);
+    }
+    assert.deepEqual(tighten({ norms: [0, 0], radius: 0 }, 1), { alone: [null, null], together: null, share: null, equal: [null, null] });
+});
