@@ -1,66 +1,53 @@
 // Sliders and fields of joints, inputs, parameters and factors.
 
 import { html, roundStep, setText } from "./dom.js";
-import { inUnit, parseValue, quantity } from "./number.js";
+import { inUnit, parseValue } from "./number.js";
 import { isWithin, variableUnit } from "./state.js";
 
-/**
- * @import { Interval, Report } from "./state.js"
- * @import { Panel } from "./panel.js"
- */
+/** @import { Interval, Report, State } from "./state.js" @import { Panel } from "./panel.js" */
 
 /**
- * Number that a slider and a field change. The slider has `ends`; the field accepts what is within `limits`.
- * @typedef {object} Value
- * @property {string} name
- * @property {string} [description]
- * @property {string} unit
- * @property {[number, number]} ends
- * @property {Interval | null} limits
- * @property {() => number} get
- * @property {(value: number) => void} set
+ * Number that a slider and a field change: the slider between `ends`, the field also beyond them, within `limits`.
+ * @typedef {{name: string, description: string, unit: string, ends: [number, number], limits: Interval | null,
+ *     get: () => number, set: (value: number) => void}} Value
  */
 
 /** Smallest number of steps of a slider. */
 const STEPS = 200;
 let identifiers = 0;
 
-/** Formats a value with its unit. @param {number} value @param {string} unit @param {string} length */
+/** Formats a value with its unit. @param {number} value @param {string} unit @param {string} length unit of the spec */
 export function shown(value, unit, length) {
     const number = inUnit(value, unit, length);
     return unit === "deg" ? `${number}°` : `${number} ${unit}`.trimEnd();
 }
 
-/**
- * Creates a slider over round values and the ends, and a field that accepts any value with a unit.
- * @param {Value} value @param {string} length unit of the spec
- */
+/** Creates a slider over round values, a field, and a place for what is wrong in it. @param {Value} value @param {string} length */
 export function createInput({ name, unit, ends, limits, get, set }, length) {
-    const [least, most] = ends.map((end) => (unit === "deg" ? (end * 180) / Math.PI : end));
-    const step = roundStep((most - least) / STEPS || 1);
+    const factor = unit === "deg" ? 180 / Math.PI : 1;
+    const [least, most] = [ends[0] * factor, ends[1] * factor];
+    const step = roundStep((most - least) / STEPS);
     const id = `abbe-field-${++identifiers}`;
-    const slider = html("input", { type: "range", min: Math.floor(least / step + 1e-9), max: Math.ceil(most / step - 1e-9),
-        "aria-label": `${name}, slider` });
-    const field = html("input", { id, type: "text", autocomplete: "off", spellcheck: "false",
+    const slider = html("input", { type: "range", "aria-label": `${name}, slider`, min: Math.floor(least / step + 1e-9),
+        max: Math.ceil(most / step - 1e-9) });
+    const field = html("input", { type: "text", id, autocomplete: "off", spellcheck: "false", "aria-label": name,
         "aria-describedby": `${id}-problem` });
-    const problem = html("output", { class: "problem", id: `${id}-problem`, for: id });
+    const problem = html("output", { class: "problem", id: `${id}-problem` });
     let [current, text] = [NaN, ""];
-    slider.addEventListener("input", () => {
-        const at = Number((Number(slider.value) * step).toPrecision(12));
-        set(at <= least ? ends[0] : at >= most ? ends[1] : parseValue(String(at), unit, length) ?? get());
-    });
     const explain = (/** @type {string} */ message) => {
         setText(problem, message);
         field.setAttribute("aria-invalid", String(message !== ""));
     };
+    slider.addEventListener("input", () => {
+        const at = Number((Number(slider.value) * step).toPrecision(12));
+        set(at <= least ? ends[0] : at >= most ? ends[1] : parseValue(String(at), unit, length) ?? get());
+    });
     const commit = () => {
         if (field.value === text) return explain("");
         const parsed = parseValue(field.value, unit, length);
-        if (parsed === undefined) return explain(`expected a number${unit ? ` in ${unit}` : ""}, such as ${text}`);
-        if (!isWithin(parsed, limits)) {
-            const [from, to] = [limits?.[0], limits?.[1]].map((end) => (end == null ? "" : shown(end, unit, length)));
-            return explain(`outside ${from} … ${to}`);
-        }
+        if (parsed === undefined) return explain(`expected a number${unit && ` in ${unit}`}, such as ${text}`);
+        const [from, to] = [limits?.[0], limits?.[1]].map((end) => (end == null ? "" : shown(end, unit, length)));
+        if (!isWithin(parsed, limits)) return explain(`outside ${from} … ${to}`);
         current = NaN;
         set(parsed);
     };
@@ -71,19 +58,18 @@ export function createInput({ name, unit, ends, limits, get, set }, length) {
         if (key === "Escape" || key === "Enter") commit();
     });
     const update = () => {
-        const value = get();
-        if (value === current) return;
-        current = value;
-        text = shown(value, unit, length);
+        if (get() === current) return;
+        current = get();
+        text = shown(current, unit, length);
         field.value = text;
-        slider.value = String(Math.round((unit === "deg" ? (value * 180) / Math.PI : value) / step));
+        slider.value = String(Math.round((current * factor) / step));
         slider.setAttribute("aria-valuetext", text);
         explain("");
     };
-    return { id, slider, field, problem, update };
+    return { slider, field, problem, update };
 }
 
-/** Returns the ends of a slider; without limits, they are as far away as zero. @param {Interval | null} limits @param {number} value @returns {[number, number]} */
+/** Returns the ends of a slider; without limits, as far away as zero. @param {Interval | null} limits @param {number} value @returns {[number, number]} */
 function endsOf(limits, value) {
     const size = Math.abs(value) || 1;
     return [Math.min(limits?.[0] ?? value - size, value), Math.max(limits?.[1] ?? value + size, value)];
@@ -95,39 +81,28 @@ export function jointEnds({ variables }, joint) {
     return endsOf(kind === "revolute" ? [limits[0] ?? -Math.PI, limits[1] ?? Math.PI] : limits, home);
 }
 
-/**
- * Creates the sliders of joints, inputs, and parameters; parameters that the study does not vary are folded.
- * @param {Panel} panel
- */
+/** Creates the controls; parameters that the study does not vary are folded. @param {Panel} panel */
 export function createControls(panel) {
-    const { report, change } = panel;
-    /** @type {{update: () => void}[]} */
-    const inputs = [];
+    const { report } = panel;
+    const updates = /** @type {(() => void)[]} */ ([]);
     const row = (/** @type {Value} */ value) => {
-        const { id, slider, field, problem, update } = createInput(value, report.length);
-        inputs.push({ update });
-        return html("div", { class: "row", title: value.description ?? "" }, html("label", { for: id }, value.name), slider,
-            field, problem);
+        const { slider, field, problem, update } = createInput(value, report.length);
+        updates.push(update);
+        return html("div", { class: "row", title: value.description }, html("label", { for: field.id }, value.name), slider, field, problem);
     };
-    const group = (/** @type {string} */ title, /** @type {Value[]} */ values) => (values.length === 0 ? "" : html("fieldset", {}, html("legend", {}, title), ...values.map(row)));
-
-    const joints = report.variables.map(({ name, description, limits }, i) => ({
-        name, description, limits, unit: variableUnit(report, i), ends: jointEnds(report, i), get: () => panel.state.q[i],
-        set: (/** @type {number} */ value) => change((state) => {
-            state.q[i] = value;
-            panel.joint = i;
-        }),
-    }));
-    const values = (/** @type {"s" | "u"} */ list, /** @type {(Report["inputs"][0] | Report["parameters"][0])[]} */ all) =>
-        all.map(({ name, description, unit, nominal, range }, i) => ({
-            name, description, unit, limits: list === "u" ? range : null, ends: endsOf(range, nominal), isVaried: range !== null,
-            get: () => panel.state[list][i],
-            set: (/** @type {number} */ value) => change((state) => { state[list][i] = value; }),
-        }));
-    const parameters = values("s", report.parameters);
-    const others = parameters.filter(({ isVaried }) => !isVaried);
-    const element = html("div", { class: "controls" }, group("Joints", joints), group("Inputs", values("u", report.inputs)),
-        group("Parameters of the study", parameters.filter(({ isVaried }) => isVaried)),
-        others.length === 0 ? "" : html("details", {}, html("summary", {}, `Parameters (${others.length})`), ...others.map(row)));
-    return { element, update: () => inputs.forEach(({ update }) => update()) };
+    const group = (/** @type {string} */ title, /** @type {Value[]} */ values) =>
+        (values.length === 0 ? "" : html("fieldset", {}, html("legend", {}, title), ...values.map(row)));
+    const access = (/** @type {"q" | "s" | "u"} */ list, /** @type {number} */ i) => ({ get: () => panel.state[list][i],
+        set: (/** @type {number} */ value) => panel.change((state) => {
+            state[list][i] = value;
+            if (list === "q") panel.joint = i;
+        }) });
+    const joints = report.variables.map((one, i) => ({ ...one, ...access("q", i), unit: variableUnit(report, i), ends: jointEnds(report, i) }));
+    const inputs = report.inputs.map((one, i) => ({ ...one, ...access("u", i), limits: one.range, ends: endsOf(one.range, one.nominal) }));
+    const parameters = report.parameters.map((one, i) => ({ ...one, ...access("s", i), limits: null, ends: endsOf(one.range, one.nominal) }));
+    const others = parameters.filter(({ range }) => !range);
+    const element = html("div", { class: "controls" }, group("Joints", joints), group("Inputs", inputs),
+        group("Parameters of the study", parameters.filter(({ range }) => range)), others.length === 0 ? ""
+            : html("details", {}, html("summary", {}, `Parameters (${others.length})`), ...others.map(row)));
+    return { element, update: () => updates.forEach((update) => update()) };
 }

@@ -3,10 +3,9 @@
 import { mount } from "./panel.js";
 import { generatedCode, serve } from "./worker.js";
 
-if (typeof document === "undefined") {
-    serve(/** @type {any} */ (globalThis));
-} else {
+if (typeof document === "undefined") serve(/** @type {any} */ (globalThis));
+else {
     const data = document.querySelectorAll("script.abbe-data");
     document.querySelectorAll("section.abbe-panel").forEach((section, index) =>
-        mount(/** @type {HTMLElement} */ (section), generatedCode(index), JSON.parse(data[index].textContent ?? ""), index));
+        mount(section, generatedCode(index), JSON.parse(data[index].textContent ?? ""), index));
 }

@@ -1,53 +1,47 @@
 // Sources: switch, factor, size of the error, share, and factor that meets the tolerance.
 
 import { createInput } from "./controls.js";
-import { button, html, setText } from "./dom.js";
+import { button, html, roundStep, setText, spans } from "./dom.js";
 import { decimals, fixed, percent, roundedDown } from "./number.js";
-import { LARGEST_FACTOR } from "./state.js";
 import { tighten } from "./search.js";
+import { LARGEST_FACTOR, factorOf } from "./state.js";
 
 /** @import { Panel } from "./panel.js" */
 
-/** Returns the smallest of 1, 2 and 5 times a power of ten that is at least `value`. @param {number} value */
-function roundUp(value) {
-    if (!(value > 0)) return 1;
-    const power = 10 ** Math.floor(Math.log10(value));
-    return ([1, 2, 5].find((mantissa) => mantissa * power >= value * (1 - 1e-9)) ?? 10) * power;
-}
+/** Formats a factor, rounded down. @param {number | null | undefined} factor */
+export const times = (factor) => (factor == null || !Number.isFinite(factor) ? "" : `× ${roundedDown(factor, decimals(factor, 2))}`);
 
-/**
- * Creates the list of sources. The largest are first; the order changes only while the list has no focus.
- * @param {Panel} panel
- */
+/** Formats an error; a dash where there is none, as of Euler angles at a singularity. @param {number} value @param {number} places */
+export const errorOf = (value, places) => (Number.isFinite(value) ? fixed(value, places) : "–");
+
+/** Creates the list of sources, the largest first; the order does not change while the list has the focus. @param {Panel} panel */
 export function createSources(panel) {
     const { report, change } = panel;
     const rows = report.sources.map((source, k) => {
-        const { id, slider, field, problem, update } = createInput({ name: `factor of ${source.name}`, unit: "",
-            ends: [0, LARGEST_FACTOR], limits: [0, LARGEST_FACTOR], get: () => panel.state.factors[k],
-            set: (value) => change((state) => { state.factors[k] = value; }) }, "");
-        field.setAttribute("aria-label", `factor of ${source.name}`);
-        const check = html("input", { type: "checkbox" });
-        let before = 1;
-        check.addEventListener("change", () => change((state) => {
-            if (!check.checked) before = state.factors[k];
-            state.factors[k] = check.checked ? before || 1 : 0;
-        }));
+        const { slider, field, problem, update } = createInput({ name: `factor of ${source.name}`, description: "", unit: "",
+            ends: [0, LARGEST_FACTOR], limits: [0, LARGEST_FACTOR], get: () => factorOf(source, panel.state),
+            set: (value) => change(({ factors }) => { factors[k] = value; }) }, "");
         // An uncertainty shares the factor of its source, or has none.
-        const own = source.follows === k;
-        check.disabled = !own;
-        const kind = source.class === "random" ? `random (${source.distribution})` : source.class;
-        const [value, share] = ["number", "share"].map((name) => html("span", { class: name }));
-        const tightened = button("", () => change((state) => { state.factors[k] = Number(tightened.value); }),
+        const isOwn = source.follows === k;
+        const check = html("input", { type: "checkbox", disabled: !isOwn });
+        let before = 1;
+        check.addEventListener("change", () => change(({ factors }) => {
+            before = factors[k] || before;
+            factors[k] = check.checked ? before : 0;
+        }));
+        const tightened = button("", () => change(({ factors }) => { factors[k] = Number(tightened.value); }),
             { class: "tighten", title: "Factor at which this source alone would use up the tolerance; click to set it" });
-        const [bar, mark] = ["i", "b"].map((name) => html(/** @type {"i" | "b"} */ (name), { class: name === "i" ? source.class : "" }));
+        const [value, share, name, factor] = spans("number", "share", "", "factor");
+        name.append(html("span", {}, source.name), html("small", {}, source.at));
+        if (isOwn) factor.append(slider, "×", field, problem);
+        const [bar, mark] = [html("i", { class: source.class }), html("b")];
+        const kind = source.class === "random" ? `random (${source.distribution})` : source.class;
         const element = html("li", { title: `${source.name}: ${kind}, ${source.at}. ${source.description}` },
-            html("label", { class: "name" }, check, html("span", {}, html("span", {}, source.name), html("small", {}, source.at))),
-            value, share, html("span", { class: "factor" }, ...(own ? [slider, html("label", { for: id }, "×"), field, problem] : [])), tightened,
+            html("label", { class: "name" }, check, name), value, share, factor, tightened,
             html("span", { class: "bar", "aria-hidden": true }, bar, mark));
         return { element, check, bar, mark, value, share, tightened, update };
     });
     const list = html("ol", {}, ...rows.map(({ element }) => element));
-    const total = ["number", "share", "factor", "tighten"].map((name) => html("span", { class: name }));
     const measurands = (/** @type {const} */ (["position", "orientation"])).map((measurand) => {
         const radio = html("input", { type: "radio", name: `abbe-measurand-${panel.index}`, checked: measurand === panel.measurand });
         radio.addEventListener("change", () => {
@@ -56,46 +50,45 @@ export function createSources(panel) {
         });
         return html("label", {}, radio, measurand);
     });
-    const [errorHead, scale] = [html("span", { class: "number" }), html("span", { class: "bar" })];
-    const head = (/** @type {string} */ name, text = name) => html("span", { class: name }, text);
+    const heads = spans("name", "number", "share", "factor", "tighten", "bar");
+    const sums = spans("name", "number", "share", "factor", "tighten");
+    ["source", "", "share", "factor", "tighten to"].forEach((text, i) => setText(heads[i], text));
+    setText(sums[0], "all together");
     const element = html("section", { class: "sources" },
         html("fieldset", { class: "measurand" }, html("legend", {}, "Sources of error here"), ...measurands),
-        html("div", { class: "head", "aria-hidden": true }, head("name", "source"), errorHead, head("share"), head("factor"),
-            head("tighten", "tighten to"), scale),
-        list, html("div", { class: "total" }, head("name", "all together"), ...total));
+        html("div", { class: "head", "aria-hidden": true }, ...heads), list, html("div", { class: "total" }, ...sums));
 
     function update() {
-        const { state, figures, reference, measurand, unit, tolerances } = panel;
+        const { state, figures, reference, measurand, unit: { factor, symbol }, tolerances } = panel;
         const errors = figures[measurand];
-        const largest = roundUp(unit.factor * Math.max(...errors.norms, 0)) / unit.factor;
-        const places = decimals(unit.factor * errors.radius, 4);
+        const most = factor * Math.max(...errors.norms, 0);
+        const end = [1, 2, 2.5].map((ratio) => ratio * roundStep(most)).find((round) => most <= round * (1 + 1e-9)) ?? 1;
+        const places = decimals(factor * errors.radius, 4);
         const sum = errors.norms.reduce((all, one) => all + one, 0);
         const tolerance = tolerances[measurand];
         const factors = tolerance === null ? null : tighten(errors, tolerance);
-        setText(scale, `bars: 0 … ${fixed(unit.factor * largest, decimals(unit.factor * largest, 1))} ${unit.symbol}`);
-        setText(errorHead, unit.symbol);
         rows.forEach((row, k) => {
             const norm = errors.norms[k];
             row.update();
-            row.check.checked = state.factors[k] !== 0;
-            row.bar.style.width = `${(100 * norm) / largest}%`;
+            const current = factorOf(report.sources[k], state);
+            row.check.checked = current !== 0;
+            row.element.classList.toggle("off", current === 0);
+            row.bar.style.width = `${(100 * factor * norm) / end}%`;
             row.mark.hidden = !reference;
-            row.mark.style.left = `${Math.min(100, (100 * (reference?.[measurand].norms[k] ?? 0)) / largest)}%`;
-            setText(row.value, `${report.sources[k].class === "random" && norm > 0 ? "± " : ""}${fixed(unit.factor * norm, places)}`);
+            row.mark.style.left = `${Math.min(100, (100 * factor * (reference?.[measurand].norms[k] ?? 0)) / end)}%`;
+            setText(row.value, `${report.sources[k].class === "random" && norm > 0 ? "± " : ""}${errorOf(factor * norm, places)}`);
             setText(row.share, sum > 0 ? percent(norm, sum) : "");
-            const most = (factors?.alone[k] ?? NaN) * state.factors[k];
-            row.tightened.value = Number.isFinite(most) ? roundedDown(most, decimals(most, 2)) : "";
-            row.tightened.disabled = !(most <= LARGEST_FACTOR) || row.check.disabled;
-            setText(row.tightened, row.tightened.value && `× ${row.tightened.value}`);
-            row.element.classList.toggle("off", state.factors[k] === 0);
+            setText(row.tightened, times((factors?.alone[k] ?? NaN) * current));
+            row.tightened.value = row.tightened.textContent?.slice(2) ?? "";
+            row.tightened.disabled = row.check.disabled || !row.tightened.value || Number(row.tightened.value) > LARGEST_FACTOR;
         });
-        setText(total[0], fixed(unit.factor * errors.radius, places));
-        const together = factors?.together ?? null;
-        setText(total[3], together === null ? "" : `× ${roundedDown(together, decimals(together, 2))}`);
+        setText(heads[1], symbol);
+        setText(heads[5], `bars: 0 … ${fixed(end, decimals(end, 1))} ${symbol}`);
+        setText(sums[1], errorOf(factor * errors.radius, places));
+        setText(sums[4], times(factors?.together));
         element.classList.toggle("judged", tolerance !== null);
     }
 
-    /** Sorts the sources by their errors. */
     function settle() {
         if (list.contains(document.activeElement)) return;
         const { norms } = panel.figures[panel.measurand];

@@ -2,13 +2,11 @@
 
 import { html, setText } from "./dom.js";
 import { digits, fixed } from "./number.js";
+import { errorOf } from "./sources.js";
 
 /** @import { Panel } from "./panel.js" */
 
-/**
- * Creates a table with names of rows and columns, and returns its cells.
- * @param {string} caption @param {string[]} columns @param {string[]} rows
- */
+/** Creates a table and returns it with its cells. @param {string} caption @param {string[]} columns @param {string[]} rows */
 function createTable(caption, columns, rows) {
     const cells = rows.map(() => columns.map(() => html("td")));
     const element = html("table", {}, html("caption", {}, caption),
@@ -17,26 +15,23 @@ function createTable(caption, columns, rows) {
     return { element, cells };
 }
 
-/** Creates the tables of ΔX and of the ideal and the real pose. @param {Panel} panel */
+/** Creates the tables of ΔX and of both poses. @param {Panel} panel */
 export function createPoses(panel) {
     const { report } = panel;
     const units = report.rows.map((_, i) => report.error_unit[i < 3 ? "length" : "angle"]);
-    const error = createTable("ΔX of the tool point, real minus ideal, in F₀", ["repeatable", "± random"],
+    const error = createTable("ΔX of the tool point, real minus ideal, in F_0", ["repeatable", "± random"],
         report.rows.map((row, i) => `${row} (${units[i][0]})`));
-    const names = ["x axis", "y axis", "z axis", `position (${report.length})`];
-    const poses = ["Ideal pose in F₀", "Real pose, exact chain, repeatable sources"].map((caption) => createTable(caption, names, ["x", "y", "z"]));
+    const poses = ["Ideal pose in F_0", "Real pose: exact chain, repeatable sources"].map((caption) =>
+        createTable(caption, ["x axis", "y axis", "z axis", `position (${report.length})`], ["x", "y", "z"]));
     const element = html("section", { class: "poses" }, ...[error, ...poses].map((table) => html("div", {}, table.element)));
-    const places = report.length === "m" ? 7 : 4;
+    const places = [6, 6, 6, report.length === "m" ? 7 : 4];
     const update = () => {
-        const { figures } = panel;
-        error.cells.forEach((cells, i) => {
-            const [, scale] = units[i];
-            const random = i < 3 ? figures.position.random[i] : figures.orientation.random[i - 3];
-            setText(cells[0], fixed(scale * figures.displacement[i], 4));
-            setText(cells[1], fixed(scale * random, 4));
-        });
-        [figures.pose, figures.realPose].forEach((pose, which) => poses[which].cells.forEach((cells, r) => cells.forEach((cell, c) =>
-            setText(cell, fixed(pose[3 * c + r], c < 3 ? 6 : places)))));
+        const { position, orientation, displacement, pose, realPose } = panel.figures;
+        const random = [...position.random, ...orientation.random];
+        error.cells.forEach((cells, i) => [displacement, random].forEach((values, c) =>
+            setText(cells[c], errorOf(units[i][1] * values[i], 4))));
+        [pose, realPose].forEach((one, which) => poses[which].cells.forEach((cells, r) =>
+            cells.forEach((cell, c) => setText(cell, fixed(one[3 * c + r], places[c])))));
     };
     return { element, update };
 }
@@ -47,22 +42,21 @@ export function createJacobian(panel) {
     const { length } = report;
     const frames = report.frames.map(({ name }, i) =>
         createTable(`Frame ${i + 1}: ${name}`, report.columns.slice(6 * i, 6 * i + 6), report.rows));
-    const element = html("section", { class: "jacobian" }, html("h3", {}, "Error Jacobian: ΔX = J_e ε"),
-        html("p", {}, `Rows x, y, z: ${length} per ${length} (e_x e_y e_z) or per rad (e_s e_r e_p: about y, z, x). `
-            + "Other rows: rad per rad. Shading: size, compared with the largest entry of the same unit."),
+    const element = html("section", { class: "jacobian" }, html("h2", {}, "Error Jacobian J_e: ΔX = J_e ε"),
+        html("p", {}, `Rows x, y, z: ${length} per ${length} (e_x e_y e_z) or ${length} per rad (e_s e_r e_p, about y, z, x). Other rows: `
+            + "rad per rad. Shaded by size, compared with the largest entry in the same unit."),
         html("div", { class: "frames" }, ...frames.map((frame) => frame.element)));
     const update = () => {
         const rows = machine.jacobian(panel.state);
-        // Entries with the same unit: block 2 · (row ≥ 3) + (column ≥ 3).
-        const block = (/** @type {number} */ i, /** @type {number} */ j) => 2 * Number(i >= 3) + Number(j % 6 >= 3);
+        const unitOf = (/** @type {number} */ i, /** @type {number} */ j) => 2 * Number(i > 2) + Number(j % 6 > 2);
         const largest = [0, 0, 0, 0];
-        rows.forEach((row, i) => row.forEach((value, j) => (largest[block(i, j)] = Math.max(largest[block(i, j)], Math.abs(value)))));
+        rows.forEach((row, i) => row.forEach((value, j) => {
+            largest[unitOf(i, j)] = Math.max(largest[unitOf(i, j)], Math.abs(value));
+        }));
         frames.forEach(({ cells }, f) => cells.forEach((row, i) => row.forEach((cell, c) => {
             const value = rows[i][6 * f + c];
-            const text = Math.abs(value) < 1e-12 ? "·" : digits(value, 3);
-            if (cell.textContent === text) return;
-            cell.textContent = text;
-            cell.style.setProperty("--heat", `${Math.round((100 * Math.abs(value)) / (largest[block(i, c)] || 1))}%`);
+            setText(cell, Math.abs(value) > 1e-12 * largest[unitOf(i, c)] ? digits(value, 3) : "·");
+            cell.style.setProperty("--heat", `${Math.round((100 * Math.abs(value)) / (largest[unitOf(i, c)] || 1))}%`);
         })));
     };
     return { element, update };

@@ -1,128 +1,116 @@
-// Verdict: total error here and over the study against the tolerance, and the search of the worst case.
+// Verdict: total error here, over the study and within the joint limits, against the tolerance.
 
-import { button, html, setText } from "./dom.js";
 import { shown } from "./controls.js";
-import { decimals, fixed, parseValue, percent, roundedDown, short } from "./number.js";
+import { button, html, setText, spans } from "./dom.js";
+import { decimals, parseValue, percent, short } from "./number.js";
 import { tighten } from "./search.js";
+import { errorOf, times } from "./sources.js";
 import { variableUnit } from "./state.js";
 import { searchWorst } from "./worker.js";
 
-/**
- * @import { Panel } from "./panel.js"
- * @import { State } from "./state.js"
- */
+/** @import { State } from "./state.js" @import { Panel } from "./panel.js" */
 
-/** Formats an error with the decimals that show `largest` to four digits. @param {Panel} panel @param {number} value @param {number} largest */
-function errorText({ unit }, value, largest) {
-    return `${fixed(unit.factor * value, decimals(unit.factor * largest, 4))} ${unit.symbol}`;
+/** Formats an error with the decimals that show `largest` to four digits. @param {Panel} panel @param {number} value @param {number} [largest] */
+function errorText({ unit: { factor, symbol } }, value, largest = value) {
+    return `${errorOf(factor * value, decimals(factor * largest, 4))} ${symbol}`;
 }
 
-/** Formats what a state sets: its joints, and what differs from the spec. @param {Panel} panel @param {State} state */
-function placeText({ report }, state) {
-    const joints = report.variables.map(({ name }, i) => `${name} = ${shown(state.q[i], variableUnit(report, i), report.length)}`);
-    const others = [...report.parameters.map((one, i) => ({ ...one, value: state.s[i] })),
-        ...report.inputs.map((one, i) => ({ ...one, value: state.u[i] }))].filter(({ value, nominal }) => value !== nominal);
-    return [...joints, ...others.map(({ name, value, unit }) => `${name} = ${shown(value, unit, report.length)}`)].join(", ");
+/** Formats the joints of a state, and what differs from the spec. @param {Report} report @param {State} state @import { Report } from "./state.js" */
+function placeText(report, { q, s, u }) {
+    const { length, variables, parameters, inputs } = report;
+    const others = [...parameters.map((one, i) => ({ ...one, value: s[i] })), ...inputs.map((one, i) => ({ ...one, value: u[i] }))];
+    return [...variables.map(({ name }, i) => `${name} = ${shown(q[i], variableUnit(report, i), length)}`),
+        ...others.filter(({ value, nominal }) => value !== nominal)
+            .map(({ name, value, unit }) => `${name} = ${shown(value, unit, length)}`)].join(", ");
 }
 
-/** Creates the verdict. @param {Panel} panel */
+/** Creates the verdict here, and the worst cases. @param {Panel} panel */
 export function createVerdict(panel) {
     const { report } = panel;
-    const [status, total, share, parts, largest, before] =
-        ["status", "total", "of", "parts", "largest", "before"].map((name) => html("span", { class: name }));
-    const [repeatable, random, limit] = ["repeatable", "random", "limit"].map((name) => html("i", { class: name }));
-    const gauge = html("div", { class: "gauge", "aria-hidden": true }, repeatable, random, limit);
-    const tolerance = html("input", { type: "text", class: "tolerance", "aria-label": "tolerance", placeholder: "none" });
-    const live = html("div", { class: "live", role: "status", "aria-live": "polite" });
-    const here = html("div", { class: "here" }, html("p", { class: "line" }, status, total, share,
-        html("label", {}, "tolerance ", tolerance)), gauge, html("p", { class: "detail" }, largest, parts, before));
-
-    const [studyText, boxText] = [html("p"), html("p")];
-    const studyButton = button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0));
-    const study = html("div", { class: "study" }, html("h3", {}, "Worst in the study"), studyText, studyButton);
-    const everything = html("input", { type: "checkbox" });
-    const hasRanges = [...report.inputs, ...report.parameters].some(({ range }) => range?.[0] != null && range?.[1] != null);
+    const [status, total, share, largest, parts, before] = spans("status", "total", "of", "largest", "parts", "before");
+    const [repeatable, random, mark] = [html("i", { class: "repeatable" }), html("i", { class: "random" }), html("b")];
+    const field = html("input", { type: "text", class: "tolerance", placeholder: "none", autocomplete: "off" });
+    const live = html("div", { class: "live", role: "status" });
+    const element = html("div", { class: "verdict" },
+        html("p", { class: "line" }, status, total, share, html("label", {}, "tolerance ", field)),
+        html("div", { class: "gauge", "aria-hidden": true }, repeatable, random, mark),
+        html("p", { class: "detail" }, largest, parts, before), live);
+    const [studyText, boxText, all] = [html("p"), html("p"), html("input", { type: "checkbox" })];
     const progress = html("progress", { max: 1, value: 0, hidden: true, "aria-label": "Search of the worst case" });
-    const searchButton = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
-    const box = html("div", { class: "box" }, html("h3", {}, "Worst within the joint limits"), boxText, progress, searchButton,
-        hasRanges ? html("label", {}, everything, " vary inputs and parameters too") : "");
-    const element = html("div", { class: "verdict" }, here);
-    const searches = html("div", { class: "searches" }, study, report.variables.length > 0 ? box : "");
+    const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
+    const hasRanges = [...report.inputs, ...report.parameters].some(({ range }) => range?.[0] != null && range[1] != null);
+    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, "Worst in the study"),
+        button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0), { "aria-label": "Show the worst case in the study" }), studyText));
+    if (report.variables.length > 0) {
+        searches.append(html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
+            hasRanges ? html("label", {}, all, "vary inputs and parameters too") : ""));
+    }
+    const shareText = (/** @type {number} */ radius, limit = panel.tolerances[panel.measurand]) =>
+        (limit === null ? "" : `, ${percent(radius, limit)} of the tolerance`);
 
-    tolerance.addEventListener("change", () => {
-        const { unit, measurand, tolerances } = panel;
-        const value = tolerance.value.trim() === "" ? null : parseValue(tolerance.value, unit.symbol, report.length) ?? NaN;
-        tolerance.toggleAttribute("aria-invalid", value !== null && !(value > 0));
-        if (value === null || value > 0) tolerances[measurand] = value;
+    field.addEventListener("change", () => {
+        const value = field.value.trim() === "" ? null : parseValue(field.value, panel.unit.symbol, report.length) ?? NaN;
+        const isWrong = value !== null && !(value > 0);
+        field.setAttribute("aria-invalid", String(isWrong));
+        if (!isWrong) panel.tolerances[panel.measurand] = value;
         panel.refresh();
     });
 
     /** @type {AbortController | null} */
     let running = null;
-    /** Searches the worst case and loads it; a second click stops the search. */
+    /** Finds the worst case and shows it; a second click stops the search. */
     async function search() {
         if (running) return running.abort();
         running = new AbortController();
         progress.hidden = false;
-        setText(searchButton, "Stop");
+        setText(start, "Stop");
         const { measurand, index, state } = panel;
-        const options = { measurand, inputs: everything.checked, parameters: everything.checked };
+        const options = { measurand, inputs: all.checked, parameters: all.checked };
         try {
             const found = await searchWorst({ report, index, state, options }, (part) => { progress.value = part; }, running.signal);
-            setText(boxText, `${errorText(panel, found.radius, found.radius)}${shareText(found.radius)} at ${placeText(panel, found.state)}; `
-                + `${found.evaluations} configurations evaluated.`);
             panel.go(found.state);
+            setText(boxText, `${errorText(panel, found.radius)}${shareText(found.radius)} at ${placeText(report, found.state)}; `
+                + `${found.evaluations} configurations searched.`);
         } catch (error) {
-            setText(boxText, error instanceof DOMException && error.name === "AbortError" ? "Stopped." : String(error));
+            setText(boxText, running.signal.aborted ? "Stopped." : String(error));
         }
         running = null;
         progress.hidden = true;
-        setText(searchButton, "Find again");
-    }
-
-    /** @param {number} radius */
-    function shareText(radius) {
-        const limit = panel.tolerances[panel.measurand];
-        return limit === null ? "" : `, ${percent(radius, limit)} of the tolerance`;
+        setText(start, "Find again");
     }
 
     function update() {
         const { figures, reference, measurand, unit, tolerances, cloud } = panel;
-        const errors = figures[measurand];
-        const limitValue = tolerances[measurand];
-        const isMet = limitValue !== null && errors.radius <= limitValue;
-        element.classList.toggle("missed", limitValue !== null && !isMet);
-        const isJudged = limitValue !== null && report.study.judged === "as-built";
+        const { radius, repeatableRadius, randomRadius, norms } = figures[measurand];
+        const limit = tolerances[measurand];
+        const isMet = limit !== null && radius <= limit;
+        element.classList.toggle("missed", limit !== null && !isMet);
+        // A study of the compensated machine judges what this page does not compute.
+        const isJudged = limit !== null && report.study.judged === "as-built";
         setText(status, !isJudged ? "As built, here" : isMet ? "✓ MET here" : "✗ NOT MET here");
-        setText(total, errorText(panel, errors.radius, errors.radius));
-        setText(share, limitValue === null ? "" : `${percent(errors.radius, limitValue)} of`);
-        if (document.activeElement !== tolerance) tolerance.value = limitValue === null ? "" : `${short(unit.factor * limitValue)} ${unit.symbol}`;
-        const end = Math.max(errors.radius, (limitValue ?? 0) * 1.25) || 1;
-        repeatable.style.width = `${(100 * errors.repeatableRadius) / end}%`;
-        random.style.width = `${(100 * errors.randomRadius) / end}%`;
-        limit.hidden = limitValue === null;
-        limit.style.left = `${(100 * (limitValue ?? 0)) / end}%`;
-        const most = errors.norms.indexOf(Math.max(...errors.norms));
-        const sum = errors.norms.reduce((all, one) => all + one, 0);
-        setText(largest, sum > 0 ? `largest source: ${report.sources[most].name} (${percent(errors.norms[most], sum)})` : "no error here");
-        setText(parts, `repeatable ${errorText(panel, errors.repeatableRadius, errors.radius)} + random ± ${errorText(panel, errors.randomRadius, errors.radius)}`);
+        setText(total, errorText(panel, radius));
+        setText(share, limit === null ? "" : `${percent(radius, limit)} of`);
+        if (document.activeElement !== field) field.value = limit === null ? "" : `${short(unit.factor * limit)} ${unit.symbol}`;
+        const end = Math.max(radius, (limit ?? 0) * 1.25) || 1;
+        [repeatable.style.width, random.style.width, mark.style.left] =
+            [repeatableRadius, randomRadius, limit ?? 0].map((value) => `${(100 * value) / end}%`);
+        mark.hidden = limit === null;
+        const most = Math.max(...norms);
+        const sum = norms.reduce((added, one) => added + one, 0);
+        setText(largest, sum > 0 ? `largest source: ${report.sources[norms.indexOf(most)].name} (${percent(most, sum)})` : "");
+        setText(parts, `repeatable ${errorText(panel, repeatableRadius, radius)} + random ± ${errorText(panel, randomRadius, radius)}`);
         const old = reference?.[measurand].radius ?? 0;
-        const change = old > 0 ? ` (${errors.radius >= old ? "+" : "−"}${percent(Math.abs(errors.radius - old), old)})` : "";
-        setText(before, reference ? `before your changes ${errorText(panel, old, errors.radius)}${change}` : "");
-        if (cloud) {
-            const { radius, worst, norms } = cloud[measurand];
-            const source = norms.indexOf(Math.max(...norms));
-            const factors = limitValue === null ? null : tighten(cloud[measurand], limitValue);
-            const times = (/** @type {number | null | undefined} */ factor) => `× ${roundedDown(factor ?? 0, decimals(factor ?? 0, 2))}`;
-            setText(studyText, `${errorText(panel, radius, radius)}${shareText(radius)}, configuration ${worst + 1} of `
-                + `${report.configurations.q.length}. ${factors ? `Tolerance met with all sources ${times(factors.together)}, with `
-                + `${report.sources[source].name} alone ${times(factors.alone[source])}.` : ""}`);
-        }
+        const change = old > 0 ? ` (${radius < old ? "−" : "+"}${percent(Math.abs(radius - old), old)})` : "";
+        setText(before, reference ? `before your changes ${errorText(panel, old, radius)}${change}` : "");
+        const study = cloud?.[measurand];
+        if (!study) return;
+        const source = study.norms.indexOf(Math.max(...study.norms));
+        const factors = limit === null || !(study.radius > 0) ? null : tighten(study, limit);
+        setText(studyText, `${errorText(panel, study.radius)}${shareText(study.radius)} at configuration ${study.worst + 1} of ${study.radii.length}.`
+            + (factors ? ` Tolerance met with all sources ${times(factors.together)}; ${report.sources[source].name} alone uses it up at `
+            + `${times(factors.alone[source])}.` : ""));
     }
 
-    function settle() {
-        setText(live, `${status.textContent}: ${total.textContent} ${share.textContent} ${tolerance.value}; ${largest.textContent}`);
-    }
-    element.append(live);
+    const settle = () => setText(live, [status, total, share, largest].map(({ textContent }) => textContent).join(" "));
     return { element, searches, update, settle };
 }

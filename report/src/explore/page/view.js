@@ -8,215 +8,180 @@ import { quantity } from "./number.js";
 
 /** Number of random configurations that give the size of the picture, and of points on the path of a joint. */
 const [SAMPLES, PATH_POINTS] = [200, 48];
-/** Length of the error vector by which the magnification is chosen, as a fraction of the size of the machine. */
-const VECTOR = 0.12;
+/** Lengths of the error vector, by which the magnification is chosen, and of the axes of frames; parts of the machine's size. */
+const [VECTOR, AXIS] = [0.12, 0.07];
 /** Direction to the viewer in degrees: azimuth from the first horizontal axis to the second, and elevation. */
 const DIRECTION = [38, 24];
 const MAGNIFICATIONS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 100000];
+/** Degrees to the right and down, and zoom factor. @type {Record<string, number[]>} */
+const KEYS = { ArrowLeft: [-6, 0, 1], ArrowRight: [6, 0, 1], ArrowUp: [0, 6, 1], ArrowDown: [0, -6, 1], "+": [0, 0, 1.25], "-": [0, 0, 0.8] };
 
 /** @param {ArrayLike<number>} frame @returns {number[]} its origin */
 const originOf = (frame) => [frame[9], frame[10], frame[11]];
 
-/** Returns origins of frames and tool points at home and at random configurations. @param {Panel} panel */
-function samples({ report, machine, state }) {
-    let seed = 1;
-    const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
-    return Array.from({ length: SAMPLES }, (_, i) => {
-        const q = report.variables.map(({ home }, joint) => {
-            const [least, most] = jointEnds(report, joint);
-            return i === 0 ? home : least + (most - least) * random();
-        });
-        return machine.frames({ ...state, q }, 0).ideal.map(originOf);
-    }).flat();
+/** Returns a value between the limits of a joint. @param {Panel} panel @param {number} joint @param {number} share */
+function between({ report }, joint, share, [least, most] = jointEnds(report, joint)) {
+    return least + (most - least) * share;
 }
 
-/** Creates the picture: drag or arrow keys turn it; wheel, pinch, + and − zoom. @param {Panel} panel */
+/** Creates the picture: drag or arrow keys turn it; wheel, pinch, + and - zoom. @param {Panel} panel */
 export function createView(panel) {
-    const { report, machine } = panel;
-    const up = report.up;
+    const { report, machine, generated } = panel;
+    const { up, frames, variables } = report;
     const ground = [(up + 1) % 3, (up + 2) % 3];
-    const cloud = samples(panel);
-    const ends = [0, 1, 2].map((i) => [Math.min(0, ...cloud.map((p) => p[i])), Math.max(0, ...cloud.map((p) => p[i]))]);
-    const centre = ends.map(([least, most]) => (least + most) / 2);
+    let seed = 1;
+    const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+    const samples = Array.from({ length: SAMPLES }, () => {
+        const q = variables.map((_, joint) => between(panel, joint, random()));
+        return machine.frames({ ...panel.state, q }, 0).ideal.map(originOf);
+    }).flat();
+    const ends = [0, 1, 2].map((i) => [Math.min(...samples.map((point) => point[i])), Math.max(...samples.map((point) => point[i]))]);
     const size = Math.max(...ends.map(([least, most]) => most - least)) || 1;
     const grid = roundStep(size / 6);
     let [azimuth, elevation] = DIRECTION;
-    let [zoom, width, height, scale, offset, magnification] = [1, 0, 0, 1, [0, 0], 0];
+    let [zoom, scale, magnification, sides, middle] = [1, 1, 0, [0, 0], [0, 0]];
 
     const layer = (/** @type {string} */ name) => svg("path", { class: name });
     const circle = (/** @type {string} */ name, r = 4) => svg("circle", { class: name, r });
     const [floor, reach, ghost, links, vector] = ["floor", "reach", "ghost", "links", "vector"].map(layer);
     const axes = ["x", "y", "z"].map((name) => ({ line: layer(`axis ${name}`), text: svg("text", { class: `axis ${name}` }, name) }));
-    const origins = report.frames.map(() => circle("origin"));
-    const labels = [...report.frames, 0].map(() => svg("text"));
-    const [tolerance, random, tip] = [circle("tolerance"), circle("random"), circle("tip", 4.5)];
+    const [origins, labels] = [frames.map(() => circle("origin")), [...frames, 0].map(() => svg("text"))];
+    const [tolerance, bound, tip] = [circle("tolerance"), circle("random"), circle("tip", 4.5)];
     const drawing = svg("svg", { "aria-hidden": true }, floor, reach, tolerance, ghost, links, ...axes.map(({ line }) => line),
-        ...origins, random, vector, tip, ...axes.map(({ text }) => text), ...labels);
+        ...origins, bound, vector, tip, ...axes.map(({ text }) => text), ...labels);
     const stage = html("div", { class: "stage", tabindex: 0, role: "application",
-        "aria-label": "Picture of the manipulator: arrow keys turn it, + and − zoom, 0 resets" }, drawing);
+        "aria-label": "Picture of the manipulator: arrow keys turn it, + and - zoom, 0 resets" }, drawing);
     const automatic = html("option", { value: "" });
     const chosen = html("select", { "aria-label": "Magnification of the errors" }, automatic,
         ...MAGNIFICATIONS.map((factor) => html("option", { value: factor }, `× ${factor}`)));
-    const key = (/** @type {string} */ name, /** @type {(string | Node)[]} */ ...text) =>
-        html("span", { class: "key" }, html("i", { class: `key-${name}` }), ...text);
-    const toleranceKey = key("tolerance", "tolerance");
-    const element = html("figure", { class: "view" }, stage, html("figcaption", {}, key("ideal", "ideal"),
-        key("real", "real, errors ", chosen), toleranceKey, html("span", {}, `grid ${quantity(grid, report.length)}`),
-        html("span", { class: "buttons" }, button("−", () => turn(0, 0, 0.8), { "aria-label": "Zoom out" }),
+    const [ideal, real, limit] = ["ideal", "real, errors ", "tolerance"].map((text) =>
+        html("span", { class: `key ${text.split(",")[0]}` }, html("i"), text));
+    real.append(chosen);
+    const element = html("figure", { class: "view" }, stage, html("figcaption", {}, ideal, real, limit,
+        `grid ${quantity(grid, report.length)}`, html("span", { class: "buttons" },
+            button("−", () => turn(0, 0, 0.8), { "aria-label": "Zoom out" }),
             button("+", () => turn(0, 0, 1.25), { "aria-label": "Zoom in" }), button("Reset view", reset))));
 
-    /** Returns pixels to the right and down of 1 along each axis, at scale 1. */
+    /** Returns the projection to pixels from the middle, at scale 1. @returns {(point: number[]) => number[]} */
     function camera() {
-        const [a, b] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
+        const [a, b] = [azimuth, elevation].map((angle) => (angle * Math.PI) / 180);
         const columns = [[0, 0], [0, 0], [0, 0]];
-        columns[ground[0]] = [-Math.sin(a), Math.cos(a) * Math.sin(b)];
-        columns[ground[1]] = [Math.cos(a), Math.sin(a) * Math.sin(b)];
-        columns[up] = [0, -Math.cos(b)];
-        return (/** @type {number[]} */ point) =>
-            [0, 1].map((i) => point.reduce((sum, value, k) => sum + (value - centre[k]) * columns[k][i], 0));
+        [columns[ground[0]], columns[ground[1]], columns[up]] = [[-Math.sin(a), Math.cos(a) * Math.sin(b)],
+            [Math.cos(a), Math.sin(a) * Math.sin(b)], [0, -Math.cos(b)]];
+        return (point) => [0, 1].map((i) => point[0] * columns[0][i] + point[1] * columns[1][i] + point[2] * columns[2][i]);
     }
 
-    /** Chooses the scale and the offset at which all configurations are visible. */
-    function fit() {
-        const points = cloud.map(camera());
-        const sides = [width, height];
-        const bounds = sides.map((_, i) => [Math.min(...points.map((p) => p[i])), Math.max(...points.map((p) => p[i]))]);
-        scale = Math.min(...bounds.map(([least, most], i) => (sides[i] - 72) / (most - least || size)));
-        offset = bounds.map(([least, most], i) => (sides[i] - scale * (least + most)) / 2);
-    }
-
-    /** Turns by degrees and zooms. @param {number} right @param {number} downwards @param {number} [factor] */
-    function turn(right, downwards, factor = 1) {
+    /** Turns by degrees and zooms. @param {number} right @param {number} down @param {number} factor */
+    function turn(right, down, factor) {
         azimuth -= right;
-        elevation = Math.min(90, Math.max(-90, elevation + downwards));
+        elevation = Math.min(90, Math.max(-90, elevation + down));
         zoom = Math.min(40, Math.max(0.2, zoom * factor));
         panel.refresh();
     }
 
+    /** Chooses direction, scale and middle so that all samples are visible. */
     function reset() {
         [[azimuth, elevation], zoom] = [DIRECTION, 1];
-        fit();
+        const points = samples.map(camera());
+        const bounds = [0, 1].map((i) => [Math.min(...points.map((point) => point[i])), Math.max(...points.map((point) => point[i]))]);
+        scale = Math.min(...bounds.map(([least, most], i) => (sides[i] - 40) / (most - least + VECTOR * size)));
+        middle = bounds.map(([least, most]) => (least + most) / 2);
         panel.refresh();
-    }
-
-    /** Chooses the round magnification at which the error, or else the tolerance, has a good length. */
-    function magnify() {
-        const { figures, tolerances } = panel;
-        const length = figures.position.radius || tolerances.position || 0;
-        magnification = Number(chosen.value) || (length > 0 ? Math.min(1e5, roundStep((VECTOR * size) / length)) : 1);
-        setText(automatic, `× ${magnification} (auto)`);
     }
 
     /** Returns the path of the grid on the floor. @param {(point: number[]) => number[]} project */
     function floorPath(project) {
-        const [across, along] = ground.map((axis) => ends[axis].map((end, i) => (i ? Math.ceil(end / grid) : Math.floor(end / grid))));
-        const line = (/** @type {number[][]} */ places) => path(places.map(([i, j]) => {
-            const at = [0, 0, 0];
-            [at[ground[0]], at[ground[1]]] = [i * grid, j * grid];
-            return project(at);
-        }));
-        const count = ([from, to] = across) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
-        return [...count(across).map((i) => line([[i, along[0]], [i, along[1]]])),
-            ...count(along).map((j) => line([[across[0], j], [across[1], j]]))].join("");
-    }
-
-    /** Returns points of the tool while the joint that was moved last moves between its limits. */
-    function toolPath() {
-        const { state, joint, generated } = panel;
-        if (report.variables.length === 0) return [];
-        const [least, most] = jointEnds(report, joint);
-        return Array.from({ length: PATH_POINTS + 1 }, (_, i) =>
-            originOf(generated.pose(state.q.with(joint, least + ((most - least) * i) / PATH_POINTS), state.s)));
+        const [across, along] = ground.map((axis) => [Math.floor(ends[axis][0] / grid), Math.ceil(ends[axis][1] / grid)]);
+        const line = (/** @type {number[][]} */ cells) => path(cells.map((cell) =>
+            project([0, 1, 2].map((axis) => (axis === up ? 0 : cell[ground.indexOf(axis)] * grid)))));
+        const all = ([from, to] = across) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
+        return [...all(across).map((i) => line(along.map((j) => [i, j]))), ...all(along).map((j) => line(across.map((i) => [i, j])))].join("");
     }
 
     /** Writes the numbers of the frames beside their origins; frames at one place share a label. @param {number[][]} places */
     function writeLabels(places) {
-        const taken = /** @type {{at: number[], names: string[]}[]} */ ([]);
-        places.forEach((at, i) => {
-            const name = i < report.frames.length ? String(i + 1) : "tool";
-            const near = taken.find((other) => Math.hypot(other.at[0] - at[0], other.at[1] - at[1]) < 14);
-            if (near) near.names.push(name);
-            else taken.push({ at, names: [name] });
-        });
+        const names = places.map((_, i) => (i < frames.length ? String(i + 1) : "tool"));
+        const first = places.map(([x, y]) => places.findIndex((other) => Math.hypot(other[0] - x, other[1] - y) < 14));
         labels.forEach((label, i) => {
-            setText(label, taken[i]?.names.join(", ") ?? "");
-            moveTo(label, taken[i]?.at ?? [0, 0], 8, -8);
+            setText(label, names.filter((_, k) => first[k] === i).join(", "));
+            moveTo(label, places[i], 8, -8);
         });
     }
 
     function update() {
-        const { state, figures, tolerances } = panel;
-        if (width === 0) return;
+        if (sides[0] === 0) return;
+        const { state, figures, tolerances, joint } = panel;
         if (magnification === 0) magnify();
-        const { ideal, real } = machine.frames(state, magnification);
-        const flat = camera();
-        const project = (/** @type {number[]} */ point) => flat(point).map((value, i) => {
-            const middle = [width, height][i] / 2;
-            return middle + zoom * (offset[i] + scale * value - middle);
-        });
-        const places = ideal.map((frame) => project(originOf(frame)));
-        const [end, tool] = [originOf(ideal[ideal.length - 1]), places[places.length - 1]];
-        const error = project(end.map((value, i) => value + magnification * figures.displacement[i]));
-        const pixels = scale * zoom * magnification;
+        const [flat, all] = [camera(), machine.frames(state, magnification)];
+        const project = (/** @type {number[]} */ point) => flat(point).map((value, i) => sides[i] / 2 + zoom * scale * (value - middle[i]));
+        const places = all.ideal.map((frame) => project(originOf(frame)));
+        const tool = places[places.length - 1];
+        const error = project(originOf(figures.pose).map((value, i) => value + magnification * figures.displacement[i]));
+        // Path of the tool point while the joint that was moved last moves between its limits.
+        const moved = Array.from({ length: variables.length > 0 ? PATH_POINTS + 1 : 0 }, (_, i) =>
+            generated.pose(state.q.with(joint, between(panel, joint, i / PATH_POINTS)), state.s));
         floor.setAttribute("d", floorPath(project));
-        reach.setAttribute("d", path(toolPath().map(project)));
         links.setAttribute("d", path(places));
-        ghost.setAttribute("d", path(real.map((frame) => project(originOf(frame)))));
+        [[reach, moved], [ghost, all.real]].forEach(([line, poses]) => /** @type {SVGPathElement} */ (line).setAttribute("d",
+            path(/** @type {ArrayLike<number>[]} */ (poses).map((pose) => project(originOf(pose))))));
         vector.setAttribute("d", arrow(tool, error));
         axes.forEach(({ line, text }, k) => {
-            const tips = ideal.map((frame) => project(originOf(frame).map((value, r) => value + 0.07 * size * frame[3 * k + r])));
+            const tips = all.ideal.map((frame) => project(originOf(frame).map((value, r) => value + AXIS * size * frame[3 * k + r])));
             line.setAttribute("d", tips.map((to, i) => path([places[i], to])).join(""));
             moveTo(text, tips[0], 3, 3);
         });
         origins.forEach((one, i) => moveTo(one, places[i + 1]));
         writeLabels(places.slice(1));
-        [tip, tolerance, random].forEach((one, i) => moveTo(one, i === 2 ? error : tool));
-        tolerance.setAttribute("r", String(pixels * (tolerances.position ?? 0)));
-        random.setAttribute("r", String(pixels * figures.position.randomRadius));
-        toleranceKey.hidden = tolerances.position === null;
+        [tip, tolerance, bound].forEach((one) => moveTo(one, one === bound ? error : tool));
+        tolerance.setAttribute("r", String(scale * zoom * magnification * (tolerances.position ?? 0)));
+        bound.setAttribute("r", String(scale * zoom * magnification * figures.position.randomRadius));
+        limit.hidden = tolerances.position === null;
+    }
+
+    /** Chooses the round magnification at which the error, or else the tolerance, has a good length. */
+    function magnify() {
+        const length = panel.figures.position.radius || panel.tolerances.position || Infinity;
+        magnification = Number(chosen.value) || Math.min(1e5, roundStep((VECTOR * size) / length) || 1);
+        setText(automatic, `× ${magnification} (auto)`);
     }
 
     /** @type {Map<number, number[]>} */
     const pointers = new Map();
-    const spread = ([a, b] = [...pointers.values()]) => Math.hypot(a[0] - b[0], a[1] - b[1]);
+    const spread = ([a, b] = [...pointers.values()]) => (b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0);
+    const forget = (/** @type {PointerEvent} */ { pointerId }) => pointers.delete(pointerId);
     stage.addEventListener("pointerdown", ({ pointerId, clientX, clientY }) => {
         pointers.set(pointerId, [clientX, clientY]);
         stage.setPointerCapture(pointerId);
     });
     stage.addEventListener("pointermove", ({ pointerId, clientX, clientY }) => {
-        const last = pointers.get(pointerId);
+        const [last, before] = [pointers.get(pointerId), spread()];
         if (!last) return;
-        const before = pointers.size === 2 ? spread() : 0;
         pointers.set(pointerId, [clientX, clientY]);
         if (before > 0) turn(0, 0, spread() / before);
-        else turn(0.4 * (clientX - last[0]), 0.4 * (clientY - last[1]));
+        else turn(0.4 * (clientX - last[0]), 0.4 * (clientY - last[1]), 1);
     });
-    for (const name of /** @type {const} */ (["pointerup", "pointercancel"])) {
-        stage.addEventListener(name, ({ pointerId }) => pointers.delete(pointerId));
-    }
+    stage.addEventListener("pointerup", forget);
+    stage.addEventListener("pointercancel", forget);
     stage.addEventListener("wheel", (event) => {
         event.preventDefault();
         turn(0, 0, Math.exp(-0.0015 * event.deltaY));
     }, { passive: false });
-    const keys = /** @type {Record<string, number[]>} */ ({ ArrowLeft: [-6, 0], ArrowRight: [6, 0], ArrowUp: [0, 6],
-        ArrowDown: [0, -6], "+": [0, 0, 1.25], "-": [0, 0, 0.8] });
     stage.addEventListener("keydown", (event) => {
-        if (event.ctrlKey || event.metaKey || !(event.key === "0" || keys[event.key])) return;
-        event.preventDefault();
         if (event.key === "0") reset();
-        else turn(keys[event.key][0], keys[event.key][1], keys[event.key][2]);
+        if (!KEYS[event.key] || event.ctrlKey || event.metaKey) return;
+        event.preventDefault();
+        turn(KEYS[event.key][0], KEYS[event.key][1], KEYS[event.key][2]);
     });
-    chosen.addEventListener("change", () => {
+    const settle = () => {
         magnify();
-        panel.refresh();
+        update();
+    };
+    chosen.addEventListener("change", settle);
+    onResize(drawing, (resized) => {
+        sides = resized;
+        reset();
     });
-    onResize(stage, (newWidth, newHeight) => {
-        [width, height] = [newWidth, newHeight];
-        drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
-        fit();
-        panel.refresh();
-    });
-    return { element, update, settle: () => { magnify(); update(); } };
+    return { element, update, settle };
 }
 
 /** Moves a circle or a text. @param {SVGElement} element @param {number[]} at @param {number} [right] @param {number} [down] */
