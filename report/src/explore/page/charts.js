@@ -1,7 +1,7 @@
 // Chart of the errors along one joint, with the configurations of the study.
 
 import { shown } from "./controls.js";
-import { html, onResize, path, roundStep, setText, svg } from "./dom.js";
+import { html, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { decimals, fixed } from "./number.js";
 import { sweep } from "./search.js";
 import { variableUnit } from "./state.js";
@@ -9,8 +9,8 @@ import { variableUnit } from "./state.js";
 /** @import { Panel } from "./panel.js" */
 
 const [LEFT, RIGHT, TOP, BOTTOM] = [48, 136, 20, 36];
-/** Number of points of a curve, of sources with a curve, and of letters of a name; distance in pixels at which a dot is picked. */
-const [POINTS, CURVES, LETTERS, NEAR] = [61, 4, 20, 9];
+/** Number of points of a curve, of sources with a curve; distance in pixels at which a dot is picked. */
+const [POINTS, CURVES, NEAR] = [61, 4, 9];
 
 /** Returns about `count` round values from `least` to `most`. @param {number} least @param {number} most @param {number} count */
 function ticks(least, most, count) {
@@ -23,10 +23,9 @@ function ticks(least, most, count) {
 export function createSweep(panel) {
     const { report, machine } = panel;
     const chosen = html("select", { "aria-label": "Joint" }, ...report.variables.map(({ name }, i) => html("option", { value: i }, name)));
-    const layer = (/** @type {string} */ name) => svg("path", { class: name });
-    const [grid, tolerance, dots, here] = ["grid", "tolerance", "points", "here"].map(layer);
+    const [grid, tolerance, dots, here] = paths("grid", "tolerance", "points", "here");
     const kinds = ["total", "repeatable", "random", ...Array.from({ length: CURVES }, () => "curve")];
-    const lines = kinds.map(layer);
+    const lines = paths(...kinds);
     const [numbers, names, tip] = [svg("g"), svg("g"), svg("circle", { class: "tip", r: 4.5 })];
     const drawing = svg("svg", { "aria-hidden": true }, grid, tolerance, dots, ...[...lines].reverse(), here, tip, numbers, names);
     const stage = html("div", { class: "chart" }, drawing);
@@ -42,34 +41,32 @@ export function createSweep(panel) {
         if (width === 0) return;
         const { state, figures, measurand, unit, joint, tolerances } = panel;
         const along = variableUnit(report, joint);
-        const curves = sweep(machine, report, state, joint, POINTS, measurand);
-        [from, to] = [curves.values[0], curves.values[POINTS - 1]];
+        const { values, total, repeatable, random, sources } = sweep(machine, report, state, joint, POINTS, measurand);
+        [from, to] = [values[0], values[POINTS - 1]];
         const limit = tolerances[measurand];
-        const most = Math.max(...curves.total.filter(Number.isFinite), ...radii(), 0);
+        const most = Math.max(...total.filter(Number.isFinite), ...radii().filter(Number.isFinite), 0);
         top = 1.05 * (Math.max(most, limit !== null && limit < 4 * most ? limit : 0) || 1);
-        const peaks = curves.sources.map((values) => Math.max(...values));
-        const largest = peaks.map((_, k) => k).filter((k) => peaks[k] > 0).sort((a, b) => peaks[b] - peaks[a]).slice(0, CURVES);
-        const isMixed = Math.max(...curves.repeatable) > 0 && Math.max(...curves.random) > 0;
-        const all = [{ name: "total", values: curves.total }, { name: "repeatable", values: isMixed ? curves.repeatable : [] },
-            { name: "random", values: isMixed ? curves.random : [] },
-            ...largest.map((k) => ({ name: report.sources[k].name, values: curves.sources[k] }))];
-        lines.forEach((line, i) => line.setAttribute("d", path((all[i]?.values ?? []).map((value, k) =>
-            [across(curves.values[k]), Number.isFinite(value) ? above(value) : height - BOTTOM]))));
-        const ends = all.map(({ name, values }, i) => ({ name, kind: kinds[i], y: above(values.at(-1) ?? NaN) }));
+        const peaks = sources.map((curve, k) => ({ name: report.sources[k].name, curve, peak: Math.max(...curve) }));
+        const isMixed = Math.max(...repeatable) > 0 && Math.max(...random) > 0;
+        const all = [{ name: "total", curve: total }, { name: "repeatable", curve: isMixed ? repeatable : [] },
+            { name: "random", curve: isMixed ? random : [] },
+            ...peaks.filter(({ peak }) => peak > 0).sort((a, b) => b.peak - a.peak).slice(0, CURVES)];
+        lines.forEach((line, i) => line.setAttribute("d", path((all[i]?.curve ?? []).map((error, k) =>
+            [across(values[k]), above(Number.isFinite(error) ? error : 0)]))));
+        const ends = all.map(({ name, curve }, i) => ({ name, kind: kinds[i], y: above(curve[POINTS - 1]) }));
         writeNames([...ends, { name: "tolerance", kind: "", y: above(limit ?? NaN) }].filter(({ y }) => y > 0));
         tolerance.setAttribute("d", limit === null ? "" : `M${LEFT} ${above(limit).toFixed(1)}H${width - RIGHT}`);
         const x = across(state.q[joint]).toFixed(1);
         here.setAttribute("d", `M${x} ${TOP}V${height - BOTTOM}`);
         tip.setAttribute("cx", x);
         tip.setAttribute("cy", above(figures[measurand].radius || 0).toFixed(1));
-        dots.setAttribute("d", radii().map((error, i) => `${path([[across(report.configurations.q[i][joint]), above(error)]])}h0`).join(""));
+        dots.setAttribute("d", radii().map((error, i) => `${path([[across(report.configurations.q[i][joint]), above(error || 0)]])}h0`).join(""));
         writeNumbers(unit, along);
         chosen.value = String(joint);
-        const worst = curves.total.indexOf(Math.max(...curves.total));
-        const value = unit.factor * (curves.total[worst] ?? 0);
-        setText(summary, `Largest along ${report.variables[joint].name}: ${fixed(value, decimals(value, 4))} ${unit.symbol} at `
-            + `${shown(curves.values[worst] ?? 0, along, report.length)}. Dots: total at ${radii().length} configurations of the study; `
-            + "click one to load it.");
+        const worst = total.indexOf(Math.max(...total));
+        const largest = unit.factor * (total[worst] ?? 0);
+        setText(summary, `Largest along ${report.variables[joint].name}: ${fixed(largest, decimals(largest, 4))} ${unit.symbol} at `
+            + `${shown(values[worst] ?? 0, along, report.length)}. Dots: ${radii().length} configurations of the study; click one to load it.`);
     }
 
     /** Draws the grid with its numbers. @param {Panel["unit"]} unit of the errors @param {string} along unit of the joint */
@@ -92,7 +89,7 @@ export function createSweep(panel) {
         names.replaceChildren(...all.sort((a, b) => b.y - a.y).map(({ name, kind, y }) => {
             const at = Math.min(y + 4, free);
             free = at - 13;
-            return svg("text", { x: width - RIGHT + 6, y: at, class: kind }, name.length > LETTERS ? `${name.slice(0, LETTERS - 1)}…` : name);
+            return svg("text", { x: width - RIGHT + 6, y: at, class: kind }, name);
         }));
     }
 

@@ -25,9 +25,8 @@ export function shown(value, unit, length) {
 /** Creates a slider over round values, a field, and a place for what is wrong in it. @param {Value} value @param {string} length */
 export function createInput({ name, unit, ends, limits, get, set }, length) {
     const factor = unit === "deg" ? 180 / Math.PI : 1;
-    const [least, most] = [ends[0] * factor, ends[1] * factor];
-    const step = roundStep((most - least) / STEPS);
-    const id = `abbe-field-${++identifiers}`;
+    const [least, most] = ends.map((end) => end * factor);
+    const [step, id] = [roundStep((most - least) / STEPS), `abbe-field-${++identifiers}`];
     const slider = html("input", { type: "range", "aria-label": `${name}, slider`, min: Math.floor(least / step + 1e-9),
         max: Math.ceil(most / step - 1e-9) });
     const field = html("input", { type: "text", id, autocomplete: "off", spellcheck: "false", "aria-label": name,
@@ -53,10 +52,6 @@ export function createInput({ name, unit, ends, limits, get, set }, length) {
     };
     field.addEventListener("change", commit);
     field.addEventListener("focus", () => field.select());
-    field.addEventListener("keydown", ({ key }) => {
-        if (key === "Escape") field.value = text;
-        if (key === "Escape" || key === "Enter") commit();
-    });
     const update = () => {
         if (get() === current) return;
         current = get();
@@ -83,26 +78,25 @@ export function jointEnds({ variables }, joint) {
 
 /** Creates the controls; parameters that the study does not vary are folded. @param {Panel} panel */
 export function createControls(panel) {
-    const { report } = panel;
+    const { report, state, change } = panel;
     const updates = /** @type {(() => void)[]} */ ([]);
     const row = (/** @type {Value} */ value) => {
         const { slider, field, problem, update } = createInput(value, report.length);
         updates.push(update);
         return html("div", { class: "row", title: value.description }, html("label", { for: field.id }, value.name), slider, field, problem);
     };
-    const group = (/** @type {string} */ title, /** @type {Value[]} */ values) =>
-        (values.length === 0 ? "" : html("fieldset", {}, html("legend", {}, title), ...values.map(row)));
-    const access = (/** @type {"q" | "s" | "u"} */ list, /** @type {number} */ i) => ({ get: () => panel.state[list][i],
-        set: (/** @type {number} */ value) => panel.change((state) => {
+    const group = (/** @type {string} */ title, /** @type {Value[]} */ values, tag = /** @type {"fieldset" | "details"} */ ("fieldset")) =>
+        (values.length === 0 ? "" : html(tag, {}, html(tag === "details" ? "summary" : "legend", {}, title), ...values.map(row)));
+    const access = (/** @type {"q" | "s" | "u"} */ list, /** @type {number} */ i) => ({ get: () => state[list][i],
+        set: (/** @type {number} */ value) => change(() => {
             state[list][i] = value;
             if (list === "q") panel.joint = i;
         }) });
     const joints = report.variables.map((one, i) => ({ ...one, ...access("q", i), unit: variableUnit(report, i), ends: jointEnds(report, i) }));
     const inputs = report.inputs.map((one, i) => ({ ...one, ...access("u", i), limits: one.range, ends: endsOf(one.range, one.nominal) }));
     const parameters = report.parameters.map((one, i) => ({ ...one, ...access("s", i), limits: null, ends: endsOf(one.range, one.nominal) }));
-    const others = parameters.filter(({ range }) => !range);
+    const [varied, others] = [true, false].map((isVaried) => parameters.filter(({ range }) => (range !== null) === isVaried));
     const element = html("div", { class: "controls" }, group("Joints", joints), group("Inputs", inputs),
-        group("Parameters of the study", parameters.filter(({ range }) => range)), others.length === 0 ? ""
-            : html("details", {}, html("summary", {}, `Parameters (${others.length})`), ...others.map(row)));
+        group("Parameters of the study", varied), group(`Parameters (${others.length})`, others, "details"));
     return { element, update: () => updates.forEach((update) => update()) };
 }

@@ -27,6 +27,9 @@ export const svg = (tag, attributes = {}, ...children) =>
 /** Creates spans, one for each class. @param {string[]} names */
 export const spans = (...names) => names.map((name) => html("span", { class: name }));
 
+/** Creates paths, one for each class. @param {string[]} names */
+export const paths = (...names) => names.map((name) => svg("path", { class: name }));
+
 /** Sets the text of an element, if it differs. @param {Element} element @param {string} text */
 export function setText(element, text) {
     if (element.textContent !== text) element.textContent = text;

@@ -12,11 +12,8 @@ import { createJacobian, createPoses } from "./tables.js";
 import { createVerdict } from "./verdict.js";
 import { createView } from "./view.js";
 
-/**
- * @import { Report, State } from "./state.js"
- * @import { Evaluation, Generated, Machine } from "./machine.js"
- * @import { Largest, Measurand } from "./search.js"
- */
+/** @import { Report, State } from "./state.js" @import { Evaluation, Generated, Machine } from "./machine.js" */
+/** @import { Largest, Measurand } from "./search.js" */
 
 /**
  * What the parts of a panel read and call: the errors at the state, those before parameters, inputs or factors were
@@ -39,11 +36,13 @@ function createSame({ report, state }) {
     const status = html("span", { role: "status" });
     const lines = ["Copy command", "Copy command", "Copy link"].map((name) => {
         const code = html("code");
-        const copy = () => navigator.clipboard.writeText(code.textContent ?? "").then(() => setText(status, "Copied.")).catch(() => {
+        const copy = async () => {
+            // A sandboxed frame has no clipboard, but its reader can copy what is selected.
             getSelection()?.selectAllChildren(code);
-            setText(status, "Selected: press Ctrl+C.");
-        });
-        return { code, element: html("div", { class: "copied" }, code, button(name, () => void copy())) };
+            await navigator.clipboard.writeText(code.textContent ?? "");
+        };
+        const copied = () => copy().then(() => "Copied.", () => "Selected: press Ctrl+C.").then((text) => setText(status, text));
+        return { code, element: html("div", { class: "copied" }, code, button(name, () => void copied())) };
     });
     const element = html("section", { class: "same" }, html("h2", {}, "The same figures by the command, and as a link"),
         ...lines.map((line) => line.element), status);
@@ -68,35 +67,29 @@ export function mount(section, generated, report, index) {
     const [machine, initial, state] = [createMachine(generated, report), initialState(report), decodeState(report, location.hash, prefix)];
     const { tolerance: position, orientation_tolerance: orientation } = report.study;
     let [frame, timer, reference, previous, studied] = [0, 0, initial, initial, ""];
-    const refresh = () => {
-        frame ||= requestAnimationFrame(() => draw(false));
-        clearTimeout(timer);
-        timer = setTimeout(settle, SETTLED);
-    };
-    /** @type {Panel["change"]} */
-    const change = (edit) => {
-        edit(state);
-        refresh();
-    };
-    /** @type {Panel["go"]} */
-    const go = (next) => {
-        [previous, back.hidden] = [copyState(state), false];
-        change(() => Object.assign(state, copyState(next)));
-    };
-    const load = (/** @type {number} */ configuration) => {
-        reference = { ...stateAt(report, state, configuration), factors: initial.factors };
-        go(stateAt(report, state, configuration));
-    };
-    const back = button("Back", () => go(previous), { hidden: true });
-    const reset = button("Reset", () => {
-        reference = initial;
-        go(initial);
-    });
     /** @type {Panel} */
     const panel = { report, generated, machine, index, state, figures: machine.evaluate(state), reference: null, cloud: null,
-        measurand: "position", unit: { symbol: "", factor: 1 }, tolerances: { position, orientation }, joint: 0, change, go, load, refresh };
+        measurand: "position", unit: { symbol: "", factor: 1 }, tolerances: { position, orientation }, joint: 0,
+        refresh() {
+            frame ||= requestAnimationFrame(() => draw(false));
+            clearTimeout(timer);
+            timer = setTimeout(settle, SETTLED);
+        },
+        change(edit) {
+            edit(state);
+            panel.refresh();
+        },
+        go(next) {
+            [previous, back.hidden] = [copyState(state), false];
+            panel.change(() => Object.assign(state, copyState(next)));
+        },
+        load(configuration) {
+            reference = { ...stateAt(report, state, configuration), factors: initial.factors };
+            panel.go(stateAt(report, state, configuration));
+        } };
+    const back = button("Back", () => panel.go(previous), { hidden: true });
+    const reset = button("Reset", () => panel.go(reference = initial));
     addresses.push(() => encodeState(report, state, prefix));
-
     const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel), createSources(panel)];
     const [poses, jacobian, same] = [createPoses(panel), createJacobian(panel), createSame(panel)];
     const sweep = report.variables.length > 0 ? [createSweep(panel)] : [];
@@ -108,15 +101,13 @@ export function mount(section, generated, report, index) {
         box("side", controls.element, box("actions", back, reset)),
         box("main", box("columns", box("column", view.element, ...sweep.map((part) => part.element)),
             box("column", sources.element, poses.element)), jacobian.element, same.element)));
-
     /** Parts on the screen; the others are drawn when they come into view. @type {Set<Element>} */
     const visible = new Set();
     const observer = new IntersectionObserver((entries) => entries.forEach(({ target, isIntersecting }) => {
         visible[isIntersecting ? "add" : "delete"](target);
-        if (isIntersecting) refresh();
+        if (isIntersecting) panel.refresh();
     }));
     parts.forEach(({ element }) => observer.observe(element));
-
     /** @param {boolean} all also what is not on the screen */
     function draw(all) {
         frame = 0;
@@ -136,7 +127,7 @@ export function mount(section, generated, report, index) {
         parts.forEach((part) => part.settle?.());
     }
     addEventListener("beforeprint", () => draw(true));
-    addEventListener("hashchange", () => go(decodeState(report, location.hash, prefix)));
+    addEventListener("hashchange", () => panel.go(decodeState(report, location.hash, prefix)));
     draw(true);
     settle();
 }

@@ -19,16 +19,12 @@ export function createSources(panel) {
     const { report, change } = panel;
     const rows = report.sources.map((source, k) => {
         const { slider, field, problem, update } = createInput({ name: `factor of ${source.name}`, description: "", unit: "",
-            ends: [0, LARGEST_FACTOR], limits: [0, LARGEST_FACTOR], get: () => factorOf(source, panel.state),
+            ends: [0, LARGEST_FACTOR], limits: [0, LARGEST_FACTOR], get: () => factorOf(report, panel.state, k),
             set: (value) => change(({ factors }) => { factors[k] = value; }) }, "");
         // An uncertainty shares the factor of its source, or has none.
         const isOwn = source.follows === k;
         const check = html("input", { type: "checkbox", disabled: !isOwn });
-        let before = 1;
-        check.addEventListener("change", () => change(({ factors }) => {
-            before = factors[k] || before;
-            factors[k] = check.checked ? before : 0;
-        }));
+        check.addEventListener("change", () => change(({ factors }) => { factors[k] = Number(check.checked); }));
         const tightened = button("", () => change(({ factors }) => { factors[k] = Number(tightened.value); }),
             { class: "tighten", title: "Factor at which this source alone would use up the tolerance; click to set it" });
         const [value, share, name, factor] = spans("number", "share", "", "factor");
@@ -70,7 +66,7 @@ export function createSources(panel) {
         rows.forEach((row, k) => {
             const norm = errors.norms[k];
             row.update();
-            const current = factorOf(report.sources[k], state);
+            const current = factorOf(report, state, k);
             row.check.checked = current !== 0;
             row.element.classList.toggle("off", current === 0);
             row.bar.style.width = `${(100 * factor * norm) / end}%`;

@@ -17,46 +17,39 @@ function createTable(caption, columns, rows) {
 
 /** Creates the tables of ΔX and of both poses. @param {Panel} panel */
 export function createPoses(panel) {
-    const { report } = panel;
-    const units = report.rows.map((_, i) => report.error_unit[i < 3 ? "length" : "angle"]);
+    const { rows, length, error_unit } = panel.report;
+    const units = rows.map((_, i) => error_unit[i < 3 ? "length" : "angle"]);
     const error = createTable("ΔX of the tool point, real minus ideal, in F_0", ["repeatable", "± random"],
-        report.rows.map((row, i) => `${row} (${units[i][0]})`));
+        rows.map((row, i) => `${row} (${units[i][0]})`));
     const poses = ["Ideal pose in F_0", "Real pose: exact chain, repeatable sources"].map((caption) =>
-        createTable(caption, ["x axis", "y axis", "z axis", `position (${report.length})`], ["x", "y", "z"]));
+        createTable(caption, ["x axis", "y axis", "z axis", `position (${length})`], ["x", "y", "z"]));
     const element = html("section", { class: "poses" }, ...[error, ...poses].map((table) => html("div", {}, table.element)));
-    const places = [6, 6, 6, report.length === "m" ? 7 : 4];
     const update = () => {
         const { position, orientation, displacement, pose, realPose } = panel.figures;
-        const random = [...position.random, ...orientation.random];
-        error.cells.forEach((cells, i) => [displacement, random].forEach((values, c) =>
+        error.cells.forEach((cells, i) => [displacement, [...position.random, ...orientation.random]].forEach((values, c) =>
             setText(cells[c], errorOf(units[i][1] * values[i], 4))));
-        [pose, realPose].forEach((one, which) => poses[which].cells.forEach((cells, r) =>
-            cells.forEach((cell, c) => setText(cell, fixed(one[3 * c + r], places[c])))));
+        [pose, realPose].forEach((one, which) => poses[which].cells.forEach((cells, r) => cells.forEach((cell, c) =>
+            setText(cell, fixed(one[3 * c + r], c < 3 ? 6 : length === "m" ? 7 : 4)))));
     };
     return { element, update };
 }
 
 /** Creates the error Jacobian: a table for each frame, shaded by the size of the entries. @param {Panel} panel */
-export function createJacobian(panel) {
-    const { report, machine } = panel;
-    const { length } = report;
-    const frames = report.frames.map(({ name }, i) =>
-        createTable(`Frame ${i + 1}: ${name}`, report.columns.slice(6 * i, 6 * i + 6), report.rows));
+export function createJacobian({ report: { length, frames, rows, columns }, machine, state }) {
+    const tables = frames.map(({ name }, i) => createTable(`Frame ${i + 1}: ${name}`, columns.slice(6 * i, 6 * i + 6), rows));
     const element = html("section", { class: "jacobian" }, html("h2", {}, "Error Jacobian J_e: ΔX = J_e ε"),
-        html("p", {}, `Rows x, y, z: ${length} per ${length} (e_x e_y e_z) or ${length} per rad (e_s e_r e_p, about y, z, x). Other rows: `
-            + "rad per rad. Shaded by size, compared with the largest entry in the same unit."),
-        html("div", { class: "frames" }, ...frames.map((frame) => frame.element)));
+        html("p", {}, `Rows x, y, z: ${length} per ${length} (e_x e_y e_z) or ${length} per rad (e_s e_r e_p, about y, z, x). `
+            + "Other rows: rad per rad. Shaded by size, compared with the largest entry in the same unit."),
+        html("div", { class: "frames" }, ...tables.map((table) => table.element)));
     const update = () => {
-        const rows = machine.jacobian(panel.state);
-        const unitOf = (/** @type {number} */ i, /** @type {number} */ j) => 2 * Number(i > 2) + Number(j % 6 > 2);
-        const largest = [0, 0, 0, 0];
-        rows.forEach((row, i) => row.forEach((value, j) => {
-            largest[unitOf(i, j)] = Math.max(largest[unitOf(i, j)], Math.abs(value));
-        }));
-        frames.forEach(({ cells }, f) => cells.forEach((row, i) => row.forEach((cell, c) => {
-            const value = rows[i][6 * f + c];
-            setText(cell, Math.abs(value) > 1e-12 * largest[unitOf(i, c)] ? digits(value, 3) : "·");
-            cell.style.setProperty("--heat", `${Math.round((100 * Math.abs(value)) / (largest[unitOf(i, c)] || 1))}%`);
+        const values = machine.jacobian(state);
+        // Entries in the same unit: rows and columns of the same kind.
+        const largest = [0, 3].map((first) => [0, 3].map((column) => Math.max(...values.slice(first, first + 3).map((row) =>
+            Math.max(...row.filter((_, j) => Math.floor(j / 3) % 2 === column / 3).map(Math.abs))))));
+        tables.forEach(({ cells }, f) => cells.forEach((row, i) => row.forEach((cell, c) => {
+            const share = Math.abs(values[i][6 * f + c]) / largest[Number(i > 2)][Number(c > 2)];
+            setText(cell, share > 1e-12 ? digits(values[i][6 * f + c], 3) : "·");
+            cell.style.setProperty("--heat", `${Math.round(100 * share) || 0}%`);
         })));
     };
     return { element, update };

@@ -1,27 +1,16 @@
 // Verdict: total error here, over the study and within the joint limits, against the tolerance.
 
-import { shown } from "./controls.js";
 import { button, html, setText, spans } from "./dom.js";
 import { decimals, parseValue, percent, short } from "./number.js";
 import { tighten } from "./search.js";
 import { errorOf, times } from "./sources.js";
-import { variableUnit } from "./state.js";
 import { searchWorst } from "./worker.js";
 
-/** @import { State } from "./state.js" @import { Panel } from "./panel.js" */
+/** @import { Panel } from "./panel.js" */
 
 /** Formats an error with the decimals that show `largest` to four digits. @param {Panel} panel @param {number} value @param {number} [largest] */
 function errorText({ unit: { factor, symbol } }, value, largest = value) {
     return `${errorOf(factor * value, decimals(factor * largest, 4))} ${symbol}`;
-}
-
-/** Formats the joints of a state, and what differs from the spec. @param {Report} report @param {State} state @import { Report } from "./state.js" */
-function placeText(report, { q, s, u }) {
-    const { length, variables, parameters, inputs } = report;
-    const others = [...parameters.map((one, i) => ({ ...one, value: s[i] })), ...inputs.map((one, i) => ({ ...one, value: u[i] }))];
-    return [...variables.map(({ name }, i) => `${name} = ${shown(q[i], variableUnit(report, i), length)}`),
-        ...others.filter(({ value, nominal }) => value !== nominal)
-            .map(({ name, value, unit }) => `${name} = ${shown(value, unit, length)}`)].join(", ");
 }
 
 /** Creates the verdict here, and the worst cases. @param {Panel} panel */
@@ -39,12 +28,10 @@ export function createVerdict(panel) {
     const progress = html("progress", { max: 1, value: 0, hidden: true, "aria-label": "Search of the worst case" });
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
     const hasRanges = [...report.inputs, ...report.parameters].some(({ range }) => range?.[0] != null && range[1] != null);
-    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, "Worst in the study"),
-        button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0), { "aria-label": "Show the worst case in the study" }), studyText));
-    if (report.variables.length > 0) {
-        searches.append(html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
+    const show = button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0), { "aria-label": "Show the worst case in the study" });
+    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, "Worst in the study"), show, studyText),
+        report.variables.length === 0 ? "" : html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
             hasRanges ? html("label", {}, all, "vary inputs and parameters too") : ""));
-    }
     const shareText = (/** @type {number} */ radius, limit = panel.tolerances[panel.measurand]) =>
         (limit === null ? "" : `, ${percent(radius, limit)} of the tolerance`);
 
@@ -62,17 +49,17 @@ export function createVerdict(panel) {
     async function search() {
         if (running) return running.abort();
         running = new AbortController();
+        const [{ signal }, { measurand, index, state }] = [running, panel];
+        const task = { report, index, state, options: { measurand, inputs: all.checked, parameters: all.checked } };
         progress.hidden = false;
         setText(start, "Stop");
-        const { measurand, index, state } = panel;
-        const options = { measurand, inputs: all.checked, parameters: all.checked };
         try {
-            const found = await searchWorst({ report, index, state, options }, (part) => { progress.value = part; }, running.signal);
+            const found = await searchWorst(task, (part) => { progress.value = part; }, signal);
             panel.go(found.state);
-            setText(boxText, `${errorText(panel, found.radius)}${shareText(found.radius)} at ${placeText(report, found.state)}; `
-                + `${found.evaluations} configurations searched.`);
+            setText(boxText, `${errorText(panel, found.radius)}${shareText(found.radius)}, shown by the sliders; largest of `
+                + `${found.evaluations} configurations.`);
         } catch (error) {
-            setText(boxText, running.signal.aborted ? "Stopped." : String(error));
+            setText(boxText, signal.aborted ? "Stopped." : String(error));
         }
         running = null;
         progress.hidden = true;

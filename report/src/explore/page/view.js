@@ -1,28 +1,25 @@
 // Picture of the arm in parallel projection, with the exaggerated real machine and the error of the tool point.
 
 import { jointEnds } from "./controls.js";
-import { button, html, onResize, path, roundStep, setText, svg } from "./dom.js";
+import { button, html, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { quantity } from "./number.js";
 
 /** @import { Panel } from "./panel.js" */
 
 /** Number of random configurations that give the size of the picture, and of points on the path of a joint. */
 const [SAMPLES, PATH_POINTS] = [200, 48];
-/** Lengths of the error vector, by which the magnification is chosen, and of the axes of frames; parts of the machine's size. */
+/** Lengths of the error vector, by which the magnification is chosen, and of axes; parts of the machine's size. */
 const [VECTOR, AXIS] = [0.12, 0.07];
 /** Direction to the viewer in degrees: azimuth from the first horizontal axis to the second, and elevation. */
 const DIRECTION = [38, 24];
-const MAGNIFICATIONS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 100000];
 /** Degrees to the right and down, and zoom factor. @type {Record<string, number[]>} */
 const KEYS = { ArrowLeft: [-6, 0, 1], ArrowRight: [6, 0, 1], ArrowUp: [0, 6, 1], ArrowDown: [0, -6, 1], "+": [0, 0, 1.25], "-": [0, 0, 0.8] };
 
-/** @param {ArrayLike<number>} frame @returns {number[]} its origin */
+/** @param {number[]} frame @returns {number[]} its origin */
 const originOf = (frame) => [frame[9], frame[10], frame[11]];
 
 /** Returns a value between the limits of a joint. @param {Panel} panel @param {number} joint @param {number} share */
-function between({ report }, joint, share, [least, most] = jointEnds(report, joint)) {
-    return least + (most - least) * share;
-}
+const between = ({ report }, joint, share, [least, most] = jointEnds(report, joint)) => least + (most - least) * share;
 
 /** Creates the picture: drag or arrow keys turn it; wheel, pinch, + and - zoom. @param {Panel} panel */
 export function createView(panel) {
@@ -40,23 +37,17 @@ export function createView(panel) {
     const grid = roundStep(size / 6);
     let [azimuth, elevation] = DIRECTION;
     let [zoom, scale, magnification, sides, middle] = [1, 1, 0, [0, 0], [0, 0]];
-
-    const layer = (/** @type {string} */ name) => svg("path", { class: name });
-    const circle = (/** @type {string} */ name, r = 4) => svg("circle", { class: name, r });
-    const [floor, reach, ghost, links, vector] = ["floor", "reach", "ghost", "links", "vector"].map(layer);
-    const axes = ["x", "y", "z"].map((name) => ({ line: layer(`axis ${name}`), text: svg("text", { class: `axis ${name}` }, name) }));
+    const circle = (/** @type {string} */ name) => svg("circle", { class: name, r: 4 });
+    const [floor, reach, ghost, links, vector] = paths("floor", "reach", "ghost", "links", "vector");
+    const axes = paths("axis x", "axis y", "axis z");
+    const names = ["x", "y", "z"].map((name) => svg("text", { class: `axis ${name}` }, name));
     const [origins, labels] = [frames.map(() => circle("origin")), [...frames, 0].map(() => svg("text"))];
-    const [tolerance, bound, tip] = [circle("tolerance"), circle("random"), circle("tip", 4.5)];
-    const drawing = svg("svg", { "aria-hidden": true }, floor, reach, tolerance, ghost, links, ...axes.map(({ line }) => line),
-        ...origins, bound, vector, tip, ...axes.map(({ text }) => text), ...labels);
+    const [tolerance, bound, tip] = [circle("tolerance"), circle("random"), circle("tip")];
+    const drawing = svg("svg", { "aria-hidden": true }, floor, reach, tolerance, ghost, links, ...axes,
+        ...origins, bound, vector, tip, ...names, ...labels);
     const stage = html("div", { class: "stage", tabindex: 0, role: "application",
         "aria-label": "Picture of the manipulator: arrow keys turn it, + and - zoom, 0 resets" }, drawing);
-    const automatic = html("option", { value: "" });
-    const chosen = html("select", { "aria-label": "Magnification of the errors" }, automatic,
-        ...MAGNIFICATIONS.map((factor) => html("option", { value: factor }, `× ${factor}`)));
-    const [ideal, real, limit] = ["ideal", "real, errors ", "tolerance"].map((text) =>
-        html("span", { class: `key ${text.split(",")[0]}` }, html("i"), text));
-    real.append(chosen);
+    const [ideal, real, limit] = ["ideal", "real", "tolerance"].map((name) => html("span", { class: `key ${name}` }, html("i"), html("span", {}, name)));
     const element = html("figure", { class: "view" }, stage, html("figcaption", {}, ideal, real, limit,
         `grid ${quantity(grid, report.length)}`, html("span", { class: "buttons" },
             button("−", () => turn(0, 0, 0.8), { "aria-label": "Zoom out" }),
@@ -100,10 +91,9 @@ export function createView(panel) {
 
     /** Writes the numbers of the frames beside their origins; frames at one place share a label. @param {number[][]} places */
     function writeLabels(places) {
-        const names = places.map((_, i) => (i < frames.length ? String(i + 1) : "tool"));
         const first = places.map(([x, y]) => places.findIndex((other) => Math.hypot(other[0] - x, other[1] - y) < 14));
         labels.forEach((label, i) => {
-            setText(label, names.filter((_, k) => first[k] === i).join(", "));
+            setText(label, [...frames.map((_, k) => k + 1), "tool"].filter((_, k) => first[k] === i).join(", "));
             moveTo(label, places[i], 8, -8);
         });
     }
@@ -118,17 +108,17 @@ export function createView(panel) {
         const tool = places[places.length - 1];
         const error = project(originOf(figures.pose).map((value, i) => value + magnification * figures.displacement[i]));
         // Path of the tool point while the joint that was moved last moves between its limits.
-        const moved = Array.from({ length: variables.length > 0 ? PATH_POINTS + 1 : 0 }, (_, i) =>
-            generated.pose(state.q.with(joint, between(panel, joint, i / PATH_POINTS)), state.s));
+        const moved = variables.length === 0 ? [] : Array.from({ length: PATH_POINTS + 1 }, (_, i) =>
+            Array.from(generated.pose(state.q.with(joint, between(panel, joint, i / PATH_POINTS)), state.s, state.u)));
         floor.setAttribute("d", floorPath(project));
         links.setAttribute("d", path(places));
-        [[reach, moved], [ghost, all.real]].forEach(([line, poses]) => /** @type {SVGPathElement} */ (line).setAttribute("d",
-            path(/** @type {ArrayLike<number>[]} */ (poses).map((pose) => project(originOf(pose))))));
+        reach.setAttribute("d", path(moved.map((pose) => project(originOf(pose)))));
+        ghost.setAttribute("d", path(all.real.map((pose) => project(originOf(pose)))));
         vector.setAttribute("d", arrow(tool, error));
-        axes.forEach(({ line, text }, k) => {
+        axes.forEach((line, k) => {
             const tips = all.ideal.map((frame) => project(originOf(frame).map((value, r) => value + AXIS * size * frame[3 * k + r])));
             line.setAttribute("d", tips.map((to, i) => path([places[i], to])).join(""));
-            moveTo(text, tips[0], 3, 3);
+            moveTo(names[k], tips[0], 3, 3);
         });
         origins.forEach((one, i) => moveTo(one, places[i + 1]));
         writeLabels(places.slice(1));
@@ -141,18 +131,12 @@ export function createView(panel) {
     /** Chooses the round magnification at which the error, or else the tolerance, has a good length. */
     function magnify() {
         const length = panel.figures.position.radius || panel.tolerances.position || Infinity;
-        magnification = Number(chosen.value) || Math.min(1e5, roundStep((VECTOR * size) / length) || 1);
-        setText(automatic, `× ${magnification} (auto)`);
+        magnification = Math.max(1, roundStep((VECTOR * size) / length));
+        setText(real.children[1], `real, errors × ${magnification}`);
     }
-
     /** @type {Map<number, number[]>} */
     const pointers = new Map();
     const spread = ([a, b] = [...pointers.values()]) => (b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0);
-    const forget = (/** @type {PointerEvent} */ { pointerId }) => pointers.delete(pointerId);
-    stage.addEventListener("pointerdown", ({ pointerId, clientX, clientY }) => {
-        pointers.set(pointerId, [clientX, clientY]);
-        stage.setPointerCapture(pointerId);
-    });
     stage.addEventListener("pointermove", ({ pointerId, clientX, clientY }) => {
         const [last, before] = [pointers.get(pointerId), spread()];
         if (!last) return;
@@ -160,28 +144,27 @@ export function createView(panel) {
         if (before > 0) turn(0, 0, spread() / before);
         else turn(0.4 * (clientX - last[0]), 0.4 * (clientY - last[1]), 1);
     });
-    stage.addEventListener("pointerup", forget);
-    stage.addEventListener("pointercancel", forget);
+    stage.addEventListener("pointerdown", ({ pointerId, clientX, clientY }) => {
+        stage.setPointerCapture(pointerId);
+        pointers.set(pointerId, [clientX, clientY]);
+    });
+    stage.addEventListener("lostpointercapture", ({ pointerId }) => pointers.delete(pointerId));
     stage.addEventListener("wheel", (event) => {
         event.preventDefault();
         turn(0, 0, Math.exp(-0.0015 * event.deltaY));
     }, { passive: false });
     stage.addEventListener("keydown", (event) => {
+        const [right, down, factor] = KEYS[event.key] ?? [];
         if (event.key === "0") reset();
-        if (!KEYS[event.key] || event.ctrlKey || event.metaKey) return;
+        if (factor === undefined || event.ctrlKey || event.metaKey) return;
         event.preventDefault();
-        turn(KEYS[event.key][0], KEYS[event.key][1], KEYS[event.key][2]);
+        turn(right, down, factor);
     });
-    const settle = () => {
-        magnify();
-        update();
-    };
-    chosen.addEventListener("change", settle);
     onResize(drawing, (resized) => {
         sides = resized;
         reset();
     });
-    return { element, update, settle };
+    return { element, update, settle: () => (magnify(), update()) };
 }
 
 /** Moves a circle or a text. @param {SVGElement} element @param {number[]} at @param {number} [right] @param {number} [down] */
