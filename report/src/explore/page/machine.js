@@ -27,13 +27,12 @@ import { factorOf } from "./state.js";
 
 /** @typedef {ArrayLike<number>} Numbers */
 
-/** @typedef {(q: Numbers, s: Numbers, u: Numbers) => Numbers} Evaluated */
-
 /**
  * Functions of the generated code.
- * @typedef {{transforms: Evaluated, pose: Evaluated, real_pose: Evaluated, effects: Evaluated,
- *     error_jacobian: (q: Numbers, s: Numbers) => {columns: Numbers},
- *     source_displacements: (...all: Parameters<Evaluated>) => Numbers | {displacements: Numbers, margin: number}}} Generated
+ * @typedef {{transforms: (q: Numbers, s: Numbers) => Numbers, pose: (q: Numbers, s: Numbers) => Numbers,
+ *     error_jacobian: (q: Numbers, s: Numbers) => {columns: Numbers}, real_pose: (q: Numbers, s: Numbers, u: Numbers) => Numbers,
+ *     effects: (q: Numbers, s: Numbers, u: Numbers) => Numbers,
+ *     source_displacements: (q: Numbers, s: Numbers, u: Numbers) => Numbers | {displacements: Numbers, margin: number}}} Generated
  */
 
 /** Smallest cos ρ at which the orientation exists. */
@@ -66,8 +65,8 @@ export function createMachine(generated, report) {
     /** Returns the inputs of the code: those of the spec, then the magnitudes of sources. @param {State} state */
     const inputs = (state) => {
         const all = [...state.u];
-        report.sources.forEach(({ magnitude, value }, k) => {
-            if (magnitude !== null) all[magnitude] = factorOf(report, state, k) * value;
+        report.sources.forEach((source) => {
+            if (source.magnitude !== null) all[source.magnitude] = factorOf(source, state) * source.value;
         });
         return all;
     };
@@ -90,9 +89,9 @@ export function createMachine(generated, report) {
         const result = generated.source_displacements(state.q, state.s, inputs(state));
         const { displacements: flat, margin } = "margin" in result ? result : { displacements: result, margin: 1 };
         const rows = margin >= MINIMUM_MARGIN ? 6 : 3;
-        const displacements = report.sources.map(({ bound }, k) => {
-            const factor = factorOf(report, state, k);
-            const size = isRandom[k] ? factor * bound : 1;
+        const displacements = report.sources.map((source, k) => {
+            const factor = factorOf(source, state);
+            const size = isRandom[k] ? factor * source.bound : 1;
             const row = (/** @type {number} */ i) => (factor === 0 ? 0 : size * flat[6 * k + i]);
             return Array.from({ length: 6 }, (_, i) => (i < rows ? row(i) : NaN));
         });
@@ -107,7 +106,7 @@ export function createMachine(generated, report) {
         /** Returns the errors and poses at a state. @param {State} state @returns {Evaluation} */
         evaluate: (state) => ({
             ...errors(state),
-            pose: Array.from(generated.pose(state.q, state.s, state.u)),
+            pose: Array.from(generated.pose(state.q, state.s)),
             realPose: Array.from(generated.real_pose(state.q, state.s, inputs(state))),
         }),
 
@@ -126,9 +125,9 @@ export function createMachine(generated, report) {
             const errors = report.frames.map(() => [0, 0, 0, 0, 0, 0]);
             const effects = generated.effects(state.q, state.s, inputs(state));
             report.effects.forEach(([source, frame, component], k) => {
-                if (!isRandom[source] && factorOf(report, state, source) !== 0) errors[frame][component] += magnification * effects[k];
+                if (!isRandom[source] && factorOf(report.sources[source], state) !== 0) errors[frame][component] += magnification * effects[k];
             });
-            const transforms = Array.from(generated.transforms(state.q, state.s, state.u));
+            const transforms = Array.from(generated.transforms(state.q, state.s));
             const base = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
             const [ideal, real] = [[base], [base]];
             for (let i = 0; i <= errors.length; i++) {

@@ -1,30 +1,16 @@
 // Numbers for people, as the command prints them, and values with units, as it parses them.
 
 /**
- * Returns the shorter text; if the longer one ends in a 5 that is exact, halves are rounded to even, as the command does.
- * @param {string} shorter @param {string} longer text with one digit more @param {boolean} isExact @returns {string}
+ * Formats by `toFixed` or `toExponential`, but rounds exact halves to even, as the command does.
+ * @param {number} value @param {number} decimals @param {"toFixed" | "toExponential"} method @returns {string}
  */
-function halfToEven(shorter, longer, isExact) {
-    const down = longer.slice(0, -1).replace(/\.$/, "");
-    return isExact && longer.endsWith("5") && Number(down.at(-1)) % 2 === 0 ? down : shorter;
-}
-
-/** Returns true if a number has no more decimals. @param {number} value @param {number} decimals @returns {boolean} */
-function hasDecimals(value, decimals) {
-    return decimals >= 0 ? Number.isInteger(value * 2 ** decimals) : value % 10 ** -decimals === 0;
-}
-
-/** @param {number} value @param {number} decimals @returns {string} */
-function toFixed(value, decimals) {
-    return halfToEven(value.toFixed(decimals), value.toFixed(decimals + 1), hasDecimals(value, decimals + 1));
-}
-
-/** @param {number} value @param {number} decimals @returns {string} such as `1.234e4` */
-function toExponential(value, decimals) {
-    const [[shorter, power], [longer, exponent]] =
-        [decimals, decimals + 1].map((count) => value.toExponential(count).replace("+", "").split("e"));
-    const mantissa = halfToEven(shorter, longer, hasDecimals(value, decimals + 1 - Number(exponent)));
-    return `${mantissa}e${mantissa === shorter ? power : exponent}`;
+function rounded(value, decimals, method) {
+    const [number, power = ""] = value[method](decimals + 1).split(/(?=e)/);
+    const places = decimals + 1 - Number(power.slice(1));
+    const isExact = places >= 0 ? Number.isInteger(value * 2 ** places) : value % 10 ** -places === 0;
+    const down = number.slice(0, -1).replace(/\.$/, "");
+    const isDown = number.endsWith("5") && isExact && Number(down.at(-1)) % 2 === 0;
+    return (isDown ? down + power : value[method](decimals)).replace("+", "");
 }
 
 /**
@@ -34,8 +20,8 @@ function toExponential(value, decimals) {
 export function fixed(value, decimals) {
     if (value === 0) return "0";
     if (!Number.isFinite(value)) return String(value).replace("Infinity", "∞");
-    if (Math.abs(value) >= 1e7) return toExponential(value, 3);
-    const text = toFixed(value, decimals);
+    if (Math.abs(value) >= 1e7) return rounded(value, 3, "toExponential");
+    const text = rounded(value, decimals, "toFixed");
     return /[1-9]/.test(text) ? text : text.replace("-", "");
 }
 
@@ -48,14 +34,14 @@ export function trimmed(value, decimals) {
 /** Formats a number to seven significant digits. @param {number} value @returns {string} */
 export function short(value) {
     if (!Number.isFinite(value)) return fixed(value, 0);
-    const rounded = Number(toExponential(value, 6)) + 0;
-    const isPlain = rounded === 0 || (Math.abs(rounded) >= 1e-5 && Math.abs(rounded) < 1e7);
-    return isPlain ? String(rounded) : rounded.toExponential().replace("+", "");
+    const seven = Number(rounded(value, 6, "toExponential")) + 0;
+    const isPlain = seven === 0 || (Math.abs(seven) >= 1e-5 && Math.abs(seven) < 1e7);
+    return isPlain ? String(seven) : seven.toExponential().replace("+", "");
 }
 
 /** Formats a number to so many significant digits. @param {number} value @param {number} count @returns {string} */
 export function digits(value, count) {
-    return short(Number.isFinite(value) ? Number(toExponential(value, count - 1)) : value);
+    return short(Number(rounded(value, count - 1, "toExponential")));
 }
 
 /**
@@ -75,8 +61,7 @@ export function roundedDown(value, decimals) {
 
 /** Formats the ratio of two numbers in whole percent. @param {number} value @param {number} of @returns {string} */
 export function percent(value, of) {
-    const ratio = (100 * value) / of;
-    return `${Number.isFinite(ratio) ? toFixed(ratio, 0) : ratio} %`;
+    return `${rounded((100 * value) / of, 0, "toFixed")} %`;
 }
 
 /** Formats a number with its unit, if it has one. @param {number} value @param {string} unit @returns {string} */
@@ -101,16 +86,16 @@ const UNITS = {
 };
 
 /**
- * Converts a number to coherent units, by the steps of the command. @param {number} number @param {string} unit such as `mm^2/s`
- * @param {string} length @returns {{value: number, dimension: string} | undefined} `undefined` if the unit is none
+ * Converts a number with a unit such as `mm^2/s` to coherent units, by the steps of the command.
+ * @param {number} number @param {string} unit @param {string} length @returns {{value: number, dimension: string} | undefined}
  */
 function convert(number, unit, length) {
     const dimension = [0, 0, 0, 0];
     let [above, below, decades, degrees] = [1, 1, 0, 0];
-    const factors = `*${unit}`.replace(/\s/g, "").replace(/^\*(?=$|[*/])|^\*1(?=\/)/, "");
-    for (const factor of factors === "" ? [] : factors.split(/(?=[*/])/)) {
-        const [, sign, name, exponent = "1"] = /^([*/])([a-zµμ%°]+)(?:\^(-?\d+))?$/i.exec(factor.replace(/[µμ]/, "u")) ?? [];
-        if (name === undefined || !Object.hasOwn(UNITS, name)) return undefined;
+    const factors = `*${unit}`.replace(/\s/g, "").replace(/^\*(?=$|[*/])|^\*1(?=\/)/, "").replace(/[µμ]/g, "u");
+    for (const factor of factors.split(/(?=[*/])/).filter((factor) => factor !== "")) {
+        const [, sign, name, exponent = "1"] = /^([*/])([a-z%°]+)(?:\^(-?\d+))?$/i.exec(factor) ?? [];
+        if (!Object.hasOwn(UNITS, name ?? "")) return undefined;
         const [exponents, ten, times = 1, parts = 0] = UNITS[name];
         const power = Number(exponent) * (sign === "/" ? -1 : 1);
         const [one, other] = [times, parts || 1].map((ratio) => ratio ** Math.abs(power));
@@ -125,15 +110,15 @@ function convert(number, unit, length) {
 }
 
 /**
- * Parses a value such as `30 deg`, `0.3 m` or `12.5`. A bare number is in the unit in which the value is shown: `deg`, `mm`,
- * `kg` or none. @param {string} text @param {string} unit @param {string} length unit of the spec
- * @returns {number | undefined} the value in coherent units; `undefined` if it is no finite number or has another dimension
+ * Parses a value such as `30 deg`, `0.3 m` or `12.5`; a bare number is in the given unit, in which the value is shown.
+ * @param {string} text @param {string} unit such as `deg`, `mm`, `kg` or none @param {string} length unit of the spec
+ * @returns {number | undefined} value in coherent units; `undefined` if it is no finite number or has another dimension
  */
 export function parseValue(text, unit, length) {
     const [, number, given] = /^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i.exec(text) ?? [];
-    const parsed = number === undefined ? undefined : convert(Number(number.replace("−", "-")), given || unit, length);
-    if (!parsed || parsed.dimension !== convert(1, unit, length)?.dimension) return undefined;
-    return Number.isFinite(parsed.value) ? parsed.value + 0 : undefined;
+    const parsed = convert(Number(number?.replace("−", "-")), given || unit, length);
+    const isOfUnit = parsed?.dimension === convert(1, unit, length)?.dimension;
+    return parsed && isOfUnit && Number.isFinite(parsed.value) ? parsed.value + 0 : undefined;
 }
 
 /**

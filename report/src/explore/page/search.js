@@ -128,14 +128,13 @@ export function stateAt({ configurations: { q, s, u } }, state, index) {
 }
 
 /**
- * Largest errors over some states: of each source, the total with the index of its state, and all totals.
+ * Largest errors over states: of each source, the total with the index of its state, and all totals.
  * @typedef {{norms: number[], radius: number, worst: number, radii: number[]}} Largest
  */
 
 /**
- * Evaluates the configurations of the study. `displacements` are those of the repeatable sources together.
- * @param {Machine} machine @param {Report} report @param {State} state
- * @returns {{displacements: number[][], position: Largest, orientation: Largest}}
+ * Evaluates the configurations of the study.
+ * @param {Machine} machine @param {Report} report @param {State} state @returns {Record<Measurand, Largest>}
  */
 export function cloud(machine, report, state) {
     const all = report.configurations.q.map((_, index) => machine.errors(stateAt(report, state, index)));
@@ -145,31 +144,18 @@ export function cloud(machine, report, state) {
     const over = (measurand) => {
         const radii = all.map((errors) => errors[measurand].radius);
         const norms = report.sources.map((_, k) => largest(all.map((errors) => errors[measurand].norms[k])));
-        const radius = largest(radii);
-        return { norms, radius, worst: Math.max(radii.indexOf(radius), 0), radii };
+        return { norms, radius: largest(radii), worst: Math.max(radii.indexOf(largest(radii)), 0), radii };
     };
-    const displacements = all.map(({ displacement }) => displacement);
-    return { displacements, position: over("position"), orientation: over("orientation") };
+    return { position: over("position"), orientation: over("orientation") };
 }
 
 /**
- * Factors that use up a tolerance, `null` for a source without effect: each source without the others, all together, and
- * each source if all contribute `share`.
- * @typedef {{alone: (number | null)[], together: number | null, share: number | null, equal: (number | null)[]}} Admissible
- */
-
-/**
- * Returns the factors that meet a tolerance, as `abbe analyze` does it.
- * @param {{norms: number[], radius: number}} figures @param {number} tolerance in the unit of the figures @returns {Admissible}
+ * Returns the factors that use up a tolerance, as `abbe analyze` does it: of each source without the others, and of all
+ * together; `null` without an effect.
+ * @param {{norms: number[], radius: number}} errors @param {number} tolerance in their unit
+ * @returns {{alone: (number | null)[], together: number | null}}
  */
 export function tighten({ norms, radius }, tolerance) {
-    /** @param {number} limit @param {number} norm */
-    const factor = (limit, norm) => (norm > 0 && limit / norm < Infinity ? limit / norm : null);
-    const share = norms.some((norm) => norm > 0) ? tolerance / norms.filter((norm) => norm > 0).length : null;
-    return {
-        alone: norms.map((norm) => factor(tolerance, norm)),
-        together: factor(tolerance, radius),
-        share,
-        equal: norms.map((norm) => (share === null ? null : factor(share, norm))),
-    };
+    const factor = (/** @type {number} */ size) => (size > 0 && tolerance / size < Infinity ? tolerance / size : null);
+    return { alone: norms.map(factor), together: factor(radius) };
 }

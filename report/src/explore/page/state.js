@@ -39,16 +39,11 @@ export function initialState({ variables, parameters, inputs, sources }) {
     return { q: variables.map(({ home }) => home), s, u, factors: sources.map(({ enabled }) => Number(enabled)) };
 }
 
-/** Returns the factor that applies to a source. @param {Report} report @param {State} state @param {number} k @returns {number} */
-export function factorOf({ sources }, { factors }, k) {
-    const { follows } = sources[k];
-    return follows === null ? 1 : factors[follows];
-}
+/** Returns the factor that applies to a source. @param {Source} source @param {State} state @returns {number} */
+export const factorOf = ({ follows }, { factors }) => (follows === null ? 1 : factors[follows]);
 
 /** Copies a state. @param {State} state @returns {State} */
-export function copyState({ q, s, u, factors }) {
-    return { q: [...q], s: [...s], u: [...u], factors: [...factors] };
-}
+export const copyState = ({ q, s, u, factors }) => ({ q: [...q], s: [...s], u: [...u], factors: [...factors] });
 
 /** Returns the unit in which a variable is shown. @param {Report} report @param {number} variable @returns {string} */
 export function variableUnit(report, variable) {

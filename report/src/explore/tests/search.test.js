@@ -60,9 +60,9 @@ for (const name of SHIPPED) {
 
 test("the errors over a study's configurations, and the factors for its tolerance, are those of the command", () => {
     const { report, machine } = explored("pps");
-    const { position, orientation, displacements } = cloud(machine, report, initialState(report));
+    const { position, orientation } = cloud(machine, report, initialState(report));
     const budget = JSON.parse(abbe("analyze", "pps", "--json"));
-    assert.equal(displacements.length, budget.configurations);
+    assert.equal(position.radii.length, budget.configurations);
     const close = (found, expected) => assert.ok(Math.abs(found - expected) <= 1e-11 * expected, `${found} for ${expected}`);
     close(position.radius, budget.combined.radius);
     close(orientation.radius, budget.orientation.radius);
@@ -75,11 +75,8 @@ test("the errors over a study's configurations, and the factors for its toleranc
     assert.equal(machine.errors(worst).position.radius, position.radius);
     const factors = tighten(position, report.study.tolerance);
     close(factors.together, budget.budget.together);
-    close(factors.share, budget.budget.equal_share);
-    for (const { name, alone, equal } of budget.budget.sources) {
-        const k = report.sources.findIndex((source) => source.name === name);
-        close(factors.alone[k], alone);
-        close(factors.equal[k], equal);
+    for (const { name, alone } of budget.budget.sources) {
+        close(factors.alone[report.sources.findIndex((source) => source.name === name)], alone);
     }
 });
 
@@ -89,14 +86,15 @@ test("the factors meet the tolerance, and no source without effect has one", () 
     for (let i = 0; i < 10 * STATES; i++) {
         const state = randomState(report, random);
         const { position } = machine.errors(state);
-        const { alone, together, share, equal } = tighten(position, 0.5);
+        const { alone, together } = tighten(position, 0.5);
         position.norms.forEach((norm, k) => assert.equal(alone[k] === null, norm === 0));
         if (together === null) continue;
         const all = machine.errors({ ...state, factors: state.factors.map((factor) => factor * together) });
         assert.ok(Math.abs(all.position.radius - 0.5) < 1e-9, `${all.position.radius}`);
-        const shared = machine.errors({ ...state, factors: state.factors.map((factor, k) => factor * (equal[k] ?? 1)) });
-        shared.position.norms.forEach((norm) => assert.ok(norm === 0 || Math.abs(norm - share) < 1e-9));
-        assert.ok(shared.position.radius <= 0.5 + 1e-9);
+        alone.forEach((factor, k) => {
+            const single = state.factors.map((other, i) => (i === k ? other * (factor ?? 1) : 0));
+            assert.ok(factor === null || Math.abs(machine.errors({ ...state, factors: single }).position.radius - 0.5) < 1e-9);
+        });
     }
-    assert.deepEqual(tighten({ norms: [0, 0], radius: 0 }, 1), { alone: [null, null], together: null, share: null, equal: [null, null] });
+    assert.deepEqual(tighten({ norms: [0, 0], radius: 0 }, 1), { alone: [null, null], together: null });
 });
