@@ -65,8 +65,8 @@ export function createMachine(generated, report) {
     /** Returns the inputs of the code: those of the spec, then the magnitudes of sources. @param {State} state */
     const inputs = (state) => {
         const all = [...state.u];
-        report.sources.forEach((source) => {
-            if (source.magnitude !== null) all[source.magnitude] = factorOf(source, state) * source.value;
+        report.sources.forEach(({ magnitude, value }, k) => {
+            if (magnitude !== null) all[magnitude] = factorOf(report, state, k) * value;
         });
         return all;
     };
@@ -89,9 +89,9 @@ export function createMachine(generated, report) {
         const result = generated.source_displacements(state.q, state.s, inputs(state));
         const { displacements: flat, margin } = "margin" in result ? result : { displacements: result, margin: 1 };
         const rows = margin >= MINIMUM_MARGIN ? 6 : 3;
-        const displacements = report.sources.map((source, k) => {
-            const factor = factorOf(source, state);
-            const size = isRandom[k] ? factor * source.bound : 1;
+        const displacements = report.sources.map(({ bound }, k) => {
+            const factor = factorOf(report, state, k);
+            const size = isRandom[k] ? factor * bound : 1;
             const row = (/** @type {number} */ i) => (factor === 0 ? 0 : size * flat[6 * k + i]);
             return Array.from({ length: 6 }, (_, i) => (i < rows ? row(i) : NaN));
         });
@@ -125,7 +125,7 @@ export function createMachine(generated, report) {
             const errors = report.frames.map(() => [0, 0, 0, 0, 0, 0]);
             const effects = generated.effects(state.q, state.s, inputs(state));
             report.effects.forEach(([source, frame, component], k) => {
-                if (!isRandom[source] && factorOf(report.sources[source], state) !== 0) errors[frame][component] += magnification * effects[k];
+                if (!isRandom[source] && factorOf(report, state, source) !== 0) errors[frame][component] += magnification * effects[k];
             });
             const transforms = Array.from(generated.transforms(state.q, state.s));
             const base = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];

@@ -19,10 +19,11 @@ import { exact, parseValue } from "./number.js";
  * Data of a machine. Numbers are in coherent units: the length unit and rad. `command` and `jacobian_command` are options
  * of the commands, `effects` source, frame and component of each effect, `configurations` those of the study.
  * @typedef {{spec: string, name: string, title: string, description: string, command: string[], length: string,
- *     jacobian_command: string[], error_unit: Record<string, [string, number]>, orientation: string, rows: string[], columns: string[],
- *     study: {title: string, tolerance: number | null, orientation_tolerance: number | null}, frames: {name: string}[],
- *     tool: boolean, variables: Variable[], inputs: Setting[], parameters: Setting[], sources: Source[],
- *     effects: [number, number, number][], configurations: {q: number[][], u: number[][], s: number[][]}, code: string}} Report
+ *     jacobian_command: string[], error_unit: Record<string, [string, number]>, orientation: string, rows: string[],
+ *     columns: string[], frames: {name: string}[], tool: boolean, up: number, variables: Variable[], inputs: Setting[],
+ *     study: {title: string, tolerance: number | null, orientation_tolerance: number | null, judged: string},
+ *     parameters: Setting[], sources: Source[], effects: [number, number, number][],
+ *     configurations: {q: number[][], u: number[][], s: number[][]}, code: string}} Report
  */
 
 /**
@@ -39,8 +40,11 @@ export function initialState({ variables, parameters, inputs, sources }) {
     return { q: variables.map(({ home }) => home), s, u, factors: sources.map(({ enabled }) => Number(enabled)) };
 }
 
-/** Returns the factor that applies to a source. @param {Source} source @param {State} state @returns {number} */
-export const factorOf = ({ follows }, { factors }) => (follows === null ? 1 : factors[follows]);
+/** Returns the factor that applies to a source. @param {Report} report @param {State} state @param {number} k @returns {number} */
+export function factorOf({ sources }, { factors }, k) {
+    const { follows } = sources[k];
+    return follows === null ? 1 : factors[follows];
+}
 
 /** Copies a state. @param {State} state @returns {State} */
 export const copyState = ({ q, s, u, factors }) => ({ q: [...q], s: [...s], u: [...u], factors: [...factors] });
