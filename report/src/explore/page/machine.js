@@ -28,11 +28,11 @@ import { factorOf } from "./state.js";
 /** @typedef {ArrayLike<number>} Numbers */
 
 /**
- * Functions of the generated code.
+ * Functions of the generated code; those of sources exist only if there are sources.
  * @typedef {{transforms: (q: Numbers, s: Numbers) => Numbers, pose: (q: Numbers, s: Numbers) => Numbers,
- *     error_jacobian: (q: Numbers, s: Numbers) => {columns: Numbers}, real_pose: (q: Numbers, s: Numbers, u: Numbers) => Numbers,
- *     effects: (q: Numbers, s: Numbers, u: Numbers) => Numbers,
- *     source_displacements: (q: Numbers, s: Numbers, u: Numbers) => Numbers | {displacements: Numbers, margin: number}}} Generated
+ *     error_jacobian: (q: Numbers, s: Numbers) => {columns: Numbers}, real_pose?: (q: Numbers, s: Numbers, u: Numbers) => Numbers,
+ *     effects?: (q: Numbers, s: Numbers, u: Numbers) => Numbers,
+ *     source_displacements?: (q: Numbers, s: Numbers, u: Numbers) => Numbers | {displacements: Numbers, margin: number}}} Generated
  */
 
 /** Smallest cos ρ at which the orientation exists. */
@@ -60,6 +60,7 @@ const norm = ([x, y, z]) => Math.sqrt(x * x + y * y + z * z);
 
 /** Joins the generated code and the data of a machine. @param {Generated} generated @param {Report} report */
 export function createMachine(generated, report) {
+    const { real_pose = generated.pose, effects: effectsOf = () => [], source_displacements = () => [] } = generated;
     const isRandom = report.sources.map((source) => source.class === "random");
 
     /** Returns the inputs of the code: those of the spec, then the magnitudes of sources. @param {State} state */
@@ -86,7 +87,7 @@ export function createMachine(generated, report) {
 
     /** @param {State} state @returns {Errors} */
     const errors = (state) => {
-        const result = generated.source_displacements(state.q, state.s, inputs(state));
+        const result = source_displacements(state.q, state.s, inputs(state));
         const { displacements: flat, margin } = "margin" in result ? result : { displacements: result, margin: 1 };
         const rows = margin >= MINIMUM_MARGIN ? 6 : 3;
         const displacements = report.sources.map(({ bound }, k) => {
@@ -100,14 +101,27 @@ export function createMachine(generated, report) {
         return { displacements, position, orientation, displacement, margin };
     };
 
+    /**
+     * Returns the generalized errors in the order of the report's effects, of a random source at its bound.
+     * @param {State} state @returns {number[]}
+     */
+    const effects = (state) => {
+        const values = effectsOf(state.q, state.s, inputs(state));
+        return report.effects.map(([source], k) => {
+            const factor = factorOf(report, state, source);
+            return factor === 0 ? 0 : (isRandom[source] ? factor * report.sources[source].bound : 1) * values[k];
+        });
+    };
+
     return {
         errors,
+        effects,
 
         /** Returns the errors and poses at a state. @param {State} state @returns {Evaluation} */
         evaluate: (state) => ({
             ...errors(state),
             pose: Array.from(generated.pose(state.q, state.s)),
-            realPose: Array.from(generated.real_pose(state.q, state.s, inputs(state))),
+            realPose: Array.from(real_pose(state.q, state.s, inputs(state))),
         }),
 
         /** Returns J_e: six rows, and six columns per frame. @param {State} state @returns {number[][]} */
@@ -123,9 +137,9 @@ export function createMachine(generated, report) {
          */
         frames: (state, magnification) => {
             const errors = report.frames.map(() => [0, 0, 0, 0, 0, 0]);
-            const effects = generated.effects(state.q, state.s, inputs(state));
+            const values = effects(state);
             report.effects.forEach(([source, frame, component], k) => {
-                if (!isRandom[source] && factorOf(report, state, source) !== 0) errors[frame][component] += magnification * effects[k];
+                if (!isRandom[source]) errors[frame][component] += magnification * values[k];
             });
             const transforms = Array.from(generated.transforms(state.q, state.s));
             const base = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];

@@ -6,13 +6,26 @@ import { decimals, fixed, percent, roundedDown } from "./number.js";
 import { tighten } from "./search.js";
 import { LARGEST_FACTOR, factorOf } from "./state.js";
 
-/** @import { Panel } from "./panel.js" */
+/** @import { Report } from "./state.js" @import { Panel } from "./panel.js" */
 
 /** Formats a factor, rounded down. @param {number | null | undefined} factor */
 export const times = (factor) => (factor == null || !Number.isFinite(factor) ? "" : `× ${roundedDown(factor, decimals(factor, 2))}`);
 
 /** Formats an error; a dash where there is none, as of Euler angles at a singularity. @param {number} value @param {number} places */
 export const errorOf = (value, places) => (Number.isFinite(value) ? fixed(value, places) : "–");
+
+/**
+ * Formats the size at which a source uses up the tolerance, such as `0.15 mrad`, if it has one: on one frame, in one unit.
+ * @param {Report} report @param {number[]} values of all effects @param {number} k source @param {number} factor
+ */
+function sizeText({ effects, error_unit }, values, k, factor) {
+    const own = effects.map(([source, frame, component], i) => ({ source, place: 2 * frame + Number(component > 2), value: values[i] }))
+        .filter(({ source }) => source === k);
+    const [symbol, unit] = error_unit[own[0]?.place % 2 ? "angle" : "length"];
+    const size = factor * unit * Math.hypot(...own.map(({ value }) => value));
+    if (!(size > 0 && size < Infinity) || own.some(({ place }) => place !== own[0].place)) return "";
+    return `${roundedDown(size, decimals(size, 2))} ${symbol}`;
+}
 
 /** Creates the list of sources, the largest first; the order does not change while the list has the focus. @param {Panel} panel */
 export function createSources(panel) {
@@ -26,7 +39,9 @@ export function createSources(panel) {
         const check = html("input", { type: "checkbox", disabled: !isOwn });
         check.addEventListener("change", () => change(({ factors }) => { factors[k] = Number(check.checked); }));
         const tightened = button("", () => change(({ factors }) => { factors[k] = Number(tightened.value); }),
-            { class: "tighten", title: "Factor at which this source alone would use up the tolerance; click to set it" });
+            { class: "tighten", title: "Factor, and size, at which this source alone would use up the tolerance; click to set it" });
+        const [most, size] = [html("span"), html("small")];
+        tightened.append(most, size);
         const [value, share, name, factor] = spans("number", "share", "", "factor");
         name.append(html("span", {}, source.name), html("small", {}, source.at));
         if (isOwn) factor.append(slider, "×", field, problem);
@@ -35,7 +50,7 @@ export function createSources(panel) {
         const element = html("li", { title: `${source.name}: ${kind}, ${source.at}. ${source.description}` },
             html("label", { class: "name" }, check, name), value, share, factor, tightened,
             html("span", { class: "bar", "aria-hidden": true }, bar, mark));
-        return { element, check, bar, mark, value, share, tightened, update };
+        return { element, check, bar, mark, value, share, tightened, most, size, update };
     });
     const list = html("ol", {}, ...rows.map(({ element }) => element));
     const measurands = (/** @type {const} */ (["position", "orientation"])).map((measurand) => {
@@ -57,12 +72,13 @@ export function createSources(panel) {
     function update() {
         const { state, figures, reference, measurand, unit: { factor, symbol }, tolerances } = panel;
         const errors = figures[measurand];
-        const most = factor * Math.max(...errors.norms, 0);
-        const end = [1, 2, 2.5].map((ratio) => ratio * roundStep(most)).find((round) => most <= round * (1 + 1e-9)) ?? 1;
+        const largest = factor * Math.max(...errors.norms, 0);
+        const end = [1, 2, 2.5].map((ratio) => ratio * roundStep(largest)).find((round) => largest <= round * (1 + 1e-9)) ?? 1;
         const places = decimals(factor * errors.radius, 4);
         const sum = errors.norms.reduce((all, one) => all + one, 0);
         const tolerance = tolerances[measurand];
         const factors = tolerance === null ? null : tighten(errors, tolerance);
+        const effects = panel.machine.effects(state);
         rows.forEach((row, k) => {
             const norm = errors.norms[k];
             row.update();
@@ -74,8 +90,9 @@ export function createSources(panel) {
             row.mark.style.left = `${Math.min(100, (100 * factor * (reference?.[measurand].norms[k] ?? 0)) / end)}%`;
             setText(row.value, `${report.sources[k].class === "random" && norm > 0 ? "± " : ""}${errorOf(factor * norm, places)}`);
             setText(row.share, sum > 0 ? percent(norm, sum) : "");
-            setText(row.tightened, times((factors?.alone[k] ?? NaN) * current));
-            row.tightened.value = row.tightened.textContent?.slice(2) ?? "";
+            setText(row.most, times((factors?.alone[k] ?? NaN) * current));
+            setText(row.size, sizeText(report, effects, k, factors?.alone[k] ?? NaN));
+            row.tightened.value = row.most.textContent?.slice(2) ?? "";
             row.tightened.disabled = row.check.disabled || !row.tightened.value || Number(row.tightened.value) > LARGEST_FACTOR;
         });
         setText(heads[1], symbol);
