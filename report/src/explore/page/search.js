@@ -23,8 +23,8 @@ import { copyState } from "./state.js";
 /** Number of best samples from which the search ascends, and steps of the ascent as parts of a range: first and last. */
 const [STARTS, FIRST_STEP, LAST_STEP] = [8, 0.1, 1e-6];
 
-/** @param {number[]} list @param {number} index @param {number} value @returns {number[]} */
-const replaced = (list, index, value) => list.map((old, i) => (i === index ? value : old));
+/** Returns a list with another value at an index. @param {number[]} list @param {number} index @param {number} value @returns {number[]} */
+export const replaced = (list, index, value) => list.map((old, i) => (i === index ? value : old));
 
 /** Returns a value between two ends, and exactly them at 0 and 1. @param {number} a @param {number} b @param {number} t */
 const mixed = (a, b, t) => (1 - t) * a + t * b;

@@ -3,6 +3,7 @@
 import { jointEnds } from "./controls.js";
 import { button, html, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { quantity } from "./number.js";
+import { replaced } from "./search.js";
 
 /** @import { Panel } from "./panel.js" */
 
@@ -109,7 +110,7 @@ export function createView(panel) {
         const error = project(originOf(figures.pose).map((value, i) => value + magnification * figures.displacement[i]));
         // Path of the tool point while the joint that was moved last moves between its limits.
         const moved = variables.length === 0 ? [] : Array.from({ length: PATH_POINTS + 1 }, (_, i) =>
-            Array.from(generated.pose(state.q.with(joint, between(panel, joint, i / PATH_POINTS)), state.s)));
+            Array.from(generated.pose(replaced(state.q, joint, between(panel, joint, i / PATH_POINTS)), state.s)));
         floor.setAttribute("d", floorPath(project));
         links.setAttribute("d", path(places));
         reach.setAttribute("d", path(moved.map((pose) => project(originOf(pose)))));

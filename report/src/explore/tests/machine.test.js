@@ -140,7 +140,7 @@ test("a changed formula is noticed", () => {
 });
 
 test("options of the page's own command stay in the copied ones", () => {
-    const { report, machine } = explored("pps", "--study", "pps", "--set", "x=100mm", "--disable", "assembly", "--scale", "spin encoder=2", "--set", "patient=70kg");
+    const { report, machine } = explored("pps", "--study", "pps-section6", "--set", "x=100mm", "--disable", "assembly", "--scale", "spin encoder=2", "--set", "patient=70kg");
     const state = initialState(report);
     assert.equal(state.s[report.parameters.findIndex(({ name }) => name === "x")], 100);
     const assembly = report.sources.findIndex(({ name }) => name === "assembly");
@@ -150,6 +150,6 @@ test("options of the page's own command stay in the copied ones", () => {
     state.factors = state.factors.map(() => 0.5);
     state.u[0] = 12.5;
     const [analyze, jacobian] = commands(report, state);
-    assert.ok(!analyze.includes("--disable") && analyze.includes("--study pps") && !jacobian.includes("--study"), analyze);
+    assert.ok(!analyze.includes("--disable") && analyze.includes("--study pps-section6") && !jacobian.includes("--study"), analyze);
     assertAgrees(report, machine, state);
 });

@@ -28,9 +28,24 @@ export function shell(line) {
 /** Names of the shipped machines, or of those to be tested. */
 export const SHIPPED = process.env.ABBE_MACHINES?.split(" ") ?? JSON.parse(abbe("list", "--json")).map(({ name }) => name);
 
+/** A machine without limits, in metres, to which sources may be added. */
+const PLAIN = `[manipulator]
+name = "plain"
+title = "A turn"
+length = "m"
+
+[[frame]]
+name = "turn"
+variable = { name = "q1", kind = "revolute" }
+transform = "Rz(q1) Tx(1 m)"
+`;
+const RANDOM = '\n[[source]]\nname = "encoder"\nclass = "random"\ndistribution = "normal"\njoint = "q1"\nerror = "1 mrad"\n';
+const FIXED = PLAIN.replace(/variable.*\n/, "").replace("Rz(q1)", "Rz(1)");
+const REPEATABLE = '\n[[source]]\nname = "foot"\nclass = "repeatable"\nframe = "turn"\ne_x = "1 mm"\n';
+
 /**
  * Specs with what the shipped ones lack: tables, compliances, normal random sources, uncertain inputs and magnitudes, a
- * calibration, angles of IEC 61217, and names that a shell or an address could misread.
+ * calibration, angles of IEC 61217, and names that a shell or an address could misread; no source, no joint, no limits.
  */
 export function otherSpecs() {
     const root = new URL("../../../../", import.meta.url);
@@ -42,7 +57,7 @@ export function otherSpecs() {
         .replaceAll("gear of the turn", `it's 50 % of \\"a\\" & b=c; $HOME #1+1`);
     const folder = mkdtempSync(join(tmpdir(), "abbe-"));
     process.on("exit", () => rmSync(folder, { recursive: true }));
-    return [new URL("tests/specs/measured.toml", root).pathname].concat([everything, uncalibrated].map((text, i) => {
+    return [new URL("tests/specs/measured.toml", root).pathname].concat([everything, uncalibrated, PLAIN, PLAIN + RANDOM, FIXED + REPEATABLE].map((text, i) => {
         const path = join(folder, `the ${i}.toml`);
         writeFileSync(path, text);
         return path;
@@ -75,10 +90,10 @@ export function randomNumbers(seed) {
 /** Returns a state as a user might set it: within limits, with parameters near their values. */
 export function randomState(report, random) {
     const state = initialState(report);
-    const between = ([lower, upper]) => lower + random() * (upper - lower);
+    const between = ([lower, upper]) => (lower ?? -2) + random() * ((upper ?? 2) - (lower ?? -2));
     state.q = report.variables.map(({ limits }) => between(limits));
     state.s = report.parameters.map(({ nominal }) => (random() < 0.5 ? nominal : nominal * between([0.9, 1.1])));
-    state.u = report.inputs.map(({ range, nominal }) => (range.includes(null) ? nominal : between(range)));
+    state.u = report.inputs.map(({ range, nominal }) => (range.includes(null) ? nominal + between([-1, 1]) * (nominal || 1) : between(range)));
     state.factors = report.sources.map(({ follows }, k) =>
         follows === k ? [0, state.factors[k], 1, 3 * random()][Math.floor(4 * random())] : state.factors[k]);
     return state;
