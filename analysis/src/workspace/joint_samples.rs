@@ -7,7 +7,7 @@ use rand::{Rng, RngExt};
 use super::axis::in_range;
 use super::{Configuration, Workspace};
 use crate::ReachError;
-use crate::sampling::{self, stream};
+use crate::sampling::{self, RadicalInverses, stream};
 use abbe_core::lanes::Tiles;
 use abbe_core::{Error, Manipulator, Quantity};
 
@@ -118,17 +118,27 @@ impl Workspace for JointSamples {
     }
 
     fn fill_rows(&self, range: Range<usize>, rows: &mut Tiles) -> bool {
-        let Spread::Random { seed } = self.spread else { return false };
-        if !range.start.is_multiple_of(STREAM) {
-            return false;
-        }
         let moved = self.moved.iter().map(|moved| self.row(moved.coordinate)).collect::<Vec<_>>();
-        for first in range.clone().step_by(STREAM) {
-            let mut streams = self.streams(seed, first / STREAM);
-            let count = STREAM.min(range.end - first);
-            rows.set_each(&moved, first - range.start, count, |which| {
-                between(self.moved[which].range, &mut streams[which])
-            });
+        match self.spread {
+            Spread::Even => {
+                let start =
+                    |moved: &SampledQuantity| RadicalInverses::starting_at(range.start + 1, moved.base);
+                let mut shares = self.moved.iter().map(start).collect::<Vec<_>>();
+                rows.set_each(&moved, 0, range.len(), |which| {
+                    let [lower, upper] = self.moved[which].range;
+                    shares[which].next().map_or(lower, |share| lower + (upper - lower) * share)
+                });
+            }
+            Spread::Random { .. } if !range.start.is_multiple_of(STREAM) => return false,
+            Spread::Random { seed } => {
+                for first in range.clone().step_by(STREAM) {
+                    let mut streams = self.streams(seed, first / STREAM);
+                    let count = STREAM.min(range.end - first);
+                    rows.set_each(&moved, first - range.start, count, |which| {
+                        between(self.moved[which].range, &mut streams[which])
+                    });
+                }
+            }
         }
         true
     }

@@ -20,15 +20,76 @@ pub fn halton(index: usize, dimension: usize) -> f64 {
     radical_inverse(index, prime(dimension))
 }
 
-/// Returns the digits of `index` in a base, mirrored at the radix point: `0.d_0 d_1 d_2 …`.
+/// Returns the digits of `index` in a base, mirrored at the radix point: `0.d_0 d_1 d_2 …`, rounded
+/// once.
 pub fn radical_inverse(index: usize, base: usize) -> f64 {
-    let (mut digits, mut value, mut weight) = (index, 0.0, 1.0);
-    while digits > 0 {
-        weight /= base as f64;
-        value += weight * (digits % base) as f64;
-        digits /= base;
+    RadicalInverses::starting_at(index, base).value()
+}
+
+/// Radical inverses of consecutive numbers in one base.
+///
+/// ```
+/// use abbe::analysis::sampling::{RadicalInverses, radical_inverse};
+/// let inverses = RadicalInverses::starting_at(1, 3).take(4);
+/// assert!(inverses.eq([1, 2, 3, 4].map(|index| radical_inverse(index, 3))));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct RadicalInverses {
+    base: u64,
+    /// Mirrored digits as an integer below `end`.
+    mirrored: u64,
+    /// Largest power of the base that a floating-point number represents exactly.
+    end: u64,
+}
+
+impl RadicalInverses {
+    /// Starts with the radical inverse of `index`. Digits beyond those of the largest power of the
+    /// base below 2⁵³ are ignored.
+    pub fn starting_at(index: usize, base: usize) -> Self {
+        let base = base as u64;
+        let (mut rest, mut mirrored, mut end) = (index as u64, 0, 1);
+        while end <= (1 << f64::MANTISSA_DIGITS) / base {
+            mirrored = mirrored * base + rest % base;
+            rest /= base;
+            end *= base;
+        }
+        Self { base, mirrored, end }
     }
-    value
+
+    fn value(&self) -> f64 {
+        self.mirrored as f64 / self.end as f64
+    }
+
+    /// Adds 1 to the first digit, and carries to those after it.
+    #[inline]
+    fn advance(&mut self) {
+        let left = self.end - self.mirrored;
+        let mut weight = self.end / self.base;
+        if weight < left {
+            self.mirrored += weight;
+            return;
+        }
+        if left == 1 {
+            self.mirrored = 0;
+            return;
+        }
+        // The leading digits are all `base − 1`: they become 0, and the next one grows.
+        while weight >= left {
+            weight /= self.base;
+        }
+        self.mirrored = self.mirrored + weight * (self.base + 1) - self.end;
+    }
+}
+
+impl Iterator for RadicalInverses {
+    type Item = f64;
+
+    #[inline]
+    fn next(&mut self) -> Option<f64> {
+        let value = self.value();
+        self.advance();
+        Some(value)
+    }
 }
 
 /// Returns prime number `index`: 2, 3, 5, …
@@ -133,6 +194,33 @@ pub fn norm(v: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Compares with the sum of digits, and each step with a new start, also where digits carry.
+    #[test]
+    fn radical_inverses_mirror_the_digits() {
+        let sum = |index: usize, base: usize| {
+            let (mut digits, mut value, mut weight) = (index, 0.0, 1.0);
+            while digits > 0 {
+                weight /= base as f64;
+                value += weight * (digits % base) as f64;
+                digits /= base;
+            }
+            value
+        };
+        for base in [2_usize, 3, 5, 7, 131_071] {
+            for first in [0, 1, base.pow(3) - 2, 12_345_678_901] {
+                let mut inverses = RadicalInverses::starting_at(first, base);
+                for index in first..first + 500 {
+                    let value = inverses.next().unwrap();
+                    assert_eq!(value, radical_inverse(index, base));
+                    assert!((value - sum(index, base)).abs() < 1e-15, "{index} {base}");
+                }
+            }
+        }
+        let mut last = RadicalInverses::starting_at((1 << 53) - 1, 2);
+        assert_eq!(last.next(), Some(1.0 - f64::EPSILON / 2.0));
+        assert_eq!(last.next(), Some(0.0));
+    }
 
     #[test]
     fn primes_are_those_of_trial_division() {
