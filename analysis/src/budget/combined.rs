@@ -211,34 +211,21 @@ impl<R: Register> CombinedAccumulator<R> {
             self.variance[i] = diagonal[i].max(self.variance[i]);
             self.worst_case[i] = sums.absolute[i].max(self.worst_case[i]);
         }
-        if self.may_be_longer(covariance) {
-            self.longer(sums, &index);
+        let [longest, ..] = self.ellipsoid.principal.deviations;
+        let minor = least_minor(covariance, longest * longest * (1.0 + ALIKE));
+        // Without random errors all are 0, and the ellipsoid is unchanged.
+        if Lanes::constant(0.0).more_than(minor).any() {
+            self.longer(sums, minor.to_slice(), &index);
         }
         self.outline.add(sums.repeatable, weight);
     }
 
-    /// Returns whether `λ I − Σ`, with the largest eigenvalue λ so far, is not positive definite in
-    /// some lane (Sylvester's criterion).
-    #[inline(always)]
-    fn may_be_longer(&self, covariance: &[Lanes<R>; 6]) -> bool {
-        let [longest, ..] = self.ellipsoid.principal.deviations;
-        let limit = Lanes::<R>::constant(longest * longest * (1.0 + ALIKE));
-        let [xx, yy, zz, xy, xz, yz] = *covariance;
-        let [a, b, c] = [limit - xx, limit - yy, limit - zz];
-        let minor = a * b - xy * xy;
-        let determinant = c * minor - yz * (a * yz - xy * xz) - xz * (b * xz - xy * yz);
-        let zero = Lanes::constant(0.0);
-        let least = a.min(minor).min(determinant);
-        // Without random errors all are 0, and the ellipsoid is unchanged.
-        zero.more_than(least).any()
-    }
-
     #[cold]
     #[inline(never)]
-    fn longer(&mut self, sums: &Sums<R>, index: &dyn Fn(usize) -> usize) {
+    fn longer(&mut self, sums: &Sums<R>, minors: &[f64], index: &dyn Fn(usize) -> usize) {
         let [xx, yy, zz, xy, xz, yz] = sums.covariance.each_ref().map(Lanes::to_slice);
         for (lane, place) in sums.place.to_slice().iter().enumerate() {
-            if sums.weight.to_slice()[lane] == 0.0 {
+            if minors[lane] >= 0.0 || sums.weight.to_slice()[lane] == 0.0 {
                 continue;
             }
             let covariance = [
@@ -277,5 +264,50 @@ impl<R: Register> CombinedAccumulator<R> {
             ..Combined::default()
         };
         (PartialCombined { combined, outline: self.outline.finish() }, self.squares.map(peak::sum))
+    }
+}
+
+/// Returns the least leading minor of `λ I − Σ`, which is negative unless the matrix is positive
+/// semidefinite (Sylvester's criterion): then no eigenvalue of the covariance exceeds λ.
+#[inline(always)]
+fn least_minor<R: Register>(covariance: &[Lanes<R>; 6], limit: f64) -> Lanes<R> {
+    let [xx, yy, zz, xy, xz, yz] = *covariance;
+    let [a, b, c] = [xx, yy, zz].map(|variance| Lanes::constant(limit) - variance);
+    let minor = a * b - xy * xy;
+    let determinant = c * minor - yz * (a * yz + xy * xz) - xz * (b * xz + xy * yz);
+    a.min(minor).min(determinant)
+}
+
+#[cfg(test)]
+mod tests {
+    use abbe_core::lanes::{InstructionSet, Kernel};
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::sampling::halton;
+
+    /// Counts covariances whose largest eigenvalue the criterion misjudges.
+    struct Misjudged;
+
+    impl Kernel for Misjudged {
+        type Output = usize;
+
+        fn run<R: Register>(self) -> usize {
+            let is_misjudged = |i: &usize| {
+                let rows = Matrix3::from_fn(|row, column| halton(*i, 3 * row + column) - 0.5);
+                let covariance = rows * rows.transpose();
+                let largest = covariance.symmetric_eigenvalues().max();
+                let [xx, yy, zz, xy, xz, yz] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+                let lanes = [xx, yy, zz, xy, xz, yz].map(|entry| Lanes::<R>::constant(covariance[entry]));
+                let is_longer = |limit| least_minor(&lanes, limit).to_slice()[0] < 0.0;
+                !is_longer(largest * (1.0 - 1e-6)) || is_longer(largest * (1.0 + 1e-6))
+            };
+            (1..2000).filter(is_misjudged).count()
+        }
+    }
+
+    #[test]
+    fn longer_ellipsoids_are_found_and_no_others() {
+        assert_eq!(InstructionSet::best().run(Misjudged), 0);
     }
 }
