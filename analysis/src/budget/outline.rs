@@ -1,7 +1,5 @@
 //! The outline of a cloud of points, and the smallest sphere around it.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Vector3;
 
 use super::enclosing_sphere::{Ball, Sphere};
@@ -43,7 +41,8 @@ pub(super) struct Outline {
     inside: Option<f64>,
     /// Number of times the cells have doubled their width.
     doubled: u32,
-    cells: BTreeMap<u64, Farthest>,
+    /// Sorted by the numbers of the cells.
+    cells: Vec<(u64, Farthest)>,
 }
 
 /// Farthest points in one direction.
@@ -70,51 +69,79 @@ impl Farthest {
 }
 
 impl Outline {
-    fn add(&mut self, view: &View, point: [f64; 3]) {
-        let from = core::array::from_fn(|i| point[i] - view.centre[i]);
-        let distance = Vector3::from(from).norm();
-        self.put(cell(from, self.doubled), Farthest { point, distance, other: None });
+    /// Creates the outline of some points, with the largest distance of those that were dropped.
+    fn new(view: &View, points: &[[f64; 3]], inside: Option<f64>) -> Self {
+        let from = |point: [f64; 3]| core::array::from_fn(|i| point[i] - view.centre[i]);
+        let mut order: Vec<(u64, usize)> =
+            points.iter().enumerate().map(|(i, point)| (cell(from(*point), 0), i)).collect();
+        order.sort_unstable();
+        let farthest = |(cell, i): (u64, usize)| {
+            let distance = Vector3::from(from(points[i])).norm();
+            (cell, Farthest { point: points[i], distance, other: None })
+        };
+        let mut outline = Self { inside, doubled: 0, cells: order.into_iter().map(farthest).collect() };
+        outline.unite();
+        outline
     }
 
-    fn put(&mut self, cell: u64, farthest: Farthest) {
-        match self.cells.get_mut(&cell) {
-            Some(known) => known.merge(farthest),
-            None => {
-                self.cells.insert(cell, farthest);
-                while self.cells.len() > MOST {
-                    self.double();
+    /// Merges equal cells, which are neighbours, and doubles their width while there are too many.
+    fn unite(&mut self) {
+        loop {
+            self.cells.dedup_by(|(next, farthest), (cell, kept)| {
+                let same = next == cell;
+                if same {
+                    kept.merge(*farthest);
                 }
+                same
+            });
+            if self.cells.len() <= MOST {
+                break;
             }
+            self.widen(1);
         }
     }
 
-    fn double(&mut self) {
-        self.doubled += 1;
-        for (cell, farthest) in core::mem::take(&mut self.cells) {
-            self.put(parent(cell, 1), farthest);
-        }
+    /// Doubles the width of the cells `doubled` times. They stay sorted.
+    fn widen(&mut self, doubled: u32) {
+        self.cells.iter_mut().for_each(|(cell, _)| *cell = parent(*cell, doubled));
+        self.doubled += doubled;
     }
 
     /// Merges another outline from the same center.
     pub(super) fn merge(&mut self, other: &Self) {
         self.inside = farther(self.inside, other.inside);
-        while self.doubled < other.doubled {
-            self.double();
+        if self.doubled < other.doubled {
+            self.widen(other.doubled - self.doubled);
+            self.unite();
         }
+        let (mut place, known) = (0, self.cells.len());
         for (cell, farthest) in &other.cells {
-            // Cells may double their width in the process.
-            self.put(parent(*cell, self.doubled - other.doubled), *farthest);
+            let cell = parent(*cell, self.doubled - other.doubled);
+            while place < known && self.cells[place].0 < cell {
+                place += 1;
+            }
+            match self.cells[place..known].first_mut() {
+                Some((same, kept)) if *same == cell => kept.merge(*farthest),
+                _ => self.cells.push((cell, *farthest)),
+            }
+        }
+        if self.cells.len() > known {
+            // Two sorted runs.
+            self.cells.sort_by_key(|(cell, _)| *cell);
+            self.unite();
         }
     }
 
     /// Returns whether all cells are valid. They may come from a file.
     pub(super) fn is_sound(&self) -> bool {
         let is_cell = |cell: &u64| {
-            let (face, place) = (cell >> (2 * FINEST), [cell >> FINEST, *cell]);
-            let edge = 1 << (FINEST - self.doubled);
-            face < 6 && place.iter().all(|place| place & ((1 << FINEST) - 1) < edge)
+            let (face, place) = (cell >> (2 * FINEST), cell & ((1 << (2 * FINEST)) - 1));
+            face < 6 && place < 1 << (2 * (FINEST - self.doubled))
         };
-        self.doubled <= FINEST && self.cells.len() <= MOST && self.cells.keys().all(is_cell)
+        self.doubled <= FINEST
+            && self.cells.len() <= MOST
+            && self.cells.is_sorted_by(|(cell, _), (next, _)| cell < next)
+            && self.cells.iter().all(|(cell, _)| is_cell(cell))
     }
 
     /// Returns the smallest sphere around the cloud, given some known points.
@@ -126,11 +153,11 @@ impl Outline {
     /// inside the inner radius within `|v| + d`. If this is at most the radius, the sphere is the
     /// smallest.
     pub(super) fn sphere(&self, view: &View, known: &[[f64; 3]]) -> Sphere {
-        let kept = self.cells.values().map(|farthest| farthest.point.into());
+        let kept = self.cells.iter().map(|(_, farthest)| farthest.point.into());
         let Ball { centre, radius } = Ball::around(&vectors(known).chain(kept).collect::<Vec<_>>());
         let v = centre - Vector3::from(view.centre);
         let mut certain = self.inside.map_or(radius, |inside| radius.max(v.norm() + inside));
-        for Farthest { point, distance, other } in self.cells.values() {
+        for (_, Farthest { point, distance, other }) in &self.cells {
             let Some(other) = other else { continue };
             let along = (Vector3::from(*point) - Vector3::from(view.centre)).dot(&v) / distance;
             let least = along - width(self.doubled) * v.norm();
@@ -151,7 +178,8 @@ fn vectors(points: &[[f64; 3]]) -> impl Iterator<Item = Vector3<f64>> {
 }
 
 /// Returns the number of the cell in which a direction meets the cube around the center: its face,
-/// and its position along both edges.
+/// and the interleaved digits of its position along both edges, so that cells with the same parent
+/// follow each other.
 fn cell(from: [f64; 3], doubled: u32) -> u64 {
     let mut axis = 0;
     for i in 1..3 {
@@ -165,14 +193,28 @@ fn cell(from: [f64; 3], doubled: u32) -> u64 {
         // Clamped at the last edge. NaN, at the center, gives 0.
         ((share * f64::from(1_u32 << FINEST)) as u64).min((1 << FINEST) - 1)
     };
-    parent(face << (2 * FINEST) | place(1) << FINEST | place(2), doubled)
+    parent(face << (2 * FINEST) | spread(place(1)) << 1 | spread(place(2)), doubled)
 }
 
 /// Returns the cell that contains this one after the width has doubled `doubled` times.
 fn parent(cell: u64, doubled: u32) -> u64 {
-    let mask = (1 << FINEST) - 1;
-    let (face, first, second) = (cell >> (2 * FINEST), cell >> FINEST & mask, cell & mask);
-    face << (2 * FINEST) | first >> doubled << FINEST | second >> doubled
+    let mask = (1 << (2 * FINEST)) - 1;
+    cell & !mask | (cell & mask) >> (2 * doubled)
+}
+
+/// Puts a 0 before each of the 32 binary digits of a number.
+fn spread(number: u64) -> u64 {
+    let mut spread = number;
+    for (shift, mask) in [
+        (16, 0x0000_ffff_0000_ffff),
+        (8, 0x00ff_00ff_00ff_00ff),
+        (4, 0x0f0f_0f0f_0f0f_0f0f),
+        (2, 0x3333_3333_3333_3333),
+        (1, 0x5555_5555_5555_5555),
+    ] {
+        spread = (spread | spread << shift) & mask;
+    }
+    spread
 }
 
 /// Returns an upper bound of the distance of two unit vectors in a cell: the diagonal of the cell
@@ -220,14 +262,14 @@ impl<R: Register> OutlineAccumulator<R> {
 
     pub(super) fn finish(self) -> Outline {
         let inside = Some(peak::largest(self.inside)).filter(|square| *square >= 0.0).map(f64::sqrt);
-        let mut outline = Outline { inside, ..Outline::default() };
-        self.outside.iter().for_each(|point| outline.add(&self.view, *point));
-        outline
+        Outline::new(&self.view, &self.outside, inside)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::sampling::{halton, norm};
 
@@ -237,9 +279,7 @@ mod tests {
     }
 
     fn outline(points: &[[f64; 3]], view: &View) -> Outline {
-        let mut outline = Outline::default();
-        points.iter().for_each(|point| outline.add(view, *point));
-        outline
+        Outline::new(view, points, None)
     }
 
     /// Checks that an outline with more directions than are kept does not depend on order and
