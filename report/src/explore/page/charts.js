@@ -1,11 +1,10 @@
 // Chart of the errors along one joint, with the configurations of the study.
 
 import { shown } from "./controls.js";
-import { html, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
+import { html, moveTo, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { decimals, fixed } from "./number.js";
 import { sweep } from "./search.js";
 import { variableUnit } from "./state.js";
-
 /** @import { Panel } from "./panel.js" */
 
 const [LEFT, RIGHT, TOP, BOTTOM] = [48, 136, 20, 36];
@@ -26,7 +25,7 @@ export function createSweep(panel) {
     const [grid, tolerance, dots, here] = paths("grid", "tolerance", "points", "here");
     const kinds = ["total", "repeatable", "random", ...Array.from({ length: CURVES }, () => "curve")];
     const lines = paths(...kinds);
-    const [numbers, names, tip] = [svg("g"), svg("g"), svg("circle", { class: "tip", r: 4.5 })];
+    const [numbers, names, tip] = [svg("g"), svg("g"), svg("circle", { class: "tip", r: 4 })];
     const drawing = svg("svg", { "aria-hidden": true }, grid, tolerance, dots, ...[...lines].reverse(), here, tip, numbers, names);
     const stage = html("div", { class: "chart" }, drawing);
     const summary = html("figcaption");
@@ -55,11 +54,9 @@ export function createSweep(panel) {
             [across(values[k]), above(Number.isFinite(error) ? error : 0)]))));
         const ends = all.map(({ name, curve }, i) => ({ name, kind: kinds[i], y: above(curve[POINTS - 1]) }));
         writeNames([...ends, { name: "tolerance", kind: "", y: above(limit ?? NaN) }].filter(({ y }) => y > 0));
-        tolerance.setAttribute("d", limit === null ? "" : `M${LEFT} ${above(limit).toFixed(1)}H${width - RIGHT}`);
-        const x = across(state.q[joint]).toFixed(1);
-        here.setAttribute("d", `M${x} ${TOP}V${height - BOTTOM}`);
-        tip.setAttribute("cx", x);
-        tip.setAttribute("cy", above(figures[measurand].radius || 0).toFixed(1));
+        tolerance.setAttribute("d", limit === null ? "" : path([[LEFT, above(limit)], [width - RIGHT, above(limit)]]));
+        here.setAttribute("d", path([TOP, height - BOTTOM].map((y) => [across(state.q[joint]), y])));
+        moveTo(tip, [across(state.q[joint]), above(figures[measurand].radius || 0)]);
         dots.setAttribute("d", radii().map((error, i) => `${path([[across(report.configurations.q[i][joint]), above(error || 0)]])}h0`).join(""));
         writeNumbers(unit, along);
         chosen.value = String(joint);
@@ -68,7 +65,6 @@ export function createSweep(panel) {
         setText(summary, `Largest along ${report.variables[joint].name}: ${fixed(largest, decimals(largest, 4))} ${unit.symbol} at `
             + `${shown(values[worst] ?? 0, along, report.length)}. Dots: ${radii().length} configurations of the study; click one to load it.`);
     }
-
     /** Draws the grid with its numbers. @param {Panel["unit"]} unit of the errors @param {string} along unit of the joint */
     function writeNumbers({ factor, symbol }, along) {
         const turn = along === "deg" ? 180 / Math.PI : 1;
@@ -82,7 +78,6 @@ export function createSweep(panel) {
             ...columns.map(({ text, x }) => svg("text", { x, y: height - BOTTOM + 15, "text-anchor": "middle" }, text)),
             ...rows.map(({ text, y }) => svg("text", { x: LEFT - 6, y: y + 4, "text-anchor": "end" }, text)));
     }
-
     /** Writes the names of the curves at their right ends, one above the other. @param {{name: string, kind: string, y: number}[]} all */
     function writeNames(all) {
         let free = height - BOTTOM + 4;
@@ -92,7 +87,6 @@ export function createSweep(panel) {
             return svg("text", { x: width - RIGHT + 6, y: at, class: kind }, name);
         }));
     }
-
     /** @param {PointerEvent} event */
     function pick(event) {
         const { left, top: upper } = stage.getBoundingClientRect();
@@ -106,13 +100,7 @@ export function createSweep(panel) {
     }
     stage.addEventListener("pointerdown", pick);
     stage.addEventListener("pointermove", (event) => { if (stage.hasPointerCapture(event.pointerId)) pick(event); });
-    chosen.addEventListener("change", () => {
-        panel.joint = Number(chosen.value);
-        panel.refresh();
-    });
-    onResize(drawing, (size) => {
-        [width, height] = size;
-        panel.refresh();
-    });
+    chosen.addEventListener("change", () => panel.change(() => { panel.joint = Number(chosen.value); }));
+    onResize(drawing, (size) => panel.change(() => { [width, height] = size; }));
     return { element, update };
 }

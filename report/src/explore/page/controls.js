@@ -3,7 +3,6 @@
 import { html, roundStep, setText } from "./dom.js";
 import { inUnit, parseValue } from "./number.js";
 import { isWithin, variableUnit } from "./state.js";
-
 /** @import { Interval, Report, State } from "./state.js" @import { Panel } from "./panel.js" */
 
 /**
@@ -12,8 +11,6 @@ import { isWithin, variableUnit } from "./state.js";
  *     get: () => number, set: (value: number) => void}} Value
  */
 
-/** Smallest number of steps of a slider. */
-const STEPS = 200;
 let identifiers = 0;
 
 /** Formats a value with its unit. @param {number} value @param {string} unit @param {string} length unit of the spec */
@@ -26,7 +23,7 @@ export function shown(value, unit, length) {
 export function createInput({ name, unit, ends, limits, get, set }, length) {
     const factor = unit === "deg" ? 180 / Math.PI : 1;
     const [least, most] = ends.map((end) => end * factor);
-    const [step, id] = [roundStep((most - least) / STEPS), `abbe-field-${++identifiers}`];
+    const [step, id] = [roundStep((most - least) / 200), `abbe-field-${++identifiers}`];
     const slider = html("input", { type: "range", "aria-label": `${name}, slider`, min: Math.floor(least / step + 1e-9),
         max: Math.ceil(most / step - 1e-9) });
     const field = html("input", { type: "text", id, autocomplete: "off", spellcheck: "false", "aria-label": name,

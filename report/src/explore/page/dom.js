@@ -11,16 +11,10 @@ function filled(element, attributes, children) {
     return element;
 }
 
-/**
- * Creates an HTML element. @template {keyof HTMLElementTagNameMap} T
- * @param {T} tag @param {Attributes} attributes @param {(Node | string)[]} children
- */
+/** Creates an HTML element. @template {keyof HTMLElementTagNameMap} T @param {T} tag @param {Attributes} attributes @param {(Node | string)[]} children */
 export const html = (tag, attributes = {}, ...children) => filled(document.createElement(tag), attributes, children);
 
-/**
- * Creates an SVG element. @template {keyof SVGElementTagNameMap} T
- * @param {T} tag @param {Attributes} attributes @param {(Node | string)[]} children
- */
+/** Creates an SVG element. @template {keyof SVGElementTagNameMap} T @param {T} tag @param {Attributes} attributes @param {(Node | string)[]} children */
 export const svg = (tag, attributes = {}, ...children) =>
     filled(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 
@@ -29,6 +23,9 @@ export const spans = (...names) => names.map((name) => html("span", { class: nam
 
 /** Creates paths, one for each class. @param {string[]} names */
 export const paths = (...names) => names.map((name) => svg("path", { class: name }));
+
+/** Moves an element of a drawing. @param {SVGElement} element @param {number[]} to */
+export const moveTo = (element, [x, y]) => element.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
 
 /** Sets the text of an element, if it differs. @param {Element} element @param {string} text */
 export function setText(element, text) {

@@ -101,10 +101,7 @@ export function createMachine(generated, report) {
         return { displacements, position, orientation, displacement, margin };
     };
 
-    /**
-     * Returns the generalized errors in the order of the report's effects, of a random source at its bound.
-     * @param {State} state @returns {number[]}
-     */
+    /** Returns the errors of the report's effects, of a random source at its bound. @param {State} state @returns {number[]} */
     const effects = (state) => {
         const values = effectsOf(state.q, state.s, inputs(state));
         return report.effects.map(([source], k) => {

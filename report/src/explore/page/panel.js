@@ -11,7 +11,6 @@ import { copyState, decodeState, encodeState, initialState } from "./state.js";
 import { createJacobian, createPoses } from "./tables.js";
 import { createVerdict } from "./verdict.js";
 import { createView } from "./view.js";
-
 /** @import { Report, State } from "./state.js" @import { Evaluation, Generated, Machine } from "./machine.js" */
 /** @import { Largest, Measurand } from "./search.js" */
 
@@ -118,7 +117,6 @@ export function mount(section, generated, report, index) {
         panel.unit = { symbol, factor };
         parts.filter(({ element }) => all || visible.has(element)).forEach((part) => part.update());
     }
-
     function settle() {
         const changes = String([state.factors, state.s, state.u]);
         if (changes !== studied) panel.cloud = cloud(machine, report, state);

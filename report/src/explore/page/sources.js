@@ -5,7 +5,6 @@ import { button, html, roundStep, setText, spans } from "./dom.js";
 import { decimals, fixed, percent, roundedDown } from "./number.js";
 import { tighten } from "./search.js";
 import { LARGEST_FACTOR, factorOf } from "./state.js";
-
 /** @import { Report } from "./state.js" @import { Panel } from "./panel.js" */
 
 /** Formats a factor, rounded down. @param {number | null | undefined} factor */
@@ -19,8 +18,8 @@ export const errorOf = (value, places) => (Number.isFinite(value) ? fixed(value,
  * @param {Report} report @param {number[]} values of all effects @param {number} k source @param {number} factor
  */
 function sizeText({ effects, error_unit }, values, k, factor) {
-    const own = effects.map(([source, frame, component], i) => ({ source, place: 2 * frame + Number(component > 2), value: values[i] }))
-        .filter(({ source }) => source === k);
+    const own = effects.flatMap(([source, frame, component], i) =>
+        (source === k ? [{ place: 2 * frame + Number(component > 2), value: values[i] }] : []));
     const [symbol, unit] = error_unit[own[0]?.place % 2 ? "angle" : "length"];
     const size = factor * unit * Math.hypot(...own.map(({ value }) => value));
     if (!(size > 0 && size < Infinity) || own.some(({ place }) => place !== own[0].place)) return "";
@@ -40,9 +39,9 @@ export function createSources(panel) {
         check.addEventListener("change", () => change(({ factors }) => { factors[k] = Number(check.checked); }));
         const tightened = button("", () => change(({ factors }) => { factors[k] = Number(tightened.value); }),
             { class: "tighten", title: "Factor, and size, at which this source alone would use up the tolerance; click to set it" });
-        const [most, size] = [html("span"), html("small")];
+        const [value, share, name, factor, most] = spans("number", "share", "", "factor", "");
+        const size = html("small");
         tightened.append(most, size);
-        const [value, share, name, factor] = spans("number", "share", "", "factor");
         name.append(html("span", {}, source.name), html("small", {}, source.at));
         if (isOwn) factor.append(slider, "×", field, problem);
         const [bar, mark] = [html("i", { class: source.class }), html("b")];
@@ -55,10 +54,7 @@ export function createSources(panel) {
     const list = html("ol", {}, ...rows.map(({ element }) => element));
     const measurands = (/** @type {const} */ (["position", "orientation"])).map((measurand) => {
         const radio = html("input", { type: "radio", name: `abbe-measurand-${panel.index}`, checked: measurand === panel.measurand });
-        radio.addEventListener("change", () => {
-            panel.measurand = measurand;
-            panel.refresh();
-        });
+        radio.addEventListener("change", () => change(() => { panel.measurand = measurand; }));
         return html("label", {}, radio, measurand);
     });
     const heads = spans("name", "number", "share", "factor", "tighten", "bar");
@@ -101,7 +97,6 @@ export function createSources(panel) {
         setText(sums[4], times(factors?.together));
         element.classList.toggle("judged", tolerance !== null);
     }
-
     function settle() {
         if (list.contains(document.activeElement)) return;
         const { norms } = panel.figures[panel.measurand];

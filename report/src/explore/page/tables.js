@@ -3,7 +3,6 @@
 import { html, setText } from "./dom.js";
 import { digits, fixed } from "./number.js";
 import { errorOf } from "./sources.js";
-
 /** @import { Panel } from "./panel.js" */
 
 /** Creates a table and returns it with its cells. @param {string} caption @param {string[]} columns @param {string[]} rows */

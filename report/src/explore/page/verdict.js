@@ -1,11 +1,10 @@
 // Verdict: total error here, over the study and within the joint limits, against the tolerance.
 
 import { button, html, setText, spans } from "./dom.js";
-import { decimals, parseValue, percent, short } from "./number.js";
+import { decimals, digits, parseValue, percent, short } from "./number.js";
 import { tighten } from "./search.js";
 import { errorOf, times } from "./sources.js";
 import { searchWorst } from "./worker.js";
-
 /** @import { Panel } from "./panel.js" */
 
 /** Formats an error with the decimals that show `largest` to four digits. @param {Panel} panel @param {number} value @param {number} [largest] */
@@ -24,7 +23,8 @@ export function createVerdict(panel) {
         html("p", { class: "line" }, status, total, share, html("label", {}, "tolerance ", field)),
         html("div", { class: "gauge", "aria-hidden": true }, repeatable, random, mark),
         html("p", { class: "detail" }, largest, parts, before), live);
-    const [studyText, boxText, all] = [html("p"), html("p"), html("input", { type: "checkbox" })];
+    const { u, s } = report.configurations;
+    const [studyText, boxText, all] = [html("p"), html("p"), html("input", { type: "checkbox", checked: u.length + s.length > 0 })];
     const progress = html("progress", { max: 1, value: 0, hidden: true, "aria-label": "Search of the worst case" });
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
     const hasRanges = [...report.inputs, ...report.parameters].some(({ range }) => range?.[0] != null && range[1] != null);
@@ -38,7 +38,8 @@ export function createVerdict(panel) {
     field.addEventListener("change", () => {
         const value = field.value.trim() === "" ? null : parseValue(field.value, panel.unit.symbol, report.length) ?? NaN;
         const isWrong = value !== null && !(value > 0);
-        field.setAttribute("aria-invalid", String(isWrong));
+        field.setCustomValidity(isWrong ? `expected a positive number in ${panel.unit.symbol}, or nothing` : "");
+        field.reportValidity();
         if (!isWrong) panel.tolerances[panel.measurand] = value;
         panel.refresh();
     });
@@ -65,7 +66,6 @@ export function createVerdict(panel) {
         progress.hidden = true;
         setText(start, "Find again");
     }
-
     function update() {
         const { figures, reference, measurand, unit, tolerances, cloud } = panel;
         const { radius, repeatableRadius, randomRadius, norms } = figures[measurand];
@@ -87,7 +87,7 @@ export function createVerdict(panel) {
         setText(largest, sum > 0 ? `largest source: ${report.sources[norms.indexOf(most)].name} (${percent(most, sum)})` : "");
         setText(parts, `repeatable ${errorText(panel, repeatableRadius, radius)} + random ± ${errorText(panel, randomRadius, radius)}`);
         const old = reference?.[measurand].radius ?? 0;
-        const change = old > 0 ? ` (${radius < old ? "−" : "+"}${percent(Math.abs(radius - old), old)})` : "";
+        const change = old > 0 ? ` (${radius < old ? "−" : "+"}${digits((100 * Math.abs(radius - old)) / old, 2)} %)` : "";
         setText(before, reference ? `before your changes ${errorText(panel, old, radius)}${change}` : "");
         const study = cloud?.[measurand];
         if (!study) return;
@@ -97,7 +97,6 @@ export function createVerdict(panel) {
             + (factors ? ` Tolerance met with all sources ${times(factors.together)}; ${report.sources[source].name} alone uses it up at `
             + `${times(factors.alone[source])}.` : ""));
     }
-
     const settle = () => setText(live, [status, total, share, largest].map(({ textContent }) => textContent).join(" "));
     return { element, searches, update, settle };
 }

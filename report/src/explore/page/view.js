@@ -1,13 +1,12 @@
 // Picture of the arm in parallel projection, with the exaggerated real machine and the error of the tool point.
 
 import { jointEnds } from "./controls.js";
-import { button, html, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
+import { button, html, moveTo, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { quantity } from "./number.js";
 import { replaced } from "./search.js";
-
 /** @import { Panel } from "./panel.js" */
 
-/** Number of random configurations that give the size of the picture, and of points on the path of a joint. */
+/** Number of configurations of the study that give the size of the picture, and of points on the path of a joint. */
 const [SAMPLES, PATH_POINTS] = [200, 48];
 /** Lengths of the error vector, by which the magnification is chosen, and of axes; parts of the machine's size. */
 const [VECTOR, AXIS] = [0.12, 0.07];
@@ -19,20 +18,14 @@ const KEYS = { ArrowLeft: [-6, 0, 1], ArrowRight: [6, 0, 1], ArrowUp: [0, 6, 1],
 /** @param {number[]} frame @returns {number[]} its origin */
 const originOf = (frame) => [frame[9], frame[10], frame[11]];
 
-/** Returns a value between the limits of a joint. @param {Panel} panel @param {number} joint @param {number} share */
-const between = ({ report }, joint, share, [least, most] = jointEnds(report, joint)) => least + (most - least) * share;
-
 /** Creates the picture: drag or arrow keys turn it; wheel, pinch, + and - zoom. @param {Panel} panel */
 export function createView(panel) {
     const { report, machine, generated } = panel;
     const { up, frames, variables } = report;
     const ground = [(up + 1) % 3, (up + 2) % 3];
-    let seed = 1;
-    const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
-    const samples = Array.from({ length: SAMPLES }, () => {
-        const q = variables.map((_, joint) => between(panel, joint, random()));
-        return machine.frames({ ...panel.state, q }, 0).ideal.map(originOf);
-    }).flat();
+    const all = report.configurations.q;
+    const chosen = [panel.state.q, ...all.filter((_, i) => i % Math.ceil(all.length / SAMPLES) === 0)];
+    const samples = chosen.flatMap((q) => machine.frames({ ...panel.state, q }, 0).ideal.map(originOf));
     const ends = [0, 1, 2].map((i) => [Math.min(...samples.map((point) => point[i])), Math.max(...samples.map((point) => point[i]))]);
     const size = Math.max(...ends.map(([least, most]) => most - least)) || 1;
     const grid = roundStep(size / 6);
@@ -41,8 +34,8 @@ export function createView(panel) {
     const circle = (/** @type {string} */ name) => svg("circle", { class: name, r: 4 });
     const [floor, reach, ghost, links, vector] = paths("floor", "reach", "ghost", "links", "vector");
     const axes = paths("axis x", "axis y", "axis z");
-    const names = ["x", "y", "z"].map((name) => svg("text", { class: `axis ${name}` }, name));
-    const [origins, labels] = [frames.map(() => circle("origin")), [...frames, 0].map(() => svg("text"))];
+    const names = ["x", "y", "z"].map((name) => svg("text", { class: `axis ${name}`, x: 3, y: 3 }, name));
+    const [origins, labels] = [frames.map(() => circle("origin")), [...frames, 0].map(() => svg("text", { x: 8, y: -8 }))];
     const [tolerance, bound, tip] = [circle("tolerance"), circle("random"), circle("tip")];
     const drawing = svg("svg", { "aria-hidden": true }, floor, reach, tolerance, ghost, links, ...axes,
         ...origins, bound, vector, tip, ...names, ...labels);
@@ -62,15 +55,12 @@ export function createView(panel) {
             [Math.cos(a), Math.sin(a) * Math.sin(b)], [0, -Math.cos(b)]];
         return (point) => [0, 1].map((i) => point[0] * columns[0][i] + point[1] * columns[1][i] + point[2] * columns[2][i]);
     }
-
     /** Turns by degrees and zooms. @param {number} right @param {number} down @param {number} factor */
     function turn(right, down, factor) {
-        azimuth -= right;
-        elevation = Math.min(90, Math.max(-90, elevation + down));
+        [azimuth, elevation] = [azimuth - right, Math.min(90, Math.max(-90, elevation + down))];
         zoom = Math.min(40, Math.max(0.2, zoom * factor));
         panel.refresh();
     }
-
     /** Chooses direction, scale and middle so that all samples are visible. */
     function reset() {
         [[azimuth, elevation], zoom] = [DIRECTION, 1];
@@ -80,46 +70,44 @@ export function createView(panel) {
         middle = bounds.map(([least, most]) => (least + most) / 2);
         panel.refresh();
     }
-
     /** Returns the path of the grid on the floor. @param {(point: number[]) => number[]} project */
     function floorPath(project) {
         const [across, along] = ground.map((axis) => [Math.floor(ends[axis][0] / grid), Math.ceil(ends[axis][1] / grid)]);
         const line = (/** @type {number[][]} */ cells) => path(cells.map((cell) =>
             project([0, 1, 2].map((axis) => (axis === up ? 0 : cell[ground.indexOf(axis)] * grid)))));
-        const all = ([from, to] = across) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
-        return [...all(across).map((i) => line(along.map((j) => [i, j]))), ...all(along).map((j) => line(across.map((i) => [i, j])))].join("");
+        const steps = ([from, to] = across) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
+        return [...steps(across).map((i) => line(along.map((j) => [i, j]))), ...steps(along).map((j) => line(across.map((i) => [i, j])))].join("");
     }
-
     /** Writes the numbers of the frames beside their origins; frames at one place share a label. @param {number[][]} places */
     function writeLabels(places) {
         const first = places.map(([x, y]) => places.findIndex((other) => Math.hypot(other[0] - x, other[1] - y) < 14));
         labels.forEach((label, i) => {
             setText(label, [...frames.map((_, k) => k + 1), "tool"].filter((_, k) => first[k] === i).join(", "));
-            moveTo(label, places[i], 8, -8);
+            moveTo(label, places[i]);
         });
     }
-
     function update() {
         if (sides[0] === 0) return;
         const { state, figures, tolerances, joint } = panel;
         if (magnification === 0) magnify();
-        const [flat, all] = [camera(), machine.frames(state, magnification)];
+        const [flat, poses] = [camera(), machine.frames(state, magnification)];
         const project = (/** @type {number[]} */ point) => flat(point).map((value, i) => sides[i] / 2 + zoom * scale * (value - middle[i]));
-        const places = all.ideal.map((frame) => project(originOf(frame)));
+        const places = poses.ideal.map((frame) => project(originOf(frame)));
         const tool = places[places.length - 1];
         const error = project(originOf(figures.pose).map((value, i) => value + magnification * figures.displacement[i]));
         // Path of the tool point while the joint that was moved last moves between its limits.
-        const moved = variables.length === 0 ? [] : Array.from({ length: PATH_POINTS + 1 }, (_, i) =>
-            Array.from(generated.pose(replaced(state.q, joint, between(panel, joint, i / PATH_POINTS)), state.s)));
+        const [least, most] = variables.length > 0 ? jointEnds(report, joint) : [0, 0];
+        const moved = Array.from({ length: PATH_POINTS + 1 }, (_, i) =>
+            Array.from(generated.pose(replaced(state.q, joint, least + ((most - least) * i) / PATH_POINTS), state.s)));
         floor.setAttribute("d", floorPath(project));
         links.setAttribute("d", path(places));
         reach.setAttribute("d", path(moved.map((pose) => project(originOf(pose)))));
-        ghost.setAttribute("d", path(all.real.map((pose) => project(originOf(pose)))));
+        ghost.setAttribute("d", path(poses.real.map((pose) => project(originOf(pose)))));
         vector.setAttribute("d", arrow(tool, error));
         axes.forEach((line, k) => {
-            const tips = all.ideal.map((frame) => project(originOf(frame).map((value, r) => value + AXIS * size * frame[3 * k + r])));
+            const tips = poses.ideal.map((frame) => project(originOf(frame).map((value, r) => value + AXIS * size * frame[3 * k + r])));
             line.setAttribute("d", tips.map((to, i) => path([places[i], to])).join(""));
-            moveTo(names[k], tips[0], 3, 3);
+            moveTo(names[k], tips[0]);
         });
         origins.forEach((one, i) => moveTo(one, places[i + 1]));
         writeLabels(places.slice(1));
@@ -128,7 +116,6 @@ export function createView(panel) {
         bound.setAttribute("r", String(scale * zoom * magnification * figures.position.randomRadius));
         limit.hidden = tolerances.position === null;
     }
-
     /** Chooses the round magnification at which the error, or else the tolerance, has a good length. */
     function magnify() {
         const length = panel.figures.position.radius || panel.tolerances.position || Infinity;
@@ -161,18 +148,8 @@ export function createView(panel) {
         event.preventDefault();
         turn(right, down, factor);
     });
-    onResize(drawing, (resized) => {
-        sides = resized;
-        reset();
-    });
+    onResize(drawing, (resized) => (sides = resized, reset()));
     return { element, update, settle: () => (magnify(), update()) };
-}
-
-/** Moves a circle or a text. @param {SVGElement} element @param {number[]} at @param {number} [right] @param {number} [down] */
-function moveTo(element, at, right = 0, down = 0) {
-    const [x, y] = element instanceof SVGCircleElement ? ["cx", "cy"] : ["x", "y"];
-    element.setAttribute(x, (at[0] + right).toFixed(1));
-    element.setAttribute(y, (at[1] + down).toFixed(1));
 }
 
 /** Returns the path of an arrow. @param {number[]} from @param {number[]} to */
