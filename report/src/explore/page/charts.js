@@ -33,7 +33,6 @@ export function createSweep(panel) {
     let [width, height, from, to, top] = [0, 0, 0, 1, 1];
     const across = (/** @type {number} */ value) => LEFT + ((width - LEFT - RIGHT) * (value - from)) / (to - from || 1);
     const above = (/** @type {number} */ error) => height - BOTTOM - ((height - TOP - BOTTOM) * error) / top;
-    /** Errors at the configurations of the study. */
     const radii = () => panel.cloud?.[panel.measurand].radii ?? [];
 
     function update() {

@@ -17,14 +17,13 @@ export function createVerdict(panel) {
     const { report } = panel;
     const [status, total, share, largest, parts, before] = spans("status", "total", "of", "largest", "parts", "before");
     const [repeatable, random, mark] = [html("i", { class: "repeatable" }), html("i", { class: "random" }), html("b")];
-    const field = html("input", { type: "text", class: "tolerance", placeholder: "none", autocomplete: "off" });
+    const field = html("input", { type: "text", class: "tolerance", placeholder: "type one", autocomplete: "off" });
     const live = html("div", { class: "live", role: "status" });
     const element = html("div", { class: "verdict" },
         html("p", { class: "line" }, status, total, share, html("label", {}, "tolerance ", field)),
         html("div", { class: "gauge", "aria-hidden": true }, repeatable, random, mark),
         html("p", { class: "detail" }, largest, parts, before), live);
-    const { u, s } = report.configurations;
-    const [studyText, boxText, all] = [html("p"), html("p"), html("input", { type: "checkbox", checked: u.length + s.length > 0 })];
+    const [studyText, boxText, all] = [html("p"), html("p"), html("input", { type: "checkbox", checked: true })];
     const progress = html("progress", { max: 1, value: 0, hidden: true, "aria-label": "Search of the worst case" });
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
     const hasRanges = [...report.inputs, ...report.parameters].some(({ range }) => range?.[0] != null && range[1] != null);
@@ -34,7 +33,6 @@ export function createVerdict(panel) {
             hasRanges ? html("label", {}, all, "vary inputs and parameters too") : ""));
     const shareText = (/** @type {number} */ radius, limit = panel.tolerances[panel.measurand]) =>
         (limit === null ? "" : `, ${percent(radius, limit)} of the tolerance`);
-
     field.addEventListener("change", () => {
         const value = field.value.trim() === "" ? null : parseValue(field.value, panel.unit.symbol, report.length) ?? NaN;
         const isWrong = value !== null && !(value > 0);
@@ -43,7 +41,6 @@ export function createVerdict(panel) {
         if (!isWrong) panel.tolerances[panel.measurand] = value;
         panel.refresh();
     });
-
     /** @type {AbortController | null} */
     let running = null;
     /** Finds the worst case and shows it; a second click stops the search. */

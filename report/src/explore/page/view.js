@@ -22,8 +22,7 @@ const originOf = (frame) => [frame[9], frame[10], frame[11]];
 export function createView(panel) {
     const { report, machine, generated } = panel;
     const { up = 2, frames, variables } = report;
-    const ground = [(up + 1) % 3, (up + 2) % 3];
-    const all = report.configurations.q;
+    const [ground, all] = [[(up + 1) % 3, (up + 2) % 3], report.configurations.q];
     const chosen = [panel.state.q, ...all.filter((_, i) => i % Math.ceil(all.length / SAMPLES) === 0)];
     const samples = chosen.flatMap((q) => machine.frames({ ...panel.state, q }, 0).ideal.map(originOf));
     const ends = [0, 1, 2].map((i) => [Math.min(...samples.map((point) => point[i])), Math.max(...samples.map((point) => point[i]))]);
