@@ -17,11 +17,11 @@ import { createView } from "./view.js";
 /**
  * What the parts of a panel read and call: the errors at the state, those before parameters, inputs or factors were
  * changed, and those at the configurations of the study; the measurand that is shown, with its unit; the joint that was
- * moved last. `go` replaces the state, `load` by a configuration of the study.
+ * moved last. `go` replaces the state, and that before changes if it is given; `load` loads a configuration of the study.
  * @typedef {{report: Report, generated: Generated, machine: Machine, index: number, state: State, figures: Evaluation,
  *     reference: Evaluation | null, cloud: Record<Measurand, Largest> | null, measurand: Measurand,
  *     unit: {symbol: string, factor: number}, tolerances: Record<Measurand, number | null>, joint: number,
- *     change: (edit: (state: State) => void) => void, go: (state: State) => void, load: (configuration: number) => void,
+ *     change: (edit: (state: State) => void) => void, go: (state: State, base?: State) => void, load: (configuration: number) => void,
  *     refresh: () => void}} Panel
  */
 
@@ -78,16 +78,15 @@ export function mount(section, generated, report, index) {
             edit(state);
             panel.refresh();
         },
-        go(next) {
-            [previous, back.hidden] = [copyState(state), false];
+        go(next, base = reference) {
+            [previous, back.hidden, reference] = [copyState(state), false, { ...base, factors: initial.factors }];
             panel.change(() => Object.assign(state, copyState(next)));
         },
         load(configuration) {
-            reference = { ...stateAt(report, state, configuration), factors: initial.factors };
-            panel.go(stateAt(report, state, configuration));
+            panel.go(stateAt(report, state, configuration), stateAt(report, reference, configuration));
         } };
     const back = button("Back", () => panel.go(previous), { hidden: true });
-    const reset = button("Reset", () => panel.go(reference = initial));
+    const reset = button("Reset", () => panel.go(initial, initial));
     addresses.push(() => encodeState(report, state, prefix));
     const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel), createSources(panel)];
     const [poses, jacobian, same] = [createPoses(panel), createJacobian(panel), createSame(panel)];

@@ -41,19 +41,19 @@ export function createVerdict(panel) {
         if (!isWrong) panel.tolerances[panel.measurand] = value;
         panel.refresh();
     });
-    /** @type {AbortController | null} */
-    let running = null;
+    let [running, searched] = [/** @type {AbortController | null} */ (null), ""];
+    const key = () => String([panel.measurand, panel.tolerances[panel.measurand], ...panel.state.factors]);
     /** Finds the worst case and shows it; a second click stops the search. */
     async function search() {
         if (running) return running.abort();
         running = new AbortController();
         const [{ signal }, { measurand, index, state }] = [running, panel];
         const task = { report, index, state, options: { measurand, inputs: all.checked, parameters: all.checked } };
-        progress.hidden = false;
+        [progress.hidden, searched] = [false, key()];
         setText(start, "Stop");
         try {
             const found = await searchWorst(task, (part) => { progress.value = part; }, signal);
-            panel.go(found.state);
+            panel.go(found.state, all.checked ? found.state : undefined);
             setText(boxText, `${errorText(panel, found.radius)}${shareText(found.radius)}, shown by the sliders; largest of `
                 + `${found.evaluations} configurations.`);
         } catch (error) {
@@ -86,6 +86,7 @@ export function createVerdict(panel) {
         const old = reference?.[measurand].radius ?? 0;
         const change = old > 0 ? ` (${radius < old ? "−" : "+"}${digits((100 * Math.abs(radius - old)) / old, 2)} %)` : "";
         setText(before, reference ? `before your changes ${errorText(panel, old, radius)}${change}` : "");
+        if (searched !== key()) setText(boxText, "");
         const study = cloud?.[measurand];
         if (!study) return;
         const source = study.norms.indexOf(Math.max(...study.norms));
