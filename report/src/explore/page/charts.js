@@ -67,7 +67,7 @@ export function createSweep(panel) {
     /** Draws the grid with its numbers. @param {Panel["unit"]} unit of the errors @param {string} along unit of the joint */
     function writeNumbers({ factor, symbol }, along) {
         const turn = along === "deg" ? 180 / Math.PI : 1;
-        const columns = ticks(turn * from, turn * to, (width - LEFT - RIGHT) / 60).map((tick) => ({ text: String(tick), x: across(tick / turn) }));
+        const columns = ticks(turn * from, turn * to, (width - LEFT - RIGHT) / 100).map((tick) => ({ text: String(tick), x: across(tick / turn) }));
         const step = roundStep((factor * top) / 5);
         const rows = ticks(0, factor * top, 5).map((tick) => ({ text: fixed(tick, decimals(step, 1)), y: above(tick / factor) }));
         grid.setAttribute("d", [...columns.map(({ x }) => path([[x, TOP], [x, height - BOTTOM]])),
