@@ -68,9 +68,9 @@ export function createVerdict(panel) {
         const { radius, repeatableRadius, randomRadius, norms } = figures[measurand];
         const limit = tolerances[measurand];
         const isMet = limit !== null && radius <= limit;
-        element.classList.toggle("missed", limit !== null && !isMet);
         // A study of the compensated machine judges what this page does not compute.
         const isJudged = limit !== null && report.study.judged === "as-built";
+        element.classList.toggle("missed", isJudged && !isMet);
         setText(status, !isJudged ? "As built, here" : isMet ? "✓ MET here" : "✗ NOT MET here");
         setText(total, errorText(panel, radius));
         setText(share, limit === null ? "" : `${percent(radius, limit)} of`);
