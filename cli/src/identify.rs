@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     if arguments.out.is_some() && !changes.is_empty() {
         return Err(Failure::new(
             "--out",
-            "the identified spec cannot hold the changes by --set, --enable and --disable",
+            "the identified spec cannot hold the changes by --set, --enable, --disable and --scale",
         )
         .help("change a copy of the spec instead, and identify that"));
     }

@@ -5,8 +5,11 @@ use abbe_spec::diagnostic::Span;
 use abbe_spec::document::{Document, Section};
 use abbe_spec::literal::quoted;
 
+use crate::number::exact_quantity;
+
 /// Returns the text of a spec with the values of parameters and inputs, and the enabled sources, of
-/// a changed one. Everything else stays as it is. `None` if the text has no place for a change.
+/// a changed one. Everything else stays as it is. `None` if the text has no place for a change, as for
+/// the scale of a source.
 pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<String> {
     let mut document = Document::new("spec", text);
     let table = document.tables(text)?;
@@ -23,6 +26,10 @@ pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<Stri
             let span = value(&root, "inputs", &old.name, &mut document)?;
             edits.push((span, quantity(new.value, &new.unit)));
         }
+    }
+    let scales = |spec: &Spec| spec.sources.iter().map(|source| source.scale).collect::<Vec<_>>();
+    if scales(unchanged) != scales(changed) {
+        return None;
     }
     for (i, (old, new)) in unchanged.sources.iter().zip(&changed.sources).enumerate() {
         if old.enabled != new.enabled {
@@ -54,10 +61,6 @@ fn value(root: &Section<'_>, table: &str, name: &str, document: &mut Document) -
 
 /// Formats a value in its coherent unit as the spec reads it.
 fn quantity(value: f64, unit: &str) -> String {
-    match unit.strip_prefix('1') {
-        _ if unit.is_empty() => format!("{value:?}"),
-        // `1/K`: 0.5/K.
-        Some(divisor) => quoted(&format!("{value:?}{divisor}")),
-        None => quoted(&format!("{value:?} {unit}")),
-    }
+    let text = exact_quantity(value, unit);
+    if unit.is_empty() { text } else { quoted(&text) }
 }

@@ -1,4 +1,5 @@
-//! Changes to a spec for one run: values of parameters and inputs, sources switched on and off.
+//! Changes to a spec for one run: values of parameters and inputs, sources switched on and off or
+//! scaled.
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
@@ -14,20 +15,17 @@ pub struct Changes {
     values: Vec<(Symbol, f64)>,
     /// Indices of sources, with `true` for those switched on.
     switches: Vec<(usize, bool)>,
+    /// Indices of sources, with factors of their errors.
+    scales: Vec<(usize, f64)>,
     /// Each change of a command line or of Python, as it was written.
     stated: Vec<(&'static str, String)>,
 }
 
 impl Changes {
-    /// Parses lists of `NAME=VALUE` and of sources to switch on and off. Mistakes are reported
-    /// under the options `--set`, `--enable` and `--disable`.
-    pub fn read(
-        set: &[String],
-        enable: &[String],
-        disable: &[String],
-        spec: &Spec,
-    ) -> Result<Self, Diagnostics> {
-        let named = [("set", set), ("enable", enable), ("disable", disable)];
+    /// Parses lists of `NAME=VALUE`, of sources to switch on and off, and of `SOURCE=FACTOR`.
+    /// Mistakes are reported under the options `--set`, `--enable`, `--disable` and `--scale`.
+    pub fn read([set, enable, disable, scale]: [&[String]; 4], spec: &Spec) -> Result<Self, Diagnostics> {
+        let named = [("set", set), ("enable", enable), ("disable", disable), ("scale", scale)];
         let stated = named.iter().flat_map(|(name, texts)| texts.iter().map(|text| (*name, text.clone())));
         let mut changes = Self { stated: stated.collect(), ..Self::default() };
         each_line("--set", set, |document, span| {
@@ -50,6 +48,7 @@ impl Changes {
                 changes.switch(document, span, &name, spec, on);
             })?;
         }
+        each_line("--scale", scale, |document, span| changes.scale(document, span, spec))?;
         Ok(changes)
     }
 
@@ -80,9 +79,28 @@ impl Changes {
         &self.stated
     }
 
+    /// Returns the changes as options, in the order in which they are applied. Numbers have all
+    /// their digits.
+    pub(crate) fn options(&self, spec: &Spec) -> Vec<(&'static str, String)> {
+        let source = |index: usize| spec.sources[index].name.clone();
+        let values = self.values.iter().map(|(symbol, value)| {
+            let unit = match *symbol {
+                Symbol::Parameter(i) => &spec.parameters[i].unit,
+                Symbol::Input(i) => &spec.inputs[i].unit,
+                _ => "",
+            };
+            ("set", format!("{}={}", spec.name_of(*symbol), number::exact_quantity(*value, unit)))
+        });
+        let switches =
+            self.switches.iter().map(|(index, on)| (if *on { "enable" } else { "disable" }, source(*index)));
+        let scales =
+            self.scales.iter().map(|(index, factor)| ("scale", format!("{}={factor}", source(*index))));
+        values.chain(switches).chain(scales).collect()
+    }
+
     /// Returns true if there are no changes.
     pub fn is_empty(&self) -> bool {
-        self.values.is_empty() && self.switches.is_empty()
+        self.values.is_empty() && self.switches.is_empty() && self.scales.is_empty()
     }
 
     /// Sets a parameter or input; reports a mistake if an input is outside its range.
@@ -105,9 +123,31 @@ impl Changes {
 
     /// Switches a source on or off; reports a mistake if there is no source with this name.
     pub fn switch(&mut self, document: &mut Document, span: Span, name: &str, spec: &Spec, on: bool) {
-        let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
-        let found = find_name(document, span, name, &names, "source");
+        let found = find_source(document, span, name, spec);
         self.switches.extend(found.map(|source| (source, on)));
+    }
+
+    /// Scales the errors of a source, given as `SOURCE=FACTOR`.
+    fn scale(&mut self, document: &mut Document, span: Span, spec: &Spec) {
+        let line = document.text[span.clone()].to_owned();
+        // A name can contain `=`, a factor cannot.
+        let Some((name, _)) = line.rsplit_once('=') else {
+            let mistake = Diagnostic::new(span, "expected SOURCE=FACTOR").help("write `--scale gear=0.5`");
+            return document.mistake(mistake);
+        };
+        let named = span.start..span.start + name.len();
+        let Some(source) = find_source(document, named.clone(), name.trim(), spec) else { return };
+        let value = named.end + 1..span.end;
+        let what = format!("the factor of `{}`", name.trim());
+        let factor = parse_value(document, value.clone(), spec.length, Dimension::NONE, &what);
+        match factor {
+            Some(factor) if factor < 0.0 => {
+                let message = format!("{what} is negative");
+                let help = "write 0 or a positive number";
+                document.mistake(Diagnostic::new(value, message).help(help));
+            }
+            factor => self.scales.extend(factor.map(|factor| (source, factor))),
+        }
     }
 
     /// Iterates over the indices of the inputs that are set.
@@ -138,7 +178,16 @@ impl Changes {
         for &(source, on) in &self.switches {
             spec.sources[source].enabled = on;
         }
+        for &(source, factor) in &self.scales {
+            spec.sources[source].scale *= factor;
+        }
     }
+}
+
+/// Finds a source by name; reports a mistake if there is none.
+fn find_source(document: &mut Document, span: Span, name: &str, spec: &Spec) -> Option<usize> {
+    let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
+    find_name(document, span, name, &names, "source")
 }
 
 /// Finds a parameter or input by name; reports a mistake if there is none.

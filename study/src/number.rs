@@ -22,6 +22,22 @@ pub fn configuration(configuration: &Configuration, home: &Configuration, spec: 
     if all.is_empty() { "home".to_owned() } else { all.join(", ") }
 }
 
+/// Formats a value in its coherent unit with all digits, as options and specs read it.
+pub fn exact_quantity(value: f64, unit: &str) -> String {
+    match unit.strip_prefix('1') {
+        _ if unit.is_empty() => format!("{value:?}"),
+        // `1/K`: 0.5/K.
+        Some(divisor) => format!("{value:?}{divisor}"),
+        None => format!("{value:?} {unit}"),
+    }
+}
+
+/// Returns the factor and the symbol of the unit in which errors are shown. A spec in metres has
+/// its errors shown in millimetres.
+pub fn error_unit(length: &str) -> (f64, &str) {
+    if length == "m" { (1e3, "mm") } else { (1.0, length) }
+}
+
 /// Named numbers; an object in JSON, in this order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Named(pub Vec<(String, f64)>);

@@ -29,7 +29,7 @@ pub(crate) struct Subject {
 
 // Listed after the other options.
 #[derive(Args, Debug)]
-struct Changes {
+pub(crate) struct Changes {
     /// Set a parameter or an input: `--set x=250mm`
     #[arg(long, value_name = "NAME=VALUE", display_order = 100)]
     set: Vec<String>,
@@ -39,15 +39,28 @@ struct Changes {
     /// Disable an error source
     #[arg(long, value_name = "SOURCE", display_order = 102)]
     disable: Vec<String>,
+    /// Multiply the errors of a source: `--scale gear=0.5`
+    #[arg(long, value_name = "SOURCE=FACTOR", display_order = 103)]
+    scale: Vec<String>,
+}
+
+impl Changes {
+    /// Reads the changes. Diagnostics point into the options.
+    pub(crate) fn read(&self, spec: &Spec) -> Result<abbe_study::Changes, Diagnostics> {
+        let Self { set, enable, disable, scale } = self;
+        abbe_study::Changes::read([set, enable, disable, scale], spec)
+    }
 }
 
 impl Subject {
-    /// Returns the changes, one per option: first `--set`, then `--enable` and `--disable`.
+    /// Returns the changes, one per option: first `--set`, then `--enable`, `--disable` and
+    /// `--scale`.
     pub(crate) fn each_change(&self) -> Vec<Change> {
-        let Changes { set, enable, disable } = &self.changes;
+        let Changes { set, enable, disable, scale } = &self.changes;
         let set = set.iter().cloned().map(Change::Set);
         let enable = enable.iter().cloned().map(Change::Enable);
-        set.chain(enable).chain(disable.iter().cloned().map(Change::Disable)).collect()
+        let disable = disable.iter().cloned().map(Change::Disable);
+        set.chain(enable).chain(disable).chain(scale.iter().cloned().map(Change::Scale)).collect()
     }
 
     /// Reads the machine without the changes.
@@ -57,8 +70,7 @@ impl Subject {
 
     /// Reads the changes. Diagnostics point into the options.
     pub(crate) fn changes(&self, spec: &Spec) -> Result<abbe_study::Changes, Diagnostics> {
-        let Changes { set, enable, disable } = &self.changes;
-        abbe_study::Changes::read(set, enable, disable, spec)
+        self.changes.read(spec)
     }
 
     /// Reads the machine and applies the changes.

@@ -188,7 +188,7 @@ pub(super) fn effects_in<'a>(
 fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node; 6]>]) -> Vec<[Node; 6]> {
     let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
     for (uncertain, factor) in &source.propagated {
-        let factor = graph.constant(*factor);
+        let factor = graph.constant(source.scale * factor);
         let mut add_scaled = |graph: &mut Graph, errors: &[[Node; 6]]| {
             for (sum, errors) in sums.iter_mut().zip(errors) {
                 let scaled = errors.map(|error| graph.mul(factor, error));
@@ -246,7 +246,7 @@ fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node;
 fn times(graph: &mut Graph, source: &Source) -> Node {
     match source.tuned_by {
         Some(input) => graph.symbol(Symbol::Input(input)),
-        None => graph.constant(source.magnitude.map_or(1.0, |magnitude| magnitude.value)),
+        None => graph.constant(source.factor()),
     }
 }
 

@@ -26,7 +26,9 @@ pub struct Source {
     pub reference: String,
     /// Factor of its errors, if that can be identified.
     pub magnitude: Option<Magnitude>,
-    /// Input that multiplies its errors instead, if the factor is given at run time.
+    /// Factor of all its errors in addition to its magnitude; 1 for a source of a file.
+    pub scale: f64,
+    /// Input that multiplies its errors instead of both, if the factor is given at run time.
     pub tuned_by: Option<usize>,
     /// Effects on frames, in the order of the file.
     pub effects: Vec<Effect>,
@@ -49,6 +51,11 @@ pub enum Uncertain {
 }
 
 impl Source {
+    /// Returns the factor of its errors: its magnitude, or 1, times its scale.
+    pub fn factor(&self) -> f64 {
+        self.scale * self.magnitude.map_or(1.0, |magnitude| magnitude.value)
+    }
+
     /// Returns `true` if the loads cause any of its errors.
     pub fn is_elastic(&self) -> bool {
         self.effects.iter().any(|effect| effect.cause.is_elastic())
@@ -66,6 +73,7 @@ impl Source {
             description,
             reference: String::new(),
             magnitude: None,
+            scale: 1.0,
             tuned_by: None,
             effects: Vec::new(),
             deviations: Vec::new(),

@@ -15,7 +15,7 @@ pub const MAGNITUDE: &str = "magnitude_";
 
 impl Spec {
     /// Adds an input for each enabled repeatable source, in their order, which multiplies the
-    /// errors of the source. Its default is the source's magnitude, or 1. Its name is [`MAGNITUDE`]
+    /// errors of the source. Its default is the source's [`factor`](Source::factor). Its name is [`MAGNITUDE`]
     /// followed by the source's name as an identifier, and a number if that is taken.
     #[must_use]
     pub fn with_magnitudes_as_inputs(&self) -> Self {
@@ -37,7 +37,7 @@ impl Spec {
             source.tuned_by = Some(spec.inputs.len());
             spec.inputs.push(Input {
                 name,
-                value: source.magnitude.map_or(1.0, |magnitude| magnitude.value),
+                value: source.factor(),
                 dimension: Dimension::NONE,
                 unit: String::new(),
                 range: [f64::NEG_INFINITY, f64::INFINITY],

@@ -52,8 +52,8 @@ impl Analyze {
     pub fn change(&mut self, changes: &Changes, notes: &mut dyn Notes) {
         if !changes.is_empty() && self.study.remove_published() {
             notes.note(
-                "published figures are not compared: --set, --enable and --disable define a \
-                 different machine",
+                "published figures are not compared: --set, --enable, --disable and --scale define \
+                 a different machine",
             );
         }
         self.machine.change(changes);

@@ -102,6 +102,7 @@ impl Term {
             description: String::new(),
             reference: String::new(),
             magnitude: None,
+            scale: 1.0,
             tuned_by: None,
             effects,
             deviations,

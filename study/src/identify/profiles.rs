@@ -224,6 +224,7 @@ impl FoundProfiles {
                 description: String::new(),
                 reference: String::new(),
                 magnitude: None,
+                scale: 1.0,
                 tuned_by: None,
                 effects: Vec::new(),
                 deviations: vec![Deviation {

@@ -19,7 +19,7 @@ fn pps() -> Machine {
 fn pps_with(set: &[&str]) -> Machine {
     let mut machine = pps();
     let set: Vec<String> = set.iter().map(|one| (*one).to_owned()).collect();
-    machine.change(&Changes::read(&set, &[], &[], &machine.spec).unwrap());
+    machine.change(&Changes::read([&set, &[], &[], &[]], &machine.spec).unwrap());
     machine
 }
 
@@ -148,7 +148,7 @@ fn the_load_cell_explains_weights_that_were_not_measured() {
     let nominal = {
         let mut machine = pps();
         let unknown = ["assembly".to_owned()];
-        machine.change(&Changes::read(&[], &[], &unknown, &machine.spec).unwrap());
+        machine.change(&Changes::read([&[], &[], &unknown, &[]], &machine.spec).unwrap());
         machine
     };
     let real = {

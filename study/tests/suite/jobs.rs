@@ -28,7 +28,7 @@ impl Notes for RecordedNotes {
 
 fn changed(name: &str, set: &str) -> Machine {
     let mut machine = Machine::find(name).unwrap();
-    let changes = Changes::read(&[set.to_owned()], &[], &[], &machine.spec).unwrap();
+    let changes = Changes::read([&[set.to_owned()], &[], &[], &[]], &machine.spec).unwrap();
     machine.change(&changes);
     machine
 }

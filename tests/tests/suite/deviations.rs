@@ -62,6 +62,7 @@ fn repeatable(name: String, number: ChainNumber, error: f64) -> Source {
         description: String::new(),
         reference: String::new(),
         magnitude: None,
+        scale: 1.0,
         tuned_by: None,
         effects: Vec::new(),
         deviations: vec![Deviation { number, cause: DeviationCause::Error(error), span: 0..0 }],

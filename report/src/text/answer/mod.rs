@@ -15,7 +15,7 @@ mod plan;
 mod positioning;
 
 use abbe_study::data::Summary;
-use abbe_study::number::{digits, unbroken};
+use abbe_study::number::{digits, error_unit, unbroken};
 use abbe_study::{Extrapolation, OtherTool};
 
 use super::{full, wrapped};
@@ -114,12 +114,6 @@ fn aligned<const N: usize>(rows: &[[String; N]], right: [bool; N]) -> String {
         line.trim_end().to_owned() + "\n"
     };
     rows.iter().map(line).collect()
-}
-
-/// Returns the factor and the symbol of the unit in which errors are shown. A spec in metres has
-/// its errors shown in millimetres.
-fn error_unit(length: &str) -> (f64, &str) {
-    if length == "m" { (1e3, "mm") } else { (1.0, length) }
 }
 
 /// Returns a configuration with at most [`NAMED`] of its values.

@@ -131,6 +131,7 @@ fn read_source(
         description,
         reference,
         magnitude,
+        scale: 1.0,
         tuned_by: None,
         effects,
         deviations,

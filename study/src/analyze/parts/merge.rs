@@ -127,7 +127,7 @@ fn difference(one: &Part, other: &Part) -> &'static str {
     } else if text(&a.study) != text(&b.study) {
         "the studies differ"
     } else if a.changes != b.changes {
-        "the changes by --set, --enable or --disable differ"
+        "the changes by --set, --enable, --disable or --scale differ"
     } else if a.seed != b.seed {
         "the seeds differ"
     } else if a.monte_carlo != b.monte_carlo {

@@ -61,19 +61,22 @@ pub enum Change {
     Enable(String),
     /// Name of a source to switch off.
     Disable(String),
+    /// `SOURCE=FACTOR`, a factor of the errors of a source.
+    Scale(String),
     /// `NAME=VALUE`, with a plain number in coherent units.
     Number(String),
 }
 
 impl Change {
-    /// Parses the change. Mistakes are reported under the options `--set`, `--enable` and
-    /// `--disable`.
+    /// Parses the change. Mistakes are reported under the options `--set`, `--enable`, `--disable`
+    /// and `--scale`.
     pub fn read(&self, spec: &Spec) -> Result<Changes, Diagnostics> {
         let one = std::slice::from_ref::<String>;
         match self {
-            Self::Set(text) => Changes::read(one(text), &[], &[], spec),
-            Self::Enable(source) => Changes::read(&[], one(source), &[], spec),
-            Self::Disable(source) => Changes::read(&[], &[], one(source), spec),
+            Self::Set(text) => Changes::read([one(text), &[], &[], &[]], spec),
+            Self::Enable(source) => Changes::read([&[], one(source), &[], &[]], spec),
+            Self::Disable(source) => Changes::read([&[], &[], one(source), &[]], spec),
+            Self::Scale(text) => Changes::read([&[], &[], &[], one(text)], spec),
             Self::Number(text) => Changes::parse_number(text, spec),
         }
     }

@@ -31,12 +31,12 @@ impl SourceValue {
     /// of an input; or the deviation of a joint or parameter, if it is the only one and constant;
     /// or the only generalized error at the configuration.
     pub(super) fn new(spec: &Spec, source: &Source, one: &Contribution) -> Self {
-        if let Some(magnitude) = source.magnitude {
-            return Self { value: magnitude.value, quantity: Quantity::Parameter(String::new()) };
+        if source.magnitude.is_some() {
+            return Self { value: source.factor(), quantity: Quantity::Parameter(String::new()) };
         }
         if let [(Uncertain::Input(input), uncertainty)] = source.propagated[..] {
             return Self {
-                value: uncertainty,
+                value: source.scale * uncertainty,
                 quantity: Quantity::Parameter(spec.inputs[input].unit.clone()),
             };
         }
@@ -44,7 +44,7 @@ impl SourceValue {
             && let Some(value) =
                 deviation.error().and_then(Expression::constant).filter(|value| *value != 0.0)
         {
-            return Self { value: value.abs(), quantity: quantity(spec, deviation.number) };
+            return Self { value: source.scale * value.abs(), quantity: quantity(spec, deviation.number) };
         }
         match one.value {
             None => Self { value: 1.0, quantity: Quantity::Multiple },

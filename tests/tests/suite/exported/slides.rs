@@ -14,7 +14,7 @@ use super::{exported, machine};
 pub(crate) fn mill() -> Machine {
     let mut machine = machine("machine3", "");
     let set = ["temperature_rise=0K".to_owned()];
-    machine.change(&Changes::read(&set, &[], &[], &machine.spec).unwrap());
+    machine.change(&Changes::read([&set, &[], &[], &[]], &machine.spec).unwrap());
     machine
 }
 
@@ -220,7 +220,7 @@ fn columns_of_linuxcnc_hold_both_directions() {
     assert!(said.contains("forward column holds for `x_from` = 1, the reverse column for -1"), "{said}");
     // An input with a value holds in both directions.
     let mut below = machine;
-    below.change(&Changes::read(&["x_from=1".to_owned()], &[], &[], &below.spec).unwrap());
+    below.change(&Changes::read([&["x_from=1".to_owned()], &[], &[], &[]], &below.spec).unwrap());
     let report = exported(&below, Format::LinuxCnc { nodes: 5, has_matrix: false });
     assert!(rows(&report.files[0].text).iter().all(|line| line[1] == line[2]), "{:?}", report.files);
 }
