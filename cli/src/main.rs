@@ -13,6 +13,7 @@ mod compensate;
 mod completions;
 mod console;
 mod doctor;
+mod explore;
 mod export;
 mod failure;
 mod generate;
@@ -66,6 +67,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
+        Some(Command::Explore(arguments)) => explore::run(arguments),
         Some(Command::Bound(arguments)) => bound::run(arguments),
         Some(Command::Merge(arguments)) => merge::run(arguments),
         Some(Command::New(arguments)) => new::run(arguments),

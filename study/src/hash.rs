@@ -11,7 +11,12 @@ use crate::mistake;
 
 /// Returns the SHA-256 of a text, in hexadecimal.
 pub fn text(text: &str) -> String {
-    hex(&Sha256::digest(text.as_bytes()))
+    hex(&digest(text))
+}
+
+/// Returns the SHA-256 of a text.
+pub fn digest(text: &str) -> [u8; 32] {
+    Sha256::digest(text.as_bytes()).into()
 }
 
 /// Returns the SHA-256 of a file, in hexadecimal as printed by `sha256sum`.

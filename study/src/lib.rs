@@ -49,6 +49,7 @@ pub mod bound;
 pub mod check;
 pub mod compensate;
 pub mod doctor;
+pub mod explore;
 pub mod export;
 pub mod generate;
 pub mod identify;

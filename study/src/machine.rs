@@ -216,7 +216,7 @@ impl Deref for Evaluator {
 fn magnitude_error(source: &Source) -> Option<Source> {
     let Magnitude { standard_deviation, degrees_of_freedom, .. } = source.magnitude?;
     Some(Source {
-        name: format!("{} (its magnitude)", source.name),
+        name: magnitude_error_name(source),
         class: Class::Random(Distribution::Normal),
         degrees_of_freedom,
         magnitude: Some(Magnitude {
@@ -226,6 +226,23 @@ fn magnitude_error(source: &Source) -> Option<Source> {
         }),
         ..source.clone()
     })
+}
+
+fn magnitude_error_name(source: &Source) -> String {
+    format!("{} (its magnitude)", source.name)
+}
+
+/// Returns the index of the source whose factor and switch a source shares: its own; that of the
+/// source whose magnitude is uncertain; or `None` for an error of the calibration.
+pub(crate) fn followed_source(spec: &Spec, index: usize) -> Option<usize> {
+    let source = &spec.sources[index];
+    match source {
+        _ if is_calibration_error(source) => None,
+        _ if is_magnitude_error(source) => {
+            spec.sources.iter().position(|other| magnitude_error_name(other) == source.name)
+        }
+        _ => Some(index),
+    }
 }
 
 /// No random source of a file has a magnitude.

@@ -9,6 +9,7 @@ mod check;
 mod compensate;
 mod completions;
 mod doctor;
+mod explore;
 mod export;
 mod generate;
 mod identify;
@@ -33,6 +34,7 @@ pub(crate) use check::Check;
 pub(crate) use compensate::Compensate;
 pub(crate) use completions::Completions;
 pub(crate) use doctor::Doctor;
+pub(crate) use explore::Explore;
 pub(crate) use export::Export;
 pub(crate) use generate::Generate;
 pub(crate) use identify::Identify;
@@ -89,6 +91,11 @@ pub(crate) enum Command {
     Jacobian(Jacobian),
     /// Compute the errors of every source, and of all sources together, over a workspace
     Analyze(Analyze),
+    /// Write a page on which joints, inputs and error sources can be varied
+    ///
+    /// One HTML file, which needs no network: it contains the generated code of the machine, and
+    /// shows its errors while values change. With two specs, both machines side by side.
+    Explore(Explore),
     /// Certify upper bounds of the errors, beside the largest errors found
     Bound(Bound),
     /// Merge the parts of an analysis that was computed in several runs

@@ -23,6 +23,19 @@ pub struct Span {
 }
 
 impl Region {
+    /// Returns the smallest and the largest value of a parameter that the workspace varies.
+    pub fn parameter_range(&self, parameter: usize) -> Option<[f64; 2]> {
+        let symbol = Symbol::Parameter(parameter);
+        let span = match &self.form {
+            Form::Presented(Presentation { tool_points, .. }) => {
+                hull(symbol, &tool_points.iter().find(|axis| axis.index == parameter)?.values)
+            }
+            Form::Path(path) => hull(symbol, &path.columns().find(|(column, _)| *column == symbol)?.1),
+            _ => return None,
+        };
+        Some(span.range).filter(|[lower, upper]| lower < upper)
+    }
+
     /// Returns the box of joints, parameters and inputs that contains every configuration. Symbols
     /// without a span stay at home or nominal.
     ///

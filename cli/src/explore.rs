@@ -1,0 +1,48 @@
+//! `abbe explore`: a page that evaluates the generated code of a machine, or of two.
+
+use std::borrow::Cow;
+use std::ffi::OsStr;
+use std::path::PathBuf;
+
+use abbe_study::analyze::Analyze;
+use abbe_study::explore::{Explore, Report};
+use abbe_study::{Machine, Reads};
+
+use crate::arguments;
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::output::{Outcome, Outputs, is_stdout, json, note};
+
+pub(crate) fn run(arguments: &arguments::Explore) -> Result<Outcome, Failure> {
+    let jobs: Vec<Explore<'_>> =
+        arguments.specs.iter().map(|spec| job(arguments, spec)).collect::<Result<_, _>>()?;
+    let run = || -> Result<Vec<Report>, Failure> {
+        let mut console = Console::default();
+        jobs.iter().map(|job| Ok(job.run(&mut console)?)).collect()
+    };
+    if arguments.json {
+        return Ok(Outcome::passed(json(&run()?)?));
+    }
+    let names: Vec<&str> = jobs.iter().map(|job| job.analysis.machine().spec.name.as_str()).collect();
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}.html", names.join("-"))));
+    let files: Vec<PathBuf> = jobs.iter().flat_map(Reads::files).collect();
+    let mut outputs = Outputs::new(&files, arguments.writing.force);
+    let page = outputs.file(&path)?;
+    let text = abbe_report::explore(&run()?);
+    outputs.finish([page.fill(&text)?])?;
+    if !is_stdout(&path) {
+        note(&format!("wrote {}: {} bytes; open it in a browser", path.display(), text.len()));
+    }
+    Ok(Outcome::passed(String::new()))
+}
+
+fn job(arguments: &arguments::Explore, spec: &OsStr) -> Result<Explore<'static>, Failure> {
+    let machine = Machine::find(spec)?;
+    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let changes = arguments.changes.read(&machine.spec)?;
+    let mut analysis = Analyze::new(machine, study);
+    // The page compares no published figures.
+    analysis.change(&changes, &mut ());
+    let study = arguments.study.as_ref().map(|study| study.to_string_lossy().into_owned());
+    Ok(Explore { analysis: Cow::Owned(analysis), study })
+}

@@ -1,0 +1,98 @@
+//! Modules of the page, joined to one script.
+
+use super::scripts::{escaped, without_exports};
+
+/// Names and texts of modules in `page/`.
+macro_rules! modules {
+    ($($name:literal)*) => {
+        [$(($name, include_str!(concat!("page/", $name)))),*]
+    };
+}
+
+/// All modules; each imports from earlier ones only.
+const MODULES: &[(&str, &str)] = &modules!["main.js"];
+
+/// Returns the script: every module without its imports and the words `export`. Names are unique
+/// over all modules.
+pub(super) fn script() -> String {
+    let modules = MODULES.iter().map(|(_, module)| without_exports(&without_imports(module)).0);
+    format!("(() => {{\n\"use strict\";\n{}}})();", escaped(&modules.collect::<String>()))
+}
+
+/// Removes the imports, one line each, at the top.
+fn without_imports(module: &str) -> String {
+    module.split_inclusive('\n').filter(|line| !line.starts_with("import ")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+    use std::fs;
+    use std::path::Path;
+
+    use super::{MODULES, script};
+
+    /// Returns the names that a module imports, with their module.
+    fn imports(module: &str) -> Vec<(String, Vec<String>)> {
+        let lines = module.lines().filter(|line| line.starts_with("import "));
+        let import = |line: &str| {
+            let (names, from) = line
+                .strip_prefix("import { ")
+                .and_then(|rest| rest.split_once(" } from \"./"))
+                .unwrap_or_else(|| panic!("not an import of names on one line: {line}"));
+            let names = names.split(", ").map(str::to_owned).collect();
+            (from.trim_end_matches("\";").to_owned(), names)
+        };
+        lines.map(import).collect()
+    }
+
+    /// Returns the names that are declared at the beginning of a line.
+    fn declared(module: &str) -> Vec<(bool, String)> {
+        let declaration = |line: &str| {
+            let exported = line.strip_prefix("export ");
+            let line = exported.unwrap_or(line);
+            let line = line.strip_prefix("async ").unwrap_or(line);
+            let rest =
+                ["const ", "let ", "function ", "class "].iter().find_map(|word| line.strip_prefix(word))?;
+            let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '$'))?;
+            Some((exported.is_some(), rest[..end].to_owned()))
+        };
+        module.lines().filter_map(declaration).collect()
+    }
+
+    #[test]
+    fn every_module_is_in_the_script() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/explore/page");
+        let files =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut files: Vec<String> = files.filter(|name| name.ends_with(".js")).collect();
+        let mut modules: Vec<&str> = MODULES.iter().map(|(name, _)| *name).collect();
+        files.sort();
+        modules.sort_unstable();
+        assert_eq!(files, modules);
+    }
+
+    #[test]
+    fn names_are_unique_and_imports_come_from_earlier_modules() {
+        let (mut names, mut exports) = (HashSet::new(), HashSet::new());
+        for (name, module) in MODULES {
+            for (from, imported) in imports(module) {
+                for one in imported {
+                    assert!(exports.contains(&(from.clone(), one.clone())), "{name}: {one} of {from}");
+                }
+            }
+            for (exported, one) in declared(module) {
+                assert!(names.insert(one.clone()), "{one} of {name} is the name of another module, too");
+                if exported {
+                    exports.insert(((*name).to_owned(), one));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_script_has_no_imports_and_exports() {
+        let is_of_a_module = |line: &&str| line.starts_with("import ") || line.starts_with("export ");
+        assert_eq!(script().lines().find(is_of_a_module), None);
+    }
+}

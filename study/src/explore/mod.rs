@@ -1,0 +1,70 @@
+//! Data of a live page: the machine's generated JavaScript, and what a page shows of its spec and
+//! study.
+//!
+//! `report` is the data, `command` the options of the commands that give the page's figures, and
+//! `configurations` some configurations of the study's workspace.
+
+mod command;
+mod configurations;
+mod report;
+
+use std::borrow::Cow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use abbe_codegen::print::Language;
+use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+
+use crate::analyze::Analyze;
+use crate::finite;
+use crate::notes::Notes;
+use crate::reads::Reads;
+pub use report::{
+    Configurations, ErrorUnit, FrameName, Input, Parameter, Report, Source, StudyFacts, Variable,
+};
+
+/// Functions of the generated code that a page calls, if the manipulator has them.
+const FUNCTIONS: [&str; 6] =
+    ["transforms", "pose", "real_pose", "error_jacobian", "effects", "source_displacements"];
+
+/// Job of `abbe explore`: collects the data of a live page.
+#[derive(Clone)]
+pub struct Explore<'a> {
+    /// Analysis of the machine over its study, with all changes.
+    pub analysis: Cow<'a, Analyze>,
+    /// Study as it was given; `None` for that of the machine.
+    pub study: Option<String>,
+}
+
+impl Reads for Explore<'_> {
+    fn files(&self) -> Vec<PathBuf> {
+        let Self { analysis, study: _ } = self;
+        analysis.files()
+    }
+}
+
+impl Explore<'_> {
+    /// Generates the code and collects the data.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let machine = self.analysis.machine();
+        let tunable = tunable(&machine.spec);
+        let functions = Language::JavaScript.functions(&tunable);
+        let functions: Vec<&str> = FUNCTIONS.into_iter().filter(|name| functions.contains(name)).collect();
+        let code = Language::JavaScript.files_of(&tunable, &functions);
+        let code = code.into_iter().map(|file| file.text).collect();
+        notes.go_on()?;
+        let configurations = configurations::configurations(&self.analysis)?;
+        let interpreter = Interpreter::new(Arc::new(tunable.clone()));
+        let effects = report::effects(&interpreter);
+        finite(&machine.origin, Report::new(self, &tunable, effects, configurations, code))
+    }
+}
+
+/// Returns the spec with every source enabled, and a factor of each repeatable one as an input.
+fn tunable(spec: &Spec) -> Spec {
+    let mut spec = spec.clone();
+    spec.sources.iter_mut().for_each(|source| source.enabled = true);
+    spec.with_magnitudes_as_inputs()
+}

@@ -1,0 +1,289 @@
+//! Data of a live page.
+
+use abbe::{Class, Manipulator, VariableKind};
+use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use serde::Serialize;
+
+use super::Explore;
+use crate::jacobian::column_names;
+use crate::machine::followed_source;
+use crate::number;
+use crate::study_file::JudgedMachine;
+
+/// Data of a live page: a machine, its study, and its generated code. Lengths are in the spec's
+/// unit, angles in rad, vectors in `F_0`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// SPEC as it was given: path of a spec, or name of a shipped manipulator.
+    pub spec: String,
+    /// Name of the manipulator.
+    pub name: String,
+    /// Title of the spec.
+    pub title: String,
+    /// Description of the machine.
+    pub description: String,
+    /// Options of `abbe analyze` that give the figures of this machine: its study and changes.
+    pub command: Vec<String>,
+    /// Options of `abbe jacobian` for this machine: the changes of the study, then the given ones.
+    pub jacobian_command: Vec<String>,
+    /// Symbol of the length unit.
+    pub length: &'static str,
+    /// Units in which errors are shown.
+    pub error_unit: ErrorUnit,
+    /// Convention of rows 4–6: `rotation-vector`, `euler-yzx` or `iec-61217`.
+    pub orientation: &'static str,
+    /// Names of the rows of `J_e`.
+    pub rows: [&'static str; 6],
+    /// Names of the columns of `J_e`: `e_x1 … e_p1`, then those of frame 2, …
+    pub columns: Vec<String>,
+    /// The study.
+    pub study: StudyFacts,
+    /// Frames, from base to tip.
+    pub frames: Vec<FrameName>,
+    /// Whether a tool follows the last frame.
+    pub tool: bool,
+    /// Joint variables, in order.
+    pub variables: Vec<Variable>,
+    /// Inputs of the spec, in order. The code has further ones, the factors of repeatable sources.
+    pub inputs: Vec<Input>,
+    /// Structural parameters, in order.
+    pub parameters: Vec<Parameter>,
+    /// Error sources in the order of the code, including disabled ones, and the uncertainty of the
+    /// repeatable errors as normal random sources.
+    pub sources: Vec<Source>,
+    /// Generalized errors that `effects` of the code returns, in its order: indices of source,
+    /// frame and component.
+    pub effects: Vec<[usize; 3]>,
+    /// Reachable configurations of the study's workspace, at most 1,000, evenly chosen.
+    pub configurations: Configurations,
+    /// ES module of the machine, with every source enabled and a factor of each repeatable source
+    /// as an input.
+    pub code: String,
+}
+
+/// Units in which errors are shown.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ErrorUnit {
+    /// Symbol of the unit of position errors, and its number in the length unit (a factor).
+    pub length: (&'static str, f64),
+    /// Symbol of the unit of orientation errors, and its number in 1 rad (a factor).
+    pub angle: (&'static str, f64),
+}
+
+/// Study of a live page.
+#[derive(Clone, Debug, Serialize)]
+pub struct StudyFacts {
+    /// Title of the study.
+    pub title: String,
+    /// Permitted position error of the tool point; `None` without a tolerance.
+    pub tolerance: Option<f64>,
+    /// Permitted norm of rows 4–6; `None` without one.
+    pub orientation_tolerance: Option<f64>,
+    /// Machine that the tolerance is held against.
+    pub judged: JudgedMachine,
+}
+
+/// Name of a frame.
+#[derive(Clone, Debug, Serialize)]
+pub struct FrameName {
+    /// Name of the frame.
+    pub name: String,
+}
+
+/// A joint variable.
+#[derive(Clone, Debug, Serialize)]
+pub struct Variable {
+    /// Name of the variable.
+    pub name: String,
+    /// `revolute` or `prismatic`.
+    pub kind: &'static str,
+    /// Lower and upper limit, in rad or the length unit.
+    pub limits: [f64; 2],
+    /// Value at home, in rad or the length unit.
+    pub home: f64,
+    /// Description.
+    pub description: String,
+}
+
+/// An input of the spec.
+#[derive(Clone, Debug, Serialize)]
+pub struct Input {
+    /// Name of the input.
+    pub name: String,
+    /// Nominal value, in its unit.
+    pub nominal: f64,
+    /// Lower and upper end of its range, in its unit.
+    pub range: [f64; 2],
+    /// Coherent unit; empty for a pure number or an angle.
+    pub unit: String,
+    /// Description.
+    pub description: String,
+}
+
+/// A structural parameter.
+#[derive(Clone, Debug, Serialize)]
+pub struct Parameter {
+    /// Name of the parameter.
+    pub name: String,
+    /// Nominal value, in its unit.
+    pub nominal: f64,
+    /// Coherent unit; empty for a pure number or an angle.
+    pub unit: String,
+    /// Smallest and largest value in the study, in its unit; `None` if the study keeps it nominal.
+    pub range: Option<[f64; 2]>,
+    /// Description.
+    pub description: String,
+}
+
+/// An error source.
+#[derive(Clone, Debug, Serialize)]
+pub struct Source {
+    /// Name of the source.
+    pub name: String,
+    /// `repeatable` or `random`.
+    pub class: &'static str,
+    /// Distribution of a random error.
+    pub distribution: Option<&'static str>,
+    /// Bound of a random error, as a factor of its value: 3 for a normal one, 1 for all others.
+    pub bound: f64,
+    /// Location of its errors, such as `joint q4`.
+    pub at: String,
+    /// Whether the source is enabled.
+    pub enabled: bool,
+    /// Index of the input of the code that is the factor of a repeatable source.
+    pub magnitude: Option<usize>,
+    /// Factor of its errors in this machine: its magnitude in the spec.
+    pub value: f64,
+    /// Index of the source whose factor and switch it shares: its own; that of the source whose
+    /// magnitude is uncertain; `None` for an error of the calibration, which neither applies to.
+    pub follows: Option<usize>,
+    /// Description.
+    pub description: String,
+}
+
+/// Configurations of the workspace, in rad, the length unit and coherent units.
+#[derive(Clone, Debug, Serialize)]
+pub struct Configurations {
+    /// Joint variables of each, in rad or the length unit.
+    pub q: Vec<Vec<f64>>,
+    /// Inputs of each, in their units; empty if they do not vary.
+    pub u: Vec<Vec<f64>>,
+    /// Parameters of each, in their units; empty if they do not vary.
+    pub s: Vec<Vec<f64>>,
+}
+
+impl Report {
+    pub(super) fn new(
+        job: &Explore<'_>,
+        tunable: &Spec,
+        effects: Vec<[usize; 3]>,
+        configurations: Configurations,
+        code: String,
+    ) -> Self {
+        let (machine, study) = (job.analysis.machine(), job.analysis.study());
+        let spec = &machine.spec;
+        let (factor, symbol) = number::error_unit(spec.length.symbol());
+        Self {
+            spec: machine.origin.clone(),
+            name: spec.name.clone(),
+            title: spec.title.clone(),
+            description: spec.description.clone(),
+            command: job.analyze_options(),
+            jacobian_command: job.jacobian_options(),
+            length: spec.length.symbol(),
+            error_unit: ErrorUnit { length: (symbol, factor), angle: ("mrad", 1e3) },
+            orientation: spec.orientation.name(),
+            rows: spec.orientation.rows(),
+            columns: column_names(spec.frames.len()),
+            study: StudyFacts {
+                title: study.title.clone(),
+                tolerance: study.tolerance,
+                orientation_tolerance: study.orientation_tolerance,
+                judged: study.judged,
+            },
+            frames: spec.frames.iter().map(|frame| FrameName { name: frame.name.clone() }).collect(),
+            tool: !spec.tool.is_empty(),
+            variables: variables(spec),
+            inputs: inputs(spec),
+            parameters: parameters(spec, |i| study.region.parameter_range(i)),
+            sources: sources(spec, tunable),
+            effects,
+            configurations,
+            code,
+        }
+    }
+}
+
+impl Report {
+    /// Returns the report without its code, as JSON.
+    pub fn data(&self) -> Result<String, serde_json::Error> {
+        let mut data = serde_json::to_value(self)?;
+        data.as_object_mut().map(|fields| fields.remove("code"));
+        serde_json::to_string(&data)
+    }
+}
+
+/// Returns the indices of source, frame and component of each effect.
+pub(super) fn effects(manipulator: &Interpreter) -> Vec<[usize; 3]> {
+    let effects = manipulator.description().effects.iter();
+    effects.map(|effect| [effect.source, effect.frame, effect.component.index()]).collect()
+}
+
+fn variables(spec: &Spec) -> Vec<Variable> {
+    let variable = |one: &abbe_spec::Variable| Variable {
+        name: one.name.clone(),
+        kind: match one.kind {
+            VariableKind::Revolute => "revolute",
+            VariableKind::Prismatic => "prismatic",
+        },
+        limits: one.limits,
+        home: one.home,
+        description: one.description.clone(),
+    };
+    spec.variables.iter().map(variable).collect()
+}
+
+fn inputs(spec: &Spec) -> Vec<Input> {
+    let input = |one: &abbe_spec::Input| Input {
+        name: one.name.clone(),
+        nominal: one.value,
+        range: one.range,
+        unit: one.unit.clone(),
+        description: one.description.clone(),
+    };
+    spec.inputs.iter().map(input).collect()
+}
+
+fn parameters(spec: &Spec, range: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Parameter> {
+    let parameter = |(i, one): (usize, &abbe_spec::Parameter)| Parameter {
+        name: one.name.clone(),
+        nominal: one.value,
+        unit: one.unit.clone(),
+        range: range(i),
+        description: one.description.clone(),
+    };
+    spec.parameters.iter().enumerate().map(parameter).collect()
+}
+
+fn sources(spec: &Spec, tunable: &Spec) -> Vec<Source> {
+    let source = |(i, one): (usize, &abbe_spec::Source)| {
+        let (class, distribution) = number::class(one.class);
+        Source {
+            name: one.name.clone(),
+            class,
+            distribution,
+            bound: match one.class {
+                Class::Repeatable => 1.0,
+                Class::Random(distribution) => distribution.bound(),
+            },
+            at: spec.place(one),
+            enabled: one.enabled,
+            magnitude: tunable.sources[i].tuned_by,
+            value: one.factor(),
+            follows: followed_source(spec, i),
+            description: one.description.clone(),
+        }
+    };
+    spec.sources.iter().enumerate().map(source).collect()
+}
