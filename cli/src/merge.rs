@@ -1,8 +1,10 @@
 //! `abbe merge`: merges the parts of an analysis into its report.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use abbe_study::analyze::parts::{Merge, Part};
+use abbe_study::explore::Explore;
 
 use crate::analyze::{self, Files, VaryingColumns};
 use crate::arguments;
@@ -31,10 +33,16 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
         }
         None => None,
     };
+    let live = match &begun {
+        Some(_) => {
+            Some(Explore { analysis: Cow::Borrowed(merge.job()), study: merge.study() }.run(&mut console)?)
+        }
+        None => None,
+    };
     let mut report = merge.report(&mut console)?;
     arguments.dated.date(&mut report.record);
-    if let Some((folder, files, outputs)) = begun {
-        analyze::write(folder, files, outputs, &report)?;
+    if let (Some((folder, files, outputs)), Some(live)) = (begun, &live) {
+        analyze::write(folder, files, outputs, &report, live)?;
         note("note: configurations.csv is not written: parts do not contain single configurations");
     }
     analyze::outcome(

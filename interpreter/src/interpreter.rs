@@ -81,6 +81,15 @@ impl Interpreter {
         Ok(values)
     }
 
+    /// Returns the exact pose of the tool point with the errors of the repeatable sources.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Manipulator::effects`].
+    pub fn real_pose(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<Pose, Error> {
+        Ok(pose_of(&self.run(Function::RealPose, &[q, s, u])?))
+    }
+
     /// Evaluates a function; only its arguments are checked.
     fn unchecked(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
         for (array, values) in function.signature().arguments.iter().zip(arguments) {

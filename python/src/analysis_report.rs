@@ -15,7 +15,7 @@ pub(crate) fn analysis(py: Python<'_>, report: analyze::Report, notes: Vec<Strin
     let found = Report::new("analyze", &report, notes, text::analysis)?;
     let found = found.with_figures(move || abbe_report::figures(&drawn));
     let found = found.with_pages(move || {
-        let files = abbe_report::analysis(&report);
+        let files = abbe_report::analysis(&report, None);
         Ok(files.into_iter().map(|file| (file.name, file.text)).collect())
     });
     found.create(py)

@@ -2,6 +2,7 @@
 
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Figures;
+use abbe_study::explore;
 use abbe_study::study_file::Content;
 
 use crate::figures::{self, NamedFigure};
@@ -55,12 +56,13 @@ fn scenes(report: &Report) -> Vec<(NamedFigure<'_>, Scene)> {
 
 /// Returns the files of an analysis: its figures as SVG, and `report.html`, which contains them.
 ///
-/// The page of a report without data for figures has none.
-pub fn analysis(report: &Report) -> Vec<File> {
+/// The page of a report without data for figures has none. With the data of a live panel, it has
+/// that as well.
+pub fn analysis(report: &Report, live: Option<&explore::Report>) -> Vec<File> {
     let none = Figures::default();
     let Figures { left_out, .. } = report.figures.as_ref().unwrap_or(&none);
     let scenes = scenes(report);
-    let page = html::page(&scenes, figures::sampled(report).as_ref(), left_out, report);
+    let page = html::page(&scenes, figures::sampled(report).as_ref(), left_out, report, live);
     let file = |(named, scene): &(NamedFigure, Scene)| File {
         name: format!("{}.svg", named.name),
         text: svg::file(scene),

@@ -1,4 +1,4 @@
-//! Pose, error Jacobian and generalized errors at one configuration.
+//! Pose, error Jacobian, generalized errors and their displacement at one configuration.
 
 use std::sync::Arc;
 
@@ -50,6 +50,12 @@ pub struct Report {
     pub error_jacobian: [Vec<f64>; 6],
     /// Generalized errors `ε`, the sum of the repeatable sources, in the order of the columns.
     pub generalized_errors: Vec<f64>,
+    /// Error of the tool to first order, `ΔX = J_e ε`, in the order of the rows: the length unit,
+    /// then rad.
+    pub displacement: [f64; 6],
+    /// Pose of the tool with the repeatable errors, by the exact chain with finite rotations: a
+    /// homogeneous matrix, row by row.
+    pub real_pose: [[f64; 4]; 4],
     /// The spec, for names and units.
     #[serde(skip)]
     pub spec: Arc<Spec>,
@@ -69,11 +75,11 @@ impl Jacobian {
         let u = sampling::nominal_inputs(description);
         let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
         let mut errors = vec![[0.0; 6]; description.frames.len()];
-        let pose = interpreter
+        let poses = interpreter
             .error_jacobian(&q, &s, &mut columns)
             .and_then(|_| interpreter.generalized_errors(&q, &s, &u, &mut errors))
             // The pose computed beside J_e may differ in its last bits; use the one of `pose`.
-            .and_then(|()| interpreter.pose(&q, &s))
+            .and_then(|()| Ok([interpreter.pose(&q, &s)?, interpreter.real_pose(&q, &s, &u)?]))
             .map_err(|error| {
                 let error = first_effect(&interpreter, [&q, &s, &u], error);
                 mistake::not_evaluated(
@@ -83,7 +89,7 @@ impl Jacobian {
                     description,
                 )
             })?;
-        finite(&self.machine.origin, Report::new(description, Arc::clone(spec), q, &pose, &columns, &errors))
+        finite(&self.machine.origin, Report::new(description, Arc::clone(spec), q, &poses, &columns, &errors))
     }
 }
 
@@ -92,22 +98,27 @@ impl Report {
         description: &Description,
         spec: Arc<Spec>,
         q: Vec<f64>,
-        pose: &Pose,
+        [pose, real_pose]: &[Pose; 2],
         columns: &[[f64; 6]],
         errors: &[[f64; 6]],
     ) -> Self {
         // Adding 0 turns −0 into 0.
         let row = |i: usize| columns.iter().map(|column| column[i] + 0.0).collect();
+        let matrix = |pose: &Pose| pose.rows().map(|row| row.map(|entry| entry + 0.0));
+        let errors = errors.as_flattened();
+        let terms = |i: usize| columns.iter().zip(errors).map(move |(column, error)| column[i] * error);
         Self {
             name: description.name.to_string(),
             length: description.length.symbol(),
             orientation: description.orientation.name(),
             q,
-            pose: pose.rows().map(|row| row.map(|entry| entry + 0.0)),
+            pose: matrix(pose),
             rows: description.orientation.rows(),
             columns: column_names(description.frames.len()),
             error_jacobian: std::array::from_fn(row),
-            generalized_errors: errors.as_flattened().iter().map(|error| error + 0.0).collect(),
+            generalized_errors: errors.iter().map(|error| error + 0.0).collect(),
+            displacement: std::array::from_fn(|i| terms(i).sum::<f64>() + 0.0),
+            real_pose: matrix(real_pose),
             spec,
         }
     }

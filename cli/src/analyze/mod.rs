@@ -6,6 +6,7 @@
 
 mod files;
 
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
@@ -13,6 +14,8 @@ use abbe::analysis::Row;
 use abbe_study::Reads;
 use abbe_study::analyze::parts::{AnalysisRequest, Part, Shard};
 use abbe_study::analyze::{Analyze, Report, Verdict};
+use abbe_study::explore::{self, Explore};
+use abbe_study::jacobian::read_joint_variables;
 
 use crate::arguments::{self, Showing};
 use crate::console::Console;
@@ -41,7 +44,9 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
                 Files::create(folder, &mut outputs, &job.machine().spec, VaryingColumns::new(&job), drawn)?;
             let mut show = |row: &Row| files.configuration(row);
             let report = dated(job.run_with_rows(Some(&mut show), &mut console)?);
-            write(folder, files, outputs, &report)?;
+            let study = arguments.study.as_ref().map(|study| study.to_string_lossy().into_owned());
+            let live = Explore { analysis: Cow::Borrowed(&job), study }.run(&mut console)?;
+            write(folder, files, outputs, &report, &live)?;
             report
         }
     };
@@ -52,16 +57,17 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     outcome(&report, arguments.running.json, arguments.check, &arguments.showing, next)
 }
 
-/// Writes the files of a report into its folder.
+/// Writes the files of a report into its folder. `live` is the data of its live panel.
 pub(crate) fn write(
     folder: &Path,
     files: Files,
     mut outputs: Outputs,
     report: &Report,
+    live: &explore::Report,
 ) -> Result<(), Failure> {
     let (mut complete, page) = files.finish(report)?;
     let mut page = Some(page);
-    for file in abbe_report::analysis(report) {
+    for file in abbe_report::analysis(report, Some(live)) {
         let begun = match page.take_if(|_| file.name == abbe_report::PAGE) {
             Some(page) => page,
             None => outputs.file(&folder.join(&file.name))?,
@@ -133,6 +139,10 @@ fn job(arguments: &arguments::Analyze, console: &mut Console) -> Result<Analyze,
     let changes = arguments.subject.changes(&machine.spec)?;
     let mut job = Analyze::new(machine, study);
     job.change(&changes, console);
+    if let Some(q) = &arguments.q {
+        let q = read_joint_variables(q, &job.machine().spec)?;
+        job.restrict(q, console);
+    }
     job.monte_carlo = arguments.monte_carlo;
     job.seed = arguments.seed;
     job.interpret = arguments.interpret;

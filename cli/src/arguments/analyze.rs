@@ -13,6 +13,7 @@ use super::values::whole;
   abbe analyze arm.toml --set payload=2kg --monte-carlo 10000
   abbe analyze arm.toml --study cell.toml --check
   abbe analyze arm.toml --out arm       with figures: arm/report.html needs no network
+  abbe analyze arm.toml --q 300,30deg,-45deg    at one configuration
   abbe analyze arm.toml --shard 1/2 --out 1.part
   abbe analyze arm.toml --shard 2/2 --out 2.part    on another machine: see `abbe merge`
 ", "with --check: a tolerance of the study is not met"))]
@@ -24,6 +25,11 @@ pub(crate) struct Analyze {
     /// joint samples]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
+    /// Analyze one configuration instead of the study's workspace: joint variables in the order of
+    /// the spec, as for `abbe jacobian`, with nominal inputs or those of --set. Published figures
+    /// are not compared
+    #[arg(long, value_name = "V,V,…", allow_hyphen_values = true, conflicts_with = "shard")]
+    pub(crate) q: Option<String>,
     /// Number of Monte Carlo draws of all error sources, at the worst configuration and at home,
     /// through the exact chain with finite rotations. [default: no draws]
     #[arg(long, value_name = "N", value_parser = whole(DRAWS))]

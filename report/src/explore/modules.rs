@@ -10,7 +10,10 @@ macro_rules! modules {
 }
 
 /// All modules; each imports from earlier ones only.
-const MODULES: &[(&str, &str)] = &modules!["main.js"];
+const MODULES: &[(&str, &str)] = &modules![
+    "number.js" "dom.js" "state.js" "command.js" "machine.js" "search.js" "worker.js" "controls.js" "view.js"
+    "charts.js" "sources.js" "tables.js" "verdict.js" "panel.js" "main.js"
+];
 
 /// Returns the script: every module without its imports and the words `export`. Names are unique
 /// over all modules.
@@ -46,18 +49,22 @@ mod tests {
         lines.map(import).collect()
     }
 
-    /// Returns the names that are declared at the beginning of a line.
+    /// Returns the names that are declared at the beginning of a line: one, or those of a list.
     fn declared(module: &str) -> Vec<(bool, String)> {
-        let declaration = |line: &str| {
-            let exported = line.strip_prefix("export ");
-            let line = exported.unwrap_or(line);
+        const WORDS: [&str; 5] = ["const ", "let ", "function ", "function* ", "class "];
+        let is_of_a_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '$');
+        let declarations = |line: &str| {
+            let (exported, line) = line.strip_prefix("export ").map_or((false, line), |line| (true, line));
             let line = line.strip_prefix("async ").unwrap_or(line);
-            let rest =
-                ["const ", "let ", "function ", "class "].iter().find_map(|word| line.strip_prefix(word))?;
-            let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '$'))?;
-            Some((exported.is_some(), rest[..end].to_owned()))
+            let rest = WORDS.iter().find_map(|word| line.strip_prefix(word)).unwrap_or_default();
+            let names = match rest.strip_prefix('[') {
+                Some(list) => list.split(']').next().unwrap_or_default(),
+                None => rest.split(|c| !is_of_a_name(c)).next().unwrap_or_default(),
+            };
+            let names = names.split(", ").filter(|name| !name.is_empty());
+            names.map(|name| (exported, name.to_owned())).collect::<Vec<_>>()
         };
-        module.lines().filter_map(declaration).collect()
+        module.lines().flat_map(declarations).collect()
     }
 
     #[test]
@@ -82,6 +89,8 @@ mod tests {
                 }
             }
             for (exported, one) in declared(module) {
+                let is_name = one.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '$'));
+                assert!(is_name, "{name}: {one}");
                 assert!(names.insert(one.clone()), "{one} of {name} is the name of another module, too");
                 if exported {
                     exports.insert(((*name).to_owned(), one));

@@ -3,6 +3,7 @@
 //! A script element ends at `</script`, and after `<!--` the browser looks for `<script` as well,
 //! wherever they stand: also in a string or a comment.
 
+use abbe_spec::visible::visible;
 use abbe_study::explore::Report;
 
 /// Returns the script of a machine, which adds the exports of its module to the list `abbeMachines`.
@@ -25,7 +26,7 @@ pub(super) fn data(report: &Report) -> String {
     // Infallible: maps have strings as keys, and infinite numbers are null.
     let json = report.data().expect("a report is JSON");
     // `<` stands in strings alone.
-    let json = json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029");
+    let json = visible(&json).replace('<', "\\u003c");
     format!("<script type=\"application/json\" class=\"abbe-data\">{json}</script>\n")
 }
 
@@ -79,12 +80,12 @@ mod tests {
 
     #[test]
     fn exports_are_declarations() {
-        let module = "export const description = {\n};\n// export\nexport function pose(q) {\n}\nexport async function a() {}\n";
+        let module = "export const description = {\n};\n// export\nexport function pose(q) {\n}\nexport async function a() {}\nexport function* b() {}\n";
         let (code, names) = without_exports(module);
-        assert_eq!(names, ["description", "pose", "a"]);
+        assert_eq!(names, ["description", "pose", "a", "b"]);
         assert_eq!(
             code,
-            "const description = {\n};\n// export\nfunction pose(q) {\n}\nasync function a() {}\n"
+            "const description = {\n};\n// export\nfunction pose(q) {\n}\nasync function a() {}\nfunction* b() {}\n"
         );
     }
 }

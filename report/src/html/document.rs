@@ -1,16 +1,26 @@
 //! Parts of every page.
 
 use super::escaped;
+use crate::explore::Panels;
 
-const STYLE: &str = include_str!("style.css");
+pub(super) const STYLE: &str = include_str!("style.css");
 
 /// Formats an HTML document with its style sheet.
 pub(super) fn document(title: &str, body: &str) -> String {
+    document_with_panels(title, body, None)
+}
+
+/// Formats an HTML document with live panels, whose elements are in the body.
+pub(super) fn document_with_panels(title: &str, body: &str, panels: Option<&Panels>) -> String {
+    let [policy, style, scripts] = match panels {
+        None => [const { "" }; 3],
+        Some(Panels { policy, style, scripts, .. }) => [policy, style, scripts].map(String::as_str),
+    };
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{policy}\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n\
-         </head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
+         <title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>{STYLE}</style>\n{style}\
+         </head>\n<body>\n<main>\n{body}</main>\n{scripts}</body>\n</html>\n",
         escaped(title),
     )
 }

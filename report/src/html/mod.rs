@@ -1,5 +1,5 @@
-//! HTML pages of reports: one self-contained file with its figures, without scripts and external
-//! links.
+//! HTML pages of reports: one self-contained file with its figures, without external links, and
+//! without scripts but those of a live panel.
 //!
 //! `page` is the page of an analysis; `measurement`, `identification`, `compensation` and
 //! `monitoring` are the pages of the other jobs. All begin with the verdict, the most important

@@ -2,11 +2,14 @@
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{self, AfterCompensation, Report};
+use abbe_study::explore;
 use abbe_study::number::{percent, trimmed};
 use abbe_study::study_file::Content;
 
-use super::{Card, cards, document, escaped, findings, folded, heading, paragraphs, section};
+use super::document::{STYLE, document_with_panels};
+use super::{Card, cards, escaped, findings, folded, heading, paragraphs, section};
 use super::{covered, facts, figure, ledger};
+use crate::explore::Panels;
 use crate::figures::NamedFigure;
 use crate::scene::Scene;
 use crate::text::{self, Detail};
@@ -15,21 +18,24 @@ use crate::text::{self, Detail};
 /// cloud.
 ///
 /// `sampled` is the figure of certified bounds, if there are any. `left_out` are disabled sources
-/// whose figures are missing.
+/// whose figures are missing. `live` is the data of the live panel, which follows the verdict.
 pub(crate) fn page(
     figures: &[(NamedFigure, Scene)],
     sampled: Option<&Scene>,
     left_out: &[String],
     report: &Report,
+    live: Option<&explore::Report>,
 ) -> String {
     let is_first = |(named, _): &&(NamedFigure, Scene)| {
         matches!(named.request.content, Content::Pareto | Content::Cloud)
     };
     let (first, others) = figures.split_at(figures.iter().take_while(is_first).count());
+    let panels = live.map(|live| Panels::new(std::slice::from_ref(live), &[STYLE]));
     let before = [
         heading("Error analysis", &report.spec.title, &report.study.title),
         description(report),
         covered::verdict(report),
+        panels.as_ref().map(panel).unwrap_or_default(),
         summary(report),
     ];
     let after = [
@@ -50,7 +56,13 @@ pub(crate) fn page(
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::analysis(report, Detail::Full), &format!("{before}{after}"));
-    document(&format!("{}: error analysis", report.spec.title), &[before, findings, after].concat())
+    let title = format!("{}: error analysis", report.spec.title);
+    document_with_panels(&title, &[before, findings, after].concat(), panels.as_ref())
+}
+
+/// Formats the live panel.
+fn panel(panels: &Panels) -> String {
+    format!("<div class=\"abbe-explore\">\n<h2>Errors at a configuration</h2>\n{}</div>\n", panels.elements)
 }
 
 const METRICS: &str = "<p>Largest errors of the tool point over the workspace, along the axes of \

@@ -26,10 +26,7 @@ pub fn jacobian(report: &Report) -> String {
         report.rows[3..].join(", "),
         report.orientation,
     );
-    for row in &report.pose {
-        let cells = row.map(|entry| format!("{:>14}", number::fixed(entry, 6)));
-        let _ = writeln!(text, "{}", cells.concat());
-    }
+    text += &matrix(&report.pose);
     for (i, frame) in report.spec.frames.iter().enumerate() {
         let _ = writeln!(text, "\nFrame {}: {}", i + 1, frame.name);
         let six = 6 * i..6 * (i + 1);
@@ -42,7 +39,20 @@ pub fn jacobian(report: &Report) -> String {
         table.row(cells("ε of the sources", &report.generalized_errors[six]));
         text += &table.right(&[1, 2, 3, 4, 5, 6]).to_string();
     }
-    text
+    text += "\nError of the tool by the repeatable sources\n";
+    let mut table = Table::new(&[&[""][..], &report.rows].concat());
+    table.row(cells("ΔX = J_e ε", &report.displacement));
+    text += &table.right(&[1, 2, 3, 4, 5, 6]).to_string();
+    text += "\nReal pose of the tool, by the exact chain\n";
+    text + &matrix(&report.real_pose)
+}
+
+fn matrix(pose: &[[f64; 4]; 4]) -> String {
+    let row = |row: &[f64; 4]| {
+        let cells = row.map(|entry| format!("{:>14}", number::fixed(entry, 6)));
+        cells.concat() + "\n"
+    };
+    pose.iter().map(row).collect()
 }
 
 fn cells(name: &str, values: &[f64]) -> Vec<String> {

@@ -13,6 +13,7 @@ use crate::changes::Changes;
 use crate::machine::Machine;
 use crate::mistake;
 use crate::notes::Notes;
+use crate::number;
 use crate::reads::Reads;
 use crate::study_file::Study;
 
@@ -21,6 +22,8 @@ use crate::study_file::Study;
 pub struct Analyze {
     machine: Machine,
     study: Study,
+    /// The configuration that replaces the study's workspace, as `--q` reads it.
+    q: Option<String>,
     /// Number of Monte Carlo draws at the worst configuration and at home; `None` skips them.
     pub monte_carlo: Option<usize>,
     /// Seed of the Monte Carlo draws and of the study's random samples; `None` uses the study's.
@@ -45,7 +48,7 @@ impl Analyze {
         machine.change(&study.changes);
         machine.add_uncertainties();
         study.fix(machine.fixed_inputs());
-        Self { machine, study, monte_carlo: None, seed: None, interpret: false, figures: false }
+        Self { machine, study, q: None, monte_carlo: None, seed: None, interpret: false, figures: false }
     }
 
     /// Makes further changes. Published figures belong to the unchanged machine and are dropped.
@@ -59,6 +62,15 @@ impl Analyze {
         self.machine.change(changes);
         self.machine.add_uncertainties();
         self.study.fix(self.machine.fixed_inputs());
+    }
+
+    /// Analyzes one configuration of the joints instead of the study's workspace, with nominal
+    /// parameters and inputs. Published figures belong to the workspace and are dropped.
+    pub fn restrict(&mut self, q: Vec<f64>, notes: &mut dyn Notes) {
+        self.q = Some(number::exact_variables(&q, &self.machine.spec));
+        if self.study.restrict(q) {
+            notes.note("published figures are not compared: --q defines another workspace");
+        }
     }
 
     /// Returns the study, without the inputs that changes have fixed.
@@ -83,8 +95,9 @@ impl Analyze {
 
     /// Returns the options that the figures depend on.
     fn options(&self) -> Vec<(&'static str, String)> {
-        let Self { machine, study: _, monte_carlo, seed, interpret: _, figures: _ } = self;
+        let Self { machine, study: _, q, monte_carlo, seed, interpret: _, figures: _ } = self;
         machine.options_with([
+            ("q", q.clone().unwrap_or_default()),
             ("monte-carlo", monte_carlo.map_or_else(String::new, |draws| draws.to_string())),
             ("seed", seed.map_or_else(String::new, |seed| seed.to_string())),
         ])

@@ -109,6 +109,7 @@ impl Figure {
             Form::Samples { moved, .. } => moved.clone(),
             Form::Box(region) => region.solved.clone(),
             Form::Path(path) => path.variables().collect(),
+            Form::One(_) => Vec::new(),
         };
         let moved: Vec<usize> = moved;
         let over = moved.into_iter().map(Over::Variable);

@@ -58,6 +58,15 @@ impl Study {
         any
     }
 
+    /// Replaces the workspace by one configuration of the joints, with nominal parameters and
+    /// inputs. Published results, which belong to the workspace, are removed. Returns true if there
+    /// were any.
+    pub fn restrict(&mut self, q: Vec<f64>) -> bool {
+        self.region = Region::one(q);
+        self.figures = Figure::defaults(&self.region);
+        self.remove_published()
+    }
+
     /// Keeps inputs nominal in all workspaces, and removes figures over them.
     pub fn fix(&mut self, inputs: &[usize]) {
         self.region.fix(inputs);

@@ -1,8 +1,8 @@
 //! Workspace of a study.
 
 use abbe::analysis::{
-    Axis, BaseBox, JointSamples, Presentation, ToolOrientation, Workspace, base_box, joint_grid,
-    joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
+    Axis, BaseBox, Configuration, JointSamples, Presentation, ToolOrientation, Workspace, base_box,
+    joint_grid, joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
 };
 use abbe::{Error, Manipulator};
 use abbe_spec::{Input, Spec};
@@ -54,9 +54,16 @@ pub enum Form {
     Box(BaseBox),
     /// Configurations from a file.
     Path(Path),
+    /// One configuration of the joints.
+    One(Vec<f64>),
 }
 
 impl Region {
+    /// Returns one configuration of the joints, with nominal parameters and inputs.
+    pub fn one(q: Vec<f64>) -> Self {
+        Self::new(Form::One(q))
+    }
+
     /// Returns a form with nominal inputs.
     pub(super) fn new(form: Form) -> Self {
         Self { form, inputs: Vec::new(), sampled_inputs: Vec::new() }
@@ -116,6 +123,7 @@ impl Region {
             Form::Box(region) => region.points.iter().map(Vec::len).collect(),
             Form::Samples { count, .. } => vec![*count],
             Form::Path(path) => vec![path.configurations.len()],
+            Form::One(_) => Vec::new(),
         };
         let sizes = sizes.into_iter().chain(self.inputs.iter().map(|axis| axis.values.len()));
         sizes.into_iter().try_fold(1, usize::checked_mul).filter(|count| *count <= LARGEST)
@@ -140,6 +148,10 @@ impl Region {
             }
             Form::Box(region) => Box::new(base_box(manipulator, region)?),
             Form::Path(path) => Box::new(listed(manipulator, path.configurations(manipulator))?),
+            Form::One(q) => {
+                let home = Configuration::home(manipulator.description());
+                Box::new(listed(manipulator, vec![Configuration { q: q.clone(), ..home }])?)
+            }
         };
         Ok(match &self.inputs[..] {
             [] => workspace,
@@ -216,6 +228,7 @@ impl Region {
             Form::Path(path) => {
                 format!("{} configurations from {}", path.configurations.len(), path.file)
             }
+            Form::One(q) => format!("one configuration, {}", number::variables(q, spec)),
         }
     }
 }

@@ -65,6 +65,10 @@ impl Region {
             Form::Samples { moved, .. } => moved.iter().map(limits).collect(),
             Form::Box(BaseBox { solved, .. }) => reached(solved),
             Form::Path(path) => path.columns().map(|(symbol, values)| hull(symbol, &values)).collect(),
+            Form::One(q) => {
+                let joint = |(i, value): (usize, &f64)| hull(Symbol::Variable(i), &[*value]);
+                q.iter().enumerate().map(joint).collect()
+            }
         };
         spans.extend(self.inputs.iter().map(over(Symbol::Input)));
         let sampled = self.sampled_inputs.iter();
@@ -100,7 +104,7 @@ impl Region {
     /// Returns true if the workspace fills its box: every value of the box is in the workspace, or
     /// between two values of it.
     pub fn is_box(&self) -> bool {
-        matches!(self.form, Form::Grid(_) | Form::Samples { .. })
+        matches!(self.form, Form::Grid(_) | Form::Samples { .. } | Form::One(_))
     }
 }
 

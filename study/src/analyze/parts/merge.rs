@@ -52,6 +52,15 @@ impl Merge {
         &self.job
     }
 
+    /// Returns the study as an option names it: its file, or its name if it is shipped; `None` for
+    /// that of the machine.
+    pub fn study(&self) -> Option<String> {
+        let (_, first) = self.parts.first()?;
+        let study = first.request.study.as_ref()?;
+        let shipped = study.name.strip_prefix("studies/").and_then(|name| name.strip_suffix(".toml"));
+        Some(shipped.filter(|_| study.folder.is_none()).unwrap_or(&study.name).to_owned())
+    }
+
     /// Returns the report, byte for byte that of a single run.
     pub fn report(self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let named = self.parts.into_iter().map(|(name, part)| (name, part.shard, part.gathered));
