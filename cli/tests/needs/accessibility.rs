@@ -31,6 +31,9 @@ fn pages_are_accessible() -> Result<(), Missing> {
     for page in pages(folder.path()) {
         let text = fs::read_to_string(&page).expect("a page");
         let checked = page.with_extension("checked.html");
+        // The policy of a page with a live panel forbids the scripts of this test.
+        let lines = text.split_inclusive('\n').filter(|line| !line.contains("Content-Security-Policy"));
+        let text: String = lines.collect();
         fs::write(&checked, format!("{text}<script>{axe}</script>{CHECK}")).expect("a page");
         let found = opened(&checked, folder.path());
         assert!(found.contains("<pre>0 violations"), "{}: {found}", page.display());

@@ -13,6 +13,8 @@ pub(crate) fn pages(folder: &Path) -> Vec<PathBuf> {
     };
     run("analyze pps --monte-carlo 100 --out analysis");
     run("analyze ur5 --out arm");
+    run("explore pps --out live.html");
+    run("explore ur5 puma560 --out two.html");
     run("simulate pps --map pps --samples 40 --out data.csv");
     run("simulate pps --map pps --samples 40 --seed 1 --out test.csv");
     run("measure pps data.csv --map pps --accept 'mean 9 mm' --out measured");
@@ -23,8 +25,16 @@ pub(crate) fn pages(folder: &Path) -> Vec<PathBuf> {
         run(&format!("simulate ur5 plan.csv --map ur5 --seed {seed} --out {day}.csv"));
     }
     run("monitor ur5 monday.csv tuesday.csv wednesday.csv --map ur5 --report monitoring.html");
-    let pages =
-        ["analysis/report", "arm/report", "measured/report", "identification", "compensation", "monitoring"];
+    let pages = [
+        "analysis/report",
+        "arm/report",
+        "live",
+        "two",
+        "measured/report",
+        "identification",
+        "compensation",
+        "monitoring",
+    ];
     pages.map(|page| folder.join(page).with_extension("html")).to_vec()
 }
 

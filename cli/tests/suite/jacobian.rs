@@ -30,6 +30,8 @@ fn json_is_as_promised() {
         "columns",
         "error_jacobian",
         "generalized_errors",
+        "displacement",
+        "real_pose",
     ] {
         let found = text[at..].find(&format!("\"{key}\":")).unwrap_or_else(|| panic!("{key}"));
         at += found + 1;
@@ -47,6 +49,37 @@ fn json_is_as_promised() {
     assert_eq!(size(&report["error_jacobian"]), Some(6));
     assert!(report["error_jacobian"].as_array().unwrap().iter().all(|row| size(row) == Some(36)));
     assert_eq!(size(&report["generalized_errors"]), Some(36));
+}
+
+#[test]
+fn the_real_pose_is_displaced_by_the_errors() {
+    let at = |payload: &str| {
+        let set = format!("payload={payload}");
+        json(&["jacobian", "pps", "--q", "100,300,900,70deg,1deg,-2deg", "--set", &set, "--json"])
+    };
+    let report = at("100kg");
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+    };
+    let (errors, displacement) = (numbers(&report["generalized_errors"]), numbers(&report["displacement"]));
+    for (i, found) in displacement.iter().enumerate() {
+        let row = numbers(&report["error_jacobian"][i]);
+        let expected: f64 = row.iter().zip(&errors).map(|(entry, error)| entry * error).sum();
+        near(*found, expected);
+    }
+    // The first-order error neglects products of errors: 5 mm and 4 mrad make micrometres.
+    for (i, first_order) in displacement[..3].iter().enumerate() {
+        let [ideal, real] = ["pose", "real_pose"].map(|pose| report[pose][i][3].as_f64().unwrap());
+        assert!((real - ideal - first_order).abs() < 0.02 && first_order.abs() > 0.1, "row {i}");
+    }
+    assert_ne!(at("100kg")["real_pose"], at("0kg")["real_pose"]);
+    // Without repeatable sources the machine is ideal.
+    let ur5 = json(&["jacobian", "ur5", "--json"]);
+    assert_eq!(ur5["real_pose"], ur5["pose"]);
+    let text = prints(&["jacobian", "pps"]);
+    for title in ["Error of the tool by the repeatable sources", "Real pose of the tool, by the exact chain"] {
+        assert!(text.contains(title), "{title}");
+    }
 }
 
 #[test]

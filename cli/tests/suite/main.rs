@@ -8,6 +8,7 @@ mod bound;
 mod check;
 mod compensate;
 mod documents;
+mod explore;
 mod export;
 mod gallery;
 mod generate;

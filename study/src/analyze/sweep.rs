@@ -29,6 +29,7 @@ use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::other_tool::{OtherTool, warn_of_other_tool};
 use crate::study_file::Study;
+use crate::workspace::Form;
 use crate::{RunRecord, mistake, number};
 
 /// Largest number of configurations that are checked for extrapolation.
@@ -339,8 +340,14 @@ impl Sweep<'_> {
             return Ok(());
         }
         let reasons = unreachable::unreachable_summary(&budget.unreachable, &self.machine.spec);
-        let message = format!("no configuration of the workspace is reachable: {reasons}");
-        let help = "move or shrink the workspace of the study, or widen the limits of the joints";
+        let (what, help) = match self.study.region.form {
+            Form::One(_) => ("the configuration of --q is not", "change it, or widen the limits of the joints"),
+            _ => (
+                "no configuration of the workspace is",
+                "move or shrink the workspace of the study, or widen the limits of the joints",
+            ),
+        };
+        let message = format!("{what} reachable: {reasons}");
         Err(mistake::with_help(&self.machine.origin, message, help))
     }
 

@@ -28,10 +28,7 @@ pub(in crate::text) fn analysis(report: &Report) -> String {
 
 fn headline(report: &Report) -> String {
     let title = &report.spec.title;
-    let at = match report.configurations {
-        1 => "1 configuration".to_owned(),
-        count => format!("{count} configurations"),
-    };
+    let at = number::counted(report.configurations, "configuration", "configurations");
     let Some(verdict) = report.verdict() else {
         return format!("{title}: no tolerance stated; {at}");
     };
@@ -222,9 +219,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     facts.push((
         "Exact",
         format!(
-            "figures to first order; the exact chain differs by up to {} {unit} at {} configurations",
+            "figures to first order; the exact chain differs by up to {} {unit} at {}",
             number::rounded_up(largest, number::decimals(largest, 2)),
-            report.first_order.checked
+            number::counted(report.first_order.checked, "configuration", "configurations")
         ),
     ));
     facts

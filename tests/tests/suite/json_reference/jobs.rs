@@ -1,5 +1,6 @@
 //! Reports of every command, on shipped machines and on machines with errors of every kind.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use abbe::identify::Criterion;
@@ -11,6 +12,7 @@ use abbe_study::check::Check;
 use abbe_study::compensate::Compensate;
 use abbe_study::data::{Data, Map};
 use abbe_study::doctor::Doctor;
+use abbe_study::explore::Explore;
 use abbe_study::export::{Export, Format};
 use abbe_study::identify::{Family, Identify, Settings};
 use abbe_study::import::{self, Import};
@@ -109,6 +111,8 @@ fn predicted() -> Vec<(&'static str, Value)> {
         let mut job = Analyze::new(machine(name), study());
         job.monte_carlo = Some(50);
         all.push(("AnalyzeReport", json(&job.run(&mut ()).unwrap())));
+        let explore = Explore { analysis: Cow::Borrowed(&job), study: None };
+        all.push(("ExploreReport", json(&explore.run(&mut ()).unwrap())));
         let mut job = Bound::new(machine(name), study());
         job.effort.boxes = 50;
         job.least = true;
