@@ -139,6 +139,10 @@ class Machine:
         """Returns a machine with these error sources enabled."""
     def disable(self, *sources: str) -> Machine:
         """Returns a machine with these error sources disabled."""
+    def scale(self, source: str, factor: float) -> Machine:
+        """Returns a machine with the errors of this source multiplied by `factor`, which is not
+        negative.
+        """
     def pose(self, q: _Joints, *, out: _Array | None = None) -> _Array:
         """(…, 4, 4): nominal pose of the tool in F_0, as rows and columns of a homogeneous matrix.
         Column 3 is the tool point, in the length unit.

@@ -1,12 +1,14 @@
 //! Errors of every source over a workspace.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::Analyze;
 use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, Shard};
+use abbe_study::explore::Explore;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -84,16 +86,21 @@ impl Machine {
             })?;
             return Ok(Bound::new(py, crate::part::Part(part))?.into_any());
         }
-        let (report, notes) = run(py, threads, progress, |notes| {
+        let ((report, job), notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
-            let study = options::study(study.as_deref(), study_text, &machine)?;
-            let mut job = Analyze::new(machine, study);
+            let found = options::study(study.as_deref(), study_text, &machine)?;
+            let mut job = Analyze::new(machine, found);
             self.changes()?.iter().for_each(|changes| job.change(changes, notes));
             job.monte_carlo = monte_carlo;
             job.seed = seed;
             job.figures = figures;
-            job.run(notes)
+            Ok((job.run(notes)?, job))
         })?;
-        Ok(analysis(py, report, notes)?.into_bound(py).into_any())
+        // A command names files, or shipped machines and studies.
+        let is_named = job.machine().file.is_some() || job.machine().shipped.is_some();
+        let study = study.map(|study| study.to_string_lossy().into_owned());
+        let live = Explore { analysis: Cow::Owned(job), study };
+        let live = Some(live).filter(|_| is_named && study_text.is_none());
+        Ok(analysis(py, report, live, notes)?.into_bound(py).into_any())
     }
 }

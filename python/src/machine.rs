@@ -104,6 +104,7 @@ pub(crate) fn change_of(kind: &str, change: &str) -> parts::Change {
         "number" => parts::Change::Number(change),
         "set" => parts::Change::Set(change),
         "enable" => parts::Change::Enable(change),
+        "scale" => parts::Change::Scale(change),
         _ => parts::Change::Disable(change),
     }
 }
@@ -177,7 +178,8 @@ impl Machine {
     }
 
     /// Text of the spec with the changes of `with_parameters`, `enable` and `disable`, as
-    /// `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change.
+    /// `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change, as for
+    /// `scale`.
     ///
     /// >>> import abbe
     /// >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")
@@ -323,6 +325,12 @@ impl Machine {
     #[pyo3(signature = (*sources))]
     fn disable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
         self.changed(py, sources.into_iter().map(|source| ("disable".to_owned(), source)))
+    }
+
+    /// Returns a machine with the errors of this source multiplied by `factor`, which is not
+    /// negative.
+    fn scale(&self, py: Python<'_>, source: &str, factor: f64) -> PyResult<Self> {
+        self.changed(py, [("scale".to_owned(), format!("{source}={factor:?}"))])
     }
 
     fn __repr__(&self) -> String {

@@ -1,8 +1,10 @@
 //! Parts of an analysis, and their merged report.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use abbe_study::analyze::parts;
+use abbe_study::explore::Explore;
 use pyo3::exceptions::{PyFileExistsError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -113,6 +115,10 @@ pub(crate) fn merge(
             }
         });
     }
-    let (report, notes) = run(py, threads, progress, |notes| parts::Merge::new(named, notes)?.report(notes))?;
-    analysis(py, report, notes)
+    let ((report, live), notes) = run(py, threads, progress, |notes| {
+        let merge = parts::Merge::new(named, notes)?;
+        let live = Explore { analysis: Cow::Owned(merge.job().clone()), study: merge.study() };
+        Ok((merge.report(notes)?, live))
+    })?;
+    analysis(py, report, Some(live), notes)
 }

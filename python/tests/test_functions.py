@@ -134,6 +134,7 @@ def test_another_machine():
     arm = abbe.load(text=ARM)
     longer = arm.with_parameters(reach="0.5 m")
     assert longer.parameters["reach"] == 500 and arm.parameters["reach"] == 450
+    assert np.allclose(arm.scale("sag", 0.5).predict(arm.home), 0.5 * arm.predict(arm.home))
     assert arm.disable("sag").sources == () and arm.disable("sag").enable("sag").sources == ("sag",)
     again = pickle.loads(pickle.dumps(longer))
     q = samples(arm, 5)

@@ -9,7 +9,7 @@ use std::process::Command;
 
 use abbe_tests::needs::{Missing, Tests, tool};
 
-use crate::browser::{chromium, pages};
+use crate::browser::{chromium, live_pages, pages};
 
 pub(crate) const TESTS: Tests = &[("pages_are_accessible", pages_are_accessible)];
 
@@ -28,7 +28,7 @@ fn pages_are_accessible() -> Result<(), Missing> {
     tool("chromium", "")?;
     let axe = fs::read_to_string(axe_core()?).expect("axe-core can be read");
     let folder = tempfile::tempdir().expect("a folder");
-    for page in pages(folder.path()) {
+    for page in [pages(folder.path()), live_pages(folder.path())].concat() {
         let text = fs::read_to_string(&page).expect("a page");
         let checked = page.with_extension("checked.html");
         // The policy of a page with a live panel forbids the scripts of this test.

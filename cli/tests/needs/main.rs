@@ -6,6 +6,7 @@ mod browser;
 mod controller;
 mod fmu;
 mod full_disk;
+mod live_page;
 mod measured_data;
 mod printing;
 mod reference;
@@ -20,6 +21,7 @@ fn main() -> ExitCode {
         ("controller", controller::TESTS),
         ("fmu", fmu::TESTS),
         ("full_disk", full_disk::TESTS),
+        ("live_page", live_page::TESTS),
         ("measured_data", measured_data::TESTS),
         ("printing", printing::TESTS),
         ("reference", reference::TESTS),

@@ -130,7 +130,11 @@ fn options_stand_wherever_they_make_sense() {
     let measured = ["plan", "simulate", "measure", "identify", "compensate", "monitor"];
     assert_eq!(with("--threads"), [&["analyze", "bound", "merge"][..], &measured].concat());
     let set = ["plan", "simulate", "measure", "identify", "compensate", "export", "monitor"];
-    assert_eq!(with("--set"), [&["check", "jacobian", "analyze", "bound", "doctor"][..], &set].concat());
+    assert_eq!(
+        with("--set"),
+        [&["check", "jacobian", "analyze", "explore", "bound", "doctor"][..], &set].concat()
+    );
+    assert_eq!(with("--scale"), with("--set"));
     assert_eq!(with("--seed"), ["analyze", "plan", "simulate", "export"]);
     for name in ["measure", "identify", "compensate", "monitor", "simulate"] {
         let usage = help(name).lines().find(|line| line.starts_with("Usage:")).unwrap().to_owned();

@@ -53,8 +53,8 @@ fn json_is_as_promised() {
 
 #[test]
 fn the_real_pose_is_displaced_by_the_errors() {
-    let at = |payload: &str| {
-        let set = format!("payload={payload}");
+    let at = |patient: &str| {
+        let set = format!("patient={patient}");
         json(&["jacobian", "pps", "--q", "100,300,900,70deg,1deg,-2deg", "--set", &set, "--json"])
     };
     let report = at("100kg");
@@ -77,7 +77,8 @@ fn the_real_pose_is_displaced_by_the_errors() {
     let ur5 = json(&["jacobian", "ur5", "--json"]);
     assert_eq!(ur5["real_pose"], ur5["pose"]);
     let text = prints(&["jacobian", "pps"]);
-    for title in ["Error of the tool by the repeatable sources", "Real pose of the tool, by the exact chain"] {
+    for title in ["Error of the tool by the repeatable sources", "Real pose of the tool, by the exact chain"]
+    {
         assert!(text.contains(title), "{title}");
     }
 }

@@ -341,7 +341,9 @@ impl Sweep<'_> {
         }
         let reasons = unreachable::unreachable_summary(&budget.unreachable, &self.machine.spec);
         let (what, help) = match self.study.region.form {
-            Form::One(_) => ("the configuration of --q is not", "change it, or widen the limits of the joints"),
+            Form::One(_) => {
+                ("the configuration of --q is not", "change it, or widen the limits of the joints")
+            }
             _ => (
                 "no configuration of the workspace is",
                 "move or shrink the workspace of the study, or widen the limits of the joints",

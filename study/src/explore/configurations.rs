@@ -1,6 +1,6 @@
 //! Configurations of the study's workspace.
 
-use abbe::analysis::{Configuration, Subset};
+use abbe::analysis::{Configuration, Subset, Workspace};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::report::Configurations;
@@ -17,14 +17,23 @@ pub(super) fn configurations(analysis: &Analyze) -> Result<Configurations, Diagn
     let region = &analysis.study().region;
     let workspace = region.workspace(&*manipulator, analysis.seed);
     let workspace = workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
-    let reached = abbe::analysis::Workspace::reached(&Subset { workspace: &*workspace, count: COUNT });
+    let reached = Subset { workspace: &*workspace, count: COUNT }.reached();
+    let home = workspace.home();
     Ok(Configurations {
-        q: column(&reached, |one| &one.q, true),
-        u: column(&reached, |one| &one.u, !analysis.moving_inputs().is_empty()),
-        s: column(&reached, |one| &one.s, !analysis.varying().is_empty()),
+        q: reached.iter().map(|one| one.q.clone()).collect(),
+        u: unless_nominal(&home.u, &reached, |one| &one.u),
+        s: unless_nominal(&home.s, &reached, |one| &one.s),
     })
 }
 
-fn column(all: &[Configuration], values: fn(&Configuration) -> &Vec<f64>, varies: bool) -> Vec<Vec<f64>> {
-    if varies { all.iter().map(|one| values(one).clone()).collect() } else { Vec::new() }
+/// Returns values of each configuration; none if all are nominal.
+fn unless_nominal(
+    nominal: &Vec<f64>,
+    reached: &[Configuration],
+    values: fn(&Configuration) -> &Vec<f64>,
+) -> Vec<Vec<f64>> {
+    match reached.iter().all(|one| values(one) == nominal) {
+        true => Vec::new(),
+        false => reached.iter().map(|one| values(one).clone()).collect(),
+    }
 }

@@ -167,9 +167,9 @@ pub struct Source {
 pub struct Configurations {
     /// Joint variables of each, in rad or the length unit.
     pub q: Vec<Vec<f64>>,
-    /// Inputs of each, in their units; empty if they do not vary.
+    /// Inputs of each, in their units; empty if all are nominal.
     pub u: Vec<Vec<f64>>,
-    /// Parameters of each, in their units; empty if they do not vary.
+    /// Parameters of each, in their units; empty if all are nominal.
     pub s: Vec<Vec<f64>>,
 }
 
