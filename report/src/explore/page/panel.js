@@ -38,10 +38,10 @@ function createSame({ report, state }) {
         const copy = async () => {
             // A sandboxed frame has no clipboard, but its reader can copy what is selected.
             getSelection()?.selectAllChildren(code);
-            await navigator.clipboard.writeText(code.textContent ?? "");
+            const isCopied = await navigator.clipboard?.writeText(code.textContent ?? "").then(() => true, () => false);
+            setText(status, isCopied ? "Copied." : "Selected: press Ctrl+C.");
         };
-        const copied = () => copy().then(() => "Copied.", () => "Selected: press Ctrl+C.").then((text) => setText(status, text));
-        return { code, element: html("div", { class: "copied" }, code, button(name, () => void copied())) };
+        return { code, element: html("div", { class: "copied" }, code, button(name, () => void copy())) };
     });
     const element = html("section", { class: "same" }, html("h2", {}, "The same figures by the command, and as a link"),
         ...lines.map((line) => line.element), status);
@@ -57,10 +57,7 @@ function createSame({ report, state }) {
     return { element, update: () => {}, settle };
 }
 
-/**
- * Builds a panel in an empty section.
- * @param {Element} section @param {Generated} generated @param {Report} report @param {number} index of the machine in the page
- */
+/** Builds a panel in a section. @param {Element} section @param {Generated} generated @param {Report} report @param {number} index in the page */
 export function mount(section, generated, report, index) {
     const prefix = index === 0 ? "" : `${index + 1}.`;
     const [machine, initial, state] = [createMachine(generated, report), initialState(report), decodeState(report, location.hash, prefix)];

@@ -131,10 +131,8 @@ export function createView(panel) {
         if (before > 0) turn(0, 0, spread() / before);
         else turn(0.4 * (clientX - last[0]), 0.4 * (clientY - last[1]), 1);
     });
-    stage.addEventListener("pointerdown", ({ pointerId, clientX, clientY }) => {
-        stage.setPointerCapture(pointerId);
-        pointers.set(pointerId, [clientX, clientY]);
-    });
+    stage.addEventListener("pointerdown", ({ pointerId }) => stage.setPointerCapture(pointerId));
+    stage.addEventListener("gotpointercapture", ({ pointerId, clientX, clientY }) => pointers.set(pointerId, [clientX, clientY]));
     stage.addEventListener("lostpointercapture", ({ pointerId }) => pointers.delete(pointerId));
     stage.addEventListener("wheel", (event) => {
         event.preventDefault();
