@@ -90,6 +90,8 @@ fn data_are_those_of_the_spec_and_the_study() {
         (&"pps".into(), &"mm".into(), &true.into())
     );
     assert_eq!(report["study"]["tolerance"], 0.5);
+    assert_eq!(report["up"], 1, "its picture has y up");
+    assert_eq!(reports(&["scara"])[0]["up"], 2, "without a study");
     let checked = json(&["check", "pps", "--json"]);
     for (key, of_check) in [("frames", "frames"), ("variables", "variables"), ("inputs", "inputs")] {
         assert_eq!(names(&report[key]), names(&checked[of_check]), "{key}");

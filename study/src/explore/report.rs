@@ -9,7 +9,7 @@ use super::Explore;
 use crate::jacobian::column_names;
 use crate::machine::followed_source;
 use crate::number;
-use crate::study_file::JudgedMachine;
+use crate::study_file::{Content, Figure, JudgedMachine, Study, UP};
 
 /// Data of a live page: a machine, its study, and its generated code. Lengths are in the spec's
 /// unit, angles in rad, vectors in `F_0`.
@@ -43,6 +43,8 @@ pub struct Report {
     pub frames: Vec<FrameName>,
     /// Whether a tool follows the last frame.
     pub tool: bool,
+    /// Index of the axis of `F_0` that points up in pictures of the manipulator.
+    pub up: usize,
     /// Joint variables, in order.
     pub variables: Vec<Variable>,
     /// Inputs of the spec, in order. The code has further ones, the factors of repeatable sources.
@@ -204,6 +206,7 @@ impl Report {
             },
             frames: spec.frames.iter().map(|frame| FrameName { name: frame.name.clone() }).collect(),
             tool: !spec.tool.is_empty(),
+            up: up(study),
             variables: variables(spec),
             inputs: inputs(spec),
             parameters: parameters(spec, |i| study.region.parameter_range(i)),
@@ -228,6 +231,15 @@ impl Report {
 pub(super) fn effects(manipulator: &Interpreter) -> Vec<[usize; 3]> {
     let effects = manipulator.description().effects.iter();
     effects.map(|effect| [effect.source, effect.frame, effect.component.index()]).collect()
+}
+
+/// Returns the axis that points up in the study's picture of the manipulator, or in others.
+fn up(study: &Study) -> usize {
+    let of_picture = |figure: &Figure| match figure.content {
+        Content::Manipulator(up) => Some(up),
+        _ => None,
+    };
+    study.figures.iter().find_map(of_picture).unwrap_or(UP)
 }
 
 fn variables(spec: &Spec) -> Vec<Variable> {

@@ -79,7 +79,7 @@ pub enum Over {
 }
 
 /// Index of the upward axis of most machines, z.
-const UP: usize = 2;
+pub(crate) const UP: usize = 2;
 
 impl Figure {
     fn new(content: Content) -> Self {

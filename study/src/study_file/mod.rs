@@ -18,6 +18,7 @@ mod tolerance;
 
 pub use choices::{CombinedFigure, JudgedMachine, Metric};
 pub use compensation::Compensated;
+pub(crate) use figure::UP;
 pub use figure::{Content, Figure, Over};
 pub use keys::{TABLES, rules};
 pub use published::{Published, PublishedResidual, Subject};

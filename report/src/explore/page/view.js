@@ -21,7 +21,7 @@ const originOf = (frame) => [frame[9], frame[10], frame[11]];
 /** Creates the picture: drag or arrow keys turn it; wheel, pinch, + and - zoom. @param {Panel} panel */
 export function createView(panel) {
     const { report, machine, generated } = panel;
-    const { up = 2, frames, variables } = report;
+    const { up, frames, variables } = report;
     const [ground, all] = [[(up + 1) % 3, (up + 2) % 3], report.configurations.q];
     const chosen = [panel.state.q, ...all.filter((_, i) => i % Math.ceil(all.length / SAMPLES) === 0)];
     const samples = chosen.flatMap((q) => machine.frames({ ...panel.state, q }, 0).ideal.map(originOf));
