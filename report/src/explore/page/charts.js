@@ -61,8 +61,9 @@ export function createSweep(panel) {
         chosen.value = String(joint);
         const worst = total.indexOf(Math.max(...total));
         const largest = unit.factor * (total[worst] ?? 0);
-        setText(summary, `Largest along ${report.variables[joint].name}: ${fixed(largest, decimals(largest, 4))} ${unit.symbol} at `
-            + `${shown(values[worst] ?? 0, along, report.length)}. Dots: ${radii().length} configurations of the study; click one to load it.`);
+        const isConstant = Math.min(...total) >= (total[worst] ?? 0) * (1 - 1e-9);
+        setText(summary, `${isConstant ? "Constant" : "Largest"} along ${report.variables[joint].name}: ${fixed(largest, decimals(largest, 4))} `
+            + `${unit.symbol}${isConstant ? "" : ` at ${shown(values[worst] ?? 0, along, report.length)}`}. Dots: ${radii().length} configurations of the study; click one to load it.`);
     }
     /** Draws the grid with its numbers. @param {Panel["unit"]} unit of the errors @param {string} along unit of the joint */
     function writeNumbers({ factor, symbol }, along) {

@@ -62,7 +62,7 @@ export function mount(section, generated, report, index) {
     const prefix = index === 0 ? "" : `${index + 1}.`;
     const [machine, initial, state] = [createMachine(generated, report), initialState(report), decodeState(report, location.hash, prefix)];
     const { tolerance: position, orientation_tolerance: orientation } = report.study;
-    let [frame, timer, reference, previous, studied] = [0, 0, initial, initial, ""];
+    let [frame, timer, reference, previous, evaluated] = [0, 0, initial, initial, ""];
     /** @type {Panel} */
     const panel = { report, generated, machine, index, state, figures: machine.evaluate(state), reference: null, cloud: null,
         measurand: "position", unit: { symbol: "", factor: 1 }, tolerances: { position, orientation }, joint: 0,
@@ -84,7 +84,10 @@ export function mount(section, generated, report, index) {
         } };
     const back = button("Back", () => panel.go(previous), { hidden: true });
     const reset = button("Reset", () => panel.go(initial, initial));
-    addresses.push(() => encodeState(report, state, prefix));
+    const limits = () => String([panel.tolerances.position ?? "", panel.tolerances.orientation ?? ""]);
+    const [studied, given] = [limits(), new URLSearchParams(location.hash.slice(1)).get(`${prefix}tolerances`)?.split(",").map(Number)];
+    if (given) panel.tolerances = { position: given[0] > 0 ? given[0] : null, orientation: given[1] > 0 ? given[1] : null };
+    addresses.push(() => [encodeState(report, state, prefix), limits() === studied ? "" : `${prefix}tolerances=${limits()}`].filter(Boolean).join("&"));
     const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel), createSources(panel)];
     const [poses, jacobian, same] = [createPoses(panel), createJacobian(panel), createSame(panel)];
     const sweep = report.variables.length > 0 ? [createSweep(panel)] : [];
@@ -115,9 +118,9 @@ export function mount(section, generated, report, index) {
     }
     function settle() {
         const changes = String([state.factors, state.s, state.u]);
-        if (changes !== studied) panel.cloud = cloud(machine, report, state);
-        studied = changes;
-        draw(false);
+        if (changes !== evaluated) panel.cloud = cloud(machine, report, state);
+        evaluated = changes;
+        draw(true);
         parts.forEach((part) => part.settle?.());
     }
     addEventListener("beforeprint", () => draw(true));

@@ -4,7 +4,7 @@ import { copyState } from "./state.js";
 
 /**
  * @import { Report, State, Variable } from "./state.js"
- * @import { Evaluation, Machine } from "./machine.js"
+ * @import { Combined, Evaluation, Machine } from "./machine.js"
  */
 
 /** @typedef {"position" | "orientation"} Measurand */
@@ -158,4 +158,20 @@ export function cloud(machine, report, state) {
 export function tighten({ norms, radius }, tolerance) {
     const factor = (/** @type {number} */ size) => (size > 0 && tolerance / size < Infinity ? tolerance / size : null);
     return { alone: norms.map(factor), together: factor(radius) };
+}
+
+/**
+ * Returns the largest factor of a source, relative to its size now, at which the total meets a tolerance while the others
+ * stay: the larger root of `‖others + f rows‖² = limit²`. Null if the source has no effect, or the total is too large
+ * without it, too.
+ * @param {Combined} errors @param {number[]} rows of the source @param {boolean} isRandom @param {number} tolerance
+ */
+export function allowed({ repeatable, repeatableRadius, randomRadius }, rows, isRandom, tolerance) {
+    const [own, other] = isRandom ? [randomRadius, repeatableRadius] : [repeatableRadius, randomRadius];
+    const product = (/** @type {number[]} */ vector) => vector.reduce((sum, entry, i) => sum + entry * rows[i], 0);
+    const square = product(rows);
+    const along = isRandom ? 0 : product(repeatable) - square;
+    const rest = own * own - square - 2 * along - (tolerance - other) ** 2;
+    const factor = (Math.sqrt(along * along - square * rest) - along) / square;
+    return tolerance >= other && factor >= 0 && factor < Infinity ? factor : null;
 }

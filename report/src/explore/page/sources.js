@@ -3,7 +3,7 @@
 import { createInput } from "./controls.js";
 import { button, html, roundStep, setText, spans } from "./dom.js";
 import { decimals, fixed, percent, roundedDown } from "./number.js";
-import { tighten } from "./search.js";
+import { allowed, tighten } from "./search.js";
 import { LARGEST_FACTOR, factorOf } from "./state.js";
 /** @import { Report } from "./state.js" @import { Panel } from "./panel.js" */
 
@@ -38,7 +38,7 @@ export function createSources(panel) {
         const check = html("input", { type: "checkbox", disabled: !isOwn });
         check.addEventListener("change", () => change(({ factors }) => { factors[k] = Number(check.checked); }));
         const tightened = button("", () => change(({ factors }) => { factors[k] = Number(tightened.value); }),
-            { class: "tighten", title: "Factor, and size, at which this source alone would use up the tolerance; click to set it" });
+            { class: "tighten", title: "Largest factor, and size, with which the total meets the tolerance while the others stay; click to set it" });
         const [value, share, name, factor, most] = spans("number", "share", "", "factor", "");
         const size = html("small");
         tightened.append(most, size);
@@ -59,7 +59,7 @@ export function createSources(panel) {
     });
     const heads = spans("name", "number", "share", "factor", "tighten", "bar");
     const sums = spans("name", "number", "share", "factor", "tighten");
-    ["source", "", "share", "factor", "tighten to"].forEach((text, i) => setText(heads[i], text));
+    ["source", "", "share", "factor", "allowed"].forEach((text, i) => setText(heads[i], text));
     setText(sums[0], "all together");
     const element = html("section", { class: "sources" },
         html("fieldset", { class: "measurand" }, html("legend", {}, "Sources of error here"), ...measurands),
@@ -67,7 +67,7 @@ export function createSources(panel) {
 
     function update() {
         const { state, figures, reference, measurand, unit: { factor, symbol }, tolerances } = panel;
-        const errors = figures[measurand];
+        const [errors, displacements, first] = [figures[measurand], figures.displacements, measurand === "position" ? 0 : 3];
         const largest = factor * Math.max(...errors.norms, 0);
         const end = [1, 2, 2.5].map((ratio) => ratio * roundStep(largest)).find((round) => largest <= round * (1 + 1e-9)) ?? 1;
         const places = decimals(factor * errors.radius, 4);
@@ -76,7 +76,7 @@ export function createSources(panel) {
         const factors = tolerance === null ? null : tighten(errors, tolerance);
         const effects = panel.machine.effects(state);
         rows.forEach((row, k) => {
-            const norm = errors.norms[k];
+            const [norm, isRandom] = [errors.norms[k], report.sources[k].class === "random"];
             row.update();
             const current = factorOf(report, state, k);
             row.check.checked = current !== 0;
@@ -84,11 +84,14 @@ export function createSources(panel) {
             row.bar.style.width = `${(100 * factor * norm) / end}%`;
             row.mark.hidden = !reference;
             row.mark.style.left = `${Math.min(100, (100 * factor * (reference?.[measurand].norms[k] ?? 0)) / end)}%`;
-            setText(row.value, `${report.sources[k].class === "random" && norm > 0 ? "± " : ""}${errorOf(factor * norm, places)}`);
+            setText(row.value, `${isRandom && norm > 0 ? "± " : ""}${errorOf(factor * norm, places)}`);
             setText(row.share, sum > 0 ? percent(norm, sum) : "");
-            setText(row.most, times((factors?.alone[k] ?? NaN) * current));
-            setText(row.size, sizeText(report, effects, k, factors?.alone[k] ?? NaN));
-            row.tightened.value = row.most.textContent?.slice(2) ?? "";
+            const most = tolerance === null ? null : allowed(errors, displacements[k].slice(first, first + 3), isRandom, tolerance);
+            const text = most === null ? (tolerance !== null && norm > 0 ? "not alone" : "") : times(most * current);
+            setText(row.most, text);
+            setText(row.size, most === null ? "" : sizeText(report, effects, k, most));
+            row.tightened.value = most === null ? "" : text.slice(2);
+            row.tightened.ariaLabel = `${text}, allowed factor of ${report.sources[k].name}`;
             row.tightened.disabled = row.check.disabled || !row.tightened.value || Number(row.tightened.value) > LARGEST_FACTOR;
         });
         setText(heads[1], symbol);

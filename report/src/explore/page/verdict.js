@@ -26,11 +26,11 @@ export function createVerdict(panel) {
     const [studyText, boxText, all] = [html("p"), html("p"), html("input", { type: "checkbox", checked: true })];
     const progress = html("progress", { max: 1, value: 0, hidden: true, "aria-label": "Search of the worst case" });
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
-    const hasRanges = [...report.inputs, ...report.parameters].some(({ range }) => range?.[0] != null && range[1] != null);
+    const varied = [...report.inputs, ...report.parameters].filter(({ range }) => range?.[0] != null && range[1] != null).map(({ name }) => name);
     const show = button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0), { "aria-label": "Show the worst case in the study" });
     const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, "Worst in the study"), show, studyText),
         report.variables.length === 0 ? "" : html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
-            hasRanges ? html("label", {}, all, "vary inputs and parameters too") : ""));
+            varied.length > 0 ? html("label", {}, all, `vary ${varied.join(", ")} too`) : ""));
     const shareText = (/** @type {number} */ radius, limit = panel.tolerances[panel.measurand]) =>
         (limit === null ? "" : `, ${percent(radius, limit)} of the tolerance`);
     field.addEventListener("change", () => {
@@ -42,20 +42,20 @@ export function createVerdict(panel) {
         panel.refresh();
     });
     let [running, searched] = [/** @type {AbortController | null} */ (null), ""];
-    const key = () => String([panel.measurand, panel.tolerances[panel.measurand], ...panel.state.factors]);
+    const key = () => String([panel.measurand, panel.tolerances[panel.measurand], panel.state.s, panel.state.u, panel.state.factors]);
     /** Finds the worst case and shows it; a second click stops the search. */
     async function search() {
         if (running) return running.abort();
         running = new AbortController();
         const [{ signal }, { measurand, index, state }] = [running, panel];
         const task = { report, index, state, options: { measurand, inputs: all.checked, parameters: all.checked } };
-        [progress.hidden, searched] = [false, key()];
+        progress.hidden = false;
         setText(start, "Stop");
         try {
             const found = await searchWorst(task, (part) => { progress.value = part; }, signal);
             panel.go(found.state, all.checked ? found.state : undefined);
-            setText(boxText, `${errorText(panel, found.radius)}${shareText(found.radius)}, shown by the sliders; largest of `
-                + `${found.evaluations} configurations.`);
+            searched = key();
+            setText(boxText, `${errorText(panel, found.radius)}${shareText(found.radius)}; largest of ${found.evaluations} configurations.`);
         } catch (error) {
             setText(boxText, signal.aborted ? "Stopped." : String(error));
         }
@@ -71,7 +71,7 @@ export function createVerdict(panel) {
         // A study of the compensated machine judges what this page does not compute.
         const isJudged = limit !== null && report.study.judged === "as-built";
         element.classList.toggle("missed", isJudged && !isMet);
-        setText(status, !isJudged ? "As built, here" : isMet ? "✓ MET here" : "✗ NOT MET here");
+        setText(status, !isJudged ? "As built, here" : isMet ? "✓ Within tolerance here" : "✗ Above tolerance here");
         setText(total, errorText(panel, radius));
         setText(share, limit === null ? "" : `${percent(radius, limit)} of`);
         if (document.activeElement !== field) field.value = limit === null ? "" : `${short(unit.factor * limit)} ${unit.symbol}`;
@@ -89,11 +89,8 @@ export function createVerdict(panel) {
         if (searched !== key()) setText(boxText, "");
         const study = cloud?.[measurand];
         if (!study) return;
-        const source = study.norms.indexOf(Math.max(...study.norms));
-        const factors = limit === null || !(study.radius > 0) ? null : tighten(study, limit);
-        setText(studyText, `${errorText(panel, study.radius)}${shareText(study.radius)} at configuration ${study.worst + 1} of ${study.radii.length}.`
-            + (factors ? ` Tolerance met with all sources ${times(factors.together)}; ${report.sources[source].name} alone uses it up at `
-            + `${times(factors.alone[source])}.` : ""));
+        const scaled = limit === null || !(study.radius > 0) ? "" : ` Tolerance met with all sources ${times(tighten(study, limit).together)}.`;
+        setText(studyText, `${errorText(panel, study.radius)}${shareText(study.radius)} at configuration ${study.worst + 1} of ${study.radii.length}.${scaled}`);
     }
     const settle = () => setText(live, [status, total, share, largest].map(({ textContent }) => textContent).join(" "));
     return { element, searches, update, settle };

@@ -18,7 +18,7 @@ const KEYS = { ArrowLeft: [-6, 0, 1], ArrowRight: [6, 0, 1], ArrowUp: [0, 6, 1],
 /** @param {number[]} frame @returns {number[]} its origin */
 const originOf = (frame) => [frame[9], frame[10], frame[11]];
 
-/** Creates the picture: drag or arrow keys turn it; wheel, pinch, + and - zoom. @param {Panel} panel */
+/** Creates the picture: drag or arrow keys turn it; pinch, + and -, and with the focus the wheel zoom. @param {Panel} panel */
 export function createView(panel) {
     const { report, machine, generated } = panel;
     const { up, frames, variables } = report;
@@ -135,6 +135,8 @@ export function createView(panel) {
     stage.addEventListener("gotpointercapture", ({ pointerId, clientX, clientY }) => pointers.set(pointerId, [clientX, clientY]));
     stage.addEventListener("lostpointercapture", ({ pointerId }) => pointers.delete(pointerId));
     stage.addEventListener("wheel", (event) => {
+        // Without the focus the page scrolls.
+        if (document.activeElement !== stage) return;
         event.preventDefault();
         turn(0, 0, Math.exp(-0.0015 * event.deltaY));
     }, { passive: false });

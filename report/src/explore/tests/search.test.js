@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { cloud, stateAt, sweep, tighten, worst } from "../page/search.js";
+import { allowed, cloud, stateAt, sweep, tighten, worst } from "../page/search.js";
 import { initialState } from "../page/state.js";
 import { SHIPPED, STATES, abbe, explored, randomNumbers, randomState } from "./support.js";
 
@@ -97,4 +97,22 @@ test("the factors meet the tolerance, and no source without effect has one", () 
         });
     }
     assert.deepEqual(tighten({ norms: [0, 0], radius: 0 }, 1), { alone: [null, null], together: null });
+});
+
+test("a source at its allowed factor uses up the tolerance, and one that is not allowed cannot", () => {
+    for (const name of ["pps", "puma560"]) {
+        const { report, machine } = explored(name);
+        const state = initialState(report);
+        const { position, displacements } = machine.errors(state);
+        for (const tolerance of [0.3, 0.7, 0.98, 1.2, 3].map((ratio) => ratio * position.radius)) {
+            report.sources.forEach(({ class: kind, follows }, k) => {
+                if (follows !== k || !(position.norms[k] > 0)) return;
+                const factor = allowed(position, displacements[k].slice(0, 3), kind === "random", tolerance);
+                const total = (scale) => machine.errors({ ...state, factors: state.factors.map((one, i) => (i === k ? scale : one)) }).position.radius;
+                if (factor === null) return assert.ok(total(0) > tolerance, report.sources[k].name);
+                assert.ok(Math.abs(total(factor) - tolerance) < 1e-9 * tolerance, report.sources[k].name);
+                assert.ok(total(1.01 * factor) > tolerance, report.sources[k].name);
+            });
+        }
+    }
 });
