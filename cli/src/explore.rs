@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use abbe_study::analyze::Analyze;
 use abbe_study::explore::{Explore, Report};
@@ -24,15 +24,41 @@ pub(crate) fn run(arguments: &arguments::Explore) -> Result<Outcome, Failure> {
         return Ok(Outcome::passed(json(&run()?)?));
     }
     let names: Vec<&str> = jobs.iter().map(|job| job.analysis.machine().spec.name.as_str()).collect();
-    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}.html", names.join("-"))));
     let files: Vec<PathBuf> = jobs.iter().flat_map(Reads::files).collect();
     let mut outputs = Outputs::new(&files, arguments.writing.force);
+    if jobs.len() > 2 {
+        let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("live-pages"));
+        return pages(&folder, &names, outputs, run);
+    }
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}.html", names.join("-"))));
     let page = outputs.file(&path)?;
     let text = abbe_report::explore(&run()?);
     outputs.finish([page.fill(&text)?])?;
     if !is_stdout(&path) {
         note(&format!("wrote {}: {} bytes; open it in a browser", path.display(), text.len()));
     }
+    Ok(Outcome::passed(String::new()))
+}
+
+/// Writes one page for each machine and an index into a folder.
+fn pages(
+    folder: &Path,
+    names: &[&str],
+    mut outputs: Outputs,
+    run: impl FnOnce() -> Result<Vec<Report>, Failure>,
+) -> Result<Outcome, Failure> {
+    let is_taken = |i: usize| names[..i].contains(&names[i]) || names[i] == "index";
+    if let Some(i) = (0..names.len()).find(|i| is_taken(*i)) {
+        let message = format!("two pages would have the name {}.html", names[i]);
+        return Err(Failure::new("SPEC", message).help("give the manipulator of the spec another name"));
+    }
+    outputs.folder(folder)?;
+    let files = abbe_report::gallery(&run()?);
+    let complete = files.iter().map(|file| outputs.file(&folder.join(&file.name))?.fill(&file.text));
+    let complete = complete.collect::<Result<Vec<_>, _>>()?;
+    outputs.finish(complete)?;
+    let index = folder.join(abbe_report::INDEX);
+    note(&format!("wrote {} pages; open {} in a browser", names.len(), index.display()));
     Ok(Outcome::passed(String::new()))
 }
 

@@ -9,20 +9,22 @@ use super::shared::{Changes, Writing};
 #[command(after_help = after_help!(
     "  abbe explore pps
   abbe explore arm.toml --study cell.toml --out arm.html
-  abbe explore ur5 puma560 --out two.html    two machines side by side
+  abbe explore ur5 puma560 --out two.html           two machines side by side
+  abbe explore ur5 puma560 scara --out machines     one page for each, and an index
 "))]
 pub(crate) struct Explore {
     /// Path of a spec file (TOML), or name of a shipped manipulator; two of them are shown side by
-    /// side
-    #[arg(value_name = "SPEC", required = true, num_args = 1..=2, value_hint = ValueHint::FilePath)]
+    /// side, more of them become pages with an index
+    #[arg(value_name = "SPEC", required = true, num_args = 1.., value_hint = ValueHint::FilePath)]
     pub(crate) specs: Vec<OsString>,
     /// Study file (TOML), or name of a shipped study: tolerance and workspace. [default:
     /// arm.study.toml beside arm.toml, or the study shipped with the manipulator, or 1000 joint
     /// samples]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
-    /// Write the page to this file; `-` is stdout. [default: NAME.html]
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the page to this file; `-` is stdout. With more than two specs: write the pages and
+    /// index.html into this folder. [default: NAME.html, or the folder live-pages]
+    #[arg(long, short, value_name = "PATH", value_hint = ValueHint::AnyPath)]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) changes: Changes,

@@ -251,8 +251,6 @@ fn outputs_are_as_safe_as_those_of_other_commands() {
     let run = abbe(&["explore", "ur5", "--set", "payload=1kg", "--out", "-"]);
     assert_eq!((run.status, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("no parameter or input `payload`"), "{}", run.stderr);
-    let run = abbe(&["explore", "ur5", "puma560", "scara"]);
-    assert_eq!(run.status, 2);
 }
 
 /// Returns the norms of each source, and the total, of an analysis at one configuration of `pps`.
@@ -325,4 +323,20 @@ fn a_configuration_outside_the_limits_is_named() {
     assert!(run.stderr.contains("q4"), "{}", run.stderr);
     let run = abbe(&["analyze", "pps", "--q", "1,2"]);
     assert!(run.stderr.contains("expected 6 joint variables, found 2"), "{}", run.stderr);
+}
+
+#[test]
+fn more_than_two_machines_are_pages_with_an_index() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("pages");
+    prints(&["explore", "ur5", "scara", "stanford", "--out", out.to_str().unwrap()]);
+    let index = fs::read_to_string(out.join("index.html")).unwrap();
+    for name in ["ur5", "scara", "stanford"] {
+        assert!(index.contains(&format!("<a href=\"{name}.html\">{name}</a>")), "{name}");
+        let page = fs::read_to_string(out.join(format!("{name}.html"))).unwrap();
+        assert_eq!(without_scripts(&page).matches("abbe-panel\"></section>").count(), 1);
+    }
+    let twice = abbe(&["explore", "ur5", "ur5", "scara", "--out", out.to_str().unwrap()]);
+    assert_eq!(twice.status, 2);
+    assert!(twice.stderr.contains("two pages would have the name ur5.html"), "{}", twice.stderr);
 }
