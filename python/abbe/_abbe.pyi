@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import options
-from ._fields import Fields, Figure
+from ._fields import Fields, Figure, Page
 from .reports import (
     AnalyzeReport,
     BoundReport,
@@ -320,6 +320,7 @@ class Machine:
         With `shard=(i, n)`, i from 1 to n, computes part i of n of the workspace and returns a
         Part; `abbe.merge` of all parts is the report.
         """
+    def explore(self, study: _Path | None = None, *, study_text: str | None = None, height: int = 900) -> Page: ...
     def bound(
         self,
         study: _Path | None = None,
@@ -583,6 +584,7 @@ class Report:
         """Writes pages and figures into a folder, which is made if necessary. Returns the file names.
         Raises FileExistsError if a file exists, unless `overwrite` is true.
         """
+    def explore(self, *, height: int = 900) -> Page: ...
     def load(self) -> Machine:
         """Returns the machine that was imported, identified, or corrected by the doctor. Raises
         ValueError if the report has none.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html as markup
 import json
 from collections.abc import ItemsView, Iterator, KeysView, Mapping
+from os import PathLike
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, get_args, get_origin, get_type_hints
 
 T = TypeVar("T")
@@ -131,3 +132,25 @@ def _cell(value: Any) -> str:
     if value is None:
         return ""
     return f"{value:.6g}" if isinstance(value, float) else markup.escape(str(value))
+
+
+class Page:
+    """HTML page that needs no network. Notebooks show it in a frame that can load nothing."""
+
+    def __init__(self, title: str, html: str, height: int) -> None:
+        self.title = title
+        self.html = html
+        self.height = height
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the page to a file. Raises FileExistsError if it exists, unless `overwrite` is true."""
+        with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
+            file.write(self.html)
+
+    def _repr_html_(self) -> str:
+        content = markup.escape(self.html)
+        style = f"width: 100%; height: {int(self.height)}px; border: 0"
+        return f'<iframe title="{markup.escape(self.title)}" sandbox="allow-scripts" srcdoc="{content}" style="{style}"></iframe>'
+
+    def __repr__(self) -> str:
+        return f"<abbe page: {self.title}>"

@@ -19,6 +19,7 @@ mod commands;
 mod doctor;
 mod evaluated;
 mod exchange;
+mod explore;
 mod failure;
 mod functions;
 mod generate;

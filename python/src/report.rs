@@ -17,6 +17,7 @@ use pyo3::types::PyDict;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::explore::page;
 use crate::failure::{guarded, spec_error};
 use crate::machine::{Machine, restore as restore_machine};
 use crate::table::Table;
@@ -178,6 +179,17 @@ impl Report {
             pages.iter().try_for_each(|(name, text)| write(&folder.join(name), text, overwrite))
         })?;
         Ok(pages.into_iter().map(|(name, _)| name).collect())
+    }
+
+    /// Returns the page of the report, which notebooks show in a frame of this height in pixels.
+    /// Its head is a live page of the machine.
+    #[pyo3(signature = (*, height=900))]
+    fn explore<'py>(&self, py: Python<'py>, height: u32) -> PyResult<Bound<'py, PyAny>> {
+        let pages = if self.pages.is_some() { self.pages(py)? } else { Vec::new() };
+        match pages.into_iter().find(|(name, _)| name.ends_with(".html")) {
+            Some((_, html)) => page(py, &format!("report of {}", self.kind), &html, height),
+            None => Err(PyValueError::new_err(format!("a report of {} has no page", self.kind))),
+        }
     }
 
     /// Returns the machine that was imported, identified, or corrected by the doctor. Raises

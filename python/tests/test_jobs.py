@@ -206,3 +206,20 @@ def test_mistakes_of_jobs(tmp_path):
     ]:
         with pytest.raises((TypeError, ValueError)):
             call()
+
+
+def test_live_pages_are_shown_in_a_frame_and_saved(tmp_path):
+    machine = abbe.load("pps")
+    page = machine.explore()
+    assert repr(page) == "<abbe page: NPTC patient positioning system>"
+    assert "Content-Security-Policy" in page.html and page.html.count('class="abbe-panel"') == 1
+    shown = page._repr_html_()
+    assert shown.startswith("<iframe") and 'sandbox="allow-scripts"' in shown and "<script" not in shown
+    page.save(tmp_path / "pps.html")
+    assert (tmp_path / "pps.html").read_text(encoding="utf-8") == page.html
+    with pytest.raises(FileExistsError):
+        page.save(tmp_path / "pps.html")
+    page.save(tmp_path / "pps.html", overwrite=True)
+    assert 'class="abbe-panel"' in machine.analyze().explore().html
+    with pytest.raises(ValueError, match="no page"):
+        machine.check().explore()

@@ -1,0 +1,54 @@
+//! Live pages.
+
+use std::borrow::Cow;
+use std::path::PathBuf;
+
+use abbe_study::analyze::Analyze;
+use abbe_study::explore::Explore;
+use pyo3::prelude::*;
+
+use crate::job::run;
+use crate::machine::Machine;
+use crate::options;
+
+#[pymethods]
+impl Machine {
+    /// Returns a live page of the machine: joints, inputs, parameters and the factor of each source
+    /// can be varied, and it shows the errors there by the generated code. Notebooks show it in a
+    /// frame; `.save(path)` writes it as a file that needs no network.
+    ///
+    /// `study`, `study_text`: as for `analyze`; the page has the tolerance and some configurations
+    /// of the study. `height`: of the frame in a notebook, in pixels.
+    ///
+    /// >>> import abbe
+    /// >>> abbe.load("ur5").explore()
+    /// <abbe page: Universal Robots UR5 with a tracker target>
+    #[pyo3(signature = (study=None, *, study_text=None, height=900))]
+    fn explore<'py>(
+        &self,
+        py: Python<'py>,
+        study: Option<PathBuf>,
+        study_text: Option<&str>,
+        height: u32,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (report, _) = run(py, None, None, |notes| {
+            let machine = self.unchanged.clone();
+            let found = options::study(study.as_deref(), study_text, &machine)?;
+            let mut analysis = Analyze::new(machine, found);
+            self.changes()?.iter().for_each(|changes| analysis.change(changes, notes));
+            let study = study.as_ref().map(|study| study.to_string_lossy().into_owned());
+            Explore { analysis: Cow::Owned(analysis), study }.run(notes)
+        })?;
+        page(py, &report.title, &abbe_report::explore(std::slice::from_ref(&report)), height)
+    }
+}
+
+/// Creates a page for notebooks.
+pub(crate) fn page<'py>(
+    py: Python<'py>,
+    title: &str,
+    html: &str,
+    height: u32,
+) -> PyResult<Bound<'py, PyAny>> {
+    py.import("abbe._fields")?.getattr("Page")?.call1((title, html, height))
+}
