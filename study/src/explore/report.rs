@@ -78,9 +78,9 @@ pub struct ErrorUnit {
 pub struct StudyFacts {
     /// Title of the study.
     pub title: String,
-    /// Permitted position error of the tool point; `None` without a tolerance.
+    /// Permitted position error of the tool point, in the length unit; `None` without a tolerance.
     pub tolerance: Option<f64>,
-    /// Permitted norm of rows 4–6; `None` without one.
+    /// Permitted norm of rows 4–6, in rad; `None` without one.
     pub orientation_tolerance: Option<f64>,
     /// Machine that the tolerance is held against.
     pub judged: JudgedMachine,
@@ -100,9 +100,9 @@ pub struct Variable {
     pub name: String,
     /// `revolute` or `prismatic`.
     pub kind: &'static str,
-    /// Lower and upper limit, in rad or the length unit.
+    /// Lower and upper limit, in the length unit or rad; infinite without one.
     pub limits: [f64; 2],
-    /// Value at home, in rad or the length unit.
+    /// Value at home, in the length unit or rad.
     pub home: f64,
     /// Description.
     pub description: String,
@@ -113,9 +113,9 @@ pub struct Variable {
 pub struct Input {
     /// Name of the input.
     pub name: String,
-    /// Nominal value, in its unit.
+    /// Nominal value, in coherent units.
     pub nominal: f64,
-    /// Lower and upper end of its range, in its unit.
+    /// Lower and upper end of its range, in coherent units; infinite without one.
     pub range: [f64; 2],
     /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,
@@ -128,11 +128,12 @@ pub struct Input {
 pub struct Parameter {
     /// Name of the parameter.
     pub name: String,
-    /// Nominal value, in its unit.
+    /// Nominal value, in coherent units.
     pub nominal: f64,
     /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,
-    /// Smallest and largest value in the study, in its unit; `None` if the study keeps it nominal.
+    /// Smallest and largest value in the study, in coherent units; `None` if the study does not vary
+    /// it.
     pub range: Option<[f64; 2]>,
     /// Description.
     pub description: String,
@@ -164,14 +165,14 @@ pub struct Source {
     pub description: String,
 }
 
-/// Configurations of the workspace, in rad, the length unit and coherent units.
+/// Configurations of the workspace.
 #[derive(Clone, Debug, Serialize)]
 pub struct Configurations {
-    /// Joint variables of each, in rad or the length unit.
+    /// Joint variables of each, in the length unit or rad.
     pub q: Vec<Vec<f64>>,
-    /// Inputs of each, in their units; empty if all are nominal.
+    /// Inputs of each, in coherent units; empty if all are nominal.
     pub u: Vec<Vec<f64>>,
-    /// Parameters of each, in their units; empty if all are nominal.
+    /// Parameters of each, in coherent units; empty if all are nominal.
     pub s: Vec<Vec<f64>>,
 }
 
