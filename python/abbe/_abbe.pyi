@@ -69,7 +69,8 @@ class Machine:
     @property
     def text(self) -> str:
         """Text of the spec with the changes of `with_parameters`, `enable` and `disable`, as
-        `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change.
+        `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change, such
+        as `scale`.
 
         >>> import abbe
         >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")

@@ -629,6 +629,19 @@ class Compliance(Fields):
     """Number of draws. None for an integral."""
 
 
+class Configurations(Fields):
+    """Configurations of the workspace."""
+
+    q: list[list[float]]
+    """Joint variables of each, in the length unit or rad."""
+
+    u: list[list[float]]
+    """Inputs of each, in coherent units; empty if all are nominal."""
+
+    s: list[list[float]]
+    """Parameters of each, in coherent units; empty if all are nominal."""
+
+
 class Counts(Fields):
     """Number of identifiable errors of base and frames, out of how many."""
 
@@ -881,6 +894,16 @@ class ErrorBounds(Fields):
     """Norm of rows 4–6, in rad."""
 
 
+class ErrorUnit(Fields):
+    """Units in which errors are shown."""
+
+    length: list[str | float]
+    """Symbol of the unit of position errors, and its number in the length unit (a factor)."""
+
+    angle: list[str | float]
+    """Symbol of the unit of orientation errors, and its number in 1 rad (a factor)."""
+
+
 class Exceedance(Fields):
     """Predicted time at which a drift exceeds the tolerance."""
 
@@ -939,6 +962,79 @@ class Explained(Fields):
 
     random: int
     """Number of random sources."""
+
+
+class ExploreReport(Report):
+    """Data of a live page: a machine, its study, and its generated code. Lengths are in the spec's unit, angles in
+    rad, vectors in `F_0`.
+    """
+
+    __slots__ = ()
+
+    spec: str
+    """SPEC as it was given: path of a spec, or name of a shipped manipulator."""
+
+    name: str
+    """Name of the manipulator."""
+
+    title: str
+    """Title of the spec."""
+
+    description: str
+    """Description of the machine."""
+
+    command: list[str]
+    """Options of `abbe analyze` that give the figures of this machine: its study and changes."""
+
+    jacobian_command: list[str]
+    """Options of `abbe jacobian` for this machine: the changes of the study, then the given ones."""
+
+    length: str
+    """Symbol of the length unit."""
+
+    error_unit: ErrorUnit
+    """Units in which errors are shown."""
+
+    orientation: str
+    """Convention of rows 4–6: `rotation-vector`, `euler-yzx` or `iec-61217`."""
+
+    rows: list[str]
+    """Names of the rows of `J_e`."""
+
+    columns: list[str]
+    """Names of the columns of `J_e`: `e_x1 … e_p1`, then those of frame 2, …"""
+
+    study: StudyFacts
+    """The study."""
+
+    frames: list[FrameName]
+    """Frames, from base to tip."""
+
+    tool: bool
+    """Whether a tool follows the last frame."""
+
+    variables: list[ReportVariable]
+    """Joint variables, in order."""
+
+    inputs: list[Input]
+    """Inputs of the spec, in order. The code has further ones, the factors of repeatable sources."""
+
+    parameters: list[Parameter]
+    """Structural parameters, in order."""
+
+    sources: list[ReportSource]
+    """Error sources in the order of the code, including disabled ones, and the uncertainty of the repeatable errors
+    as normal random sources.
+    """
+
+    effects: list[list[int]]
+    """Generalized errors that `effects` of the code returns, in its order: indices of source, frame and component."""
+
+    configurations: Configurations
+    """Reachable configurations of the study's workspace, at most 1,000, evenly chosen."""
+
+    code: str
+    """ES module of the machine, with every source enabled and a factor of each repeatable source as an input."""
 
 
 class ExportReport(Report):
@@ -1176,6 +1272,13 @@ class Frame(Fields):
     """Name of its joint variable; None for a fixed frame."""
 
 
+class FrameName(Fields):
+    """Name of a frame."""
+
+    name: str
+    """Name of the frame."""
+
+
 class FunctionOperations(Fields):
     """Operation counts of one generated function."""
 
@@ -1307,7 +1410,7 @@ class IdentifyReport(Report):
     unexplained: int
     """Number of undetermined combinations that `groups` and `not_known` do not explain; normally 0."""
 
-    parameters: list[Parameter]
+    parameters: list[ReportParameter]
     """Kept unknowns, which stand for the identifiable combinations."""
 
     meanings: list[JointError]
@@ -1479,16 +1582,22 @@ class Indistinguishable(Fields):
 
 
 class Input(Fields):
-    """Range of an input over the rows of a plan."""
+    """An input of the spec."""
 
     name: str
     """Name of the input."""
 
+    nominal: float
+    """Nominal value, in coherent units."""
+
+    range: list[float]
+    """Lower and upper end of its range, in coherent units; infinite without one."""
+
     unit: str
     """Coherent unit; empty for a pure number or an angle."""
 
-    between: list[float]
-    """Smallest and largest value, in `unit`; equal for a constant input."""
+    description: str
+    """Description."""
 
 
 class InstrumentErrors(Fields):
@@ -2272,36 +2381,22 @@ class Pair(Fields):
 
 
 class Parameter(Fields):
-    """Kept unknown, which stands for an identifiable combination."""
+    """A structural parameter."""
 
     name: str
-    """Name: `e_x1`, or `e_x0` for the base."""
+    """Name of the parameter."""
 
-    kind: Literal["machine", "station", "placement"]
-    """Object that the unknown belongs to."""
-
-    frame: int | None
-    """Frame of an error, from 1; 0 is the base. None for other unknowns."""
-
-    frame_name: str | None
-    """Name of that frame."""
-
-    iso: str | None = None
-    """Name of the error by ISO 230-1, of a machine with slides along X, Y and Z; with a minus sign where the frame
-    has the opposite one.
-    """
-
-    value: float
-    """Identified value, in `unit`."""
-
-    standard_deviation: float
-    """Standard deviation of the value, in `unit`."""
+    nominal: float
+    """Nominal value, in coherent units."""
 
     unit: str
-    """Unit: the length unit, rad, or empty."""
+    """Coherent unit; empty for a pure number or an angle."""
 
-    hardly_known: bool
-    """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
+    range: list[float] | None
+    """Smallest and largest value in the study, in coherent units; None if the study does not vary it."""
+
+    description: str
+    """Description."""
 
 
 class PlacementAtStation(Fields):
@@ -2342,7 +2437,7 @@ class PlanReport(Report):
     sets: list[SetSize]
     """Number of rows of each set."""
 
-    inputs: list[Input]
+    inputs: list[ReportInput]
     """Range of each variable input over the rows."""
 
     rank: int
@@ -2706,6 +2801,108 @@ class Repeated(Fields):
     """Drift of pose characteristics, 7.6."""
 
 
+class ReportInput(Fields):
+    """Range of an input over the rows of a plan."""
+
+    name: str
+    """Name of the input."""
+
+    unit: str
+    """Coherent unit; empty for a pure number or an angle."""
+
+    between: list[float]
+    """Smallest and largest value, in `unit`; equal for a constant input."""
+
+
+class ReportParameter(Fields):
+    """Kept unknown, which stands for an identifiable combination."""
+
+    name: str
+    """Name: `e_x1`, or `e_x0` for the base."""
+
+    kind: Literal["machine", "station", "placement"]
+    """Object that the unknown belongs to."""
+
+    frame: int | None
+    """Frame of an error, from 1; 0 is the base. None for other unknowns."""
+
+    frame_name: str | None
+    """Name of that frame."""
+
+    iso: str | None = None
+    """Name of the error by ISO 230-1, of a machine with slides along X, Y and Z; with a minus sign where the frame
+    has the opposite one.
+    """
+
+    value: float
+    """Identified value, in `unit`."""
+
+    standard_deviation: float
+    """Standard deviation of the value, in `unit`."""
+
+    unit: str
+    """Unit: the length unit, rad, or empty."""
+
+    hardly_known: bool
+    """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
+
+
+class ReportSource(Fields):
+    """An error source.
+
+    `["class"]`: `repeatable` or `random`.
+    """
+
+    name: str
+    """Name of the source."""
+
+    distribution: str | None
+    """Distribution of a random error."""
+
+    bound: float
+    """Bound of a random error, as a factor of its value: 3 for a normal one, 1 for all others."""
+
+    at: str
+    """Location of its errors, such as `joint q4`."""
+
+    enabled: bool
+    """Whether the source is enabled."""
+
+    magnitude: int | None
+    """Index of the input of the code that is the factor of a repeatable source."""
+
+    value: float
+    """Factor of its errors in this machine: its magnitude in the spec."""
+
+    follows: int | None
+    """Index of the source whose factor and switch it shares: its own; that of the source whose magnitude is
+    uncertain. None without both: for an error of the calibration, and for a disabled source with a weight, which
+    loads the structure only where the source is enabled.
+    """
+
+    description: str
+    """Description."""
+
+
+class ReportVariable(Fields):
+    """A joint variable."""
+
+    name: str
+    """Name of the variable."""
+
+    kind: str
+    """`revolute` or `prismatic`."""
+
+    limits: list[float]
+    """Lower and upper limit, in the length unit or rad; infinite without one."""
+
+    home: float
+    """Value at home, in the length unit or rad."""
+
+    description: str
+    """Description."""
+
+
 class ResidualDrift(Fields):
     """Autocorrelation and drift of the residuals over time."""
 
@@ -3018,6 +3215,22 @@ class StepResidual(Fields):
 
     boxes: int
     """Number of evaluated boxes."""
+
+
+class StudyFacts(Fields):
+    """Study of a live page."""
+
+    title: str
+    """Title of the study."""
+
+    tolerance: float | None
+    """Permitted position error of the tool point, in the length unit; None without a tolerance."""
+
+    orientation_tolerance: float | None
+    """Permitted norm of rows 4–6, in rad; None without one."""
+
+    judged: Literal["as-built", "compensated"]
+    """Machine that the tolerance is held against."""
 
 
 class Table(Fields):

@@ -178,8 +178,8 @@ impl Machine {
     }
 
     /// Text of the spec with the changes of `with_parameters`, `enable` and `disable`, as
-    /// `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change, as for
-    /// `scale`.
+    /// `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change, such
+    /// as `scale`.
     ///
     /// >>> import abbe
     /// >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")

@@ -136,9 +136,10 @@ pub fn rounded_down(value: f64, decimals: usize) -> String {
     if is_more { fixed(value - step, decimals) } else { nearest }
 }
 
-/// Formats the ratio of two numbers in whole percent.
+/// Formats the ratio of two numbers in whole percent. 0 is 0 % of anything.
 pub fn percent(value: f64, of: f64) -> String {
-    format!("{:.0} %", 100.0 * value / of)
+    let percent = if value == 0.0 { 0.0 } else { 100.0 * value / of };
+    format!("{percent:.0} %")
 }
 
 /// Formats a probability in percent, rounded down: `99.19 %`.

@@ -8,8 +8,8 @@ use abbe_spec::literal::quoted;
 use crate::number::exact_quantity;
 
 /// Returns the text of a spec with the values of parameters and inputs, and the enabled sources, of
-/// a changed one. Everything else stays as it is. `None` if the text has no place for a change, as for
-/// the scale of a source.
+/// a changed one. Everything else stays as it is. `None` if the text has no place for a change,
+/// such as the scale of a source.
 pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<String> {
     let mut document = Document::new("spec", text);
     let table = document.tables(text)?;

@@ -6,7 +6,7 @@
 use abbe_spec::visible::visible;
 use abbe_study::explore::Report;
 
-/// Returns the script of a machine, which adds the exports of its module to the list `abbeMachines`.
+/// Returns the script of a machine, which adds the exports of its module to `abbeMachines`.
 pub(super) fn machine(code: &str) -> String {
     let (code, exports) = without_exports(code);
     format!(

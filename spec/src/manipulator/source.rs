@@ -62,6 +62,22 @@ impl Source {
             || self.deviations.iter().any(Deviation::is_elastic)
     }
 
+    /// Returns `true` if it has a beam whose weight loads the structure.
+    pub fn has_weight(&self) -> bool {
+        self.effects
+            .iter()
+            .any(|effect| matches!(&effect.cause, Cause::Beam(beam) if beam.mass_per_length.is_some()))
+    }
+
+    /// Removes the weights of its beams.
+    pub fn remove_weight(&mut self) {
+        for effect in &mut self.effects {
+            if let Cause::Beam(beam) = &mut effect.cause {
+                beam.mass_per_length = None;
+            }
+        }
+    }
+
     /// Returns the normal random source that adds the effects of uncertain quantities, each times
     /// its factor, to no others.
     pub fn propagating(name: String, description: String, propagated: Vec<(Uncertain, f64)>) -> Self {

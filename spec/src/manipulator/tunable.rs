@@ -15,7 +15,7 @@ pub const MAGNITUDE: &str = "magnitude_";
 
 impl Spec {
     /// Adds an input for each enabled repeatable source, in their order, which multiplies the
-    /// errors of the source. Its default is the source's [`factor`](Source::factor). Its name is [`MAGNITUDE`]
+    /// errors of the source. Its default is the source's factor. Its name is [`MAGNITUDE`]
     /// followed by the source's name as an identifier, and a number if that is taken.
     #[must_use]
     pub fn with_magnitudes_as_inputs(&self) -> Self {

@@ -22,7 +22,7 @@ use crate::finite;
 use crate::notes::Notes;
 use crate::reads::Reads;
 pub use report::{
-    Configurations, ErrorUnit, FrameName, Input, Parameter, Report, Source, StudyFacts, Variable,
+    Configurations, ErrorUnit, FrameName, LiveInput, LiveParameter, LiveSource, LiveVariable, Report, StudyFacts,
 };
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
@@ -58,13 +58,19 @@ impl Explore<'_> {
         let configurations = configurations::configurations(&self.analysis)?;
         let interpreter = Interpreter::new(Arc::new(tunable.clone()));
         let effects = report::effects(&interpreter);
-        finite(&machine.origin, Report::new(self, &tunable, effects, configurations, code))
+        let options = [self.analyze_options(), self.jacobian_options()];
+        let report = Report::new(&self.analysis, options, &tunable, effects, configurations, code);
+        finite(&machine.origin, report)
     }
 }
 
-/// Returns the spec with every source enabled, and a factor of each repeatable one as an input.
+/// Returns the spec with every source enabled, and a factor of each repeatable one as an input. The
+/// beams of disabled sources have no weight: it would load the structure at a factor of 0, too.
 fn tunable(spec: &Spec) -> Spec {
     let mut spec = spec.clone();
-    spec.sources.iter_mut().for_each(|source| source.enabled = true);
+    for source in spec.sources.iter_mut().filter(|source| !source.enabled) {
+        source.remove_weight();
+        source.enabled = true;
+    }
     spec.with_magnitudes_as_inputs()
 }

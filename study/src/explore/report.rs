@@ -5,7 +5,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use serde::Serialize;
 
-use super::Explore;
+use crate::analyze::Analyze;
 use crate::jacobian::column_names;
 use crate::machine::followed_source;
 use crate::number;
@@ -41,19 +41,19 @@ pub struct Report {
     pub study: StudyFacts,
     /// Frames, from base to tip.
     pub frames: Vec<FrameName>,
-    /// Whether a tool follows the last frame.
+    /// `true` if a tool follows the last frame.
     pub tool: bool,
     /// Index of the axis of `F_0` that points up in pictures of the manipulator.
     pub up: usize,
     /// Joint variables, in order.
-    pub variables: Vec<Variable>,
+    pub variables: Vec<LiveVariable>,
     /// Inputs of the spec, in order. The code has further ones, the factors of repeatable sources.
-    pub inputs: Vec<Input>,
+    pub inputs: Vec<LiveInput>,
     /// Structural parameters, in order.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<LiveParameter>,
     /// Error sources in the order of the code, including disabled ones, and the uncertainty of the
     /// repeatable errors as normal random sources.
-    pub sources: Vec<Source>,
+    pub sources: Vec<LiveSource>,
     /// Generalized errors that `effects` of the code returns, in its order: indices of source,
     /// frame and component.
     pub effects: Vec<[usize; 3]>,
@@ -95,7 +95,7 @@ pub struct FrameName {
 
 /// A joint variable.
 #[derive(Clone, Debug, Serialize)]
-pub struct Variable {
+pub struct LiveVariable {
     /// Name of the variable.
     pub name: String,
     /// `revolute` or `prismatic`.
@@ -110,7 +110,7 @@ pub struct Variable {
 
 /// An input of the spec.
 #[derive(Clone, Debug, Serialize)]
-pub struct Input {
+pub struct LiveInput {
     /// Name of the input.
     pub name: String,
     /// Nominal value, in coherent units.
@@ -125,15 +125,14 @@ pub struct Input {
 
 /// A structural parameter.
 #[derive(Clone, Debug, Serialize)]
-pub struct Parameter {
+pub struct LiveParameter {
     /// Name of the parameter.
     pub name: String,
     /// Nominal value, in coherent units.
     pub nominal: f64,
     /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,
-    /// Smallest and largest value in the study, in coherent units; `None` if the study does not vary
-    /// it.
+    /// Smallest and largest value in the study, in coherent units; `None` if it is nominal there.
     pub range: Option<[f64; 2]>,
     /// Description.
     pub description: String,
@@ -141,7 +140,7 @@ pub struct Parameter {
 
 /// An error source.
 #[derive(Clone, Debug, Serialize)]
-pub struct Source {
+pub struct LiveSource {
     /// Name of the source.
     pub name: String,
     /// `repeatable` or `random`.
@@ -152,14 +151,15 @@ pub struct Source {
     pub bound: f64,
     /// Location of its errors, such as `joint q4`.
     pub at: String,
-    /// Whether the source is enabled.
+    /// `true` if the source is enabled.
     pub enabled: bool,
     /// Index of the input of the code that is the factor of a repeatable source.
     pub magnitude: Option<usize>,
     /// Factor of its errors in this machine: its magnitude in the spec.
     pub value: f64,
     /// Index of the source whose factor and switch it shares: its own; that of the source whose
-    /// magnitude is uncertain; `None` for an error of the calibration, which neither applies to.
+    /// magnitude is uncertain. `None` without both: for an error of the calibration, and for a
+    /// disabled source with a weight, which loads the structure only where the source is enabled.
     pub follows: Option<usize>,
     /// Description.
     pub description: String,
@@ -178,13 +178,14 @@ pub struct Configurations {
 
 impl Report {
     pub(super) fn new(
-        job: &Explore<'_>,
+        analysis: &Analyze,
+        [command, jacobian_command]: [Vec<String>; 2],
         tunable: &Spec,
         effects: Vec<[usize; 3]>,
         configurations: Configurations,
         code: String,
     ) -> Self {
-        let (machine, study) = (job.analysis.machine(), job.analysis.study());
+        let (machine, study) = (analysis.machine(), analysis.study());
         let spec = &machine.spec;
         let (factor, symbol) = number::error_unit(spec.length.symbol());
         Self {
@@ -192,8 +193,8 @@ impl Report {
             name: spec.name.clone(),
             title: spec.title.clone(),
             description: spec.description.clone(),
-            command: job.analyze_options(),
-            jacobian_command: job.jacobian_options(),
+            command,
+            jacobian_command,
             length: spec.length.symbol(),
             error_unit: ErrorUnit { length: (symbol, factor), angle: ("mrad", 1e3) },
             orientation: spec.orientation.name(),
@@ -243,8 +244,8 @@ fn up(study: &Study) -> usize {
     study.figures.iter().find_map(of_picture).unwrap_or(UP)
 }
 
-fn variables(spec: &Spec) -> Vec<Variable> {
-    let variable = |one: &abbe_spec::Variable| Variable {
+fn variables(spec: &Spec) -> Vec<LiveVariable> {
+    let variable = |one: &abbe_spec::Variable| LiveVariable {
         name: one.name.clone(),
         kind: match one.kind {
             VariableKind::Revolute => "revolute",
@@ -257,8 +258,8 @@ fn variables(spec: &Spec) -> Vec<Variable> {
     spec.variables.iter().map(variable).collect()
 }
 
-fn inputs(spec: &Spec) -> Vec<Input> {
-    let input = |one: &abbe_spec::Input| Input {
+fn inputs(spec: &Spec) -> Vec<LiveInput> {
+    let input = |one: &abbe_spec::Input| LiveInput {
         name: one.name.clone(),
         nominal: one.value,
         range: one.range,
@@ -268,8 +269,8 @@ fn inputs(spec: &Spec) -> Vec<Input> {
     spec.inputs.iter().map(input).collect()
 }
 
-fn parameters(spec: &Spec, range: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Parameter> {
-    let parameter = |(i, one): (usize, &abbe_spec::Parameter)| Parameter {
+fn parameters(spec: &Spec, range: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<LiveParameter> {
+    let parameter = |(i, one): (usize, &abbe_spec::Parameter)| LiveParameter {
         name: one.name.clone(),
         nominal: one.value,
         unit: one.unit.clone(),
@@ -279,10 +280,10 @@ fn parameters(spec: &Spec, range: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Par
     spec.parameters.iter().enumerate().map(parameter).collect()
 }
 
-fn sources(spec: &Spec, tunable: &Spec) -> Vec<Source> {
+fn sources(spec: &Spec, tunable: &Spec) -> Vec<LiveSource> {
     let source = |(i, one): (usize, &abbe_spec::Source)| {
         let (class, distribution) = number::class(one.class);
-        Source {
+        LiveSource {
             name: one.name.clone(),
             class,
             distribution,
@@ -294,7 +295,7 @@ fn sources(spec: &Spec, tunable: &Spec) -> Vec<Source> {
             enabled: one.enabled,
             magnitude: tunable.sources[i].tuned_by,
             value: one.factor(),
-            follows: followed_source(spec, i),
+            follows: followed_source(spec, i).filter(|_| one.enabled || !one.has_weight()),
             description: one.description.clone(),
         }
     };

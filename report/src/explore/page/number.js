@@ -61,7 +61,7 @@ export function roundedDown(value, decimals) {
 
 /** Formats the ratio of two numbers in whole percent. @param {number} value @param {number} of @returns {string} */
 export function percent(value, of) {
-    return `${rounded((100 * value) / of, 0, "toFixed")} %`;
+    return `${rounded(value === 0 ? 0 : (100 * value) / of, 0, "toFixed")} %`;
 }
 
 /** Formats a number with its unit, if it has one. @param {number} value @param {string} unit @returns {string} */

@@ -42,8 +42,8 @@ export function initialState({ variables, parameters, inputs, sources }) {
 
 /** Returns the factor that applies to a source. @param {Report} report @param {State} state @param {number} k @returns {number} */
 export function factorOf({ sources }, { factors }, k) {
-    const { follows } = sources[k];
-    return follows === null ? 1 : factors[follows];
+    const { follows, enabled } = sources[k];
+    return follows === null ? Number(enabled) : factors[follows];
 }
 
 /** Copies a state. @param {State} state @returns {State} */

@@ -61,7 +61,8 @@ function assertAgrees(report, machine, state) {
 
     const budget = JSON.parse(shell(`${analyze} --json`));
     assert.equal(budget.configurations, 1);
-    const isOn = report.sources.map((_, k) => factorOf(report, state, k) > 0);
+    const isOn = report.sources.map(({ enabled, follows }, k) =>
+        factorOf(report, state, k) > 0 || (enabled && (follows === null || report.sources[follows].enabled)));
     const active = (numbers) => numbers.filter((_, k) => isOn[k]);
     assert.deepEqual(budget.sources.map(({ name }) => name), active(report.sources.map(({ name }) => name)));
     close(active(position.norms), budget.sources.map(({ plain_max: { norm } }) => norm), size, about("norms"));
