@@ -1011,18 +1011,18 @@ class ExploreReport(Report):
     """Frames, from base to tip."""
 
     tool: bool
-    """Whether a tool follows the last frame."""
+    """`true` if a tool follows the last frame."""
 
-    variables: list[ReportVariable]
+    variables: list[LiveVariable]
     """Joint variables, in order."""
 
-    inputs: list[Input]
+    inputs: list[LiveInput]
     """Inputs of the spec, in order. The code has further ones, the factors of repeatable sources."""
 
-    parameters: list[Parameter]
+    parameters: list[LiveParameter]
     """Structural parameters, in order."""
 
-    sources: list[ReportSource]
+    sources: list[LiveSource]
     """Error sources in the order of the code, including disabled ones, and the uncertainty of the repeatable errors
     as normal random sources.
     """
@@ -1410,7 +1410,7 @@ class IdentifyReport(Report):
     unexplained: int
     """Number of undetermined combinations that `groups` and `not_known` do not explain; normally 0."""
 
-    parameters: list[ReportParameter]
+    parameters: list[Parameter]
     """Kept unknowns, which stand for the identifiable combinations."""
 
     meanings: list[JointError]
@@ -1582,22 +1582,16 @@ class Indistinguishable(Fields):
 
 
 class Input(Fields):
-    """An input of the spec."""
+    """Range of an input over the rows of a plan."""
 
     name: str
     """Name of the input."""
 
-    nominal: float
-    """Nominal value, in coherent units."""
-
-    range: list[float]
-    """Lower and upper end of its range, in coherent units; infinite without one."""
-
     unit: str
     """Coherent unit; empty for a pure number or an angle."""
 
-    description: str
-    """Description."""
+    between: list[float]
+    """Smallest and largest value, in `unit`; equal for a constant input."""
 
 
 class InstrumentErrors(Fields):
@@ -1891,6 +1885,100 @@ class Link(Fields):
 
     matrix: list[list[float]]
     """Matrix from `F_i` coordinates to `F_{i-1}`, a homogeneous matrix, row by row."""
+
+
+class LiveInput(Fields):
+    """An input of the spec."""
+
+    name: str
+    """Name of the input."""
+
+    nominal: float
+    """Nominal value, in coherent units."""
+
+    range: list[float]
+    """Lower and upper end of its range, in coherent units; infinite without one."""
+
+    unit: str
+    """Coherent unit; empty for a pure number or an angle."""
+
+    description: str
+    """Description."""
+
+
+class LiveParameter(Fields):
+    """A structural parameter."""
+
+    name: str
+    """Name of the parameter."""
+
+    nominal: float
+    """Nominal value, in coherent units."""
+
+    unit: str
+    """Coherent unit; empty for a pure number or an angle."""
+
+    range: list[float] | None
+    """Smallest and largest value in the study, in coherent units; None if it is nominal there."""
+
+    description: str
+    """Description."""
+
+
+class LiveSource(Fields):
+    """An error source.
+
+    `["class"]`: `repeatable` or `random`.
+    """
+
+    name: str
+    """Name of the source."""
+
+    distribution: str | None
+    """Distribution of a random error."""
+
+    bound: float
+    """Bound of a random error, as a factor of its value: 3 for a normal one, 1 for all others."""
+
+    at: str
+    """Location of its errors, such as `joint q4`."""
+
+    enabled: bool
+    """`true` if the source is enabled."""
+
+    magnitude: int | None
+    """Index of the input of the code that is the factor of a repeatable source."""
+
+    value: float
+    """Factor of its errors in this machine: its magnitude in the spec."""
+
+    follows: int | None
+    """Index of the source whose factor and switch it shares: its own; that of the source whose magnitude is
+    uncertain. None without both: for an error of the calibration, and for a disabled source with a weight, which
+    loads the structure only where the source is enabled.
+    """
+
+    description: str
+    """Description."""
+
+
+class LiveVariable(Fields):
+    """A joint variable."""
+
+    name: str
+    """Name of the variable."""
+
+    kind: str
+    """`revolute` or `prismatic`."""
+
+    limits: list[float]
+    """Lower and upper limit, in the length unit or rad; infinite without one."""
+
+    home: float
+    """Value at home, in the length unit or rad."""
+
+    description: str
+    """Description."""
 
 
 class LongestEllipsoid(Fields):
@@ -2381,22 +2469,36 @@ class Pair(Fields):
 
 
 class Parameter(Fields):
-    """A structural parameter."""
+    """Kept unknown, which stands for an identifiable combination."""
 
     name: str
-    """Name of the parameter."""
+    """Name: `e_x1`, or `e_x0` for the base."""
 
-    nominal: float
-    """Nominal value, in coherent units."""
+    kind: Literal["machine", "station", "placement"]
+    """Object that the unknown belongs to."""
+
+    frame: int | None
+    """Frame of an error, from 1; 0 is the base. None for other unknowns."""
+
+    frame_name: str | None
+    """Name of that frame."""
+
+    iso: str | None = None
+    """Name of the error by ISO 230-1, of a machine with slides along X, Y and Z; with a minus sign where the frame
+    has the opposite one.
+    """
+
+    value: float
+    """Identified value, in `unit`."""
+
+    standard_deviation: float
+    """Standard deviation of the value, in `unit`."""
 
     unit: str
-    """Coherent unit; empty for a pure number or an angle."""
+    """Unit: the length unit, rad, or empty."""
 
-    range: list[float] | None
-    """Smallest and largest value in the study, in coherent units; None if the study does not vary it."""
-
-    description: str
-    """Description."""
+    hardly_known: bool
+    """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
 
 
 class PlacementAtStation(Fields):
@@ -2437,7 +2539,7 @@ class PlanReport(Report):
     sets: list[SetSize]
     """Number of rows of each set."""
 
-    inputs: list[ReportInput]
+    inputs: list[Input]
     """Range of each variable input over the rows."""
 
     rank: int
@@ -2799,108 +2901,6 @@ class Repeated(Fields):
 
     drift: Drift | None
     """Drift of pose characteristics, 7.6."""
-
-
-class ReportInput(Fields):
-    """Range of an input over the rows of a plan."""
-
-    name: str
-    """Name of the input."""
-
-    unit: str
-    """Coherent unit; empty for a pure number or an angle."""
-
-    between: list[float]
-    """Smallest and largest value, in `unit`; equal for a constant input."""
-
-
-class ReportParameter(Fields):
-    """Kept unknown, which stands for an identifiable combination."""
-
-    name: str
-    """Name: `e_x1`, or `e_x0` for the base."""
-
-    kind: Literal["machine", "station", "placement"]
-    """Object that the unknown belongs to."""
-
-    frame: int | None
-    """Frame of an error, from 1; 0 is the base. None for other unknowns."""
-
-    frame_name: str | None
-    """Name of that frame."""
-
-    iso: str | None = None
-    """Name of the error by ISO 230-1, of a machine with slides along X, Y and Z; with a minus sign where the frame
-    has the opposite one.
-    """
-
-    value: float
-    """Identified value, in `unit`."""
-
-    standard_deviation: float
-    """Standard deviation of the value, in `unit`."""
-
-    unit: str
-    """Unit: the length unit, rad, or empty."""
-
-    hardly_known: bool
-    """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
-
-
-class ReportSource(Fields):
-    """An error source.
-
-    `["class"]`: `repeatable` or `random`.
-    """
-
-    name: str
-    """Name of the source."""
-
-    distribution: str | None
-    """Distribution of a random error."""
-
-    bound: float
-    """Bound of a random error, as a factor of its value: 3 for a normal one, 1 for all others."""
-
-    at: str
-    """Location of its errors, such as `joint q4`."""
-
-    enabled: bool
-    """Whether the source is enabled."""
-
-    magnitude: int | None
-    """Index of the input of the code that is the factor of a repeatable source."""
-
-    value: float
-    """Factor of its errors in this machine: its magnitude in the spec."""
-
-    follows: int | None
-    """Index of the source whose factor and switch it shares: its own; that of the source whose magnitude is
-    uncertain. None without both: for an error of the calibration, and for a disabled source with a weight, which
-    loads the structure only where the source is enabled.
-    """
-
-    description: str
-    """Description."""
-
-
-class ReportVariable(Fields):
-    """A joint variable."""
-
-    name: str
-    """Name of the variable."""
-
-    kind: str
-    """`revolute` or `prismatic`."""
-
-    limits: list[float]
-    """Lower and upper limit, in the length unit or rad; infinite without one."""
-
-    home: float
-    """Value at home, in the length unit or rad."""
-
-    description: str
-    """Description."""
 
 
 class ResidualDrift(Fields):
