@@ -1013,6 +1013,9 @@ class ExploreReport(Report):
     tool: bool
     """`true` if a tool follows the last frame."""
 
+    up: int
+    """Index of the axis of `F_0` that points up in pictures of the manipulator."""
+
     variables: list[LiveVariable]
     """Joint variables, in order."""
 

@@ -22,7 +22,8 @@ use crate::finite;
 use crate::notes::Notes;
 use crate::reads::Reads;
 pub use report::{
-    Configurations, ErrorUnit, FrameName, LiveInput, LiveParameter, LiveSource, LiveVariable, Report, StudyFacts,
+    Configurations, ErrorUnit, FrameName, LiveInput, LiveParameter, LiveSource, LiveVariable, Report,
+    StudyFacts,
 };
 
 /// Functions of the generated code that a page calls, if the manipulator has them.
