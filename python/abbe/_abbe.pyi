@@ -321,7 +321,18 @@ class Machine:
         With `shard=(i, n)`, i from 1 to n, computes part i of n of the workspace and returns a
         Part; `abbe.merge` of all parts is the report.
         """
-    def explore(self, study: _Path | None = None, *, study_text: str | None = None, height: int = 900) -> Page: ...
+    def explore(self, study: _Path | None = None, *, study_text: str | None = None, height: int = 900) -> Page:
+        """Returns a live page of the machine: joints, inputs, parameters and the factor of each source
+        can be varied, and it shows the errors there by the generated code. Notebooks show it in a
+        frame; `.save(path)` writes it as a file that needs no network.
+
+        `study`, `study_text`: as for `analyze`; the page has the tolerance and some configurations
+        of the study. `height`: of the frame in a notebook, in pixels.
+
+        >>> import abbe
+        >>> abbe.load("ur5").explore()
+        <abbe page: Universal Robots UR5 with a tracker target>
+        """
     def bound(
         self,
         study: _Path | None = None,
@@ -585,7 +596,10 @@ class Report:
         """Writes pages and figures into a folder, which is made if necessary. Returns the file names.
         Raises FileExistsError if a file exists, unless `overwrite` is true.
         """
-    def explore(self, *, height: int = 900) -> Page: ...
+    def explore(self, *, height: int = 900) -> Page:
+        """Returns the page of the report, which notebooks show in a frame of this height in pixels.
+        Its head is a live page of the machine.
+        """
     def load(self) -> Machine:
         """Returns the machine that was imported, identified, or corrected by the doctor. Raises
         ValueError if the report has none.
