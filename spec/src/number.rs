@@ -45,6 +45,12 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// Rounds a number to 13 significant digits. The last bits, which depend on the order of operations,
+/// then do not decide how a half is rounded.
+pub fn steady(value: f64) -> f64 {
+    format!("{value:.12e}").parse().unwrap_or(value)
+}
+
 /// Formats a number with its unit, if it has one.
 pub fn quantity(value: f64, unit: &str) -> String {
     format!("{} {unit}", short(value)).trim_end().to_owned()
@@ -168,7 +174,15 @@ pub fn unbroken(list: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::visible;
+    use super::{fixed, steady, visible};
+
+    #[test]
+    fn last_bits_do_not_round_a_half() {
+        let (half, more) = (0.005665, 0.005665_f64.next_up().next_up());
+        assert_ne!(fixed(half, 5), fixed(more, 5));
+        assert_eq!(steady(more), half);
+        assert_eq!([0.0, -2.5, f64::INFINITY].map(steady), [0.0, -2.5, f64::INFINITY]);
+    }
 
     #[test]
     fn what_is_not_zero_is_not_shown_as_zero() {

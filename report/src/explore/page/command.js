@@ -19,7 +19,7 @@ export function commands(report, state) {
         if (isEnabled[k]) changes.push("--enable", name);
         if (follows === k && state.factors[k] !== 1 && (enabled || isEnabled[k])) changes.push("--scale", `${name}=${state.factors[k]}`);
     });
-    if (state.q.length > 0) changes.push("--q", joints(report, state));
+    changes.push("--q", joints(report, state));
     /** @param {string} name @param {string[]} options of the page's own command; the state may enable what they disable */
     const line = (name, options) => {
         const pairs = options.flatMap((option, i) => (i % 2 === 0 ? [[option, options[i + 1]]] : []));

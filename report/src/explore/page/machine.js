@@ -1,5 +1,6 @@
 // A machine at a state: its generated code, and errors combined as `abbe analyze` does it.
 
+import { steady } from "./number.js";
 import { factorOf } from "./state.js";
 
 /** @import { Report, State } from "./state.js" */
@@ -20,8 +21,7 @@ import { factorOf } from "./state.js";
  */
 
 /**
- * Errors and poses at a state: the ideal pose, and that of the exact chain with the errors of the repeatable sources.
- * Columns are x, y, z axis and position.
+ * Errors at a state, the ideal pose, and that of the exact chain with the repeatable sources: x, y, z axis and position.
  * @typedef {Errors & {pose: number[], realPose: number[]}} Evaluation
  */
 
@@ -72,29 +72,38 @@ export function createMachine(generated, report) {
         return all;
     };
 
+    /** Returns what multiplies the numbers that the code returns for a source. @param {State} state @param {number} k */
+    const sizeOf = (state, k) => {
+        const factor = factorOf(report, state, k);
+        return isRandom[k] ? factor * report.sources[k].bound : Number(factor !== 0);
+    };
+
     /** @param {number[][]} displacements @param {number} first of three rows @returns {Combined} */
     const combine = (displacements, first) => {
         const [repeatable, squares] = [[0, 0, 0], [0, 0, 0]];
         const norms = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
             rows.forEach((row, i) => (isRandom[k] ? (squares[i] += row * row) : (repeatable[i] += row)));
-            return norm(rows);
+            return steady(norm(rows));
         });
         const random = squares.map(Math.sqrt);
         const [repeatableRadius, randomRadius] = [norm(repeatable), Math.sqrt(squares[0] + squares[1] + squares[2])];
-        return { norms, repeatable, random, repeatableRadius, randomRadius, radius: repeatableRadius + randomRadius };
+        const [all, one, other] = [repeatableRadius + randomRadius, repeatableRadius, randomRadius].map(steady);
+        return { norms, repeatable, random, repeatableRadius: one, randomRadius: other, radius: all };
     };
+
+    /** Returns a row of a source; the last one, if the code has more, is a calibration. @param {Numbers} flat @param {number} k @param {number} i */
+    const rowOf = (flat, k, i) => (k < report.sources.length - 1 || flat.length === 6 * report.sources.length ? flat[6 * k + i]
+        : Math.hypot(...Array.from(flat).filter((_, at) => at >= 6 * k && at % 6 === i)));
 
     /** @param {State} state @returns {Errors} */
     const errors = (state) => {
         const result = source_displacements(state.q, state.s, inputs(state));
         const { displacements: flat, margin } = "margin" in result ? result : { displacements: result, margin: 1 };
         const rows = margin >= MINIMUM_MARGIN ? 6 : 3;
-        const displacements = report.sources.map(({ bound }, k) => {
-            const factor = factorOf(report, state, k);
-            const size = isRandom[k] ? factor * bound : 1;
-            const row = (/** @type {number} */ i) => (factor === 0 ? 0 : size * flat[6 * k + i]);
-            return Array.from({ length: 6 }, (_, i) => (i < rows ? row(i) : NaN));
+        const displacements = report.sources.map((_, k) => {
+            const size = sizeOf(state, k);
+            return [0, 1, 2, 3, 4, 5].map((i) => (i >= rows ? NaN : size === 0 ? 0 : size * rowOf(flat, k, i)));
         });
         const [position, orientation] = [combine(displacements, 0), combine(displacements, 3)];
         const displacement = [...position.repeatable, ...orientation.repeatable];
@@ -103,11 +112,8 @@ export function createMachine(generated, report) {
 
     /** Returns the errors of the report's effects, of a random source at its bound. @param {State} state @returns {number[]} */
     const effects = (state) => {
-        const values = effectsOf(state.q, state.s, inputs(state));
-        return report.effects.map(([source], k) => {
-            const factor = factorOf(report, state, source);
-            return factor === 0 ? 0 : (isRandom[source] ? factor * report.sources[source].bound : 1) * values[k];
-        });
+        const [values, sizes] = [effectsOf(state.q, state.s, inputs(state)), report.sources.map((_, k) => sizeOf(state, k))];
+        return report.effects.map(([source], k) => (sizes[source] === 0 ? 0 : sizes[source] * values[k]));
     };
 
     return {

@@ -40,14 +40,9 @@ export function short(value) {
 }
 
 /** Formats a number to so many significant digits. @param {number} value @param {number} count @returns {string} */
-export function digits(value, count) {
-    return short(Number(rounded(value, count - 1, "toExponential")));
-}
+export const digits = (value, count) => short(Number(rounded(value, count - 1, "toExponential")));
 
-/**
- * Returns how many decimals show so many significant digits of a number that is not negative; at most 12.
- * @param {number} value @param {number} count @returns {number}
- */
+/** Returns how many decimals show so many digits of a number, at most 12. @param {number} value @param {number} count */
 export function decimals(value, count) {
     const first = value > 0 ? Math.floor(Math.log10(value)) : 0;
     return Math.min(Math.max(count - 1 - first, 0), 12);
@@ -60,14 +55,13 @@ export function roundedDown(value, decimals) {
 }
 
 /** Formats the ratio of two numbers in whole percent. @param {number} value @param {number} of @returns {string} */
-export function percent(value, of) {
-    return `${rounded(value === 0 ? 0 : (100 * value) / of, 0, "toFixed")} %`;
-}
+export const percent = (value, of) => `${rounded(value === 0 ? 0 : (100 * value) / of, 0, "toFixed")} %`;
+
+/** Rounds to 13 digits, so that the last bits do not decide how a half is rounded. @param {number} value @returns {number} */
+export const steady = (value) => Number(value.toPrecision(13));
 
 /** Formats a number with its unit, if it has one. @param {number} value @param {string} unit @returns {string} */
-export function quantity(value, unit) {
-    return `${short(value)} ${unit}`.trimEnd();
-}
+export const quantity = (value, unit) => `${short(value)} ${unit}`.trimEnd();
 
 /**
  * Units: exponents of length, mass, time and temperature; exponent of ten; numerator; parts of a degree.

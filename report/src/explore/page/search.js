@@ -1,11 +1,9 @@
 // The worst case in the joint box, curves along a joint, errors over the configurations of the study.
 
+import { steady } from "./number.js";
 import { copyState } from "./state.js";
 
-/**
- * @import { Report, State, Variable } from "./state.js"
- * @import { Combined, Evaluation, Machine } from "./machine.js"
- */
+/** @import { Report, State, Variable } from "./state.js" @import { Combined, Evaluation, Machine } from "./machine.js" */
 
 /** @typedef {"position" | "orientation"} Measurand */
 
@@ -15,10 +13,7 @@ import { copyState } from "./state.js";
  * @typedef {{measurand?: Measurand, inputs?: boolean, parameters?: boolean, samples?: number}} Options
  */
 
-/**
- * Largest total that was found, and the number of states that were evaluated.
- * @typedef {{state: State, radius: number, evaluation: Evaluation, evaluations: number}} Worst
- */
+/** Largest total that was found. @typedef {{state: State, radius: number, evaluation: Evaluation, evaluations: number}} Worst */
 
 /** Number of best samples from which the search ascends, and steps of the ascent as parts of a range: first and last. */
 const [STARTS, FIRST_STEP, LAST_STEP] = [8, 0.1, 1e-6];
@@ -156,7 +151,7 @@ export function cloud(machine, report, state) {
  * @returns {{alone: (number | null)[], together: number | null}}
  */
 export function tighten({ norms, radius }, tolerance) {
-    const factor = (/** @type {number} */ size) => (size > 0 && tolerance / size < Infinity ? tolerance / size : null);
+    const factor = (/** @type {number} */ size) => (size > 0 && tolerance / size < Infinity ? steady(tolerance / size) : null);
     return { alone: norms.map(factor), together: factor(radius) };
 }
 

@@ -85,7 +85,7 @@ export function createSources(panel) {
             row.mark.hidden = !reference;
             row.mark.style.left = `${Math.min(100, (100 * factor * (reference?.[measurand].norms[k] ?? 0)) / end)}%`;
             setText(row.value, `${isRandom && norm > 0 ? "± " : ""}${errorOf(factor * norm, places)}`);
-            setText(row.share, sum > 0 ? percent(norm, sum) : "");
+            setText(row.share, Number.isFinite(sum) ? percent(norm, sum) : "");
             const most = tolerance === null ? null : allowed(errors, displacements[k].slice(first, first + 3), isRandom, tolerance);
             const text = most === null ? (tolerance !== null && norm > 0 ? "not alone" : "") : times(most * current);
             setText(row.most, text);

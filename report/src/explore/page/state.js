@@ -49,20 +49,14 @@ export function factorOf({ sources }, { factors }, k) {
 /** Copies a state. @param {State} state @returns {State} */
 export const copyState = ({ q, s, u, factors }) => ({ q: [...q], s: [...s], u: [...u], factors: [...factors] });
 
-/** Returns the unit in which a variable is shown. @param {Report} report @param {number} variable @returns {string} */
-export function variableUnit(report, variable) {
-    return report.variables[variable].kind === "revolute" ? "deg" : report.length;
-}
+/** Returns the unit in which a variable is shown. @param {Report} report @param {number} i @returns {string} */
+export const variableUnit = ({ variables, length }, i) => (variables[i].kind === "revolute" ? "deg" : length);
 
 /** Returns true if a value is in an interval. @param {number} value @param {Interval | null} interval @returns {boolean} */
-export function isWithin(value, interval) {
-    return value >= (interval?.[0] ?? -Infinity) && value <= (interval?.[1] ?? Infinity);
-}
+export const isWithin = (value, interval) => value >= (interval?.[0] ?? -Infinity) && value <= (interval?.[1] ?? Infinity);
 
 /** Returns the joint variables with units and all digits. @param {Report} report @param {State} state @returns {string} */
-export function joints(report, { q }) {
-    return q.map((value, i) => exact(value, variableUnit(report, i))).join(",");
-}
+export const joints = (report, { q }) => q.map((value, i) => exact(value, variableUnit(report, i))).join(",");
 
 /**
  * Returns the parameters and inputs that differ from the spec, with units and all digits.
@@ -102,17 +96,13 @@ export function decodeState(report, hash, prefix = "") {
         const value = parseValue(text ?? "", unit, report.length);
         return value !== undefined && isWithin(value, interval) ? value : otherwise;
     };
-    const q = parts.get(`${prefix}q`)?.split(",") ?? [];
-    const isWhole = q.length === initial.q.length;
-    /** @param {boolean} isInput @returns {(setting: Setting) => number} */
-    const setting = (isInput) => ({ name, unit, range, nominal }) =>
-        parsed(parts.get(prefix + keyOf(name)), unit, isInput ? range : null, nominal);
+    const read = (/** @type {string} */ key) => parts.get(prefix + key);
+    const q = read("q")?.split(",") ?? [];
     return {
-        q: initial.q.map((home, i) =>
-            parsed(isWhole ? q[i] : "", variableUnit(report, i), report.variables[i].limits, home)),
-        s: report.parameters.map(setting(false)),
-        u: report.inputs.map(setting(true)),
-        factors: report.sources.map(({ name }, k) =>
-            parsed(parts.get(`${prefix}factor.${name}`), "", [0, LARGEST_FACTOR], initial.factors[k])),
+        q: report.variables.map(({ limits, home }, i) =>
+            parsed(q.length === initial.q.length ? q[i] : "", variableUnit(report, i), limits, home)),
+        s: report.parameters.map(({ name, unit, nominal }) => parsed(read(keyOf(name)), unit, null, nominal)),
+        u: report.inputs.map(({ name, unit, range, nominal }) => parsed(read(keyOf(name)), unit, range, nominal)),
+        factors: report.sources.map(({ name }, k) => parsed(read(`factor.${name}`), "", [0, LARGEST_FACTOR], initial.factors[k])),
     };
 }

@@ -1,7 +1,7 @@
 // Tables: the error by rows, both poses, and the error Jacobian.
 
 import { html, setText } from "./dom.js";
-import { digits, fixed } from "./number.js";
+import { digits } from "./number.js";
 import { errorOf } from "./sources.js";
 /** @import { Panel } from "./panel.js" */
 
@@ -28,7 +28,7 @@ export function createPoses(panel) {
         error.cells.forEach((cells, i) => [displacement, [...position.random, ...orientation.random]].forEach((values, c) =>
             setText(cells[c], errorOf(units[i][1] * values[i], 4))));
         [pose, realPose].forEach((one, which) => poses[which].cells.forEach((cells, r) => cells.forEach((cell, c) =>
-            setText(cell, fixed(one[3 * c + r], c < 3 ? 6 : length === "m" ? 7 : 4)))));
+            setText(cell, errorOf(one[3 * c + r], c < 3 ? 6 : length === "m" ? 7 : 4)))));
     };
     return { element, update };
 }

@@ -3,11 +3,7 @@
 import { createMachine } from "./machine.js";
 import { worst } from "./search.js";
 
-/**
- * @import { Report, State } from "./state.js"
- * @import { Generated } from "./machine.js"
- * @import { Options, Worst } from "./search.js"
- */
+/** @import { Report, State } from "./state.js" @import { Generated } from "./machine.js" @import { Options, Worst } from "./search.js" */
 
 /** @typedef {{report: Report, index: number, state: State, options: Options}} Task of the machine with this index */
 

@@ -6,7 +6,7 @@ use abbe_study::analyze::{
     unreachable_summary,
 };
 use abbe_study::bound::ErrorBound;
-use abbe_study::number::{self, fixed, percent};
+use abbe_study::number::{self, fixed, percent, steady};
 use abbe_study::study_file::JudgedMachine;
 
 use super::{Answer, aligned, error_unit};
@@ -51,7 +51,7 @@ fn headline(report: &Report) -> String {
 
 /// Decimals that show the largest error to four digits.
 fn decimals(report: &Report) -> usize {
-    number::decimals(error_unit(report.length).0 * report.combined.radii.radius, 4)
+    number::decimals(error_unit(report.length).0 * steady(report.combined.radii.radius), 4)
 }
 
 /// The error as built, after compensation, and of the random sources alone.
@@ -67,6 +67,7 @@ fn figures(report: &Report) -> String {
     };
     let norms = report.certified.as_ref();
     let position = |name: &str, value: f64, [probability, u95]: [String; 2], note: String| {
+        let value = steady(value);
         let share = report.position_tolerance.map(|tolerance| percent(value, tolerance));
         let value = format!("{} {unit}", fixed(factor * value, decimals));
         [name.to_owned(), value, share.unwrap_or_default(), probability, u95, note]
@@ -101,7 +102,7 @@ fn figures(report: &Report) -> String {
         rows.push(position("random only", radii.random_radius, Default::default(), certified(most)));
     }
     if report.orientation.radii.radius > 0.0 {
-        let value = report.orientation.radii.radius;
+        let value = steady(report.orientation.radii.radius);
         let share = report.orientation.tolerance.map(|tolerance| percent(value, tolerance));
         let value = format!("{} mrad", number::digits(1e3 * value, 4));
         let of = |verdicts: Option<&MachineVerdicts>| {
@@ -134,9 +135,10 @@ fn basis(report: &Report) -> String {
 /// each alone would use up the tolerance; the last row has the factor for all of them together.
 fn sources(report: &Report) -> String {
     let decimals = decimals(report);
-    let all = &report.ledger.sources;
+    let all: Vec<(&str, f64)> =
+        report.ledger.sources.iter().map(|entry| (entry.name.as_str(), steady(entry.max))).collect();
     let (scale, unit) = error_unit(report.length);
-    let sum: f64 = all.iter().map(|entry| entry.max).sum();
+    let sum: f64 = all.iter().map(|(_, max)| max).sum();
     let factor = |name: &str| {
         let sources = &report.allowance.as_ref()?.sources;
         let alone = sources.iter().find(|source| source.name == name)?.alone?;
@@ -149,16 +151,16 @@ fn sources(report: &Report) -> String {
     let tighten = if report.allowance.is_some() { "tighten to" } else { "" };
     let head = ["source", &format!("max {unit}"), "share", tighten].map(str::to_owned);
     let mut rows = vec![head];
-    rows.extend(all[..shown].iter().map(|entry| row(entry.name.clone(), entry.max, factor(&entry.name))));
+    rows.extend(all[..shown].iter().map(|(name, max)| row((*name).to_owned(), *max, factor(name))));
     if shown < all.len() {
-        let rest = all[shown..].iter().map(|entry| entry.max).sum();
+        let rest = all[shown..].iter().map(|(_, max)| max).sum();
         rows.push(row(format!("{} others together", all.len() - shown), rest, None));
     }
     // The factor of a source holds for it alone.
     if let Some(together) = report.allowance.as_ref().and_then(|allowance| allowance.together)
         && all.len() > 1
     {
-        let radius = fixed(scale * report.combined.radii.radius, decimals);
+        let radius = fixed(scale * steady(report.combined.radii.radius), decimals);
         rows.push(["all, as built".to_owned(), radius, String::new(), times(together)]);
     }
     aligned(&rows, [false, true, true, true])
@@ -166,6 +168,7 @@ fn sources(report: &Report) -> String {
 
 /// Formats a factor, rounded down.
 fn times(factor: f64) -> String {
+    let factor = steady(factor);
     format!("× {}", number::rounded_down(factor, number::decimals(factor, 2)))
 }
 
