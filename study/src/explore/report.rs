@@ -1,11 +1,14 @@
 //! Data of a live page.
 
+use std::sync::Arc;
+
 use abbe::{Class, Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use serde::Serialize;
 
 use crate::analyze::Analyze;
+use crate::calibration::{is_calibration_error, named_as_one};
 use crate::jacobian::column_names;
 use crate::machine::followed_source;
 use crate::number;
@@ -188,6 +191,10 @@ impl Report {
         let (machine, study) = (analysis.machine(), analysis.study());
         let spec = &machine.spec;
         let (factor, symbol) = number::error_unit(spec.length.symbol());
+        let sources = sources(spec, tunable);
+        // All parts of a calibration, which are last in the code, are one source.
+        let last = sources.len().saturating_sub(1);
+        let effects = effects.into_iter().map(|[source, frame, error]| [source.min(last), frame, error]);
         Self {
             spec: machine.origin.clone(),
             name: spec.name.clone(),
@@ -212,8 +219,8 @@ impl Report {
             variables: variables(spec),
             inputs: inputs(spec),
             parameters: parameters(spec, |i| study.region.parameter_range(i)),
-            sources: sources(spec, tunable),
-            effects,
+            sources,
+            effects: effects.collect(),
             configurations,
             code,
         }
@@ -280,7 +287,9 @@ fn parameters(spec: &Spec, range: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Liv
     spec.parameters.iter().enumerate().map(parameter).collect()
 }
 
-fn sources(spec: &Spec, tunable: &Spec) -> Vec<LiveSource> {
+/// Returns the sources of the code; a calibration, which has several parts at the end, as one.
+fn sources(spec: &Arc<Spec>, tunable: &Spec) -> Vec<LiveSource> {
+    let spec = named_as_one(spec);
     let source = |(i, one): (usize, &abbe_spec::Source)| {
         let (class, distribution) = number::class(one.class);
         LiveSource {
@@ -295,9 +304,11 @@ fn sources(spec: &Spec, tunable: &Spec) -> Vec<LiveSource> {
             enabled: one.enabled,
             magnitude: tunable.sources[i].tuned_by,
             value: one.factor(),
-            follows: followed_source(spec, i).filter(|_| one.enabled || !one.has_weight()),
+            follows: followed_source(&spec, i).filter(|_| one.enabled || !one.has_weight()),
             description: one.description.clone(),
         }
     };
-    spec.sources.iter().enumerate().map(source).collect()
+    let first_part = spec.sources.iter().position(is_calibration_error);
+    let count = first_part.map_or(spec.sources.len(), |first| first + 1);
+    spec.sources.iter().enumerate().take(count).map(source).collect()
 }

@@ -55,9 +55,12 @@ export function otherSpecs() {
         .replace('"rotation-vector"', '"iec-61217"')
         .replaceAll("elbow_pull", "q")
         .replaceAll("gear of the turn", `it's 50 % of \\"a\\" & b=c; $HOME #1+1`);
+    // Its weight loads other sources only if it is enabled.
+    const beam = 'name = "bending of the upper arm"';
+    const disabled = uncalibrated.replace(beam, `${beam}\nenabled = false`);
     const folder = mkdtempSync(join(tmpdir(), "abbe-"));
     process.on("exit", () => rmSync(folder, { recursive: true }));
-    return [new URL("tests/specs/measured.toml", root).pathname].concat([everything, uncalibrated, PLAIN, PLAIN + RANDOM, FIXED + REPEATABLE].map((text, i) => {
+    return [new URL("tests/specs/measured.toml", root).pathname].concat([everything, uncalibrated, disabled, PLAIN, PLAIN + RANDOM, FIXED + REPEATABLE].map((text, i) => {
         const path = join(folder, `the ${i}.toml`);
         writeFileSync(path, text);
         return path;

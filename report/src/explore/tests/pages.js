@@ -1,0 +1,215 @@
+// Pages in a browser: whatever the user sets, the figures shown are those of the commands shown. Run by `node --test`.
+
+import assert from "node:assert/strict";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import test, { after, before } from "node:test";
+
+import { decimals, digits, exact, fixed, steady } from "../page/number.js";
+import { startBrowser } from "./browser.js";
+import { SHIPPED, STATES, abbe, explored, otherSpecs, randomNumbers, shell } from "./support.js";
+
+/** Milliseconds after which the page has shown everything, commands and link included. */
+const SETTLED = 400;
+
+const folder = mkdtempSync(join(tmpdir(), "abbe-pages-"));
+let browser;
+before(async () => (browser = await startBrowser({ width: 1400, height: 8000 })));
+after(async () => {
+    await browser.close();
+    rmSync(folder, { recursive: true });
+});
+
+/** Writes and opens the page of a spec. */
+async function open(name) {
+    const path = join(folder, "page.html");
+    abbe("explore", name, "--out", path, "--force");
+    await browser.open(`file://${path}`);
+}
+
+/** Returns what the page shows. */
+async function figures() {
+    await new Promise((resolve) => setTimeout(resolve, SETTLED));
+    return browser.evaluate(`(() => {
+        const texts = (selector, from = document) => [...from.querySelectorAll(selector)].map((one) => one.textContent);
+        return {
+            total: texts(".abbe-panel .total")[0],
+            share: texts(".abbe-panel .of")[0],
+            parts: texts(".abbe-panel .parts")[0],
+            sources: [...document.querySelectorAll(".sources li")].map((row) => ({
+                name: texts(".name span span", row)[0],
+                value: texts(".number", row)[0].replace("± ", ""),
+                share: texts(".share", row)[0],
+                factor: row.querySelector("input[type=text]")?.value ?? "1",
+            })).sort((a, b) => (a.name < b.name ? -1 : 1)),
+            tables: [...document.querySelectorAll(".poses table, .jacobian table")].map((table) =>
+                [...table.querySelectorAll("tbody tr")].map((row) => texts("td", row))),
+            lines: texts(".same code"),
+            problems: texts(".problem").filter((text) => text !== ""),
+        };
+    })()`);
+}
+
+/** Asserts that a number is shown as it is formatted; nothing may have a sign. */
+function assertShown(shown, expected, what) {
+    assert.equal(Number(shown.replace("·", "0")), Number(expected), what);
+}
+
+/** Asserts that the figures shown are those that the commands shown print. Returns the number of figures compared. */
+async function assertAgrees(report) {
+    const shown = await figures();
+    assert.deepEqual(shown.problems, []);
+    const [analyze, jacobian] = shown.lines;
+    const [text, budget, exact] = [shell(analyze), JSON.parse(shell(`${analyze} --json`)), JSON.parse(shell(`${jacobian} --json`))];
+    const rows = new Map(text.split("\n").map((line) => line.trim().split(/ {3,}/)).map(([name, ...cells]) => [name, cells]));
+    const [symbol, factor] = report.error_unit.length;
+    let compared = 0;
+
+    const radius = factor * steady(budget.combined?.radius ?? 0);
+    const [total, share] = rows.get("as built") ?? [`${fixed(0, 3)} ${symbol}`];
+    assert.equal(shown.total, total, analyze);
+    if (report.study.tolerance !== null) assert.equal(shown.share, `${share} of`, analyze);
+    if (rows.has("random only")) assert.ok(shown.parts.endsWith(` ${rows.get("random only")[0]}`), `${shown.parts}: ${analyze}`);
+    for (const { name, value, share, factor: own } of shown.sources) {
+        const source = budget.sources.find((source) => source.name === name);
+        assert.equal(value, fixed(factor * steady(source?.plain_max.norm ?? 0), decimals(radius, 4)), `${name}: ${analyze}`);
+        if (!rows.has(name) || own === "0") continue;
+        const [printed, printedShare = ""] = rows.get(name);
+        assert.deepEqual([value, share], [printed, printedShare], `${name}: ${analyze}`);
+        compared += 2;
+    }
+
+    const [error, ideal, real, ...frames] = shown.tables;
+    const units = report.rows.map((_, i) => report.error_unit[i < 3 ? "length" : "angle"][1]);
+    error.forEach(([repeatable], i) => assertShown(repeatable, fixed(units[i] * exact.displacement[i], 4), `ΔX: ${jacobian}`));
+    const places = [6, 6, 6, report.length === "m" ? 7 : 4];
+    [ideal, real].forEach((pose, k) => pose.forEach((row, i) => row.forEach((cell, j) =>
+        assertShown(cell, fixed([exact.pose, exact.real_pose][k][i][j], places[j]), `pose: ${jacobian}`))));
+    frames.forEach((frame, f) => frame.forEach((row, i) => row.forEach((cell, j) => {
+        const value = exact.error_jacobian[i][6 * f + j];
+        assertShown(cell, Math.abs(value) < 1e-9 ? "0" : digits(value, 3), `J_e: ${jacobian}`);
+    })));
+    return compared + 2 + 6 + 24 + 36 * frames.length;
+}
+
+/** Scrolls to an element, given by its name for assistive technology, and returns its rectangle. */
+async function rectangle(label) {
+    const found = await browser.evaluate(`(async () => {
+        const element = [...document.querySelectorAll("[aria-label]")].find((one) => one.ariaLabel === ${JSON.stringify(label)});
+        element.closest("details")?.setAttribute("open", "");
+        // What was changed before is drawn first.
+        await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+        element.scrollIntoView({ block: "center" });
+        const { x, y, width, height } = element.getBoundingClientRect();
+        return { x, y, width, height };
+    })()`);
+    assert.ok(found.width > 0 && found.height > 0, label);
+    return found;
+}
+
+/** Replaces the text of a field, and presses a key that ends it. */
+async function type(label, text, key) {
+    await rectangle(label);
+    await browser.evaluate(`(() => {
+        const field = [...document.querySelectorAll("[aria-label]")].find((one) => one.ariaLabel === ${JSON.stringify(label)});
+        field.focus();
+        field.select();
+    })()`);
+    await browser.type(text);
+    await browser.press(key);
+}
+
+/** Drags a slider to a part of its length, and then presses arrow keys. */
+async function slide(label, part, keys) {
+    const { x, y, width, height } = await rectangle(`${label}, slider`);
+    const middle = y + height / 2;
+    await browser.drag([x + width / 2, middle], [x + width * (0.02 + 0.96 * part), middle]);
+    for (let i = 0; i < Math.abs(keys); i++) await browser.press(keys > 0 ? "ArrowRight" : "ArrowLeft");
+}
+
+/** Chooses the measurand that is shown. */
+async function choose(measurand) {
+    const { x, y } = await browser.evaluate(`[...document.querySelectorAll(".measurand label")].find((label) =>
+        label.textContent === ${JSON.stringify(measurand)}).querySelector("input").getBoundingClientRect().toJSON()`);
+    await browser.click(x + 5, y + 5);
+}
+
+/** Returns one of a list. */
+const among = (list, random) => list[Math.floor(random() * list.length)];
+
+/** Changes the factor of a source, or switches it. The list of sources may be sorted again after other changes. */
+async function actOnSource(own, random) {
+    const { name } = among(own, random);
+    const label = `factor of ${name}`;
+    if (random() < 0.4) return type(label, among(["0", "1", "0.5", "2.25", "33 %"], random), among(["Enter", "Tab"], random));
+    if (random() < 0.5) return slide(label, random(), 1);
+    const { x, y } = await browser.evaluate(`[...document.querySelectorAll(".sources li")].find((row) =>
+        row.querySelector(".name span span").textContent === ${JSON.stringify(name)}).querySelector("input[type=checkbox]").getBoundingClientRect().toJSON()`);
+    return browser.click(x + 5, y + 5);
+}
+
+/** Changes some of what the page offers. */
+async function act(report, random) {
+    const enter = (label, text) => type(label, text, among(["Enter", "Tab"], random));
+    const own = report.sources.filter(({ follows }, k) => follows === k);
+    if (own.length > 0) await actOnSource(own, random);
+    const between = ([lower, upper], value) => (lower ?? value - 1) + random() * ((upper ?? value + 1) - (lower ?? value - 1));
+    const other = report.length === "mm" ? ["m", 1e-3] : ["mm", 1e3];
+    const joints = report.variables.map(({ name, kind, limits, home }) =>
+        ({ name, value: between(limits, home), unit: kind === "revolute" ? "deg" : report.length }));
+    const inputs = report.inputs.map(({ name, range, nominal, unit }) => ({ name, value: between(range, nominal), unit }));
+    const parameters = report.parameters.map(({ name, range, nominal, unit }) =>
+        ({ name, value: range ? between(range, nominal) : nominal * (0.9 + 0.2 * random()), unit, isFree: !range }));
+    const values = [joints, joints, inputs, parameters].map((all) => among(all, random)).filter(Boolean);
+    for (const { name, value, unit, isFree } of values) {
+        // A stiffness of zero, for one, has no figures.
+        const part = isFree ? 0.3 + 0.4 * random() : random();
+        if (random() < 0.4) await slide(name, part, Math.floor(7 * random()) - 3);
+        else if (unit === report.length && random() < 0.5) await enter(name, `${Number((value * other[1]).toPrecision(5))} ${other[0]}`);
+        else await enter(name, among([exact(value, unit), `  ${exact(value, unit)} `], random));
+    }
+}
+
+// The other specs only if there is time for many states.
+for (const name of STATES < 10 ? SHIPPED : [...SHIPPED, ...otherSpecs()]) {
+    test(`${name}: the figures shown are those of the commands shown`, async () => {
+        const { report } = explored(name);
+        await open(name);
+        let compared = await assertAgrees(report);
+        const random = randomNumbers(9);
+        const count = SHIPPED.includes(name) ? STATES : Math.ceil(STATES / 10);
+        for (let i = 0; i < count; i++) {
+            await act(report, random);
+            compared += await assertAgrees(report);
+        }
+        await choose("orientation");
+        const { total, lines: [analyze] } = await figures();
+        const [, printed] = /^ +orientation +(\S+) mrad/m.exec(shell(analyze)) ?? ["", "0"];
+        assertShown(total.replace(" mrad", ""), printed, analyze);
+        await choose("position");
+        // The link shows the same in a new page.
+        const shown = await figures();
+        await browser.open(shown.lines[2]);
+        const again = await figures();
+        assert.deepEqual(again, shown);
+        assert.deepEqual(browser.errors(), []);
+        assert.ok(compared > 60 * (count + 1), `${compared} figures`);
+    });
+}
+
+test("the worst case is found in a worker, and loaded", async () => {
+    const { report } = explored("pps");
+    await open("pps");
+    const { x, y, width, height } = await rectangle("Find the worst case within the joint limits");
+    const before = await figures();
+    await browser.click(x + width / 2, y + height / 2);
+    await browser.evaluate(`new Promise((done) => {
+        const wait = () => (document.querySelector("progress").hidden ? done() : setTimeout(wait, 20));
+        wait();
+    })`);
+    await assertAgrees(report);
+    const after = await figures();
+    assert.ok(parseFloat(after.total) > parseFloat(before.total), after.total);
+    assert.deepEqual(browser.errors(), []);
+});
