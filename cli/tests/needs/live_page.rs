@@ -1,5 +1,4 @@
-//! Live pages: the tests of their modules in Node, and the pages in headless Chromium, where the
-//! scripts run under the policy of the page and fill each panel.
+//! Live pages in headless Chromium: the scripts run under the policy of the page and fill each panel.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,32 +7,8 @@ use abbe_tests::needs::{Missing, Tests, tool};
 
 use crate::browser::{chromium, command, live_pages};
 
-pub(crate) const TESTS: Tests = &[
-    ("tests_of_the_modules_pass", tests_of_the_modules_pass),
-    ("scripts_fill_the_panels_under_the_policy", scripts_fill_the_panels_under_the_policy),
-];
-
-/// First version of Node that runs the tests of a folder.
-const NODE: u32 = 20;
-
-fn tests_of_the_modules_pass() -> Result<(), Missing> {
-    let version = tool("node", "")?;
-    let major = version.trim_start_matches('v').split('.').next().and_then(|major| major.parse().ok());
-    if major.is_none_or(|major: u32| major < NODE) {
-        return Err(Missing(format!("node is {version}, older than {NODE}")));
-    }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../report/src/explore/tests");
-    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("a file").path());
-    let tests = entries.filter(|path| path.to_string_lossy().ends_with(".test.js"));
-    let run = Command::new("node")
-        .arg("--test")
-        .args(tests)
-        .env("ABBE", env!("CARGO_BIN_EXE_abbe"))
-        .output()
-        .expect("node runs");
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stdout));
-    Ok(())
-}
+pub(crate) const TESTS: Tests =
+    &[("scripts_fill_the_panels_under_the_policy", scripts_fill_the_panels_under_the_policy)];
 
 fn scripts_fill_the_panels_under_the_policy() -> Result<(), Missing> {
     tool("chromium", "")?;

@@ -7,6 +7,7 @@ mod controller;
 mod fmu;
 mod full_disk;
 mod live_page;
+mod live_page_figures;
 mod measured_data;
 mod printing;
 mod reference;
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
         ("fmu", fmu::TESTS),
         ("full_disk", full_disk::TESTS),
         ("live_page", live_page::TESTS),
+        ("live_page_figures", live_page_figures::TESTS),
         ("measured_data", measured_data::TESTS),
         ("printing", printing::TESTS),
         ("reference", reference::TESTS),
