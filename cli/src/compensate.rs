@@ -7,6 +7,7 @@ use abbe_report::{Provenance, text};
 use abbe_spec::Spec;
 use abbe_study::compensate::{Compensate, Report, check_poses};
 use abbe_study::data::{Csv, Data, Map};
+use abbe_study::explore::Explore;
 
 use crate::arguments;
 use crate::console::Console;
@@ -52,7 +53,8 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         let provenance = Provenance::new(spec, map, files)?;
         let evaluator = job.machine.evaluator(true);
         let machine = evaluator.description();
-        file.fill(&abbe_report::compensation(spec, machine, &job.map, &report, &provenance))
+        let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
+        file.fill(&abbe_report::compensation(spec, machine, &job.map, &report, &provenance, Some(&live)))
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
     let text = match arguments.running.json {

@@ -70,5 +70,5 @@ fn job(arguments: &arguments::Explore, spec: &OsStr) -> Result<Explore<'static>,
     // The page compares no published figures.
     analysis.change(&changes, &mut ());
     let study = arguments.study.as_ref().map(|study| study.to_string_lossy().into_owned());
-    Ok(Explore { analysis: Cow::Owned(analysis), study })
+    Ok(Explore { analysis: Cow::Owned(analysis), study, residuals: None })
 }

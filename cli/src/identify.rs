@@ -8,6 +8,7 @@ use abbe_report::text::{self, Detail, wrapped};
 use abbe_spec::Spec;
 use abbe_study::Acceptance;
 use abbe_study::data::{Data, Map};
+use abbe_study::explore::Explore;
 use abbe_study::identify::{Harmonics, Identify, Report, Settings};
 
 use crate::arguments;
@@ -60,7 +61,8 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
         let spec = &job.machine.spec;
         let provenance = Provenance::new(spec, Some(&job.map), files)?;
-        file.fill(&abbe_report::identification(spec, &job.map, &report, &provenance))
+        let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
+        file.fill(&abbe_report::identification(spec, &job.map, &report, &provenance, Some(&live)))
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);

@@ -3,6 +3,7 @@
 use abbe_report::{Provenance, text};
 use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
+use abbe_study::explore::Explore;
 use abbe_study::measure::{Measure, Report};
 
 use crate::arguments;
@@ -35,7 +36,8 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let files = [("measurements", &arguments.measured.data)];
     let provenance = Provenance::new(&spec, Some(&job.map), files)?;
-    let text = abbe_report::measurement(&spec, &job.map, &report, &provenance);
+    let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
+    let text = abbe_report::measurement(&spec, &job.map, &report, &provenance, Some(&live));
     outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
     outcome(arguments, &spec, &report)
 }

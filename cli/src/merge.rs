@@ -35,7 +35,8 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
     };
     let live = match &begun {
         Some(_) => {
-            Some(Explore { analysis: Cow::Borrowed(merge.job()), study: merge.study() }.run(&mut console)?)
+            let analysis = Cow::Borrowed(merge.job());
+            Some(Explore { analysis, study: merge.study(), residuals: None }.run(&mut console)?)
         }
         None => None,
     };

@@ -2,6 +2,7 @@
 
 use abbe_report::{Provenance, text};
 use abbe_study::data::Map;
+use abbe_study::explore::Explore;
 use abbe_study::monitor::{Checks, Monitor, Settings};
 
 use crate::arguments;
@@ -30,7 +31,9 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     let page = page.map(|file| {
         let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
         let provenance = Provenance::new(spec, Some(&job.map), files)?;
-        file.fill(&abbe_report::monitoring(spec, &job.map, &report, &provenance))
+        let residuals = report.residuals.clone();
+        let live = Explore::measured(job.machine.clone(), residuals).run(&mut Console::default())?;
+        file.fill(&abbe_report::monitoring(spec, &job.map, &report, &provenance, Some(&live)))
     });
     let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();

@@ -99,7 +99,7 @@ impl Machine {
         // A command names files, or shipped machines and studies.
         let is_named = job.machine().file.is_some() || job.machine().shipped.is_some();
         let study = study.map(|study| study.to_string_lossy().into_owned());
-        let live = Explore { analysis: Cow::Owned(job), study };
+        let live = Explore { analysis: Cow::Owned(job), study, residuals: None };
         let live = Some(live).filter(|_| is_named && study_text.is_none());
         Ok(analysis(py, report, live, notes)?.into_bound(py).into_any())
     }

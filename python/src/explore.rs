@@ -37,7 +37,7 @@ impl Machine {
             let mut analysis = Analyze::new(machine, found);
             self.changes()?.iter().for_each(|changes| analysis.change(changes, notes));
             let study = study.as_ref().map(|study| study.to_string_lossy().into_owned());
-            Explore { analysis: Cow::Owned(analysis), study }.run(notes)
+            Explore { analysis: Cow::Owned(analysis), study, residuals: None }.run(notes)
         })?;
         page(py, &report.title, &abbe_report::explore(std::slice::from_ref(&report)), height)
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use abbe_report::{Provenance, text};
 use abbe_study::data::Data;
+use abbe_study::explore::Explore;
 use abbe_study::identify::options::{FOLDS, LOSSES, TERMS};
 use abbe_study::identify::{Family, Identify, Prior, Settings};
 use abbe_study::options::share;
@@ -86,7 +87,9 @@ impl Machine {
             let test = unseen.iter().map(|test| ("test", test.source()));
             let files = [("measurements", measured.source())].into_iter().chain(test);
             let provenance = Provenance::new(&machine.spec, Some(map), files)?;
-            let page = abbe_report::identification(&machine.spec, map, &report, &provenance);
+            let live = Explore::measured(machine.clone(), report.residuals()).run(&mut ())?;
+            let page =
+                abbe_report::identification(&machine.spec, map, &report, &provenance, Some(&live));
             let mut pages: Pages = vec![("report.html".into(), page)];
             if nominal {
                 let spec = report.found.identified_spec(&machine.spec, &spec_text.clone()?, "found.toml")?;

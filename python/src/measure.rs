@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use abbe_report::{Provenance, text};
 use abbe_study::data::Data;
+use abbe_study::explore::Explore;
 use abbe_study::measure::Measure;
 use pyo3::prelude::*;
 
@@ -56,7 +57,8 @@ impl Machine {
         let found = found.with_pages(move || {
             let spec = &job.machine.spec;
             let provenance = Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;
-            let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
+            let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut ())?;
+            let page = abbe_report::measurement(spec, &job.map, &report, &provenance, Some(&live));
             Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
         });
         found.create(py)

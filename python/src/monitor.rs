@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use abbe_report::{Provenance, text};
+use abbe_study::explore::Explore;
 use abbe_study::monitor::options::FALSE_ALARM;
 use abbe_study::monitor::{Checks, Monitor, Settings};
 use pyo3::prelude::*;
@@ -54,7 +55,9 @@ impl Machine {
         let found = Report::new("monitor", &report, notes, text)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
             let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files)?;
-            let page = abbe_report::monitoring(&job.machine.spec, &job.map, &report, &provenance);
+            let live = Explore::measured(job.machine.clone(), report.residuals.clone()).run(&mut ())?;
+            let page =
+                abbe_report::monitoring(&job.machine.spec, &job.map, &report, &provenance, Some(&live));
             Ok(vec![("report.html".into(), page)])
         });
         found.create(py)

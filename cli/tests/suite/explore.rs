@@ -70,6 +70,13 @@ pub(crate) fn without_scripts(page: &str) -> String {
     rest
 }
 
+/// Returns the data of the only panel of a page.
+pub(crate) fn panel(page: &str) -> Value {
+    let data = contents(page, "<script type=\"application/json\" class=\"abbe-data\"", "</script>");
+    assert_eq!((data.len(), page.matches("<section class=\"abbe-panel\">").count()), (1, 1));
+    serde_json::from_str(data[0]).unwrap()
+}
+
 /// Returns the page of some arguments.
 fn page(arguments: &[&str]) -> String {
     prints(&[&["explore"], arguments, &["--out", "-"]].concat())

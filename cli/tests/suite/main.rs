@@ -21,6 +21,7 @@ mod jacobian;
 mod kills;
 #[cfg(unix)]
 mod laws;
+mod live_panels;
 mod measure;
 mod memory;
 mod merge;

@@ -6,6 +6,7 @@ use std::path::Path;
 use tempfile::{TempDir, tempdir};
 
 use crate::documents::blocks;
+use crate::explore::panel;
 use crate::report::is_alone;
 use crate::running::{abbe, command, full, json, narrow, prints, write};
 
@@ -94,6 +95,19 @@ fn the_elbow_of_the_chapter_is_found() {
     );
     let text = fs::read_to_string(&page).unwrap();
     is_alone(&text);
+    // The panel has the mean residuals of the six configurations at the first and the last check.
+    let residuals = &panel(&text)["residuals"];
+    assert_eq!((&residuals["before"], &residuals["after"]), (&"day 0".into(), &"day 89".into()));
+    let rows = residuals["rows"].as_array().unwrap();
+    let lines: Vec<&serde_json::Value> = rows.iter().map(|row| &row["line"]).collect();
+    assert_eq!(lines, (6 * 89 + 2..).take(6).collect::<Vec<_>>());
+    // The elbow drifts from the 60th day on by 0.002 mrad a day, beyond the noise of 0.01 mm.
+    let rms = |key: &str| {
+        let squares =
+            rows.iter().flat_map(|row| row[key].as_array().unwrap()).map(|v| v.as_f64().unwrap().powi(2));
+        (squares.sum::<f64>() / 18.0).sqrt()
+    };
+    assert!(rms("after") > 1.5 * rms("before"), "{} {}", rms("after"), rms("before"));
     for expected in [
         "<th scope=\"row\">Date</th><td>2026-11-21</td>",
         "Detected change",

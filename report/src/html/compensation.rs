@@ -4,12 +4,13 @@ use abbe::Description;
 use abbe_spec::Spec;
 use abbe_study::compensate::{NormStatistics, Report};
 use abbe_study::data::Map;
+use abbe_study::explore;
 use abbe_study::number::{self, visible};
 
 use super::figure::figures;
 use super::provenance::Provenance;
 use super::table::{ledger, row_header};
-use super::{Card, cards, document, escaped, findings, folded, heading, section, verdict};
+use super::{Card, cards, document, escaped, findings, folded, heading, panel, panels, section, verdict};
 use crate::figures::distances;
 use crate::text::{self, Detail};
 
@@ -17,21 +18,24 @@ use crate::text::{self, Detail};
 const LISTED: usize = 100;
 
 /// Builds the page of a compensation; `spec` and `map` are those of the job, and `machine` is the
-/// description of its manipulator.
+/// description of its manipulator. `live` is the data of the live panel.
 pub fn compensation(
     spec: &Spec,
     machine: &Description,
     map: &Map,
     report: &Report,
     provenance: &Provenance,
+    live: Option<&explore::Report>,
 ) -> String {
     let lines = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect::<String>();
     let drawn = figures(&distances::scenes(report, spec), 0);
     let line = format!("{} of {} commands corrected", report.compensated, report.total_rows());
+    let panels = panels(live);
     let before = [
         heading("Corrected commands", &spec.title, &map.title),
         verdict(report.complete(), &line, &[]),
         summary(spec, report),
+        panel("Errors at a command", panels.as_ref()),
     ];
     let after = [
         section("Figures", &format!("<p>Distances are in mm.</p>\n{drawn}")),
@@ -43,7 +47,11 @@ pub fn compensation(
     let (before, after) = (before.concat(), after.concat());
     let findings =
         findings(|| text::compensation(machine, report, Detail::Full), &format!("{before}{after}"));
-    document(&format!("{}: corrected commands", spec.title), &[before, findings, after].concat())
+    document(
+        &format!("{}: corrected commands", spec.title),
+        &[before, findings, after].concat(),
+        panels.as_ref(),
+    )
 }
 
 fn summary(spec: &Spec, report: &Report) -> String {

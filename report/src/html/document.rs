@@ -1,17 +1,15 @@
 //! Parts of every page.
 
+use abbe_study::explore::Report;
+
 use super::escaped;
 use crate::explore::Panels;
 
-pub(super) const STYLE: &str = include_str!("style.css");
+const STYLE: &str = include_str!("style.css");
 
-/// Formats an HTML document with its style sheet.
-pub(super) fn document(title: &str, body: &str) -> String {
-    document_with_panels(title, body, None)
-}
-
-/// Formats an HTML document with live panels, whose elements are in the body.
-pub(super) fn document_with_panels(title: &str, body: &str, panels: Option<&Panels>) -> String {
+/// Formats an HTML document with its style sheet, and with the scripts of live panels whose elements
+/// are in the body.
+pub(super) fn document(title: &str, body: &str, panels: Option<&Panels>) -> String {
     let [policy, style, scripts] = match panels {
         None => [const { "" }; 3],
         Some(Panels { policy, style, scripts, .. }) => [policy, style, scripts].map(String::as_str),
@@ -23,6 +21,18 @@ pub(super) fn document_with_panels(title: &str, body: &str, panels: Option<&Pane
          </head>\n<body>\n<main>\n{body}</main>\n{scripts}</body>\n</html>\n",
         escaped(title),
     )
+}
+
+/// Creates the live panel of a machine, if there are its data.
+pub(super) fn panels(live: Option<&Report>) -> Option<Panels> {
+    live.map(|live| Panels::new(std::slice::from_ref(live), &[STYLE]))
+}
+
+/// Formats the element of a live panel; empty without one.
+pub(super) fn panel(title: &str, panels: Option<&Panels>) -> String {
+    panels.map_or_else(String::new, |panels| {
+        format!("<div class=\"abbe-explore\">\n<h2>{title}</h2>\n{}</div>\n", panels.elements)
+    })
 }
 
 /// Formats the heading: the kind of report, the machine, and the study or the map.

@@ -4,6 +4,7 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use abbe_study::AcceptanceVerdict;
 use abbe_study::data::Map;
+use abbe_study::explore;
 use abbe_study::identify::{
     Indistinguishable, JointProfiles, Kind, Parameter, Report, Sizes, WeaklyDetermined,
 };
@@ -12,18 +13,27 @@ use abbe_study::number::{self, digits, fixed};
 use super::figure::figures;
 use super::provenance::{Provenance, instrument};
 use super::table::{facts, ledger, row_header};
-use super::{Card, cards, document, escaped, findings, folded, heading, section, verdict};
+use super::{Card, cards, document, escaped, findings, folded, heading, panel, panels, section, verdict};
 use crate::figures::residuals::{ErrorNames, Residual, scenes};
 use crate::text::{self, Detail};
 
-/// Builds the page of an identification; `spec` and `map` are those of the job.
-pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
+/// Builds the page of an identification; `spec` and `map` are those of the job, and `live` is
+/// the data of the live panel.
+pub fn identification(
+    spec: &Spec,
+    map: &Map,
+    report: &Report,
+    provenance: &Provenance,
+    live: Option<&explore::Report>,
+) -> String {
     let lines = report.files.iter().flat_map(|file| file.lines());
     let lines = lines.map(|line| format!("{}<br>\n", escaped(&line))).collect::<String>();
+    let panels = panels(live);
     let before = [
         heading("Errors from measurements", &spec.title, &report.title),
         accepted(spec, report.accepted.as_ref()),
         summary(spec, report),
+        panel("Residuals at a configuration", panels.as_ref()),
     ];
     let after = [
         section("Figures", &pictures(spec, report)),
@@ -40,7 +50,11 @@ pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Prov
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::identification(spec, report, Detail::Full), &format!("{before}{after}"));
-    document(&format!("{}: errors from measurements", spec.title), &[before, findings, after].concat())
+    document(
+        &format!("{}: errors from measurements", spec.title),
+        &[before, findings, after].concat(),
+        panels.as_ref(),
+    )
 }
 
 fn summary(spec: &Spec, report: &Report) -> String {

@@ -21,5 +21,5 @@ pub(crate) fn index(reports: &[Report]) -> String {
     let columns = ["name", "machine", "joints", "error sources"];
     let table = ledger("One page for each machine", &columns, &[0, 1], &format!("<tbody>{rows}</tbody>\n"));
     let heading = heading("Live pages", &format!("{} machines", reports.len()), "");
-    document("Live pages", &[heading, table].concat())
+    document("Live pages", &[heading, table].concat(), None)
 }

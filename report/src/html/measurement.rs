@@ -2,6 +2,7 @@
 
 use abbe_spec::Spec;
 use abbe_study::data::Map;
+use abbe_study::explore;
 use abbe_study::measure::{Report, Size};
 use abbe_study::number::{digits, fixed};
 
@@ -9,12 +10,19 @@ use super::figure::figures;
 use super::identification::accepted;
 use super::provenance::{Provenance, instrument};
 use super::table::{ledger, row_header};
-use super::{Card, cards, document, escaped, findings, folded, heading, section};
+use super::{Card, cards, document, escaped, findings, folded, heading, panel, panels, section};
 use crate::figures::measured;
 use crate::text::{self, Detail};
 
-/// Builds the page of a measurement; `spec` and `map` are those of the job.
-pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
+/// Builds the page of a measurement; `spec` and `map` are those of the job, and `live` is
+/// the data of the live panel.
+pub fn measurement(
+    spec: &Spec,
+    map: &Map,
+    report: &Report,
+    provenance: &Provenance,
+    live: Option<&explore::Report>,
+) -> String {
     let lines: String = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect();
     let drawn = figures(&measured::scenes(report, spec), 0);
     let (errors, drawn) = match report.instruments.is_empty() {
@@ -23,10 +31,12 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provena
         }
         false => (section("Reading − prediction", &instruments(report)), drawn),
     };
+    let panels = panels(live);
     let before = [
         heading("Measured", &spec.title, &report.title),
         accepted(spec, report.accepted.as_ref()),
         summary(report),
+        panel("Errors at a configuration", panels.as_ref()),
     ];
     let after = [
         section("Figures", &drawn),
@@ -37,7 +47,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provena
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::measurement(spec, report, Detail::Full), &format!("{before}{after}"));
-    document(&format!("{}: measured", spec.title), &[before, findings, after].concat())
+    document(&format!("{}: measured", spec.title), &[before, findings, after].concat(), panels.as_ref())
 }
 
 /// Formats the norm of the error as cards, if points were measured.

@@ -26,7 +26,7 @@ mod provenance;
 mod table;
 
 pub use compensation::compensation;
-use document::{Card, cards, document, folded, heading, paragraphs, section, verdict};
+use document::{Card, cards, document, folded, heading, panel, panels, paragraphs, section, verdict};
 use findings::findings;
 pub use identification::identification;
 pub(crate) use index::index;

@@ -2,28 +2,40 @@
 
 use abbe_spec::Spec;
 use abbe_study::data::Map;
+use abbe_study::explore;
 use abbe_study::monitor::{Chart, Report};
 use abbe_study::number::{fixed, percent};
 
 use super::figure::figures;
 use super::provenance::{Provenance, instrument};
 use super::table::ledger;
-use super::{Card, cards, document, escaped, findings, folded, heading, paragraphs, section, verdict};
+use super::{
+    Card, cards, document, escaped, findings, folded, heading, panel, panels, paragraphs, section, verdict,
+};
 use crate::figures::charts;
 use crate::text::{self, Detail, changes, not_observable};
 
-/// Builds the page of a monitored machine; `spec` and `map` are those of the job.
-pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
+/// Builds the page of a monitored machine; `spec` and `map` are those of the job, and `live` is
+/// the data of the live panel.
+pub fn monitoring(
+    spec: &Spec,
+    map: &Map,
+    report: &Report,
+    provenance: &Provenance,
+    live: Option<&explore::Report>,
+) -> String {
     let unusable = report.files.iter().filter(|file| !file.unusable.is_empty()).flat_map(|file| file.lines());
     let unusable = unusable.map(|line| format!("{}<br>\n", escaped(&line))).collect::<String>();
     let line = match &report.alarm {
         Some(_) => "Alarm: the machine has changed",
         None => "No alarm",
     };
+    let panels = panels(live);
     let before = [
         heading("Monitored", &spec.title, &report.title),
         verdict(report.alarm.is_none(), line, &changes(report)),
         summary(report),
+        panel("Residuals at a configuration", panels.as_ref()),
     ];
     let after = [
         section("Figures", &figures(&charts::scenes(report), 0)),
@@ -37,7 +49,7 @@ pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenan
     ];
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::monitoring(spec, report, Detail::Full), &format!("{before}{after}"));
-    document(&format!("{}: monitored", spec.title), &[before, findings, after].concat())
+    document(&format!("{}: monitored", spec.title), &[before, findings, after].concat(), panels.as_ref())
 }
 
 /// Formats the most important figures as cards.

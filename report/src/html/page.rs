@@ -6,10 +6,8 @@ use abbe_study::explore;
 use abbe_study::number::{percent, trimmed};
 use abbe_study::study_file::Content;
 
-use super::document::{STYLE, document_with_panels};
-use super::{Card, cards, escaped, findings, folded, heading, paragraphs, section};
+use super::{Card, cards, document, escaped, findings, folded, heading, panel, panels, paragraphs, section};
 use super::{covered, facts, figure, ledger};
-use crate::explore::Panels;
 use crate::figures::NamedFigure;
 use crate::scene::Scene;
 use crate::text::{self, Detail};
@@ -30,12 +28,12 @@ pub(crate) fn page(
         matches!(named.request.content, Content::Pareto | Content::Cloud)
     };
     let (first, others) = figures.split_at(figures.iter().take_while(is_first).count());
-    let panels = live.map(|live| Panels::new(std::slice::from_ref(live), &[STYLE]));
+    let panels = panels(live);
     let before = [
         heading("Error analysis", &report.spec.title, &report.study.title),
         description(report),
         covered::verdict(report),
-        panels.as_ref().map(panel).unwrap_or_default(),
+        panel("Errors at a configuration", panels.as_ref()),
         summary(report),
     ];
     let after = [
@@ -57,12 +55,7 @@ pub(crate) fn page(
     let (before, after) = (before.concat(), after.concat());
     let findings = findings(|| text::analysis(report, Detail::Full), &format!("{before}{after}"));
     let title = format!("{}: error analysis", report.spec.title);
-    document_with_panels(&title, &[before, findings, after].concat(), panels.as_ref())
-}
-
-/// Formats the live panel.
-fn panel(panels: &Panels) -> String {
-    format!("<div class=\"abbe-explore\">\n<h2>Errors at a configuration</h2>\n{}</div>\n", panels.elements)
+    document(&title, &[before, findings, after].concat(), panels.as_ref())
 }
 
 const METRICS: &str = "<p>Largest errors of the tool point over the workspace, along the axes of \

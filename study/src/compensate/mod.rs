@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::data::{Base, Data, Heading, Layout, Map, Summary, Table, Unusable};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::other_tool::{OtherTool, warn_of_other_tool};
-use crate::{Machine, Notes, RunRecord, finite, mistake, number};
+use crate::{Machine, Notes, Residuals, RunRecord, finite, mistake, number};
 
 use base_frame::BaseFramePoses;
 pub use commands::{CommandCorrector, CorrectedCommand};
@@ -261,6 +261,12 @@ impl Report {
     /// Returns the number of rows to compensate, unusable ones included.
     pub fn total_rows(&self) -> usize {
         self.row_summary.rows + self.unusable.len()
+    }
+
+    /// Returns the position errors with the original and the corrected commands; `None` without
+    /// rows.
+    pub fn residuals(&self) -> Option<Residuals> {
+        Residuals::new(Some("as commanded"), "corrected", &self.rows, |row| row.residual.clone())
     }
 
     /// Returns the corrected commands in the columns and units of the data, with the remaining

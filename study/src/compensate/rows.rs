@@ -16,7 +16,7 @@ use super::base_frame::BaseFramePoses;
 use super::reason::reason;
 use crate::data::{Data, Unusable};
 use crate::number::{Named, length, of_variable};
-use crate::{Notes, mistake};
+use crate::{Notes, Residual, mistake};
 
 /// Norms of ΔX.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -53,6 +53,9 @@ pub struct Row {
     /// Corrected − original value of each variable, in the length unit or rad.
     #[serde(skip)]
     pub changes: Vec<f64>,
+    /// Position errors at the ideal joints of its target.
+    #[serde(skip)]
+    pub residual: Residual,
     /// Original row, with the corrected joints.
     #[serde(skip)]
     pub corrected: Observation,
@@ -74,6 +77,8 @@ pub(super) struct Task<'a> {
 /// A corrected row, with the reason for incomplete compensation.
 struct Corrected {
     found: Compensated<Vec<f64>>,
+    /// Joints at which the ideal machine reaches the target.
+    start: Vec<f64>,
     reason: Option<String>,
     largest_turn: f64,
 }
@@ -143,9 +148,16 @@ pub(super) fn correct_all<E: From<Diagnostics>>(
 }
 
 fn correct_row(task: &Task<'_>, observation: Observation) -> Result<Row, Unusable> {
-    let Corrected { found, reason, largest_turn } = correct_observation(task, &observation)
+    let Corrected { found, start, reason, largest_turn } = correct_observation(task, &observation)
         .map_err(|reason| Unusable { line: observation.line, reason })?;
     let Compensated { q, before, after, .. } = found;
+    let point = task.manipulator.pose(&start, &task.s);
+    let point = point.map_err(|error| Unusable {
+        line: observation.line,
+        reason: evaluation_message(task.description, &error),
+    })?;
+    let position = |rows: &[f64; 6]| [rows[0], rows[1], rows[2]];
+    let residual = Residual::new(&observation, &start, point.position(), position(&after));
     let names = task.description.variables.iter().map(|variable| variable.name.to_string());
     Ok(Row {
         line: observation.line,
@@ -159,6 +171,7 @@ fn correct_row(task: &Task<'_>, observation: Observation) -> Result<Row, Unusabl
         after: ErrorNorms::new(&after),
         reason,
         largest_turn,
+        residual: Residual { before: Some(position(&before)), ..residual },
         corrected: Observation { q: q.into(), ..observation },
     })
 }
@@ -203,7 +216,7 @@ fn corrected(task: &Task<'_>, target: Option<&Pose>, start: &[f64], u: &[f64]) -
     let turns = variables.filter(|(variable, _)| variable.kind == VariableKind::Revolute);
     let largest_turn = turns.map(|(_, (from, to))| (to - from).abs()).fold(0.0, f64::max);
     let reason = obstacle.map(|obstacle| reason(description, &found.q, &obstacle));
-    Ok(Corrected { found, reason, largest_turn })
+    Ok(Corrected { found, start: start.to_vec(), reason, largest_turn })
 }
 
 /// Checks that a command is within the joint limits, which the machine would enforce.

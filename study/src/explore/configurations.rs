@@ -1,11 +1,12 @@
-//! Configurations of the study's workspace.
+//! Configurations of the study's workspace, or of measured rows.
 
 use abbe::analysis::{Configuration, Subset, Workspace};
+use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::report::Configurations;
 use crate::analyze::Analyze;
-use crate::mistake;
+use crate::{Residuals, mistake};
 
 /// Largest number of configurations on a page.
 const COUNT: usize = 1000;
@@ -24,6 +25,17 @@ pub(super) fn configurations(analysis: &Analyze) -> Result<Configurations, Diagn
         u: unless_nominal(&home.u, &reached, |one| &one.u),
         s: unless_nominal(&home.s, &reached, |one| &one.s),
     })
+}
+
+/// Returns the configurations of measured rows, with nominal parameters.
+pub(super) fn measured(residuals: &Residuals, spec: &Spec) -> Configurations {
+    let inputs = spec.inputs.len();
+    let u = residuals.rows.iter().map(|row| row.u[..inputs].to_vec());
+    Configurations {
+        q: residuals.rows.iter().map(|row| row.q.clone()).collect(),
+        u: if inputs > 0 { u.collect() } else { Vec::new() },
+        s: Vec::new(),
+    }
 }
 
 /// Returns values of each configuration; none if all are nominal.

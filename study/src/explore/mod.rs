@@ -21,6 +21,7 @@ use crate::analyze::Analyze;
 use crate::finite;
 use crate::notes::Notes;
 use crate::reads::Reads;
+use crate::{Machine, Residuals, Study};
 pub use report::{
     Configurations, ErrorUnit, FrameName, LiveInput, LiveParameter, LiveSource, LiveVariable, Report,
     StudyFacts,
@@ -37,16 +38,24 @@ pub struct Explore<'a> {
     pub analysis: Cow<'a, Analyze>,
     /// Study as it was given; `None` for that of the machine.
     pub study: Option<String>,
+    /// Measured rows, whose configurations replace those of the study.
+    pub residuals: Option<Residuals>,
 }
 
 impl Reads for Explore<'_> {
     fn files(&self) -> Vec<PathBuf> {
-        let Self { analysis, study: _ } = self;
+        let Self { analysis, study: _, residuals: _ } = self;
         analysis.files()
     }
 }
 
 impl Explore<'_> {
+    /// Creates the job for a machine without a study, with measured rows if they have points.
+    pub fn measured(machine: Machine, residuals: Option<Residuals>) -> Explore<'static> {
+        let study = Study::joint_samples(&machine.spec);
+        Explore { analysis: Cow::Owned(Analyze::new(machine, study)), study: None, residuals }
+    }
+
     /// Generates the code and collects the data.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let machine = self.analysis.machine();
@@ -56,12 +65,15 @@ impl Explore<'_> {
         let code = Language::JavaScript.files_of(&tunable, &functions);
         let code = code.into_iter().map(|file| file.text).collect();
         notes.go_on()?;
-        let configurations = configurations::configurations(&self.analysis)?;
+        let configurations = match &self.residuals {
+            Some(residuals) => configurations::measured(residuals, &machine.spec),
+            None => configurations::configurations(&self.analysis)?,
+        };
         let interpreter = Interpreter::new(Arc::new(tunable.clone()));
         let effects = report::effects(&interpreter);
         let options = [self.analyze_options(), self.jacobian_options()];
         let report = Report::new(&self.analysis, options, &tunable, effects, configurations, code);
-        finite(&machine.origin, report)
+        finite(&machine.origin, Report { residuals: self.residuals.clone(), ..report })
     }
 }
 

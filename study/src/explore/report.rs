@@ -7,6 +7,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use serde::Serialize;
 
+use crate::Residuals;
 use crate::analyze::Analyze;
 use crate::calibration::{is_calibration_error, named_as_one};
 use crate::jacobian::column_names;
@@ -60,8 +61,12 @@ pub struct Report {
     /// Generalized errors that `effects` of the code returns, in its order: indices of source,
     /// frame and component.
     pub effects: Vec<[usize; 3]>,
-    /// Reachable configurations of the study's workspace, at most 1,000, evenly chosen.
+    /// Reachable configurations of the study's workspace, at most 1,000, evenly chosen; or those of
+    /// the measured rows.
     pub configurations: Configurations,
+    /// Measured rows with their errors; absent without any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residuals: Option<Residuals>,
     /// ES module of the machine, with every source enabled and a factor of each repeatable source
     /// as an input.
     pub code: String,
@@ -222,6 +227,7 @@ impl Report {
             sources,
             effects: effects.collect(),
             configurations,
+            residuals: None,
             code,
         }
     }

@@ -9,6 +9,10 @@ pub struct PointResidual {
     pub line: u64,
     /// Joint values of its row, in the length unit and rad.
     pub q: Vec<f64>,
+    /// Inputs of its row.
+    pub u: Vec<f64>,
+    /// Index of its station.
+    pub station: usize,
     /// Tool point predicted by the identified model.
     pub point: [f64; 3],
     /// Measurement minus model with only base and tool fitted.
@@ -52,6 +56,8 @@ impl<'m> EvaluatedModel<'m> {
         let one = |(before, after)| PointResidual {
             line: row.line,
             q: row.q.to_vec(),
+            u: row.u.to_vec(),
+            station: row.station as usize,
             point,
             before,
             after,

@@ -1,5 +1,6 @@
 //! Report of an identification.
 
+use abbe::Pose;
 use abbe::identify::student_factor;
 use serde::Serialize;
 
@@ -18,7 +19,7 @@ use super::point_residuals::PointResidual;
 use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Summary, Unusable};
 use crate::sizes::Sizes;
-use crate::{AcceptanceVerdict, RunRecord};
+use crate::{AcceptanceVerdict, Residual, Residuals, RunRecord};
 
 /// Identified errors, their uncertainty, and the accuracy of the identified machine.
 #[derive(Clone, Debug, Serialize)]
@@ -116,6 +117,27 @@ pub struct Report {
     /// Identified machine.
     #[serde(skip)]
     pub found: FoundModel,
+}
+
+impl Report {
+    /// Returns the residuals of the fitted points, without outliers; `None` for instruments that
+    /// measure no points, and if the points were not requested.
+    pub fn residuals(&self) -> Option<Residuals> {
+        if !self.instruments.is_empty() {
+            return None;
+        }
+        let poses = self.found.placed.stations.iter().map(|station| {
+            Pose(std::array::from_fn(|column| std::array::from_fn(|row| station.pose[row][column])))
+        });
+        let stations: Vec<Pose> = poses.collect();
+        let is_fitted = |point: &&PointResidual| !point.is_test && !point.is_rejected;
+        let fitted: Vec<&PointResidual> = self.points.iter().filter(is_fitted).collect();
+        Residuals::new(Some("base and tool fitted"), "identified", &fitted, |point| {
+            let PointResidual { line, point: at, before, after, .. } = **point;
+            let (q, u) = (point.q.clone(), point.u.clone());
+            Residual { line, q, u, point: at, before: Some(before), after }.in_f0(&stations[point.station])
+        })
+    }
 }
 
 /// Basis of the standard deviations.

@@ -12,8 +12,8 @@ mod residual_test;
 
 use std::borrow::Cow;
 
-use abbe::LengthUnit;
 use abbe::identify::{self, Figures, Observation, drift};
+use abbe::{LengthUnit, Pose};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
@@ -22,7 +22,7 @@ use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::extrapolation::{Extrapolation, warn_of_extrapolation};
 use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
 use crate::other_tool::{OtherTool, warn_of_other_tool};
-use crate::{Acceptance, AcceptanceVerdict, Machine, Notes, RunRecord, finite, mistake};
+use crate::{Acceptance, AcceptanceVerdict, Machine, Notes, Residual, Residuals, RunRecord, finite, mistake};
 
 pub use errors::RowError;
 use errors::{Errors, Visit};
@@ -99,6 +99,9 @@ pub struct Report {
     /// Places on the tool that the map does not state were fitted.
     #[serde(skip)]
     pub tool_fitted: bool,
+    /// Poses of `F_0` in the frame of the instrument, one per station.
+    #[serde(skip)]
+    pub stations: Vec<Pose>,
     /// ΔX of each row.
     #[serde(skip)]
     pub row_errors: Vec<RowError>,
@@ -261,6 +264,7 @@ impl Measure {
             base_fitted: placed.is_some() && (setup.is_station_open() || map.instruments().is_some()),
             tool_fitted: placed.is_some() && setup.is_tool_open(),
             about_barycentres: if keep { iso9283::about_barycentres(&evaluated.visits) } else { Vec::new() },
+            stations: setup.ideal.stations.iter().map(|station| station.pose).collect(),
             row_errors: evaluated.rows,
             row_readings: evaluated.row_readings,
             numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
@@ -355,6 +359,24 @@ impl Evaluated {
 }
 
 impl Report {
+    /// Returns ΔX of the measured points, before and after the prediction by the repeatable sources
+    /// of the spec is subtracted; `None` for instruments that measure no points, and without rows.
+    pub fn residuals(&self) -> Option<Residuals> {
+        let position = |error: &[f64; 6]| [error[0], error[1], error[2]];
+        let (ideal, predicted) = ("measured − ideal", "measured − predicted");
+        let (before, after) = match self.explained.repeatable {
+            0 => (None, ideal),
+            _ => (Some(ideal), predicted),
+        };
+        Residuals::new(before, after, &self.row_errors, |row| {
+            let RowError { observation, error, point, residual } = row;
+            let station = &self.stations[observation.station as usize];
+            let after = position(if before.is_some() { residual } else { error });
+            let before = before.map(|_| position(error));
+            Residual { before, ..Residual::new(observation, &observation.q, *point, after) }.in_f0(station)
+        })
+    }
+
     /// Returns the table of the rows: ΔX, the tool point predicted by the machine with its
     /// repeatable sources, and measured minus predicted; or readings minus prediction and
     /// predictions.

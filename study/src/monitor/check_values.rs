@@ -1,15 +1,17 @@
 //! Measurements of every check: the same quantities at the same configurations, in the frame `F_0`.
 
-use abbe::identify::{Measurement, Model, Observation, Station, Unknown};
+use abbe::identify::{Model, Station, Unknown};
 use abbe::{Manipulator, Pose};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::checks::{Check, Checks};
-use super::configurations::{Configurations, MOST, TooManyConfigurations};
+use super::configurations::Configurations;
+use super::residuals::residuals;
 use super::vectors::product;
+use super::visits::Visits;
 use crate::data::{Base, Map};
 use crate::identify::{Setup, check_interpretation, check_plausibility};
-use crate::{Notes, mistake};
+use crate::{Notes, Residuals, mistake};
 
 /// Measured minus predicted values of every check, and their derivatives.
 pub(super) struct CheckValues {
@@ -21,6 +23,8 @@ pub(super) struct CheckValues {
     /// Measured minus predicted values per check, in units of the instrument's uncertainty, without
     /// the component that an unknown station can explain.
     pub(super) checks: Vec<Vec<f64>>,
+    /// Residuals of the first and the last check; none for instruments that measure no points.
+    pub(super) residuals: Option<Residuals>,
     /// Number of configurations that are not in all checks and therefore unused.
     pub(super) left_out: usize,
     /// Derivative of every value by unknown.
@@ -29,15 +33,6 @@ pub(super) struct CheckValues {
     moves: Vec<Vec<[f64; 3]>>,
     /// Orthonormal basis of the values that an unknown station can explain.
     station: Vec<Vec<f64>>,
-}
-
-/// Rows of one check.
-struct Visits<'c> {
-    check: &'c Check,
-    /// Pose of every station's instrument in `F_0`, which converts measurements to `F_0`.
-    to_base: Vec<Pose>,
-    /// Configuration of every row; none if a target was hidden.
-    configurations: Vec<Option<u32>>,
 }
 
 impl CheckValues {
@@ -96,6 +91,7 @@ impl CheckValues {
         let mut numbers = Self {
             fixed_station,
             configurations,
+            residuals: None,
             checks: Vec::new(),
             left_out: count - configurations,
             columns: vec![Vec::new(); model.unknowns.len()],
@@ -108,6 +104,11 @@ impl CheckValues {
             let measured = numbers.measured(&model, visits, &common, i == 0);
             let fail = |failure| mistake::whole(&visits.check.data.file, &failure);
             numbers.checks.push(measured.map_err(fail)?);
+        }
+        if let (None, [first, ..], [.., last]) = (map.instruments(), &visits[..], &visits[..]) {
+            let names = [first, last].map(|visits| checks.calendar.show(visits.check.time));
+            let found = residuals(&model, [first, last], &common, [&names[0], &names[1]]);
+            numbers.residuals = found.map_err(|failure| mistake::whole(&last.check.data.file, &failure))?;
         }
         notes.progress(checks.list.len(), checks.list.len());
         if !fixed_station {
@@ -207,55 +208,6 @@ fn one_station(check: &Check, map: &Map) -> Result<(), Diagnostics> {
         "the rows of one check were measured from several stations",
         help,
     ))
-}
-
-impl<'c> Visits<'c> {
-    /// Assigns rows to configurations; new ones are appended. Rows with hidden targets are skipped.
-    fn new(check: &'c Check, setup: &Setup, known: &mut Configurations) -> Result<Self, Diagnostics> {
-        let configuration = |row: &Observation| match &row.measured {
-            Measurement::Points(points) if !points.iter().all(Option::is_some) => Ok(None),
-            Measurement::Readings(readings) if readings.iter().any(Option::is_none) => Ok(None),
-            _ => known.find_or_insert(&row.q).map(Some),
-        };
-        let found = check.data.observations.iter().map(configuration).collect::<Result<_, _>>();
-        let help = format!(
-            "use the same few configurations in every check (joints within 1 mrad), at most \
-             {MOST}; or identify the machine from all rows by `abbe identify`"
-        );
-        let many = |TooManyConfigurations| {
-            let message = format!("more than {MOST} different configurations up to this check");
-            mistake::with_help(&check.data.file, message, help)
-        };
-        let to_base = setup.real.stations.iter().map(|station| station.pose.inverse()).collect();
-        Ok(Self { check, to_base, configurations: found.map_err(many)? })
-    }
-
-    /// Iterates over the used rows, each with its configuration.
-    fn rows(&self) -> impl Iterator<Item = (&'c Observation, usize)> {
-        let rows = self.check.data.observations.iter().zip(&self.configurations);
-        rows.filter_map(|(row, configuration)| Some((row, (*configuration)? as usize)))
-    }
-
-    /// Counts the rows of each configuration.
-    fn counts(&self, count: usize) -> Vec<u32> {
-        let mut counts = vec![0; count];
-        self.rows().for_each(|(_, configuration)| counts[configuration] += 1);
-        counts
-    }
-
-    /// Converts a row to the frame `F_0`.
-    fn in_f0(&self, row: &Observation) -> Observation {
-        let to_base = &self.to_base[row.station as usize];
-        let measured = match &row.measured {
-            Measurement::Points(points) => Measurement::Points(
-                points.iter().map(|point| point.map(|point| to_base.apply(point))).collect(),
-            ),
-            Measurement::Pose(pose) => Measurement::Pose(Box::new(to_base.then(pose))),
-            // The fixtures are already in F_0.
-            readings @ Measurement::Readings(_) => readings.clone(),
-        };
-        Observation { measured, station: 0, ..row.clone() }
-    }
 }
 
 /// Returns an error that names the check with the fewest configurations in common with the first.

@@ -70,6 +70,7 @@ impl Monitor {
             finding: found,
             alarm,
             tolerance,
+            residuals: numbers.residuals,
             record: map.record.with_options(self.options()),
             files: checks.list.iter().map(|check| check.data.summary()).collect(),
         };

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::charts::{Chart, Limit};
 use super::finding::Finding;
-use crate::RunRecord;
 use crate::data::{Calendar, Summary};
+use crate::{Residuals, RunRecord};
 
 /// Result of monitoring: charts, alarm and the change found.
 #[derive(Clone, Debug, Serialize)]
@@ -48,6 +48,10 @@ pub struct Report {
     /// Stated date, persons and instruments; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
+    /// Measured minus predicted points of the first and the last check; none for instruments that
+    /// measure no points.
+    #[serde(skip)]
+    pub residuals: Option<Residuals>,
     /// Files of the checks.
     #[serde(skip)]
     pub files: Vec<Summary>,

@@ -63,7 +63,7 @@ export function createSweep(panel) {
         const largest = unit.factor * (total[worst] ?? 0);
         const isConstant = Math.min(...total) >= (total[worst] ?? 0) * (1 - 1e-9);
         setText(summary, `${isConstant ? "Constant" : "Largest"} along ${report.variables[joint].name}: ${fixed(largest, decimals(largest, 4))} `
-            + `${unit.symbol}${isConstant ? "" : ` at ${shown(values[worst] ?? 0, along, report.length)}`}. Dots: ${radii().length} configurations of the study; click one to load it.`);
+            + `${unit.symbol}${isConstant ? "" : ` at ${shown(values[worst] ?? 0, along, report.length)}`}. Dots: ${radii().length} configurations of the ${report.residuals ? "rows" : "study"}; click one to load it.`);
     }
     /** Draws the grid with its numbers. @param {Panel["unit"]} unit of the errors @param {string} along unit of the joint */
     function writeNumbers({ factor, symbol }, along) {

@@ -5,6 +5,7 @@ import { commands } from "./command.js";
 import { createControls } from "./controls.js";
 import { button, html, setText } from "./dom.js";
 import { createMachine } from "./machine.js";
+import { createResiduals } from "./residuals.js";
 import { cloud, stateAt } from "./search.js";
 import { createSources } from "./sources.js";
 import { copyState, decodeState, encodeState, initialState } from "./state.js";
@@ -88,7 +89,8 @@ export function mount(section, generated, report, index) {
     const [studied, given] = [limits(), new URLSearchParams(location.hash.slice(1)).get(`${prefix}tolerances`)?.split(",").map(Number)];
     if (given) panel.tolerances = { position: given[0] > 0 ? given[0] : null, orientation: given[1] > 0 ? given[1] : null };
     addresses.push(() => [encodeState(report, state, prefix), limits() === studied ? "" : `${prefix}tolerances=${limits()}`].filter(Boolean).join("&"));
-    const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel), createSources(panel)];
+    const measured = report.residuals ? [createResiduals(panel, report.residuals)] : [];
+    const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel, measured), createSources(panel)];
     const [poses, jacobian, same] = [createPoses(panel), createJacobian(panel), createSame(panel)];
     const sweep = report.variables.length > 0 ? [createSweep(panel)] : [];
     /** @type {{element: Element, update: () => void, settle?: () => void}[]} */
@@ -97,7 +99,7 @@ export function mount(section, generated, report, index) {
     if (document.querySelector(".abbe-panel ~ .abbe-panel")) section.append(html("h2", { class: "title" }, report.title));
     section.append(box("top", verdict.element, verdict.searches), box("body",
         box("side", controls.element, box("actions", back, reset)),
-        box("main", box("columns", box("column", view.element, ...sweep.map((part) => part.element)),
+        box("main", box("columns", box("column", view.element, ...[...measured, ...sweep].map((part) => part.element)),
             box("column", sources.element, poses.element)), jacobian.element, same.element)));
     /** Parts on the screen; the others are drawn when they come into view. @type {Set<Element>} */
     const visible = new Set();

@@ -16,6 +16,11 @@ import { exact, parseValue } from "./number.js";
  */
 
 /**
+ * Measured rows in F_0 with names of their errors; their configurations are those of the report.
+ * @typedef {{before: string | null, after: string, count: number, rows: {line: number, point: number[], before: number[] | null, after: number[]}[]}} Residuals
+ */
+
+/**
  * Data of a machine. Numbers are in coherent units: the length unit and rad. `command` and `jacobian_command` are options
  * of the commands, `effects` source, frame and component of each effect, `configurations` those of the study.
  * @typedef {{spec: string, name: string, title: string, description: string, command: string[], length: string,
@@ -23,7 +28,7 @@ import { exact, parseValue } from "./number.js";
  *     columns: string[], frames: {name: string}[], tool: boolean, up: number, variables: Variable[], inputs: Setting[],
  *     study: {title: string, tolerance: number | null, orientation_tolerance: number | null, judged: string},
  *     parameters: Setting[], sources: Source[], effects: [number, number, number][],
- *     configurations: {q: number[][], u: number[][], s: number[][]}, code: string}} Report
+ *     configurations: {q: number[][], u: number[][], s: number[][]}, residuals?: Residuals, code: string}} Report
  */
 
 /**

@@ -15,6 +15,7 @@ function errorText({ unit: { factor, symbol } }, value, largest = value) {
 /** Creates the verdict here, and the worst cases. @param {Panel} panel */
 export function createVerdict(panel) {
     const { report } = panel;
+    const over = report.residuals ? "rows" : "study";
     const [status, total, share, largest, parts, before] = spans("status", "total", "of", "largest", "parts", "before");
     const [repeatable, random, mark] = [html("i", { class: "repeatable" }), html("i", { class: "random" }), html("b")];
     const field = html("input", { type: "text", class: "tolerance", placeholder: "type one", autocomplete: "off" });
@@ -27,8 +28,8 @@ export function createVerdict(panel) {
     const progress = html("progress", { max: 1, value: 0, hidden: true, "aria-label": "Search of the worst case" });
     const start = button("Find", () => void search(), { "aria-label": "Find the worst case within the joint limits" });
     const varied = [...report.inputs, ...report.parameters].filter(({ range }) => range?.[0] != null && range[1] != null).map(({ name }) => name);
-    const show = button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0), { "aria-label": "Show the worst case in the study" });
-    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, "Worst in the study"), show, studyText),
+    const show = button("Show", () => panel.load(panel.cloud?.[panel.measurand].worst ?? 0), { "aria-label": `Show the worst case in the ${over}` });
+    const searches = html("div", { class: "searches" }, html("div", {}, html("h2", {}, `Worst in the ${over}`), show, studyText),
         report.variables.length === 0 ? "" : html("div", {}, html("h2", {}, "Worst within the joint limits"), start, progress, boxText,
             varied.length > 0 ? html("label", {}, all, `vary ${varied.join(", ")} too`) : ""));
     const shareText = (/** @type {number} */ radius, limit = panel.tolerances[panel.measurand]) =>

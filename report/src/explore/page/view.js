@@ -4,7 +4,7 @@ import { jointEnds } from "./controls.js";
 import { button, html, moveTo, onResize, path, paths, roundStep, setText, svg } from "./dom.js";
 import { quantity } from "./number.js";
 import { replaced } from "./search.js";
-/** @import { Panel } from "./panel.js" */
+/** @import { Panel } from "./panel.js" @import { createResiduals } from "./residuals.js" */
 
 /** Number of configurations of the study that give the size of the picture, and of points on the path of a joint. */
 const [SAMPLES, PATH_POINTS] = [200, 48];
@@ -18,8 +18,8 @@ const KEYS = { ArrowLeft: [-6, 0, 1], ArrowRight: [6, 0, 1], ArrowUp: [0, 6, 1],
 /** @param {number[]} frame @returns {number[]} its origin */
 const originOf = (frame) => [frame[9], frame[10], frame[11]];
 
-/** Creates the picture: drag or arrow keys turn it; pinch, + and -, and with the focus the wheel zoom. @param {Panel} panel */
-export function createView(panel) {
+/** Creates the picture: drag or arrow keys turn it; pinch, + and -, and with the focus the wheel zoom. @param {Panel} panel @param {ReturnType<typeof createResiduals>[]} measured */
+export function createView(panel, measured) {
     const { report, machine, generated } = panel;
     const { up, frames, variables } = report;
     const [ground, all] = [[(up + 1) % 3, (up + 2) % 3], report.configurations.q];
@@ -36,7 +36,7 @@ export function createView(panel) {
     const names = ["x", "y", "z"].map((name) => svg("text", { class: `axis ${name}`, x: 3, y: 3 }, name));
     const [origins, labels] = [frames.map(() => circle("origin")), [...frames, 0].map(() => svg("text", { x: 8, y: -8 }))];
     const [tolerance, bound, tip] = [circle("tolerance"), circle("random"), circle("tip")];
-    const drawing = svg("svg", { "aria-hidden": true }, floor, reach, tolerance, ghost, links, ...axes,
+    const drawing = svg("svg", { "aria-hidden": true }, floor, reach, tolerance, ghost, links, ...measured.flatMap(({ marks }) => marks), ...axes,
         ...origins, bound, vector, tip, ...names, ...labels);
     const stage = html("div", { class: "stage", tabindex: 0, role: "application",
         "aria-label": "Picture of the manipulator: arrow keys turn it, + and - zoom, 0 resets" }, drawing);
@@ -114,6 +114,7 @@ export function createView(panel) {
         tolerance.setAttribute("r", String(scale * zoom * magnification * (tolerances.position ?? 0)));
         bound.setAttribute("r", String(scale * zoom * magnification * figures.position.randomRadius));
         limit.hidden = tolerances.position === null;
+        measured.forEach(({ draw }) => draw(project));
     }
     /** Chooses the round magnification at which the error, or else the tolerance, has a good length. */
     function magnify() {
@@ -147,6 +148,7 @@ export function createView(panel) {
         event.preventDefault();
         turn(right, down, factor);
     });
+    measured.forEach(({ listen }) => listen(stage));
     onResize(drawing, (resized) => (sides = resized, reset()));
     return { element, update, settle: () => (magnify(), update()) };
 }

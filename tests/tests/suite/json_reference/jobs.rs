@@ -111,7 +111,7 @@ fn predicted() -> Vec<(&'static str, Value)> {
         let mut job = Analyze::new(machine(name), study());
         job.monte_carlo = Some(50);
         all.push(("AnalyzeReport", json(&job.run(&mut ()).unwrap())));
-        let explore = Explore { analysis: Cow::Borrowed(&job), study: None };
+        let explore = Explore { analysis: Cow::Borrowed(&job), study: None, residuals: None };
         all.push(("ExploreReport", json(&explore.run(&mut ()).unwrap())));
         let mut job = Bound::new(machine(name), study());
         job.effort.boxes = 50;
