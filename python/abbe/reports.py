@@ -1034,7 +1034,10 @@ class ExploreReport(Report):
     """Generalized errors that `effects` of the code returns, in its order: indices of source, frame and component."""
 
     configurations: Configurations
-    """Reachable configurations of the study's workspace, at most 1,000, evenly chosen."""
+    """Reachable configurations of the study's workspace, at most 1,000, evenly chosen; or those of the measured rows."""
+
+    residuals: Residuals | None
+    """Measured rows with their errors; absent without any."""
 
     code: str
     """ES module of the machine, with every source enabled and a factor of each repeatable source as an input."""
@@ -2906,6 +2909,31 @@ class Repeated(Fields):
     """Drift of pose characteristics, 7.6."""
 
 
+class Residual(Fields):
+    """Row with its errors, in `F_0` and the length unit."""
+
+    line: int
+    """Line in the data file, from 1."""
+
+    point: list[float]
+    """Point at which the error is drawn.
+
+    Unit: length unit.
+    """
+
+    before: list[float] | None
+    """Position error before, such as that of the uncorrected command; None if there is none.
+
+    Unit: length unit.
+    """
+
+    after: list[float]
+    """Position error after.
+
+    Unit: length unit.
+    """
+
+
 class ResidualDrift(Fields):
     """Autocorrelation and drift of the residuals over time."""
 
@@ -2953,6 +2981,22 @@ class ResidualTest(Fields):
 
     p: float
     """Probability of a factor at least as far from 1 by chance."""
+
+
+class Residuals(Fields):
+    """Measured rows with their errors, evenly chosen."""
+
+    before: str | None
+    """Name of the errors `before`; None if there are none."""
+
+    after: str
+    """Name of the errors `after`."""
+
+    count: int
+    """Number of rows, including those that are left out."""
+
+    rows: list[Residual]
+    """Rows in file order, at most 400."""
 
 
 class RootMeanSquares(Fields):
