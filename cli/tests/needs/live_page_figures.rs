@@ -25,14 +25,14 @@ fn modules_agree_with_the_commands() -> Result<(), Missing> {
     fs::write(&numbers, formatted_numbers()).expect("a file");
     let files = fs::read_dir(tests()).expect("a folder").map(|file| file.expect("a file").path());
     let files = files.filter(|file| file.to_string_lossy().ends_with(".test.js"));
-    run(files, if thorough() { 20 } else { 2 }, &[("ABBE_NUMBERS", numbers.as_os_str())]);
+    run(files, if thorough() { 5 } else { 2 }, &[("ABBE_NUMBERS", numbers.as_os_str())]);
     Ok(())
 }
 
 fn pages_show_the_figures_of_the_commands() -> Result<(), Missing> {
     node()?;
     tool("chromium", "")?;
-    run([tests().join("pages.js")], if thorough() { 100 } else { 3 }, &[]);
+    run([tests().join("pages.js")], if thorough() { 10 } else { 3 }, &[]);
     Ok(())
 }
 
