@@ -88,8 +88,7 @@ impl Machine {
             let files = [("measurements", measured.source())].into_iter().chain(test);
             let provenance = Provenance::new(&machine.spec, Some(map), files)?;
             let live = Explore::measured(machine.clone(), report.residuals()).run(&mut ())?;
-            let page =
-                abbe_report::identification(&machine.spec, map, &report, &provenance, Some(&live));
+            let page = abbe_report::identification(&machine.spec, map, &report, &provenance, Some(&live));
             let mut pages: Pages = vec![("report.html".into(), page)];
             if nominal {
                 let spec = report.found.identified_spec(&machine.spec, &spec_text.clone()?, "found.toml")?;

@@ -117,7 +117,8 @@ pub(crate) fn merge(
     }
     let ((report, live), notes) = run(py, threads, progress, |notes| {
         let merge = parts::Merge::new(named, notes)?;
-        let live = Explore { analysis: Cow::Owned(merge.job().clone()), study: merge.study(), residuals: None };
+        let live =
+            Explore { analysis: Cow::Owned(merge.job().clone()), study: merge.study(), residuals: None };
         Ok((merge.report(notes)?, live))
     })?;
     analysis(py, report, Some(live), notes)
