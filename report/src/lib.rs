@@ -5,8 +5,8 @@
 //! [`scene::Scene`] for each figure of a report, `svg` renders it, and `html` builds the pages:
 //! [`analysis`], [`measurement()`], [`identification()`], [`compensation()`] and [`monitoring()`].
 //! [`explore()`] is the live page of a machine, [`gallery()`] the pages of several. [`notebook()`]
-//! shows a text in a notebook. [`figures()`] returns the figures of an analysis one by one. [`text`]
-//! has the texts for a terminal and for Python's `print`.
+//! shows a text in a notebook. [`figures()`] returns the figures of an analysis one by one.
+//! [`text`] has the texts for a terminal and for Python's `print`.
 
 mod explore;
 mod figures;

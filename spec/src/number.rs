@@ -45,8 +45,8 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// Rounds a number to 13 significant digits. The last bits, which depend on the order of operations,
-/// then do not decide how a half is rounded.
+/// Rounds a number to 13 significant digits. The last bits, which depend on the order of
+/// operations, then do not decide how a half is rounded.
 pub fn steady(value: f64) -> f64 {
     format!("{value:.12e}").parse().unwrap_or(value)
 }

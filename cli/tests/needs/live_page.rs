@@ -1,4 +1,5 @@
-//! Live pages in headless Chromium: the scripts run under the policy of the page and fill each panel.
+//! Live pages in headless Chromium: the scripts run under the policy of the page and fill each
+//! panel.
 
 use std::path::Path;
 use std::process::Command;

@@ -7,8 +7,8 @@ use crate::explore::Panels;
 
 const STYLE: &str = include_str!("style.css");
 
-/// Formats an HTML document with its style sheet, and with the scripts of live panels whose elements
-/// are in the body.
+/// Formats an HTML document with its style sheet, and with the scripts of live panels whose
+/// elements are in the body.
 pub(super) fn document(title: &str, body: &str, panels: Option<&Panels>) -> String {
     let [policy, style, scripts] = match panels {
         None => [const { "" }; 3],

@@ -1,10 +1,10 @@
 //! Monitors a machine with repeated checks and detects changes.
 //!
 //! `checks` are the files in chronological order, `configurations` the configurations they visit,
-//! `visits` the rows of one check, and `check_values` the measurements and their derivatives. `single_errors` are the errors that
-//! may have changed, and `charts` monitor each of them with one false-alarm rate for all. `finding`
-//! estimates what has changed, since when and how fast; `residuals` are those of the first and the
-//! last check. `job` runs the evaluation with its
+//! `visits` the rows of one check, and `check_values` the measurements and their derivatives.
+//! `single_errors` are the errors that may have changed, and `charts` monitor each of them with one
+//! false-alarm rate for all. `finding` estimates what has changed, since when and how fast;
+//! `residuals` are those of the first and the last check. `job` runs the evaluation with its
 //! `options` and returns the `report`.
 
 mod charts;
