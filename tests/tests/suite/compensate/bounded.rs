@@ -135,8 +135,8 @@ pub(super) fn hard_rows(robot: &Interpreter, s: &[f64], count: usize) -> Vec<Vec
 }
 
 /// Checks that the remaining error exceeds the best of many starts of the independent solver by at
-/// most 0.001 mm and, where the tool point is on target, by at most 1e-6 rad; but for `others` rows,
-/// which end in another minimum of the rotation. About a thousand rows of five robots.
+/// most 0.001 mm and, where the tool point is on target, by at most 1e-6 rad; but for `others`
+/// rows, which end in another minimum of the rotation. About a thousand rows of five robots.
 fn no_bounded_solver_does_better(name: &str, count: usize, others: usize) {
     let robot = Interpreter::new(with_errors(name));
     let description = robot.description();
