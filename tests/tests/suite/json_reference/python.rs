@@ -25,7 +25,7 @@ from ._fields import Fields, Named
 ";
 
 /// Reports without a method in Python.
-const COMMAND_ONLY: [&str; 3] = ["CompensateReport", "JacobianReport", "ShippedManipulator"];
+const COMMAND_ONLY: [&str; 4] = ["CompensateReport", "ExploreReport", "JacobianReport", "ShippedManipulator"];
 
 /// Methods of a report, which hide the fields of their names.
 const METHODS: [&str; 1] = ["table"];
