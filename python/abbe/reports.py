@@ -629,19 +629,6 @@ class Compliance(Fields):
     """Number of draws. None for an integral."""
 
 
-class Configurations(Fields):
-    """Configurations of the workspace."""
-
-    q: list[list[float]]
-    """Joint variables of each, in the length unit or rad."""
-
-    u: list[list[float]]
-    """Inputs of each, in coherent units; empty if all are nominal."""
-
-    s: list[list[float]]
-    """Parameters of each, in coherent units; empty if all are nominal."""
-
-
 class Counts(Fields):
     """Number of identifiable errors of base and frames, out of how many."""
 
@@ -894,16 +881,6 @@ class ErrorBounds(Fields):
     """Norm of rows 4–6, in rad."""
 
 
-class ErrorUnit(Fields):
-    """Units in which errors are shown."""
-
-    length: list[str | float]
-    """Symbol of the unit of position errors, and its number in the length unit (a factor)."""
-
-    angle: list[str | float]
-    """Symbol of the unit of orientation errors, and its number in 1 rad (a factor)."""
-
-
 class Exceedance(Fields):
     """Predicted time at which a drift exceeds the tolerance."""
 
@@ -962,85 +939,6 @@ class Explained(Fields):
 
     random: int
     """Number of random sources."""
-
-
-class ExploreReport(Report):
-    """Data of a live page: a machine, its study, and its generated code. Lengths are in the spec's unit, angles in
-    rad, vectors in `F_0`.
-    """
-
-    __slots__ = ()
-
-    spec: str
-    """SPEC as it was given: path of a spec, or name of a shipped manipulator."""
-
-    name: str
-    """Name of the manipulator."""
-
-    title: str
-    """Title of the spec."""
-
-    description: str
-    """Description of the machine."""
-
-    command: list[str]
-    """Options of `abbe analyze` that give the figures of this machine: its study and changes."""
-
-    jacobian_command: list[str]
-    """Options of `abbe jacobian` for this machine: the changes of the study, then the given ones."""
-
-    length: str
-    """Symbol of the length unit."""
-
-    error_unit: ErrorUnit
-    """Units in which errors are shown."""
-
-    orientation: str
-    """Convention of rows 4–6: `rotation-vector`, `euler-yzx` or `iec-61217`."""
-
-    rows: list[str]
-    """Names of the rows of `J_e`."""
-
-    columns: list[str]
-    """Names of the columns of `J_e`: `e_x1 … e_p1`, then those of frame 2, …"""
-
-    study: StudyFacts
-    """The study."""
-
-    frames: list[FrameName]
-    """Frames, from base to tip."""
-
-    tool: bool
-    """`true` if a tool follows the last frame."""
-
-    up: int
-    """Index of the axis of `F_0` that points up in pictures of the manipulator."""
-
-    variables: list[LiveVariable]
-    """Joint variables, in order."""
-
-    inputs: list[LiveInput]
-    """Inputs of the spec, in order. The code has further ones, the factors of repeatable sources."""
-
-    parameters: list[LiveParameter]
-    """Structural parameters, in order."""
-
-    sources: list[LiveSource]
-    """Error sources in the order of the code, including disabled ones, and the uncertainty of the repeatable errors
-    as normal random sources.
-    """
-
-    effects: list[list[int]]
-    """Generalized errors that `effects` of the code returns, in its order: indices of source, frame and component."""
-
-    configurations: Configurations
-    """Reachable configurations of the study's workspace, at most 1,000, evenly chosen; or those of the measured rows."""
-
-    residuals: Residuals | None
-    """Measured rows with their errors; absent without any."""
-
-    code: str
-    """ES module of the machine, with every source enabled and a factor of each repeatable source as an input."""
 
 
 class ExportReport(Report):
@@ -1276,13 +1174,6 @@ class Frame(Fields):
 
     variable: str | None
     """Name of its joint variable; None for a fixed frame."""
-
-
-class FrameName(Fields):
-    """Name of a frame."""
-
-    name: str
-    """Name of the frame."""
 
 
 class FunctionOperations(Fields):
@@ -1891,100 +1782,6 @@ class Link(Fields):
 
     matrix: list[list[float]]
     """Matrix from `F_i` coordinates to `F_{i-1}`, a homogeneous matrix, row by row."""
-
-
-class LiveInput(Fields):
-    """An input of the spec."""
-
-    name: str
-    """Name of the input."""
-
-    nominal: float
-    """Nominal value, in coherent units."""
-
-    range: list[float]
-    """Lower and upper end of its range, in coherent units; infinite without one."""
-
-    unit: str
-    """Coherent unit; empty for a pure number or an angle."""
-
-    description: str
-    """Description."""
-
-
-class LiveParameter(Fields):
-    """A structural parameter."""
-
-    name: str
-    """Name of the parameter."""
-
-    nominal: float
-    """Nominal value, in coherent units."""
-
-    unit: str
-    """Coherent unit; empty for a pure number or an angle."""
-
-    range: list[float] | None
-    """Smallest and largest value in the study, in coherent units; None if it is nominal there."""
-
-    description: str
-    """Description."""
-
-
-class LiveSource(Fields):
-    """An error source.
-
-    `["class"]`: `repeatable` or `random`.
-    """
-
-    name: str
-    """Name of the source."""
-
-    distribution: str | None
-    """Distribution of a random error."""
-
-    bound: float
-    """Bound of a random error, as a factor of its value: 3 for a normal one, 1 for all others."""
-
-    at: str
-    """Location of its errors, such as `joint q4`."""
-
-    enabled: bool
-    """`true` if the source is enabled."""
-
-    magnitude: int | None
-    """Index of the input of the code that is the factor of a repeatable source."""
-
-    value: float
-    """Factor of its errors in this machine: its magnitude in the spec."""
-
-    follows: int | None
-    """Index of the source whose factor and switch it shares: its own; that of the source whose magnitude is
-    uncertain. None without both: for an error of the calibration, and for a disabled source with a weight, which
-    loads the structure only where the source is enabled.
-    """
-
-    description: str
-    """Description."""
-
-
-class LiveVariable(Fields):
-    """A joint variable."""
-
-    name: str
-    """Name of the variable."""
-
-    kind: str
-    """`revolute` or `prismatic`."""
-
-    limits: list[float]
-    """Lower and upper limit, in the length unit or rad; infinite without one."""
-
-    home: float
-    """Value at home, in the length unit or rad."""
-
-    description: str
-    """Description."""
 
 
 class LongestEllipsoid(Fields):
@@ -2909,31 +2706,6 @@ class Repeated(Fields):
     """Drift of pose characteristics, 7.6."""
 
 
-class Residual(Fields):
-    """Row with its errors, in `F_0` and the length unit."""
-
-    line: int
-    """Line in the data file, from 1."""
-
-    point: list[float]
-    """Point at which the error is drawn.
-
-    Unit: length unit.
-    """
-
-    before: list[float] | None
-    """Position error before, such as that of the uncorrected command; None if there is none.
-
-    Unit: length unit.
-    """
-
-    after: list[float]
-    """Position error after.
-
-    Unit: length unit.
-    """
-
-
 class ResidualDrift(Fields):
     """Autocorrelation and drift of the residuals over time."""
 
@@ -2981,22 +2753,6 @@ class ResidualTest(Fields):
 
     p: float
     """Probability of a factor at least as far from 1 by chance."""
-
-
-class Residuals(Fields):
-    """Measured rows with their errors, evenly chosen."""
-
-    before: str | None
-    """Name of the errors `before`; None if there are none."""
-
-    after: str
-    """Name of the errors `after`."""
-
-    count: int
-    """Number of rows, including those that are left out."""
-
-    rows: list[Residual]
-    """Rows in file order, at most 400."""
 
 
 class RootMeanSquares(Fields):
@@ -3262,22 +3018,6 @@ class StepResidual(Fields):
 
     boxes: int
     """Number of evaluated boxes."""
-
-
-class StudyFacts(Fields):
-    """Study of a live page."""
-
-    title: str
-    """Title of the study."""
-
-    tolerance: float | None
-    """Permitted position error of the tool point, in the length unit; None without a tolerance."""
-
-    orientation_tolerance: float | None
-    """Permitted norm of rows 4–6, in rad; None without one."""
-
-    judged: Literal["as-built", "compensated"]
-    """Machine that the tolerance is held against."""
 
 
 class Table(Fields):
