@@ -1,6 +1,10 @@
-//! Configurations at which a tolerance is least likely to be met, by a fast approximation.
+//! Configurations at which a tolerance is least likely to be met, and the one with the largest error
+//! at 95 %, by a fast approximation.
 
+use super::combined::Extreme;
+use super::peak::Peak;
 use super::sums::Sums;
+use crate::normal::ONE_SIDED_95;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
@@ -14,50 +18,63 @@ const NONE: f64 = 1e-24;
 /// The squared norm of an error with mean b and covariance C has the mean `κ_1 = |b|² + tr C` and
 /// the variance `κ_2 = 2 tr C² + 4 bᵀ C b`. Its root is nearly normal, with the mean
 /// `√(κ_1 − κ_2/(4 κ_1))` and the standard deviation `√κ_2 / (2 √κ_1)`. Configurations are ranked
-/// by the distance of T from that mean in standard deviations.
+/// by the distance of T from that mean in standard deviations, and compared by the norm that 5 % of
+/// the errors exceed.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct LeastLikely(Vec<(f64, usize)>);
+pub(super) struct LeastLikely {
+    /// Distances and indices, the smallest distance first.
+    kept: Vec<(f64, usize)>,
+    /// Largest norm that 5 % of the errors exceed.
+    farthest: Extreme,
+}
 
 impl LeastLikely {
     fn add(&mut self, deviations: f64, index: usize) {
-        let after = self.0.partition_point(|kept| (kept.0, kept.1) < (deviations, index));
+        let after = self.kept.partition_point(|kept| (kept.0, kept.1) < (deviations, index));
         if after < KEPT {
-            self.0.truncate(KEPT - 1);
-            self.0.insert(after, (deviations, index));
+            self.kept.truncate(KEPT - 1);
+            self.kept.insert(after, (deviations, index));
         }
     }
 
     /// Merges the result of other configurations.
     pub(super) fn merge(&mut self, other: &Self) {
-        other.0.iter().for_each(|(deviations, index)| self.add(*deviations, *index));
+        other.kept.iter().for_each(|(deviations, index)| self.add(*deviations, *index));
+        if let Some(index) = other.farthest.configuration {
+            self.farthest.add(index, other.farthest.value);
+        }
     }
 
     /// Returns the indices of the configurations.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
-        self.0.iter().map(|(_, index)| *index)
+        self.kept.iter().map(|(_, index)| *index).chain(self.farthest.configuration)
     }
 
-    /// Returns the indices of the configurations, the least likely first.
+    /// Returns the indices of the configurations, the least likely first, and that of the largest
+    /// error last.
     pub(super) fn finish(self) -> Vec<usize> {
-        self.0.into_iter().map(|(_, index)| index).collect()
+        let mut indices: Vec<usize> = self.kept.into_iter().map(|(_, index)| index).collect();
+        indices.extend(self.farthest.configuration.filter(|index| !indices.contains(index)));
+        indices
     }
 }
 
 /// Accumulates a [`LeastLikely`] in lanes.
-pub(super) struct LeastLikelyAccumulator {
+pub(super) struct LeastLikelyAccumulator<R: Register> {
     tolerance: f64,
-    kept: LeastLikely,
+    least: LeastLikely,
+    farthest: Peak<R>,
 }
 
-impl LeastLikelyAccumulator {
+impl<R: Register> LeastLikelyAccumulator<R> {
     pub(super) fn new(tolerance: f64) -> Self {
-        Self { tolerance, kept: LeastLikely::default() }
+        Self { tolerance, least: LeastLikely::default(), farthest: Peak::none() }
     }
 
     /// Adds the configurations of a tile. `index` maps places to indices of configurations.
     #[inline(always)]
-    pub(super) fn add<R: Register>(&mut self, sums: &Sums<R>, index: impl Fn(usize) -> usize) {
+    pub(super) fn add(&mut self, sums: &Sums<R>, index: impl Fn(usize) -> usize) {
         let number = Lanes::<R>::constant;
         let [x, y, z] = sums.repeatable;
         let [xx, yy, zz, xy, xz, yz] = sums.covariance;
@@ -70,7 +87,9 @@ impl LeastLikelyAccumulator {
         let variance = (two * of_square + number(4.0) * along).max(number(NONE * square * square));
         let middle = (mean - variance / (number(4.0) * mean)).max(number(0.0)).sqrt();
         let deviations = (number(self.tolerance) - middle) * two * (mean / variance).sqrt();
-        let most = match self.kept.0.get(KEPT - 1) {
+        let half = number(ONE_SIDED_95 / 2.0);
+        self.farthest.add((variance / mean).sqrt().mul_add(half, middle), sums.place);
+        let most = match self.least.kept.get(KEPT - 1) {
             Some((most, _)) => *most,
             None => f64::INFINITY,
         };
@@ -81,16 +100,19 @@ impl LeastLikelyAccumulator {
 
     #[cold]
     #[inline(never)]
-    fn keep<R: Register>(&mut self, deviations: &[f64], sums: &Sums<R>, index: &dyn Fn(usize) -> usize) {
+    fn keep(&mut self, deviations: &[f64], sums: &Sums<R>, index: &dyn Fn(usize) -> usize) {
         let places = sums.place.to_slice().iter().zip(sums.weight.to_slice());
         for (deviations, (place, weight)) in deviations.iter().zip(places) {
             if *weight != 0.0 {
-                self.kept.add(*deviations, index(*place as usize));
+                self.least.add(*deviations, index(*place as usize));
             }
         }
     }
 
-    pub(super) fn finish(self) -> LeastLikely {
-        self.kept
+    /// Returns the partial result. `index` maps places to indices of configurations.
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> LeastLikely {
+        let farthest = self.farthest.finish().map(|(value, place)| (value, Some(index(place))));
+        let (value, configuration) = farthest.unwrap_or_default();
+        LeastLikely { farthest: Extreme { value, configuration }, ..self.least }
     }
 }

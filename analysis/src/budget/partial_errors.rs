@@ -171,7 +171,7 @@ pub(super) struct ErrorsAccumulator<R: Register> {
     outlines: Vec<Option<outline::OutlineAccumulator<R>>>,
     all: combined::CombinedAccumulator<R>,
     shrunk: gains::GainsAccumulator<R>,
-    least_likely: Option<least_likely::LeastLikelyAccumulator>,
+    least_likely: Option<least_likely::LeastLikelyAccumulator<R>>,
     /// Norm of each source in the tile added last.
     norm_of: Vec<Lanes<R>>,
 }
@@ -256,7 +256,7 @@ impl<R: Register> ErrorsAccumulator<R> {
             gains: self.shrunk.finish(),
             least_likely: self
                 .least_likely
-                .map(least_likely::LeastLikelyAccumulator::finish)
+                .map(|least_likely| least_likely.finish(index))
                 .unwrap_or_default(),
         }
     }

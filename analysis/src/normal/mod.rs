@@ -9,4 +9,5 @@ mod vector;
 
 pub use principal::{FLAT, Principal};
 pub use student::StudentVector;
+pub(crate) use vector::ONE_SIDED_95;
 pub use vector::{NormalVector, PROBABILITY_ERROR};

@@ -9,6 +9,8 @@ use super::quadrature::{integral, root};
 /// standard deviation.
 pub const PROBABILITY_ERROR: f64 = 1e-9;
 
+/// Normal quantile `Φ⁻¹(0.95)`.
+pub(crate) const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
 /// Standard deviations at which tails are truncated: the probability beyond is 3e-12.
 const TAIL: f64 = 7.0;
 /// Largest difference of the two rules of an integral; the result is far more accurate. The outer

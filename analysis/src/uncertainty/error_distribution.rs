@@ -6,7 +6,7 @@ use rand_distr::StandardNormal;
 use super::correction::{Correction, Residual};
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
 use crate::Measurand;
-use crate::normal::{NormalVector, PROBABILITY_ERROR};
+use crate::normal::{NormalVector, ONE_SIDED_95, PROBABILITY_ERROR};
 use crate::sampling::{norm, stream};
 use crate::sweep::in_order;
 use abbe_core::{Class, Description};
@@ -17,8 +17,6 @@ pub const COVERAGE: f64 = 0.95;
 pub const DRAWS: usize = 200_000;
 /// Number of draws per stream of random numbers.
 const BLOCK: usize = 8192;
-/// Normal quantile `Φ⁻¹(0.95)`, to compare configurations.
-const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
 
 /// Probability that the norm of the error is within a limit at one configuration, to first order:
 /// the repeatable sources are fixed, the random ones vary.

@@ -358,3 +358,78 @@ fn the_least_likely_configuration_is_found() {
     // The test is meaningful only if the two configurations differ at least once.
     assert!(elsewhere > 0);
 }
+
+/// An arm whose tolerance is met by far everywhere, so that no probability tells its configurations
+/// apart. `play` is the distribution of its wrist.
+fn arm(play: &str, q: Option<Vec<f64>>) -> Report {
+    let text = format!(
+        r#"
+        [manipulator]
+        name = "arm"
+        length = "mm"
+        [[frame]]
+        name = "shoulder"
+        variable = {{ name = "q1", kind = "revolute", limits = ["-100 deg", "100 deg"] }}
+        dh = {{ theta = "q1", d = 0, a = 455, alpha = 0 }}
+        [[frame]]
+        name = "elbow"
+        variable = {{ name = "q2", kind = "revolute", limits = ["-120 deg", "150 deg"] }}
+        dh = {{ theta = "q2", d = 0, a = 400, alpha = 0 }}
+        [[frame]]
+        name = "wrist"
+        variable = {{ name = "q3", kind = "revolute", limits = ["-150 deg", "150 deg"] }}
+        dh = {{ theta = "q3", d = 0, a = 150, alpha = 0 }}
+        [[source]]
+        name = "zero"
+        class = "repeatable"
+        joint = "q2"
+        error = "0.1 mrad"
+        [[source]]
+        name = "length"
+        class = "repeatable"
+        frame = "shoulder"
+        e_x = "0.1 mm"
+        [[source]]
+        name = "backlash"
+        class = "random"
+        distribution = "uniform"
+        joint = "q1"
+        error = "0.06 mrad"
+        [[source]]
+        name = "play"
+        class = "random"
+        distribution = "{play}"
+        frame = "wrist"
+        e_x = "0.01 mm"
+        e_y = "0.01 mm"
+        "#
+    );
+    let spec = Spec::parse("arm.toml", &text).unwrap();
+    let study = "[study]\ntitle = \"arm\"\ntolerance = \"5 mm\"\n[workspace.joints]\nsamples = 120\n";
+    let study = Study::read(Document::new("study.toml", study), &spec).unwrap();
+    let mut job = Analyze::new(Machine::of_spec(spec, "arm.toml"), study);
+    if let Some(q) = q {
+        job.restrict(q, &mut ());
+    }
+    job.run(&mut ()).unwrap()
+}
+
+/// Compares U95 with that of every configuration of the workspace by itself.
+#[test]
+fn u95_is_the_largest_of_the_workspace() {
+    for (play, verdict_of_all) in [("normal", Verdict::MetWithProbability), ("uniform", Verdict::Met)] {
+        let whole = arm(play, None);
+        assert_eq!(whole.verdict(), Some(verdict_of_all));
+        let mut largest = 0.0_f64;
+        let limits = [[-100.0, 100.0], [-120.0, 150.0], [-150.0, 150.0_f64]];
+        for i in 1..=120 {
+            let joint = |k: usize| {
+                let [lower, upper] = limits[k].map(f64::to_radians);
+                lower + (upper - lower) * abbe::analysis::sampling::halton(i, k)
+            };
+            largest = largest.max(verdict(&arm(play, Some((0..3).map(joint).collect()))).u95);
+        }
+        let found = verdict(&whole).u95;
+        assert!((0.995 * largest..=1.005 * largest).contains(&found), "{play}: {found}, not {largest}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Verdicts on the tolerances of a study.
 
-use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand};
+use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand, PROBABILITY_ERROR};
 use serde::Serialize;
 
 use super::error_sites::ErrorSites;
@@ -116,8 +116,8 @@ const DRAWN: usize = 4;
 /// Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 ///
 /// The probability is the smallest over the evaluated configurations: the one with the largest
-/// radius (norm of the repeatable errors + norm of the random bounds), and those that an
-/// approximation ranks least likely to meet the tolerance. To first order; random sources are
+/// radius (norm of the repeatable errors + norm of the random bounds), those that an approximation
+/// ranks least likely to meet the tolerance, and the one where it has the largest error at 95 %. To first order; random sources are
 /// distributed. Repeatable sources have their nominal values. On the compensated machine they are
 /// replaced by residuals with their full norm, of unknown sign or direction; the uncertainty of the
 /// calibration and of the inputs is a random error.
@@ -164,6 +164,19 @@ pub(in crate::analyze) struct JudgedErrors {
     pub(in crate::analyze) candidates: Vec<(Option<usize>, ErrorDistribution)>,
 }
 
+/// Configuration at which the distribution may be evaluated.
+struct Candidate {
+    /// Probability that the tolerance is met, of a normal error with the same mean and covariance,
+    /// in multiples of its accuracy.
+    within: f64,
+    /// Approximate number of standard deviations by which the tolerance exceeds the median.
+    deviations: f64,
+    /// Approximate norm that contains the error with a probability of 95 %.
+    u95: f64,
+    index: Option<usize>,
+    error: ErrorDistribution,
+}
+
 impl JudgedErrors {
     /// Returns the errors of the machine as built. `distribution` gives the error at a
     /// configuration.
@@ -182,15 +195,24 @@ impl JudgedErrors {
             [radius.configuration].into_iter().chain(listed.filter(|index| *index != radius.configuration))
         {
             let error = distribution(index)?;
-            candidates.push((error.normal_within(tolerance), index, error));
+            let [u95, deviations] = error.approximate(tolerance);
+            // Where the integrals agree to their accuracy, the approximation decides.
+            let within = (error.normal_within(tolerance) / PROBABILITY_ERROR).round();
+            candidates.push(Candidate { within, deviations, u95, index, error });
         }
         // A stable sort: among equals the configuration with the largest radius stays first.
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        candidates.sort_by(|a, b| a.within.total_cmp(&b.within).then(a.deviations.total_cmp(&b.deviations)));
+        // The largest U95 need not be where the tolerance is least likely to be met.
+        let farthest = (0..candidates.len()).max_by(|i, j| candidates[*i].u95.total_cmp(&candidates[*j].u95));
+        if let Some(farthest) = farthest.filter(|farthest| *farthest >= DRAWN) {
+            let candidate = candidates.remove(farthest);
+            candidates.insert(DRAWN - 1, candidate);
+        }
         Ok(Self {
             measurand,
             radius,
             largest: bounded.then_some(combined.bounded_radius.value),
-            candidates: candidates.into_iter().map(|(_, index, error)| (index, error)).collect(),
+            candidates: candidates.into_iter().map(|one| (one.index, one.error)).collect(),
         })
     }
 }
@@ -204,9 +226,6 @@ impl ToleranceVerdict {
     ) -> Self {
         let JudgedErrors { measurand, radius, largest, mut candidates } = errors;
         let certain = largest.is_some_and(|largest| largest <= tolerance);
-        if certain {
-            candidates.retain(|(index, _)| *index == radius.configuration);
-        }
         if candidates.iter().any(|(_, error)| !error.is_normal()) {
             candidates.truncate(DRAWN);
         }
