@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_study::Notes;
 use abbe_study::analyze::Analyze;
 use abbe_study::analyze::options::DRAWS;
 use abbe_study::analyze::parts::{AnalysisRequest, FileText, Part, Shard};
@@ -18,6 +19,19 @@ use crate::machine::Machine;
 use crate::options::{self, within};
 
 impl Machine {
+    /// Returns the analysis of the machine with its changes and default options.
+    pub(crate) fn job(
+        &self,
+        study: Option<&Path>,
+        study_text: Option<&str>,
+        notes: &mut dyn Notes,
+    ) -> Result<Analyze, Diagnostics> {
+        let study = options::study(study, study_text, &self.unchanged)?;
+        let mut job = Analyze::new(self.unchanged.clone(), study);
+        self.changes()?.iter().for_each(|changes| job.change(changes, notes));
+        Ok(job)
+    }
+
     /// Returns the question of an analysis with the texts of its files and default options.
     fn question(
         &self,
@@ -87,10 +101,7 @@ impl Machine {
             return Ok(Bound::new(py, crate::part::Part(part))?.into_any());
         }
         let ((report, job), notes) = run(py, threads, progress, |notes| {
-            let machine = self.unchanged.clone();
-            let found = options::study(study.as_deref(), study_text, &machine)?;
-            let mut job = Analyze::new(machine, found);
-            self.changes()?.iter().for_each(|changes| job.change(changes, notes));
+            let mut job = self.job(study.as_deref(), study_text, notes)?;
             job.monte_carlo = monte_carlo;
             job.seed = seed;
             job.figures = figures;

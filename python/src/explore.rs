@@ -3,13 +3,11 @@
 use std::borrow::Cow;
 use std::path::PathBuf;
 
-use abbe_study::analyze::Analyze;
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
 
 use crate::job::run;
 use crate::machine::Machine;
-use crate::options;
 
 #[pymethods]
 impl Machine {
@@ -32,12 +30,9 @@ impl Machine {
         height: u32,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (report, _) = run(py, None, None, |notes| {
-            let machine = self.unchanged.clone();
-            let found = options::study(study.as_deref(), study_text, &machine)?;
-            let mut analysis = Analyze::new(machine, found);
-            self.changes()?.iter().for_each(|changes| analysis.change(changes, notes));
+            let analysis = Cow::Owned(self.job(study.as_deref(), study_text, notes)?);
             let study = study.as_ref().map(|study| study.to_string_lossy().into_owned());
-            Explore { analysis: Cow::Owned(analysis), study, residuals: None }.run(notes)
+            Explore { analysis, study, residuals: None }.run(notes)
         })?;
         page(py, &report.title, &abbe_report::explore(std::slice::from_ref(&report)), height)
     }

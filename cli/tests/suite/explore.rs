@@ -184,7 +184,10 @@ fn the_page_runs_its_own_scripts_only() {
     for word in ["http:", "https:", "@import", "url(", "src=", " style=", " onclick"] {
         assert!(!rest.contains(word), "{word}");
     }
-    assert!(one.len() < 400_000, "{} bytes", one.len());
+    for shipped in abbe_manipulators::SHIPPED {
+        let size = page(&[shipped.name]).len();
+        assert!(size < 400_000, "{}: {size} bytes", shipped.name);
+    }
     let two = page(&["ur5", "puma560"]);
     assert_eq!(without_scripts(&two).matches("abbe-panel\"></section>").count(), 2);
     assert!(one == page(&["pps"]), "the same page every time");

@@ -145,15 +145,10 @@ export function cloud(machine, report, state) {
 }
 
 /**
- * Returns the factors that use up a tolerance, as `abbe analyze` does it: of each source without the others, and of all
- * together; `null` without an effect.
- * @param {{norms: number[], radius: number}} errors @param {number} tolerance in their unit
- * @returns {{alone: (number | null)[], together: number | null}}
+ * Returns the factor at which an error of this size uses up a tolerance, as `abbe analyze` does it; `null` without an error.
+ * @param {number} size @param {number} tolerance in the same unit @returns {number | null}
  */
-export function tighten({ norms, radius }, tolerance) {
-    const factor = (/** @type {number} */ size) => (size > 0 && tolerance / size < Infinity ? steady(tolerance / size) : null);
-    return { alone: norms.map(factor), together: factor(radius) };
-}
+export const factorAt = (size, tolerance) => (size > 0 && tolerance / size < Infinity ? steady(tolerance / size) : null);
 
 /**
  * Returns the largest factor of a source, relative to its size now, at which the total meets a tolerance while the others

@@ -3,7 +3,7 @@
 import { createInput } from "./controls.js";
 import { button, html, roundStep, setText, spans } from "./dom.js";
 import { decimals, fixed, percent, roundedDown } from "./number.js";
-import { allowed, tighten } from "./search.js";
+import { allowed, factorAt } from "./search.js";
 import { LARGEST_FACTOR, factorOf } from "./state.js";
 /** @import { Report } from "./state.js" @import { Panel } from "./panel.js" */
 
@@ -37,19 +37,19 @@ export function createSources(panel) {
         const isOwn = source.follows === k;
         const check = html("input", { type: "checkbox", disabled: !isOwn });
         check.addEventListener("change", () => change(({ factors }) => { factors[k] = Number(check.checked); }));
-        const tightened = button("", () => change(({ factors }) => { factors[k] = Number(tightened.value); }),
-            { class: "tighten", title: "Largest factor, and size, with which the total meets the tolerance while the others stay; click to set it" });
+        const allowance = button("", () => change(({ factors }) => { factors[k] = Number(allowance.value); }),
+            { class: "allowed", title: "Largest factor, and size, with which the total meets the tolerance while the others stay; click to set it" });
         const [value, share, name, factor, most] = spans("number", "share", "", "factor", "");
         const size = html("small");
-        tightened.append(most, size);
+        allowance.append(most, size);
         name.append(html("span", {}, source.name), html("small", {}, source.at));
         if (isOwn) factor.append(slider, "×", field, problem);
         const [bar, mark] = [html("i", { class: source.class }), html("b")];
         const kind = source.class === "random" ? `random (${source.distribution})` : source.class;
         const element = html("li", { title: `${source.name}: ${kind}, ${source.at}. ${source.description}` },
-            html("label", { class: "name" }, check, name), value, share, factor, tightened,
+            html("label", { class: "name" }, check, name), value, share, factor, allowance,
             html("span", { class: "bar", "aria-hidden": true }, bar, mark));
-        return { element, check, bar, mark, value, share, tightened, most, size, update };
+        return { element, check, bar, mark, value, share, allowance, most, size, update };
     });
     const list = html("ol", {}, ...rows.map(({ element }) => element));
     const measurands = (/** @type {const} */ (["position", "orientation"])).map((measurand) => {
@@ -57,8 +57,8 @@ export function createSources(panel) {
         radio.addEventListener("change", () => change(() => { panel.measurand = measurand; }));
         return html("label", {}, radio, measurand);
     });
-    const heads = spans("name", "number", "share", "factor", "tighten", "bar");
-    const sums = spans("name", "number", "share", "factor", "tighten");
+    const heads = spans("name", "number", "share", "factor", "allowed", "bar");
+    const sums = spans("name", "number", "share", "factor", "allowed");
     ["source", "", "share", "factor", "allowed"].forEach((text, i) => setText(heads[i], text));
     setText(sums[0], "all together");
     const element = html("section", { class: "sources" },
@@ -73,7 +73,6 @@ export function createSources(panel) {
         const places = decimals(factor * errors.radius, 4);
         const sum = errors.norms.reduce((all, one) => all + one, 0);
         const tolerance = tolerances[measurand];
-        const factors = tolerance === null ? null : tighten(errors, tolerance);
         const effects = panel.machine.effects(state);
         rows.forEach((row, k) => {
             const [norm, isRandom] = [errors.norms[k], report.sources[k].class === "random"];
@@ -90,14 +89,14 @@ export function createSources(panel) {
             const text = most === null ? (tolerance !== null && norm > 0 ? "not alone" : "") : times(most * current);
             setText(row.most, text);
             setText(row.size, most === null ? "" : sizeText(report, effects, k, most));
-            row.tightened.value = most === null ? "" : text.slice(2);
-            row.tightened.ariaLabel = `${text}, allowed factor of ${report.sources[k].name}`;
-            row.tightened.disabled = row.check.disabled || !row.tightened.value || Number(row.tightened.value) > LARGEST_FACTOR;
+            row.allowance.value = most === null ? "" : text.slice(2);
+            row.allowance.ariaLabel = `${text}, allowed factor of ${report.sources[k].name}`;
+            row.allowance.disabled = row.check.disabled || !row.allowance.value || Number(row.allowance.value) > LARGEST_FACTOR;
         });
         setText(heads[1], symbol);
         setText(heads[5], `bars: 0 … ${fixed(end, decimals(end, 1))} ${symbol}`);
         setText(sums[1], errorOf(factor * errors.radius, places));
-        setText(sums[4], times(factors?.together));
+        setText(sums[4], tolerance === null ? "" : times(factorAt(errors.radius, tolerance)));
         element.classList.toggle("judged", tolerance !== null);
     }
     function settle() {

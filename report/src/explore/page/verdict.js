@@ -2,7 +2,7 @@
 
 import { button, html, setText, spans } from "./dom.js";
 import { decimals, digits, parseValue, percent, short } from "./number.js";
-import { tighten } from "./search.js";
+import { factorAt } from "./search.js";
 import { errorOf, times } from "./sources.js";
 import { searchWorst } from "./worker.js";
 /** @import { Panel } from "./panel.js" */
@@ -90,7 +90,7 @@ export function createVerdict(panel) {
         if (searched !== key()) setText(boxText, "");
         const study = cloud?.[measurand];
         if (!study) return;
-        const scaled = limit === null || !(study.radius > 0) ? "" : ` Tolerance met with all sources ${times(tighten(study, limit).together)}.`;
+        const scaled = limit === null || !(study.radius > 0) ? "" : ` Tolerance met with all sources ${times(factorAt(study.radius, limit))}.`;
         setText(studyText, `${errorText(panel, study.radius)}${shareText(study.radius)} at configuration ${study.worst + 1} of ${study.radii.length}.${scaled}`);
     }
     const settle = () => setText(live, [status, total, share, largest].map(({ textContent }) => textContent).join(" "));

@@ -4,7 +4,7 @@ import test from "node:test";
 import { commands } from "../page/command.js";
 import { createMachine } from "../page/machine.js";
 import { decimals, digits, fixed, percent, roundedDown } from "../page/number.js";
-import { tighten } from "../page/search.js";
+import { factorAt } from "../page/search.js";
 import { factorOf, initialState } from "../page/state.js";
 import { SHIPPED, STATES, evaluated, explored, otherSpecs, randomNumbers, randomState, shell } from "./support.js";
 
@@ -33,12 +33,12 @@ function printed({ error_unit: units, study, sources }, { position, orientation 
         lines.push(row("orientation", `${digits(1e3 * orientation.radius, 4)} mrad`, share(orientation.radius, study.orientation_tolerance)));
     }
     const sum = [...position.norms].sort((a, b) => b - a).reduce((sum, norm) => sum + norm, 0);
-    const factors = study.tolerance === null ? null : tighten(position, study.tolerance);
     position.norms.forEach((norm, k) => {
-        const alone = factors?.alone[k] ?? null;
+        const alone = study.tolerance === null ? null : factorAt(norm, study.tolerance);
         lines.push(row(sources[k].name, length(norm), percent(norm, sum), alone === null ? "" : times(alone)));
     });
-    if (factors?.together) lines.push(row("all, as built", length(position.radius), times(factors.together)));
+    const together = study.tolerance === null ? null : factorAt(position.radius, study.tolerance);
+    if (together) lines.push(row("all, as built", length(position.radius), times(together)));
     return lines;
 }
 
@@ -71,11 +71,12 @@ function assertAgrees(report, machine, state) {
     close(position.random, budget.combined.random, size, about("random rows"));
     close(orientation.radius, budget.orientation.radius, orientation.radius + 1e-6, about("orientation"));
     if (budget.budget) {
-        const { alone, together } = tighten(position, report.study.tolerance);
+        const together = factorAt(position.radius, report.study.tolerance);
         close(together, budget.budget.together, together, about("tighten all"));
         for (const source of budget.budget.sources) {
             const k = report.sources.findIndex(({ name }) => name === source.name);
-            close(alone[k], source.alone, alone[k], about("tighten"));
+            const alone = factorAt(position.norms[k], report.study.tolerance);
+            close(alone, source.alone, alone, about("tighten"));
         }
     }
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { allowed, cloud, stateAt, sweep, tighten, worst } from "../page/search.js";
+import { allowed, cloud, factorAt, stateAt, sweep, worst } from "../page/search.js";
 import { initialState } from "../page/state.js";
 import { SHIPPED, STATES, abbe, explored, randomNumbers, randomState } from "./support.js";
 
@@ -73,10 +73,9 @@ test("the errors over a study's configurations, and the factors for its toleranc
     const worst = stateAt(report, initialState(report), position.worst);
     report.variables.forEach(({ name }, i) => close(Math.abs(worst.q[i]), Math.abs(budget.combined.worst[name])));
     assert.equal(machine.errors(worst).position.radius, position.radius);
-    const factors = tighten(position, report.study.tolerance);
-    close(factors.together, budget.budget.together);
+    close(factorAt(position.radius, report.study.tolerance), budget.budget.together);
     for (const { name, alone } of budget.budget.sources) {
-        close(factors.alone[report.sources.findIndex((source) => source.name === name)], alone);
+        close(factorAt(position.norms[report.sources.findIndex((source) => source.name === name)], report.study.tolerance), alone);
     }
 });
 
@@ -86,7 +85,7 @@ test("the factors meet the tolerance, and no source without effect has one", () 
     for (let i = 0; i < 10 * STATES; i++) {
         const state = randomState(report, random);
         const { position } = machine.errors(state);
-        const { alone, together } = tighten(position, 0.5);
+        const [together, ...alone] = [position.radius, ...position.norms].map((size) => factorAt(size, 0.5));
         position.norms.forEach((norm, k) => assert.equal(alone[k] === null, norm === 0));
         if (together === null) continue;
         const all = machine.errors({ ...state, factors: state.factors.map((factor) => factor * together) });
@@ -96,7 +95,7 @@ test("the factors meet the tolerance, and no source without effect has one", () 
             assert.ok(factor === null || Math.abs(machine.errors({ ...state, factors: single }).position.radius - 0.5) < 1e-9);
         });
     }
-    assert.deepEqual(tighten({ norms: [0, 0], radius: 0 }, 1), { alone: [null, null], together: null });
+    assert.equal(factorAt(0, 1), null);
 });
 
 test("a source at its allowed factor uses up the tolerance, and one that is not allowed cannot", () => {
