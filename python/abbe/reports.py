@@ -3104,10 +3104,11 @@ class ToleranceVerdict(Fields):
     """Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 
     The probability is the smallest over the evaluated configurations: the one with the largest radius (norm of the
-    repeatable errors + norm of the random bounds), and those that an approximation ranks least likely to meet the
-    tolerance. To first order; random sources are distributed. Repeatable sources have their nominal values. On the
-    compensated machine they are replaced by residuals with their full norm, of unknown sign or direction; the
-    uncertainty of the calibration and of the inputs is a random error.
+    repeatable errors + norm of the random bounds), those that an approximation ranks least likely to meet the
+    tolerance, and the one where it has the largest error at 95 %. To first order; random sources are distributed.
+    Repeatable sources have their nominal values. On the compensated machine they are replaced by residuals with
+    their full norm, of unknown sign or direction; the uncertainty of the calibration and of the inputs is a random
+    error.
     """
 
     verdict: Literal["met", "met-with-probability", "not-met"]
