@@ -17,8 +17,8 @@ pub struct Budget {
     /// Orientation errors, rows 4–6 of ΔX.
     pub orientation: OrientationErrors,
     /// Indices of the configurations at which the tolerances of position and orientation are least
-    /// likely to be met, by an approximation, the least likely first, at most 32; and last that with
-    /// the largest error at 95 %. None without a tolerance.
+    /// likely to be met, by an approximation, the least likely first, at most 32; and last that
+    /// with the largest error at 95 %. None without a tolerance.
     pub least_likely: [Vec<usize>; 2],
     /// Number of configurations reached and evaluated.
     pub configurations: usize,

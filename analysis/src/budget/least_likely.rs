@@ -1,5 +1,5 @@
-//! Configurations at which a tolerance is least likely to be met, and the one with the largest error
-//! at 95 %, by a fast approximation.
+//! Configurations at which a tolerance is least likely to be met, and the one with the largest
+//! error at 95 %, by a fast approximation.
 
 use super::combined::Extreme;
 use super::peak::Peak;

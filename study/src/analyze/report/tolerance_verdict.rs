@@ -117,10 +117,10 @@ const DRAWN: usize = 4;
 ///
 /// The probability is the smallest over the evaluated configurations: the one with the largest
 /// radius (norm of the repeatable errors + norm of the random bounds), those that an approximation
-/// ranks least likely to meet the tolerance, and the one where it has the largest error at 95 %. To first order; random sources are
-/// distributed. Repeatable sources have their nominal values. On the compensated machine they are
-/// replaced by residuals with their full norm, of unknown sign or direction; the uncertainty of the
-/// calibration and of the inputs is a random error.
+/// ranks least likely to meet the tolerance, and the one where it has the largest error at 95 %. To
+/// first order; random sources are distributed. Repeatable sources have their nominal values. On
+/// the compensated machine they are replaced by residuals with their full norm, of unknown sign or
+/// direction; the uncertainty of the calibration and of the inputs is a random error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ToleranceVerdict {
     /// Position or orientation.
