@@ -43,8 +43,8 @@ mod manipulator;
 mod not_toml;
 
 pub use manipulator::{
-    Axes, Beam, Cause, ChainNumber, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
-    DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, MAGNITUDE, Magnitude, Matrix,
+    Axes, Beam, Cause, ChainNumber, Closure, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
+    DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, Loop, MAGNITUDE, Magnitude, Matrix,
     Parameter, Point, Source, Spec, TABLES, Uncertain, Undetermined, Variable, as_identifier, check_name,
     rules,
 };

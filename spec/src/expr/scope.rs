@@ -13,6 +13,8 @@ use crate::diagnostic::Span;
 pub enum Symbol {
     /// A joint variable `q`.
     Variable(usize),
+    /// A passive joint variable `p`, which the loops determine.
+    Passive(usize),
     /// A structural parameter `s`.
     Parameter(usize),
     /// An input `u`.
@@ -78,7 +80,7 @@ pub struct Entry<'a> {
 pub enum Allowed {
     /// No names: the entry is a constant.
     Nothing,
-    /// Variables and parameters: the entry is part of a nominal transform.
+    /// Variables, passive ones too, and parameters: the entry is part of a nominal transform.
     Geometry,
     /// Variables, parameters and inputs: the entry is a physical error.
     Everything,

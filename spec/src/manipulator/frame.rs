@@ -4,15 +4,20 @@ use super::chain_number::DhConvention;
 use crate::diagnostic::Span;
 use crate::expr::{Elementary, Expression, Motion};
 
-/// A frame `F_i` and its transform from `F_{i-1}`.
+/// A frame `F_i` and its transform from the frame that it hangs on: `F_{i-1}`, unless it begins a
+/// branch.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// Name of the frame.
     pub name: String,
     /// Description.
     pub description: String,
-    /// Index of the variable that it declares.
+    /// Index of the frame that it hangs on, before its own; `None` for `F_0`.
+    pub parent: Option<usize>,
+    /// Index of the variable that it declares, unless that is passive.
     pub variable: Option<usize>,
+    /// Index of the passive variable that it declares.
+    pub passive: Option<usize>,
     /// Factors of `A_i`, in order.
     pub factors: Vec<Factor>,
     /// Denavit-Hartenberg convention, if the frame is given that way.

@@ -3,6 +3,7 @@
 //! [`Spec`] is the contents of a valid file; `read` creates it from the text.
 
 mod chain_number;
+mod closure;
 mod covariance;
 mod declared;
 mod fitted;
@@ -16,6 +17,7 @@ mod tunable;
 mod undetermined;
 
 pub use chain_number::{ChainNumber, DhConvention, DhNumber};
+pub use closure::{Closure, Loop};
 pub use covariance::{Covariance, Identified};
 pub use declared::{Input, Parameter, Variable};
 pub use fitted::Fitted;

@@ -7,6 +7,7 @@ use abbe_core::{Class, LengthUnit, Orientation};
 use indexmap::IndexSet;
 
 use super::chain_number::ChainNumber;
+use super::closure::{Closure, Loop};
 use super::covariance::Covariance;
 use super::declared::{Input, Parameter, Variable};
 use super::fitted::Fitted;
@@ -35,11 +36,17 @@ pub struct Spec {
     pub parameters: Vec<Parameter>,
     /// Inputs `u`.
     pub inputs: Vec<Input>,
-    /// Joint variables `q`, in the order of the frames that declare them.
+    /// Joint variables `q`, in the order of the frames that declare them; those of legs follow.
     pub variables: Vec<Variable>,
-    /// `A_1 … A_n`, from base to tip.
+    /// Passive joint variables `p`, which the loops determine.
+    pub passive: Vec<Variable>,
+    /// `A_1 … A_n`, from base to tip; each after the frame that it hangs on.
     pub frames: Vec<Frame>,
-    /// `T`, from `F_n` to the tool point; empty without a tool.
+    /// Loops of frames.
+    pub loops: Vec<Loop>,
+    /// Index of the frame that carries the tool.
+    pub tool_frame: usize,
+    /// `T`, from the frame of the tool to the tool point; empty without a tool.
     pub tool: Vec<Factor>,
     /// Physical errors, including disabled ones.
     pub sources: Vec<Source>,
@@ -77,6 +84,36 @@ impl Spec {
         self.frames.iter().map(|frame| &frame.factors).chain([&self.tool]).map(variables).collect()
     }
 
+    /// Returns `true` if the frames are a chain from the base to the tool, without loops.
+    pub fn is_serial(&self) -> bool {
+        let follows = |(i, frame): (usize, &Frame)| frame.parent == i.checked_sub(1);
+        self.passive.is_empty()
+            && self.loops.is_empty()
+            && self.tool_frame + 1 == self.frames.len()
+            && self.frames.iter().enumerate().all(follows)
+    }
+
+    /// Returns the frames from `F_0` to a frame, this one last; none for `F_0` itself.
+    pub fn path(&self, frame: Option<usize>) -> Vec<usize> {
+        let mut path: Vec<usize> =
+            std::iter::successors(frame, |frame| self.frames[*frame].parent).collect();
+        path.reverse();
+        path
+    }
+
+    /// Returns the number of equations of all loops.
+    pub fn equations(&self) -> usize {
+        self.loops.iter().map(|closed| closed.closure.equations()).sum()
+    }
+
+    /// Returns the lengths of the loops that close by a distance.
+    pub fn lengths(&self) -> impl Iterator<Item = &Expression> {
+        self.loops.iter().filter_map(|closed| match &closed.closure {
+            Closure::Distance(length) => Some(length),
+            Closure::Coordinates(_) => None,
+        })
+    }
+
     /// Returns the same manipulator with all tables held at their ends: where corrected commands
     /// exceed the limit of a joint by a micrometre, its errors are those at the limit.
     #[must_use]
@@ -107,6 +144,7 @@ impl Spec {
     pub fn name_of(&self, symbol: Symbol) -> &str {
         match symbol {
             Symbol::Variable(i) => &self.variables[i].name,
+            Symbol::Passive(i) => &self.passive[i].name,
             Symbol::Parameter(i) => &self.parameters[i].name,
             Symbol::Input(i) => &self.inputs[i].name,
             _ => "",

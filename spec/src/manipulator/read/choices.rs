@@ -22,6 +22,10 @@ pub(super) const INTERPOLATIONS: [(&str, Interpolation); 2] =
 
 pub(super) const OUTSIDE: [(&str, Extrapolation); 1] = [("hold", Extrapolation::Hold)];
 
+/// Closures of a loop, each with its coordinates; a distance has none.
+pub(super) const CLOSURES: [(&str, &[usize]); 3] =
+    [("point", &[0, 1, 2]), ("pose", &[0, 1, 2, 3, 4, 5]), ("distance", &[])];
+
 /// Classes of a source, each with `true` if it is random.
 pub(super) const CLASSES: [(&str, bool); 2] = [("repeatable", false), ("random", true)];
 

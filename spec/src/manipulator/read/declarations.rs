@@ -21,12 +21,14 @@ pub(super) struct Declarations {
     pub(super) parameters: Vec<Parameter>,
     pub(super) inputs: Vec<Input>,
     pub(super) variables: Vec<Variable>,
+    pub(super) passive: Vec<Variable>,
 }
 
 impl Declarations {
     pub(super) fn new(length: LengthUnit) -> Self {
         let scope = Scope::new(length);
-        Self { scope, parameters: Vec::new(), inputs: Vec::new(), variables: Vec::new() }
+        let (parameters, inputs, variables) = (Vec::new(), Vec::new(), Vec::new());
+        Self { scope, parameters, inputs, variables, passive: Vec::new() }
     }
 
     /// Reads `[parameters]`.
@@ -107,16 +109,26 @@ impl Declarations {
         value
     }
 
-    /// Reads the `variable` of a frame and returns its index.
+    /// Returns the variable, passive or not, that a symbol stands for.
+    pub(super) fn variable(&self, symbol: Symbol) -> Option<&Variable> {
+        match symbol {
+            Symbol::Variable(i) => self.variables.get(i),
+            Symbol::Passive(i) => self.passive.get(i),
+            _ => None,
+        }
+    }
+
+    /// Reads the `variable` of a frame, or of the leg that ends at it, and returns its symbol.
     pub(super) fn read_variable(
         &mut self,
         frame: usize,
+        known: &[&Keys],
         item: &Item<'_>,
         document: &mut Document,
-    ) -> Option<usize> {
+    ) -> Option<Symbol> {
         let mut table = document.section(item)?;
         table.name = "`variable`".to_owned();
-        table.check_keys(&[&keys::VARIABLE], document);
+        table.check_keys(known, document);
         let name_item = table.required("name", document);
         let kind = table.required("kind", document).and_then(|kind| document.choice(&kind, &JOINT_KINDS));
         let dimension = kind.map(|kind| match kind {
@@ -125,8 +137,13 @@ impl Declarations {
         });
         let name_item = name_item?;
         let name = document.string(&name_item)?;
-        let index = self.variables.len();
-        self.declare(&name, name_item.span(), Symbol::Variable(index), dimension, document);
+        let passive = table.get("passive").filter(|_| known.iter().any(|keys| keys.contain("passive")));
+        let is_passive = passive.and_then(|item| document.boolean(&item)).unwrap_or(false);
+        let symbol = match is_passive {
+            true => Symbol::Passive(self.passive.len()),
+            false => Symbol::Variable(self.variables.len()),
+        };
+        self.declare(&name, name_item.span(), symbol, dimension, document);
         let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
         let mut home = 0.0;
         if let Some(dimension) = dimension {
@@ -159,8 +176,9 @@ impl Declarations {
         self.set_range(&name, limits);
         let kind = kind.unwrap_or(VariableKind::Revolute);
         let description = table.optional_text("description", document);
-        self.variables.push(Variable { name, kind, limits, home, description, frame });
-        Some(index)
+        let list = if is_passive { &mut self.passive } else { &mut self.variables };
+        list.push(Variable { name, kind, limits, home, description, frame });
+        Some(symbol)
     }
 
     /// Records limits and a home of a revolute joint that are probably in degrees, and returns

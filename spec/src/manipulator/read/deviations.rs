@@ -7,13 +7,14 @@ use super::keys;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
-use crate::manipulator::{ChainNumber, Deviation, DeviationCause, DhNumber, Factor, Frame};
+use crate::manipulator::{ChainNumber, Closure, Deviation, DeviationCause, DhNumber, Factor, Frame, Loop};
 use crate::value::find_name;
 
 /// Nominal chain as far as it could be read; `tool` is `None` after a mistake in it.
 #[derive(Clone, Copy)]
 pub(super) struct Chain<'a> {
     pub(super) frames: &'a [Frame],
+    pub(super) loops: &'a [Loop],
     pub(super) tool: Option<&'a [Factor]>,
     pub(super) scope: &'a Scope,
 }
@@ -25,7 +26,12 @@ impl Chain<'_> {
         let mistaken = self.tool.is_none() || self.frames.iter().any(|frame| frame.factors.is_empty());
         let factors =
             self.frames.iter().flat_map(|frame| &frame.factors).chain(self.tool.unwrap_or_default());
-        mistaken || factors.flat_map(Factor::expressions).any(|e| e.symbols().any(|used| used == symbol))
+        let lengths = self.loops.iter().filter_map(|closed| match &closed.closure {
+            Closure::Distance(length) => Some(length),
+            Closure::Coordinates(_) => None,
+        });
+        let mut expressions = factors.flat_map(Factor::expressions).chain(lengths);
+        mistaken || expressions.any(|e| e.symbols().any(|used| used == symbol))
     }
 }
 
@@ -162,6 +168,10 @@ fn find_symbol(
         let (kind, help) = match other.symbol {
             Symbol::Variable(_) => ("a joint", format!("write joint = \"{name}\"")),
             Symbol::Parameter(_) => ("a parameter", format!("write parameter = \"{name}\"")),
+            Symbol::Passive(_) => (
+                "a passive joint",
+                "the loops take up an error along its motion; give its clearance as errors of its frame".to_owned(),
+            ),
             _ => ("an input", "an input can be used in `error`, but is not part of the chain".to_owned()),
         };
         document.mistake(

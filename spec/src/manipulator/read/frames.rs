@@ -12,8 +12,8 @@ use crate::expr::{
 };
 use crate::manipulator::{DhConvention, Factor, Matrix};
 
-/// Index and kind of the frame's own variable, for `origin` and `axis`.
-pub(super) type OwnVariable = Option<(usize, VariableKind)>;
+/// The frame's own variable and its kind, for `origin` and `axis`.
+pub(super) type OwnVariable = Option<(Symbol, VariableKind)>;
 
 /// Reads the transform of a frame or tool, and records angles that are probably in degrees.
 pub(super) fn read_factors(
@@ -248,7 +248,7 @@ fn about_axis(
         }
     }
     let span = item.map_or(section.span.clone(), Item::span);
-    let amount = Expression::symbol(Symbol::Variable(variable), Some(dimension), span);
+    let amount = Expression::symbol(variable, Some(dimension), span);
     let principal =
         (0..3).find(|&i| axis[i].abs() == 1.0 && axis[(i + 1) % 3] == 0.0 && axis[(i + 2) % 3] == 0.0);
     Some(vec![match principal {

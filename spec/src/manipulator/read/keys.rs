@@ -3,11 +3,11 @@
 use abbe_core::{Component, Distribution};
 
 use super::choices::{
-    BEAM_AXES, CLASSES, INTERPOLATIONS, JOINT_KINDS, LENGTHS, LOAD_AXES, ORIENTATIONS, OUTSIDE, TOOL,
+    BEAM_AXES, CLASSES, CLOSURES, INTERPOLATIONS, JOINT_KINDS, LENGTHS, LOAD_AXES, ORIENTATIONS, OUTSIDE, TOOL,
 };
 use crate::keys::Value::{self, Boolean, Choice, Either, List, Names, Number, Table, Tables, Text};
 use crate::keys::{Rule, Then, When, words};
-use crate::manipulator::Beam;
+use crate::manipulator::{Beam, Closure};
 
 const NUMBER: Value = Number("number");
 const EXPRESSION: Value = Number("expression");
@@ -24,6 +24,7 @@ crate::tables! {
             "Quantities that change from use to use, such as a payload or a temperature";
         "tables": Names("table", &Table("[tables.NAME]")), "-", "none", "Functions given by measured points";
         "frame": Tables("[[frame]]"), "-", "required", "Transforms `A_1 … A_n`, from the base to the tip";
+        "loop": Tables("[[loop]]"), "-", "none", "Conditions that frames of different branches meet: closed loops";
         "tool": Table("[tool]"), "-", "no tool: the tool point is the origin of `F_n`",
             "Transform from `F_n` to the tool point";
         "source": Tables("[[source]]"), "-", "none", "Physical errors of the machine";
@@ -83,7 +84,12 @@ crate::tables! {
 
     FRAME: ["[[frame]]"], [
         "name": Text("text in one line"), "-", "required", "Name of the frame, by which sources refer to it; must be unique";
+        "parent": Text("name of an earlier frame, or `base`"), "-", "the frame before it",
+            "Frame that it hangs on: where its transform begins. `base` is `F_0`";
         "variable": Table("[frame.variable]"), "-", "none: the frame is fixed", "Joint variable that moves the frame";
+    ]
+    TOOL_FRAME: ["[tool]"], [
+        "frame": Text("name of a frame"), "-", "the last frame", "Frame that carries the tool";
     ]
     DESCRIBED: ["[[frame]]", "[tool]"], [
         "description": Text("text"), "-", "empty", "Description, for people";
@@ -104,12 +110,27 @@ crate::tables! {
         "axis": List("three numbers of length 1", Some(3), &NUMBER), "1", "`[1, 0, 0]`",
             "Axis of the variable, in the frame given by `origin`";
     ]
-    VARIABLE: ["[frame.variable]"], [
+    VARIABLE: ["[frame.variable]", "[loop.variable]"], [
         "name": Text("name"), "-", "required", "Name of the variable in expressions, commands and files";
         "kind": Choice(|| words(&JOINT_KINDS)), "-", "required", "Kind of joint: an angle or a length";
         "limits": List("two numbers", Some(2), &NUMBER), "length unit or rad", "no limits", "Lower and upper joint limit";
         "home": NUMBER, "length unit or rad", "`0`", "Value in the home position, within the limits";
         "description": Text("text"), "-", "empty", "Description of the joint, for people";
+    ]
+    FRAME_VARIABLE: ["[frame.variable]"], [
+        "passive": Boolean, "-", "`false`", "`true` for a joint without a drive, which the loops determine";
+    ]
+    LOOP: ["[[loop]]"], [
+        "name": Text("text in one line"), "-", "required", "Name of the loop; must be unique";
+        "frames": List("two names of frames", Some(2), &Text("name of a frame, or `base`")), "-", "required",
+            "The two frames that meet, or between which the length is";
+        "closes": Either("`\"point\"`, `\"pose\"`, `\"distance\"`, or a list of coordinates",
+            &[Choice(|| words(&CLOSURES)), List("", None, &Choice(|| Closure::COORDINATES.to_vec()))]), "-", "required",
+            "What closes: the origins meet, the poses meet, the origins have a distance; or some coordinates of the first frame's pose relative to the second's are zero: the position `x`, `y`, `z` and the rotation `rx`, `ry`, `rz` along and about the axes of the second frame's parent";
+        "length": EXPRESSION, "length unit", "required for a distance", "Distance of the two origins: a leg or strut";
+        "variable": Table("[loop.variable]"), "-", "none: a strut", "Joint variable of a leg, for `length`";
+        "description": Text("text"), "-", "empty", "Description of the loop, for people";
+        "reference": Text("text"), "-", "empty", "Origin of the numbers";
     ]
     DENAVIT_HARTENBERG: ["[frame.dh]", "[frame.mdh]"], [
         "theta": EXPRESSION, "rad", "required", "Rotation about z";

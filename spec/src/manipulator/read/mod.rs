@@ -1,7 +1,7 @@
 //! Reads a manipulator's spec file and checks it.
 //!
 //! `spec` reads the file from top to bottom: `declarations` the names, `tables` (with `points`) the
-//! functions defined by points, `frames` the transforms, `sources`, `effects`, `elastic`,
+//! functions defined by points, `frames` the transforms, `loops` what closes, `sources`, `effects`, `elastic`,
 //! `deviations` and `loads` the physical errors, `fitted`, `covariance` and
 //! `undetermined` the results of identification. `positive` checks the signs of masses and
 //! stiffnesses, and `rigid` that every matrix is a rigid motion, at `samples`.
@@ -16,6 +16,7 @@ mod fitted;
 mod frames;
 pub(super) mod keys;
 mod loads;
+mod loops;
 mod points;
 mod positive;
 mod rigid;

@@ -1,10 +1,11 @@
 //! Checks that a matrix is a rigid motion, `R Rᵀ = I` and `det R = 1`, at fixed sample
 //! configurations.
 
-use super::samples::{SAMPLES, configuration};
+use super::declarations::Declarations;
+use super::samples::{SAMPLES, Sample};
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expression, Scope, Symbol};
-use crate::manipulator::{Matrix, Variable};
+use crate::manipulator::Matrix;
 
 /// Tolerance of products of rows, for numbers with ten digits.
 pub(super) const TOLERANCE: f64 = 1e-9;
@@ -14,19 +15,14 @@ pub(super) const TOLERANCE: f64 = 1e-9;
 const LAWS: [&[usize]; 7] = [&[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]];
 
 /// Returns the first violated condition as a diagnostic. Parameters have their nominal values.
-pub(super) fn check_rigid(
-    matrix: &Matrix,
-    scope: &Scope,
-    variables: &[Variable],
-    parameters: &[f64],
-) -> Option<Diagnostic> {
+pub(super) fn check_rigid(matrix: &Matrix, declarations: &Declarations) -> Option<Diagnostic> {
+    let scope = &declarations.scope;
     for sample in 1..=SAMPLES {
-        let q = configuration(variables, sample);
+        let configuration = Sample::new(declarations, sample);
         let value = |entry: &Expression| {
             entry.value(&scope.tables, |symbol| match symbol {
-                Symbol::Variable(i) => q[i],
-                Symbol::Parameter(i) => parameters[i],
-                _ => f64::NAN,
+                Symbol::Parameter(i) => declarations.parameters[i].value,
+                symbol => configuration.value(symbol).unwrap_or(f64::NAN),
             })
         };
         let rows: [[f64; 3]; 3] = [0, 1, 2].map(|i| [0, 1, 2].map(|j| value(&matrix.rows[i][j])));
@@ -34,7 +30,7 @@ pub(super) fn check_rigid(
             let (value, expected) = product(law, &rows);
             let fulfilled = (value - expected).abs() <= TOLERANCE;
             if !fulfilled {
-                return Some(mistake(matrix, law, value, &at(matrix, scope, &q)));
+                return Some(mistake(matrix, law, value, &at(matrix, scope, &configuration)));
             }
         }
     }
@@ -76,15 +72,14 @@ fn mistake(matrix: &Matrix, law: &[usize], value: f64, at: &str) -> Diagnostic {
     mistake
 }
 
-fn at(matrix: &Matrix, scope: &Scope, q: &[f64]) -> String {
+fn at(matrix: &Matrix, scope: &Scope, configuration: &Sample) -> String {
     let used: Vec<Symbol> = matrix.rows.iter().flatten().flat_map(|entry| entry.symbols()).collect();
     let shown: Vec<String> = scope
         .names
         .iter()
         .filter(|(_, name)| used.contains(&name.symbol))
-        .filter_map(|(name, declared)| match declared.symbol {
-            Symbol::Variable(i) => Some(format!("{name} = {:.4}", q[i])),
-            _ => None,
+        .filter_map(|(name, declared)| {
+            configuration.value(declared.symbol).map(|value| format!("{name} = {value:.4}"))
         })
         .collect();
     if shown.is_empty() { String::new() } else { format!(" at {}", shown.join(", ")) }

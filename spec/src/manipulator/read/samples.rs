@@ -7,15 +7,35 @@ use crate::manipulator::Variable;
 /// Number of sample configurations.
 pub(super) const SAMPLES: usize = 16;
 
-/// Returns sample configuration 1, 2, …: values of all variables within their limits.
-pub(super) fn configuration(variables: &[Variable], sample: usize) -> Vec<f64> {
-    variables.iter().enumerate().map(|(i, variable)| value(variable, i, sample)).collect()
+/// Values of all variables within their limits.
+pub(super) struct Sample {
+    q: Vec<f64>,
+    p: Vec<f64>,
+}
+
+impl Sample {
+    /// Returns sample configuration 1, 2, ….
+    pub(super) fn new(declarations: &Declarations, sample: usize) -> Self {
+        let all = declarations.variables.iter().chain(&declarations.passive).enumerate();
+        let mut q: Vec<f64> = all.map(|(i, variable)| value(variable, i, sample)).collect();
+        let p = q.split_off(declarations.variables.len());
+        Self { q, p }
+    }
+
+    /// Returns the value of a variable; `None` for other symbols.
+    pub(super) fn value(&self, symbol: Symbol) -> Option<f64> {
+        match symbol {
+            Symbol::Variable(i) => Some(self.q[i]),
+            Symbol::Passive(i) => Some(self.p[i]),
+            _ => None,
+        }
+    }
 }
 
 /// Returns `true` if the value of an expression depends on a variable. In `q - q` it occurs without
 /// effect.
-pub(super) fn depends(expression: &Expression, own: usize, declarations: &Declarations) -> bool {
-    if !expression.symbols().any(|symbol| symbol == Symbol::Variable(own)) {
+pub(super) fn depends(expression: &Expression, own: Symbol, declarations: &Declarations) -> bool {
+    if !expression.symbols().any(|symbol| symbol == own) {
         return false;
     }
     // Steps and kinks may lie between the samples.
@@ -27,14 +47,13 @@ pub(super) fn depends(expression: &Expression, own: usize, declarations: &Declar
                 | Kind::Call(Function::Abs | Function::Sign, _)
         )
     });
-    let mut q = configuration(&declarations.variables, 1);
-    let home = declarations.variables[own].home;
+    let others = Sample::new(declarations, 1);
+    let home = declarations.variable(own).map_or(0.0, |variable| variable.home);
     let mut values = (0..SAMPLES).map(|sample| {
-        q[own] = home + GOLDEN * sample as f64;
         expression.value(&declarations.scope.tables, |symbol| match symbol {
-            Symbol::Variable(i) => q[i],
+            symbol if symbol == own => home + GOLDEN * sample as f64,
             Symbol::Parameter(i) => declarations.parameters[i].value,
-            _ => f64::NAN,
+            symbol => others.value(symbol).unwrap_or(f64::NAN),
         })
     });
     let first = values.next().unwrap_or(f64::NAN);

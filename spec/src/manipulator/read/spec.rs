@@ -14,6 +14,7 @@ use super::fitted::read_fitted;
 use super::frames::{OwnVariable, convention, read_factors};
 use super::keys;
 use super::loads::{check_loaded, read_gravity, read_loads};
+use super::loops::{check_freedoms, read_loops};
 use super::positive::check_signs;
 use super::rigid::check_rigid;
 use super::samples::depends;
@@ -23,7 +24,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
 use crate::manipulator::names::{check_manipulator_name, title_of};
-use crate::manipulator::{Factor, Frame, Spec};
+use crate::manipulator::{Factor, Frame, Loop, Spec, Variable};
+use crate::value::find_name;
 
 impl Spec {
     /// Reads and checks a spec file. All syntax errors are reported at once; without any, all
@@ -83,26 +85,37 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     declarations.read_parameters(root, document);
     declarations.read_inputs(root, document);
     let raw_frames = read_frames(root, &mut declarations, document);
-
-    let nominal: Vec<f64> = declarations.parameters.iter().map(|parameter| parameter.value).collect();
+    let names: Vec<&str> = raw_frames.iter().flatten().map(|raw| raw.name.as_str()).collect();
+    let raw_loops = read_loops(root, &names, &mut declarations, document);
     let mut complete = true;
     let mut frames = Vec::new();
     for raw in raw_frames.iter().flatten() {
-        let factors = read_frame_factors(raw, &declarations, &nominal, document);
+        let factors = read_frame_factors(raw, &declarations, document);
         complete &= factors.is_some();
         frames.push(Frame {
             name: raw.name.clone(),
             description: raw.section.optional_text("description", document),
-            variable: raw.own.map(|own| own.0),
+            parent: raw.parent,
+            variable: raw.own.and_then(|(own, _)| index(own, Symbol::Variable)),
+            passive: raw.own.and_then(|(own, _)| index(own, Symbol::Passive)),
             factors: factors.unwrap_or_default(),
             convention: convention(&raw.section),
         });
     }
     let tool = match root.get("tool") {
-        Some(item) => read_tool(&item, &declarations, &nominal, document),
-        None => Some(Vec::new()),
+        Some(item) => read_tool(&item, &names, &declarations, document),
+        None => Some((Vec::new(), frames.len().saturating_sub(1))),
     };
-    let chain = Chain { frames: &frames, tool: tool.as_deref(), scope: &declarations.scope };
+    let tool_frame = tool.as_ref().map_or(0, |(_, frame)| *frame);
+    let tool = tool.map(|(factors, _)| factors);
+    let read: Vec<Option<Loop>> =
+        raw_loops.iter().map(|raw| raw.read(&declarations, document)).collect();
+    complete &= read.iter().all(Option::is_some);
+    let loops: Vec<Loop> = read.into_iter().flatten().collect();
+    if complete {
+        check_freedoms(&frames, &loops, &declarations, document);
+    }
+    let chain = Chain { frames: &frames, loops: &loops, tool: tool.as_deref(), scope: &declarations.scope };
     let mut sources = read_sources(root, chain, document);
     let loads = read_loads(root, &frames, &declarations.scope, document);
     let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
@@ -118,7 +131,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     sources.extend(input_uncertainties(&declarations, &sources, document));
     raw_frames?;
     complete.then_some(())?;
-    let Declarations { scope, parameters, inputs, variables } = declarations;
+    let Declarations { scope, parameters, inputs, variables, passive } = declarations;
     let Head { name, title, description, reference, length, orientation } = head;
     let file =
         Path::new(&document.path).file_name().map_or_else(String::new, |f| f.to_string_lossy().into_owned());
@@ -136,7 +149,10 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         parameters,
         inputs,
         variables,
+        passive,
         frames,
+        loops,
+        tool_frame,
         tool: tool?,
         sources,
         loads,
@@ -198,6 +214,7 @@ struct RawFrame<'d> {
     name: String,
     own: OwnVariable,
     variable_span: Option<Span>,
+    parent: Option<usize>,
 }
 
 fn read_frames<'d>(
@@ -244,25 +261,64 @@ fn read_frames<'d>(
             );
         }
         section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
+        let parent = match section.get("parent") {
+            Some(item) => read_parent(&item, &frames, document),
+            None => index.checked_sub(1),
+        };
         let variable = section.get("variable");
-        let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item, document));
-        let own = own.map(|own| (own, declarations.variables[own].kind));
-        frames.push(RawFrame { section, name, own, variable_span: variable.map(|item| item.span()) });
+        let own = variable.as_ref().and_then(|item| {
+            declarations.read_variable(index, &[&keys::VARIABLE, &keys::FRAME_VARIABLE], item, document)
+        });
+        let own = own.and_then(|own| Some((own, declarations.variable(own)?.kind)));
+        let variable_span = variable.map(|item| item.span());
+        frames.push(RawFrame { section, name, own, variable_span, parent });
     }
     Some(frames)
+}
+
+/// Returns the index of the frame that a frame hangs on, among those before it.
+fn read_parent(item: &Item<'_>, before: &[RawFrame<'_>], document: &mut Document) -> Option<usize> {
+    let names: Vec<&str> = before.iter().map(|frame| frame.name.as_str()).collect();
+    frame_or_base(item, &names, document).flatten()
+}
+
+/// Returns the index of the frame with the name that an item holds; `Some(None)` for the base.
+pub(super) fn frame_or_base(
+    item: &Item<'_>,
+    names: &[&str],
+    document: &mut Document,
+) -> Option<Option<usize>> {
+    let name = document.string(item)?;
+    let found = names.iter().position(|frame| *frame == name);
+    if found.is_some() || name == BASE {
+        return Some(found);
+    }
+    let known: Vec<&str> = names.iter().copied().chain([BASE]).collect();
+    find_name(document, item.span(), &name, &known, "frame")?;
+    None
+}
+
+/// Name of `F_0` where a frame is named.
+const BASE: &str = "base";
+
+/// Returns the index in a symbol of this kind.
+fn index(symbol: Symbol, kind: fn(usize) -> Symbol) -> Option<usize> {
+    match symbol {
+        Symbol::Variable(i) | Symbol::Passive(i) if kind(i) == symbol => Some(i),
+        _ => None,
+    }
 }
 
 fn read_frame_factors(
     frame: &RawFrame<'_>,
     declarations: &Declarations,
-    nominal: &[f64],
     document: &mut Document,
 ) -> Option<Vec<Factor>> {
     let factors = read_factors(&frame.section, frame.own, &declarations.scope, document)?;
-    check_matrices(&factors, declarations, nominal, document)?;
+    check_matrices(&factors, declarations, document)?;
     if let (Some((own, _)), Some(span)) = (frame.own, &frame.variable_span)
-        && let name = &declarations.variables[own].name
-        && declarations.scope.names.get(name).is_some_and(|name| name.symbol == Symbol::Variable(own))
+        && let Some(Variable { name, .. }) = declarations.variable(own)
+        && declarations.scope.names.get(name).is_some_and(|name| name.symbol == own)
         && !moves(&factors, own, declarations)
     {
         document.mistake(
@@ -276,27 +332,29 @@ fn read_frame_factors(
 
 fn read_tool(
     item: &Item<'_>,
+    frames: &[&str],
     declarations: &Declarations,
-    nominal: &[f64],
     document: &mut Document,
-) -> Option<Vec<Factor>> {
+) -> Option<(Vec<Factor>, usize)> {
     let mut section = document.section(item)?;
     section.name = "[tool]".to_owned();
-    section.check_keys(&[&keys::DESCRIBED, &keys::TRANSFORM], document);
+    section.check_keys(&[&keys::TOOL_FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
+    let frame = match section.get("frame") {
+        Some(item) => {
+            let name = document.string(&item)?;
+            find_name(document, item.span(), &name, frames, "frame")
+        }
+        None => frames.len().checked_sub(1),
+    };
     let factors = read_factors(&section, None, &declarations.scope, document)?;
-    check_matrices(&factors, declarations, nominal, document)?;
-    Some(factors)
+    check_matrices(&factors, declarations, document)?;
+    Some((factors, frame?))
 }
 
-fn check_matrices(
-    factors: &[Factor],
-    declarations: &Declarations,
-    nominal: &[f64],
-    document: &mut Document,
-) -> Option<()> {
+fn check_matrices(factors: &[Factor], declarations: &Declarations, document: &mut Document) -> Option<()> {
     for factor in factors {
         if let Factor::Matrix(matrix) = factor
-            && let Some(mistake) = check_rigid(matrix, &declarations.scope, &declarations.variables, nominal)
+            && let Some(mistake) = check_rigid(matrix, declarations)
         {
             document.mistake(mistake);
             return None;
@@ -306,6 +364,6 @@ fn check_matrices(
 }
 
 /// Returns `true` if a product of factors depends on a variable.
-fn moves(factors: &[Factor], own: usize, declarations: &Declarations) -> bool {
+fn moves(factors: &[Factor], own: Symbol, declarations: &Declarations) -> bool {
     factors.iter().flat_map(Factor::expressions).any(|expression| depends(expression, own, declarations))
 }
