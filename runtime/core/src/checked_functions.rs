@@ -6,23 +6,26 @@
 /// Defines the checked functions of a generated module, and the type that implements
 /// [`Manipulator`](crate::Manipulator) by its raw functions.
 ///
-/// Generated code invokes it where `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`,
+/// A manipulator with loops is followed by the word `loops`. Generated code invokes it where `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`,
 /// `EFFECTS`, `SOURCES`, `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. The types of
 /// arrays fix their sizes. Numbers that are not finite, inputs outside their range and Euler
 /// singularities are [`Error`](crate::Error)s.
 #[macro_export]
 macro_rules! checked_functions {
-    ($(#[$documentation:meta])* $name:ident) => {
+    ($(#[$documentation:meta])* $name:ident $($with:ident)?) => {
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct $name;
 
         $crate::for_each_function!($crate::checked_function);
 
+        $crate::checked_functions!(@outside $($with)?);
+
         /// Functions that fill arrays and check the results.
         mod checked {
             use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES, raw};
             $crate::for_each_function!($crate::checked_arrays);
+            $crate::checked_functions!(@inside $($with)?);
         }
 
         /// Returns the first cycle of a controller. In each later one,
@@ -141,6 +144,38 @@ macro_rules! checked_functions {
                 checked::drawn_pose(q, s, u, magnitudes, &mut pose)?;
                 Ok(Some($crate::Pose(pose)))
             }
+
+            $crate::checked_functions!(@methods $($with)?);
+        }
+    };
+    (@outside) => {};
+    (@outside loops) => {
+        $crate::for_each_function_of_loops!($crate::checked_function);
+    };
+    (@inside) => {};
+    (@inside loops) => {
+        use super::PASSIVE;
+        $crate::for_each_function_of_loops!($crate::checked_arrays);
+    };
+    (@methods) => {};
+    (@methods loops) => {
+        fn displaced_pose(
+            &self,
+            q: &[f64],
+            s: &[f64],
+            errors: &[[f64; 6]],
+        ) -> Result<$crate::Pose, $crate::Error> {
+            let (q, s) = $crate::checked_functions!(@arguments q, s);
+            $crate::checks::finite($crate::Quantity::Errors, errors.as_flattened())?;
+            let errors = $crate::checks::frames(errors)?;
+            let mut pose = [[0.0; 3]; 4];
+            checked::displaced_pose(q, s, errors, &mut pose)?;
+            Ok($crate::Pose(pose))
+        }
+
+        fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), $crate::Error> {
+            let (q, s) = $crate::checked_functions!(@arguments q, s);
+            checked::passive(q, s, $crate::checks::result($crate::Quantity::Passive, passive)?)
         }
     };
     (@jacobian $jacobian:ident) => {
@@ -209,7 +244,8 @@ macro_rules! checked_arrays {
             $($result: &mut $crate::function_array!($result: $crate::array_type)),+
         ) -> Result<(), $crate::Error> {
             $crate::checks::margin(raw::$name($($argument,)+ $($result),+))?;
-            $($crate::checks::finite(
+            $($crate::checks::result_is_finite(
+                &super::DESCRIPTION,
                 $crate::function_array!($result: $crate::array_quantity),
                 $crate::checks::FlatArray::as_flat($result),
             )?;)+

@@ -20,6 +20,11 @@ pub fn result<T, const N: usize>(quantity: Quantity, values: &mut [T]) -> Result
     values.try_into().map_err(|_| count(quantity, N, found))
 }
 
+/// Returns the errors of the frames as an array. Fails unless there are exactly `N` frames.
+pub fn frames<const N: usize>(errors: &[[f64; 6]]) -> Result<&[[f64; 6]; N], Error> {
+    errors.try_into().map_err(|_| count(Quantity::Errors, N, errors.len()))
+}
+
 /// Checks that the values of an argument are finite, and inputs within their ranges.
 pub fn given(description: &Description, quantity: Quantity, values: &[f64]) -> Result<(), Error> {
     finite(quantity, values)?;
@@ -67,6 +72,17 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
     }
     let index = values.iter().position(|value| !value.is_finite()).unwrap_or(0);
     Err(Error::NotFinite { quantity, index })
+}
+
+/// Checks that all values of a result are finite. If the manipulator has loops, values that are not
+/// finite mean that these do not close.
+pub fn result_is_finite(
+    description: &Description,
+    quantity: Quantity,
+    values: &[f64],
+) -> Result<(), Error> {
+    let has_loops = || description.passive().next().is_some();
+    finite(quantity, values).map_err(|error| if has_loops() { Error::NotClosed } else { error })
 }
 
 /// Checks that Euler rows exist at the margin `cos ρ` that a generated function returned.

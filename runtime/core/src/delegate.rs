@@ -76,4 +76,13 @@ impl<D: Delegate> Manipulator for D {
     fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
         self.original().drawn_pose(q, s, u, magnitudes)
     }
+
+    #[cfg(feature = "std")]
+    fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
+        self.original().displaced_pose(q, s, errors)
+    }
+
+    fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
+        self.original().passive(q, s, passive)
+    }
 }

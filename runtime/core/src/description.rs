@@ -1,6 +1,6 @@
 //! Description of a manipulator: names, units, limits and error sources.
 
-use crate::{Component, List, Text};
+use crate::{Component, List, Pose, Text, displacement};
 
 /// Length unit of a manipulator's poses, Jacobians, variables and errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,17 +116,36 @@ pub struct Frame {
     ///
     /// If all frames are lower pairs, unreachable poses are recognized without a search.
     pub lower_pair: bool,
+    /// Place in a tree of frames. `None` for a frame of a chain, which hangs on the one before it;
+    /// the last one carries the tool.
+    pub branch: Option<Branch>,
+}
+
+/// Place of a frame in a tree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    /// Index of the frame that it hangs on, before its own; `None` for `F_0`.
+    pub parent: Option<usize>,
+    /// Passive variable that the frame declares: the loops of the manipulator determine its value.
+    pub passive: Option<Variable>,
+    /// `true` for the frame that carries the tool.
+    pub carries_tool: bool,
 }
 
 impl Frame {
     /// Creates a frame without assumptions about its motion.
     pub const fn new(name: &'static str, variable: Option<usize>) -> Self {
-        Self { name: Text::Constant(name), variable, lower_pair: false }
+        Self { name: Text::Constant(name), variable, lower_pair: false, branch: None }
     }
 
     /// Creates a frame that is a lower pair, or fixed.
     pub const fn lower_pair(name: &'static str, variable: Option<usize>) -> Self {
-        Self { name: Text::Constant(name), variable, lower_pair: true }
+        Self { name: Text::Constant(name), variable, lower_pair: true, branch: None }
+    }
+
+    /// Creates a frame of a tree.
+    pub const fn in_tree(name: &'static str, variable: Option<usize>, branch: Branch) -> Self {
+        Self { name: Text::Constant(name), variable, lower_pair: false, branch: Some(branch) }
     }
 }
 
@@ -333,6 +352,48 @@ pub struct Description {
 }
 
 impl Description {
+    /// Returns `true` if the frames are a chain from the base to the tool, without branches.
+    pub fn is_chain(&self) -> bool {
+        self.frames.iter().all(|frame| frame.branch.is_none())
+    }
+
+    /// Iterates over the passive variables, which loops determine.
+    pub fn passive(&self) -> impl Iterator<Item = &Variable> {
+        self.frames.iter().filter_map(|frame| frame.branch.as_ref()?.passive.as_ref())
+    }
+
+    /// Returns the index of the frame that a frame hangs on; `None` for `F_0`.
+    pub fn parent(&self, frame: usize) -> Option<usize> {
+        match &self.frames[frame].branch {
+            Some(branch) => branch.parent,
+            None => frame.checked_sub(1),
+        }
+    }
+
+    /// Returns the index of the frame that carries the tool; `None` without frames.
+    pub fn tool_frame(&self) -> Option<usize> {
+        let carries = |frame: &Frame| frame.branch.as_ref().is_some_and(|branch| branch.carries_tool);
+        self.frames.iter().position(carries).or(self.frames.len().checked_sub(1))
+    }
+
+    /// Returns the pose of the tool point in `F_0` from `A_1 … A_n` and `T`, and the generalized
+    /// errors of the frames; frames beyond the end of `errors` have none.
+    ///
+    /// With loops, this is the pose at the nominal values of the passive variables: the errors do
+    /// not move these.
+    pub fn tool_pose(&self, transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
+        let mut pose = transforms.last().copied().unwrap_or(Pose::IDENTITY);
+        let mut frame = self.tool_frame();
+        while let Some(at) = frame {
+            if let Some(errors) = errors.get(at) {
+                pose = displacement(errors).then(&pose);
+            }
+            pose = transforms[at].then(&pose);
+            frame = self.parent(at);
+        }
+        pose
+    }
+
     /// Computes ε, six errors per frame, from the values of the effects of the repeatable sources.
     ///
     /// Ignores effects without a value, and frames beyond the end of `errors`.

@@ -21,6 +21,15 @@ pub const fn vectors(orientation: Orientation) -> usize {
     }
 }
 
+/// Returns the number of vectors for a manipulator. In a tree of frames all columns are distinct:
+/// each gives two vectors, rows 1–3 and rows 4–6.
+pub fn vectors_of(description: &crate::Description) -> usize {
+    if description.is_chain() { vectors(description.orientation) } else { VECTORS_OF_TREE }
+}
+
+/// Number of vectors for a frame of a tree.
+pub const VECTORS_OF_TREE: usize = 12;
+
 /// Returns the index, among the distinct numbers, of the entry of `J_e` in a row (0 to 5) and the
 /// column of an error; `None` if the entry is zero.
 ///

@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use crate::{Class, Description, Error, Manipulator, Pose, Quantity, checks, real_pose};
+use crate::{Class, Description, Error, Manipulator, Pose, Quantity};
 
 /// Returns the exact pose of the tool point with the errors of every source times its magnitude,
 /// equation (6).
@@ -29,15 +29,11 @@ pub fn drawn_pose<M: Manipulator + ?Sized>(
     }
     let mut effects = vec![0.0; description.effects.len()];
     let mut errors = vec![[0.0; 6]; description.frames.len()];
-    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
-    manipulator.transforms(q, s, &mut transforms)?;
     manipulator.effects(q, s, u, &mut effects)?;
     for (effect, value) in description.effects.iter().zip(effects) {
         errors[effect.frame][effect.component.index()] += value * magnitudes[effect.source];
     }
-    let pose = real_pose(&transforms, &errors);
-    checks::finite(Quantity::Pose, pose.0.as_flattened())?;
-    Ok(pose)
+    manipulator.displaced_pose(q, s, &errors)
 }
 
 /// Returns the magnitudes that select the repeatable sources: 1 for each repeatable source, 0 for

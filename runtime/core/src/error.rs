@@ -13,6 +13,8 @@ pub const MINIMUM_MARGIN: f64 = 1e-6;
 pub enum Quantity {
     /// The joint variables `q`.
     Variables,
+    /// The passive variables `p`.
+    Passive,
     /// The structural parameters `s`.
     Parameters,
     /// The inputs `u`.
@@ -47,6 +49,7 @@ impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Variables => "joint variable",
+            Self::Passive => "passive variable",
             Self::Parameters => "structural parameter",
             Self::Inputs => "input",
             Self::Pose => "pose entry",
@@ -94,6 +97,8 @@ pub enum Error {
         /// Declared range.
         range: [f64; 2],
     },
+    /// The loops do not close: no values of the passive variables were found that close them.
+    NotClosed,
     /// Roll is at ±90°, where the Euler rows are singular.
     EulerSingularity {
         /// `cos ρ`, less than [`MINIMUM_MARGIN`].
@@ -113,6 +118,9 @@ impl fmt::Display for Error {
             Self::OutOfRange { input, value, range: [lower, upper] } => {
                 write!(f, "input {input} is {value}, outside its range {lower} … {upper}")
             }
+            Self::NotClosed => f.write_str(
+                "the loops do not close at these joint values: no values of the passive joints were found",
+            ),
             Self::EulerSingularity { margin } => write!(
                 f,
                 "Euler angles are singular here (cos roll = {margin:e}); use orientation = \"rotation-vector\""

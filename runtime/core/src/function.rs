@@ -18,8 +18,8 @@ macro_rules! functions {
         }
 
         impl Function {
-            /// The functions, in the order of generated code.
-            pub const ALL: [Self; [$(Self::$function),+].len()] = [$(Self::$function),+];
+            /// Number of functions, those of loops included.
+            pub const COUNT: usize = [$(Self::$function),+].len();
 
             /// Returns the signature.
             pub const fn signature(self) -> &'static Signature {
@@ -33,9 +33,40 @@ macro_rules! functions {
     };
 }
 
-crate::for_each_function!(functions);
+crate::for_all_functions!(functions);
+
+macro_rules! list {
+    ($list:ident, $documentation:literal: $($function:ident = $name:ident $arguments:tt -> $results:tt
+        $($oriented:ident)?: $text:literal $(, $note:literal)?;)+) => {
+        impl Function {
+            #[doc = $documentation]
+            pub const $list: [Self; [$(Self::$function),+].len()] = [$(Self::$function),+];
+        }
+    };
+}
+
+macro_rules! all {
+    (: $($entries:tt)+) => {
+        list!(ALL, "Functions of every manipulator, in the order of generated code.": $($entries)+);
+    };
+}
+
+macro_rules! of_loops {
+    (: $($entries:tt)+) => {
+        list!(OF_LOOPS, "Functions that only manipulators with loops have.": $($entries)+);
+    };
+}
+
+crate::for_each_function!(all);
+crate::for_each_function_of_loops!(of_loops);
 
 impl Function {
+    /// Iterates over the functions of a manipulator.
+    pub fn all(description: &crate::Description) -> impl Iterator<Item = Self> + use<> {
+        let has_loops = description.passive().next().is_some();
+        Self::ALL.into_iter().chain(Self::OF_LOOPS.into_iter().filter(move |_| has_loops))
+    }
+
     /// Returns the name in generated code.
     pub const fn name(self) -> &'static str {
         self.signature().name

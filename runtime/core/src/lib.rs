@@ -55,7 +55,7 @@ pub use chain::{chain, deviation, displacement, euler_margin, located, real_pose
 pub use component::Component;
 pub use delegate::Delegate;
 pub use description::{
-    Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
+    Branch, Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
     Variable, VariableKind,
 };
 pub use distinct::ErrorColumns;

@@ -1,6 +1,8 @@
 //! The interface of every manipulator, generated or interpreted.
 
-use crate::{Description, Error, Pose};
+#[cfg(feature = "std")]
+use crate::checks;
+use crate::{Description, Error, Pose, Quantity};
 
 /// Manipulator: pure functions of the joint variables `q`, the structural parameters `s` and the
 /// inputs `u`.
@@ -66,5 +68,35 @@ pub trait Manipulator: Sync {
         _magnitudes: &[f64],
     ) -> Result<Option<Pose>, Error> {
         Ok(None)
+    }
+
+    /// Returns the exact pose of the tool point with given errors, six per frame: equation (6),
+    /// with all loops closed.
+    ///
+    /// The default evaluates the tree of frames, for manipulators without loops.
+    #[cfg(feature = "std")]
+    fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
+        let description = self.description();
+        let (expected, found) = (description.frames.len(), errors.len());
+        if expected != found {
+            return Err(Error::Count { quantity: Quantity::Errors, expected, found });
+        }
+        let mut transforms = std::vec![Pose::IDENTITY; expected + 1];
+        self.transforms(q, s, &mut transforms)?;
+        let pose = description.tool_pose(&transforms, errors);
+        checks::finite(Quantity::Pose, pose.0.as_flattened())?;
+        Ok(pose)
+    }
+
+    /// Computes the passive variables, in the order of the frames that declare them, for which all
+    /// loops close: the values that are reached continuously from home as `q` moves from home to its
+    /// value. The default is for manipulators without loops.
+    ///
+    /// Returns [`Error::NotClosed`] if there are none.
+    fn passive(&self, _q: &[f64], _s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
+        match passive.len() {
+            0 => Ok(()),
+            found => Err(Error::Count { quantity: Quantity::Passive, expected: 0, found }),
+        }
     }
 }

@@ -17,6 +17,7 @@ impl Remedy for Error {
                 "an expression divides by zero there or is far too large: check the units of the \
                  spec"
             }
+            Self::NotClosed => "leave this configuration out, or correct the lengths of the loops",
             Self::EulerSingularity { .. } => {
                 "leave this configuration out, or set `orientation = \"rotation-vector\"`"
             }

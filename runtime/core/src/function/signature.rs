@@ -52,6 +52,8 @@ pub enum Count {
     Distinct,
     /// Joint variables.
     Variables,
+    /// Passive variables.
+    Passive,
     /// Structural parameters.
     Parameters,
     /// Inputs.
@@ -101,8 +103,9 @@ impl Count {
             Self::FramesAndTool => description.frames.len() + 1,
             Self::BaseToTool => description.frames.len() + 2,
             Self::Errors => 6 * description.frames.len(),
-            Self::Distinct => crate::distinct::vectors(description.orientation),
+            Self::Distinct => crate::distinct::vectors_of(description),
             Self::Variables => description.variables.len(),
+            Self::Passive => description.passive().count(),
             Self::Parameters => description.parameters.len(),
             Self::Inputs => description.inputs.len(),
             Self::Effects => description.effects.len(),

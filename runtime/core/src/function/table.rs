@@ -7,7 +7,7 @@
 //! Python module. To add a function, add an entry here, its nodes in `chain::Model`, and the match
 //! arms that the compiler then requires.
 
-/// Passes every function to the macro `$then`, after an optional identifier.
+/// Passes the functions of every manipulator to the macro `$then`, after an optional identifier.
 ///
 /// The rows 4–6 of `oriented` functions depend on the manipulator's orientation. A second text is
 /// for Rust only.
@@ -15,6 +15,60 @@
 #[macro_export]
 macro_rules! for_each_function {
     ($then:path $(, $passed_on:ident)?) => {
+        $crate::function_table!($then, ($($passed_on)?), {});
+    };
+}
+
+/// Passes the functions that only manipulators with loops have to the macro `$then`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! for_each_function_of_loops {
+    ($then:path) => {
+        $crate::function_of_loops_table!($then, {});
+    };
+}
+
+/// Passes all functions to the macro `$then`, those of loops last.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! for_all_functions {
+    ($then:path) => {
+        $crate::function_of_loops_table!($crate::function_table_before, { $then });
+    };
+}
+
+/// Passes the functions of every manipulator and then others to the macro in braces.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! function_table_before {
+    ({ $then:path } : $($others:tt)*) => {
+        $crate::function_table!($then, (), { $($others)* });
+    };
+}
+
+/// Entries of the functions that only manipulators with loops have.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! function_of_loops_table {
+    ($then:path, { $($passed_on:tt)* }) => {
+        $then! {
+            $({ $passed_on })*:
+
+            Passive = passive(q, s) -> (passive):
+                "Passive variables for which all loops close, reached continuously from home as `q` moves from home to its \
+                 value along a straight line.";
+
+            DisplacedPose = displaced_pose(q, s, errors) -> (pose):
+                "Exact pose of the tool point in `F_0` with given errors of the frames, all loops closed.";
+        }
+    };
+}
+
+/// Entries of the functions of every manipulator, and others after them.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! function_table {
+    ($then:path, ($($passed_on:ident)?), { $($others:tt)* }) => {
         $then! {
             $($passed_on)?:
 
@@ -71,6 +125,8 @@ macro_rules! for_each_function {
                 "Pose of `real_pose`, and nominal `J_q` with rotation-vector rows: one column per variable.",
                 "One step towards a pose `X*` is `δq = J_q⁺ (X* ⊖ X_real)`, where `⊖` is [`deviation`](::abbe::deviation) from \
                  the real pose to `X*`.";
+
+            $($others)*
         }
     };
 }
@@ -82,6 +138,15 @@ macro_rules! for_each_function {
 macro_rules! function_array {
     (q: $($then:tt)+) => {
         $($then)+!("q", Variables, [f64; VARIABLES], "length unit, rad", "Joint variables.")
+    };
+    (passive: $($then:tt)+) => {
+        $($then)+!(
+            "passive",
+            Passive,
+            [f64; PASSIVE],
+            "length unit, rad",
+            "Passive variables, in the order of the frames that declare them."
+        )
     };
     (s: $($then:tt)+) => {
         $($then)+!("s", Parameters, [f64; PARAMETERS], "coherent", "Structural parameters.")
@@ -332,6 +397,9 @@ macro_rules! count {
     };
     (VARIABLES) => {
         $crate::function::Count::Variables
+    };
+    (PASSIVE) => {
+        $crate::function::Count::Passive
     };
     (PARAMETERS) => {
         $crate::function::Count::Parameters

@@ -54,6 +54,7 @@ macro_rules! types {
             ) -> Result<(), crate::Error> {
                 match function {
                     $(crate::Function::$function => super::run(self, $function, arguments, results),)+
+                    other => super::one_by_one(self, other, arguments, results),
                 }
             }
         }

@@ -98,6 +98,16 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
             Function::SourceDisplacements => self.source_displacements(third)?.concat(),
             Function::RealPose => flat(&[self.real_pose(third)?]),
             Function::DrawnPose => flat(&[drawn_pose(self.manipulator, q, s, third, magnitudes)?]),
+            Function::Passive => {
+                let mut passive = vec![0.0; description.passive().count()];
+                manipulator.passive(q, s, &mut passive)?;
+                passive
+            }
+            Function::DisplacedPose => {
+                let errors: Vec<[f64; 6]> =
+                    third.chunks_exact(6).map(|six| core::array::from_fn(|i| six[i])).collect();
+                flat(&[manipulator.displaced_pose(q, s, &errors)?])
+            }
             Function::CompensatorStep => {
                 let (pose, columns) = self.joint_jacobian()?;
                 let twists = columns.iter().flat_map(|column| twist(description.orientation, &pose, column));
@@ -151,6 +161,10 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     fn distinct(&self) -> Result<Vec<f64>, Error> {
         let (pose, columns) = self.error_jacobian()?;
         let mut values = flat(&[pose]);
+        if !self.description.is_chain() {
+            values.extend(columns.iter().flatten());
+            return Ok(values);
+        }
         for frame in columns.chunks_exact(6) {
             values.extend(frame.iter().flat_map(|column| &column[..3]));
             if distinct::vectors(self.description.orientation) > 6 {

@@ -4,7 +4,7 @@ use super::differences::derivative;
 use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
 use crate::chain::displacement;
-use crate::{Component, Error, Manipulator, Orientation, Pose, VariableKind, chain, deviation, drawn_pose};
+use crate::{Component, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose};
 
 /// First step of the differences, in rad or arm lengths.
 const STEP: f64 = 0.1;
@@ -26,9 +26,10 @@ const DIRECTIONS: usize = 60;
 pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let orientation = manipulator.description().orientation;
     let frames = manipulator.description().frames.len();
+    let is_chain = manipulator.description().is_chain();
     compare(manipulator, samples, 6 * frames, |subject, _, at, columns| {
         manipulator.error_jacobian(&at.given.q, &at.given.s, columns)?;
-        // With one error, equation (6) is `(A_1 … A_i) E_i (A_{i+1} … T)`: multiply both factors
+        // With one error, equation (6) of a chain is `(A_1 … A_i) E_i (A_{i+1} … T)`: multiply both factors
         // once.
         let mut after = at.transforms.clone();
         for i in (1..after.len()).rev() {
@@ -43,7 +44,12 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
                 let real = |step: f64| {
                     let mut errors = [0.0; 6];
                     errors[component.index()] = step * unit;
-                    Some(before.then(&displacement(&errors)).then(&after[frame + 1]))
+                    if is_chain {
+                        return Some(before.then(&displacement(&errors)).then(&after[frame + 1]));
+                    }
+                    let mut all = vec![[0.0; 6]; frames];
+                    all[frame] = errors;
+                    subject.displaced_pose(at, &all).ok()
                 };
                 let found = column.map(|entry| entry * unit);
                 expected.push((found, differences(subject, orientation, at, found, real)));
@@ -68,7 +74,7 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
         let expected = directions(units, sample).into_iter().map(|direction| {
             let moved = |step: f64| {
                 let q = direction.from(&at.given.q, step);
-                subject.transforms(&q, &at.given.s).ok().map(|transforms| chain(&transforms))
+                subject.transforms(&q, &at.given.s).ok().map(|transforms| description.tool_pose(&transforms, &[]))
             };
             let found = direction.sum(columns);
             (found, differences(subject, description.orientation, at, found, moved))
@@ -90,7 +96,7 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
         let expected = directions(units, sample).into_iter().map(|direction| {
             let changed = |step: f64| {
                 let s = direction.from(&at.given.s, step);
-                subject.transforms(&at.given.q, &s).ok().map(|transforms| chain(&transforms))
+                subject.transforms(&at.given.q, &s).ok().map(|transforms| description.tool_pose(&transforms, &[]))
             };
             let found = direction.sum(columns);
             (found, differences(subject, description.orientation, at, found, changed))

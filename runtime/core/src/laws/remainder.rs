@@ -2,7 +2,7 @@
 
 use super::samples::{Sample, Subject};
 use super::{Configuration, Failure};
-use crate::{Component, Manipulator, deviation, real_pose};
+use crate::{Component, Manipulator, deviation};
 
 /// Sizes of the errors, in rad and arm lengths.
 const SIZES: [f64; 5] = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
@@ -72,7 +72,7 @@ fn slope_at(subject: &Subject, at: &Sample, sample: usize) -> Result<f64, Failur
                 *remainder -= entry * value;
             }
         }
-        let real = real_pose(&at.transforms, &errors);
+        let real = subject.displaced_pose(at, &errors)?;
         let deviation = deviation(description.orientation, &at.pose, &real);
         for (remainder, entry) in remainder.iter_mut().zip(deviation) {
             *remainder += entry;

@@ -2,10 +2,13 @@
 
 use super::{Configuration, Failure};
 use crate::sampling;
-use crate::{Error, Manipulator, Pose, chain, euler_margin};
+use crate::{Error, Manipulator, Pose, euler_margin};
 
 /// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
+
+/// Factor of all steps in a tree of frames, whose loops large errors may prevent from closing.
+const SMALLER: f64 = 0.02;
 
 /// Largest deviation of a sampled parameter from its nominal value, as a share of it.
 const SPREAD: f64 = 0.05;
@@ -23,7 +26,8 @@ pub(super) struct Sample {
     /// `A_1 … A_n` and `T`.
     pub(super) transforms: Vec<Pose>,
     pub(super) pose: Pose,
-    /// `cos ρ` for Euler rows, otherwise 1: factor by which steps are reduced.
+    /// `cos ρ` for Euler rows, otherwise 1, and less in a tree of frames: factor by which steps are
+    /// reduced.
     pub(super) margin: f64,
 }
 
@@ -51,9 +55,10 @@ impl<'a> Subject<'a> {
                 transforms = self.transforms(&given.q, &given.s);
             }
             let transforms = transforms.map_err(|error| Failure::Evaluation { at: given.clone(), error })?;
-            let pose = chain(&transforms);
+            let pose = description.tool_pose(&transforms, &[]);
             let margin = euler_margin(description.orientation, &pose);
             if margin >= EULER_MARGIN {
+                let margin = if description.is_chain() { margin } else { SMALLER * margin };
                 samples.push(Sample { given, transforms, pose, margin });
             }
         }
@@ -109,6 +114,16 @@ impl<'a> Subject<'a> {
         let mut transforms = vec![Pose::IDENTITY; frames + 1];
         self.manipulator.transforms(q, s, &mut transforms)?;
         Ok(transforms)
+    }
+
+    /// Returns the exact pose with errors of all frames.
+    pub(super) fn displaced_pose(&self, at: &Sample, errors: &[[f64; 6]]) -> Result<Pose, Failure> {
+        let description = self.manipulator.description();
+        if description.is_chain() {
+            return Ok(description.tool_pose(&at.transforms, errors));
+        }
+        let real = self.manipulator.displaced_pose(&at.given.q, &at.given.s, errors);
+        real.map_err(|error| Failure::Evaluation { at: at.given.clone(), error })
     }
 
     /// Returns ΔX with rows 1–3 in arm lengths.
