@@ -20,8 +20,8 @@ const POSE: usize = 12;
 pub struct Interpreter {
     spec: Arc<Spec>,
     routines: Arc<Routines>,
-    /// Tapes in the order of [`Function::ALL`], built at first use.
-    tapes: [OnceLock<Tape>; Function::ALL.len()],
+    /// Tapes of all functions, built at first use.
+    tapes: [OnceLock<Tape>; Function::COUNT],
 }
 
 impl Interpreter {
@@ -38,7 +38,7 @@ impl Interpreter {
 
     fn with(spec: Arc<Spec>, routines: impl Fn(&Spec, &Model) -> Routines) -> Self {
         let routines = Arc::new(routines(&spec, &Model::new(&spec)));
-        Self { spec, routines, tapes: [const { OnceLock::new() }; Function::ALL.len()] }
+        Self { spec, routines, tapes: [const { OnceLock::new() }; Function::COUNT] }
     }
 
     /// Returns the spec.
@@ -111,7 +111,7 @@ impl Interpreter {
         }
         for array in signature.results {
             let (result, others) = rest.split_at(array.len(&self.routines.description));
-            checks::finite(array.quantity, result)?;
+            checks::result_is_finite(&self.routines.description, array.quantity, result)?;
             rest = others;
         }
         Ok(())
@@ -177,6 +177,27 @@ impl Manipulator for Interpreter {
 
     fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
         Ok(Some(pose_of(&self.run(Function::DrawnPose, &[q, s, u, magnitudes])?)))
+    }
+
+    fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
+        let description = &self.routines.description;
+        if description.passive().next().is_some() {
+            let values = self.run(Function::DisplacedPose, &[q, s, errors.as_flattened()])?;
+            return Ok(pose_of(&values));
+        }
+        count(Quantity::Errors, description.frames.len(), errors.len())?;
+        let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
+        self.transforms(q, s, &mut transforms)?;
+        Ok(description.tool_pose(&transforms, errors))
+    }
+
+    fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
+        let expected = self.routines.description.passive().count();
+        count(Quantity::Passive, expected, passive.len())?;
+        if expected > 0 {
+            passive.copy_from_slice(&self.run(Function::Passive, &[q, s])?);
+        }
+        Ok(())
     }
 }
 

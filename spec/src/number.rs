@@ -87,6 +87,7 @@ pub fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> String {
 pub fn of_symbol(value: f64, symbol: Symbol, spec: &Spec) -> String {
     match symbol {
         Symbol::Variable(i) => of_variable(value, spec.variables[i].kind, spec.length),
+        Symbol::Passive(i) => of_variable(value, spec.passive[i].kind, spec.length),
         Symbol::Parameter(i) => quantity(value, &spec.parameters[i].unit),
         Symbol::Input(i) => quantity(value, &spec.inputs[i].unit),
         _ => short(value),

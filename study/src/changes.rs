@@ -172,7 +172,11 @@ impl Changes {
             match symbol {
                 Symbol::Parameter(i) => spec.parameters[i].value = value,
                 Symbol::Input(i) => spec.inputs[i].value = value,
-                Symbol::Variable(_) | Symbol::Error(_) | Symbol::Magnitude(_) | Symbol::Local(_) => {}
+                Symbol::Variable(_)
+                | Symbol::Passive(_)
+                | Symbol::Error(_)
+                | Symbol::Magnitude(_)
+                | Symbol::Local(_) => {}
             }
         }
         for &(source, on) in &self.switches {

@@ -12,6 +12,7 @@ use abbe_spec::{ChainNumber, Factor, Spec};
 
 use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
+use super::tree;
 use super::walk::walk;
 use crate::graph::{Graph, Node, Op, Vector};
 
@@ -27,7 +28,8 @@ pub struct FrameTwist {
 }
 
 /// Returns the twist of every frame that depends on a number of the chain. The tool's twist is
-/// added to the last frame's.
+/// added to that of the frame that carries it; a leg that becomes longer moves the frame at its end
+/// back.
 pub fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<FrameTwist> {
     let symbol = match number {
         ChainNumber::Joint(variable) => Symbol::Variable(variable),
@@ -49,9 +51,10 @@ pub fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<
     };
     let frames = 0..spec.frames.len();
     let mut twists: Vec<FrameTwist> = frames.map(|frame| local_twist(graph, spec, symbol, frame)).collect();
-    if let Some(last) = twists.last_mut() {
-        add_tool(graph, spec, symbol, last);
+    if let Some(carrier) = twists.get_mut(spec.tool_frame) {
+        add_tool(graph, spec, symbol, carrier);
     }
+    tree::add_lengths(graph, spec, symbol, &mut twists);
     let at_rest = [graph.zero(); 3];
     twists.retain(|twist| [twist.velocity, twist.rotation] != [at_rest; 2]);
     twists

@@ -26,6 +26,7 @@ pub(super) struct Element<'a> {
 /// Loads on the structure, in the axes of one frame B: `F_0`, or that of an element, where each
 /// angle occurs in a wrench only once.
 pub(super) struct Loads<'a> {
+    spec: &'a Spec,
     /// Poses of all frames relative to B; of those before an element, any.
     frames: &'a [Frame],
     acting: Vec<Acting>,
@@ -74,14 +75,14 @@ impl<'a> Loads<'a> {
                 weights.push(Weight { effect, end, axis: beam.axis, length, force });
             }
         }
-        Self { frames, acting, weights }
+        Self { spec, frames, acting, weights }
     }
 
     /// Creates a single force at the tool point, in the axes that the frames' poses are given in.
-    pub(super) fn at_tool(graph: &mut Graph, spec: &Spec, frames: &'a [Frame], force: Vector) -> Self {
+    pub(super) fn at_tool(graph: &mut Graph, spec: &'a Spec, frames: &'a [Frame], force: Vector) -> Self {
         let point = transform(graph, &spec.tool).position;
-        let acting = Acting { frame: frames.len() - 1, point, force, moment: [graph.zero(); 3] };
-        Self { frames, acting: vec![acting], weights: Vec::new() }
+        let acting = Acting { frame: spec.tool_frame, point, force, moment: [graph.zero(); 3] };
+        Self { spec, frames, acting: vec![acting], weights: Vec::new() }
     }
 
     /// Returns the errors `ε = C w` of a compliance, in its axes.
@@ -126,7 +127,7 @@ impl<'a> Loads<'a> {
         for load in carried {
             let lever = graph.sub_vectors(load.point, element.place.position);
             let along = graph.dot(axis, lever);
-            let behind = load.frame > element.effect.frame;
+            let behind = load.frame != element.effect.frame;
             let back = if behind { graph.zero() } else { back(graph, along, length) };
             if back == graph.zero() { beyond.push(load) } else { within.push((back, load)) }
         }
@@ -165,9 +166,10 @@ impl<'a> Loads<'a> {
     pub(super) fn on_joint(&self, graph: &mut Graph, twists: &[FrameTwist]) -> Node {
         let mut sum = graph.zero();
         for twist in twists {
-            let at_or_behind = self.acting.iter().filter(|load| load.frame >= twist.frame);
+            let at_or_behind = self.acting.iter().filter(|load| self.spec.carries(twist.frame, load.frame));
             let mut carried: Vec<Acting> = at_or_behind.copied().collect();
-            for weight in self.weights.iter().filter(|weight| weight.effect.frame >= twist.frame) {
+            let weights = self.weights.iter();
+            for weight in weights.filter(|weight| self.spec.carries(twist.frame, weight.effect.frame)) {
                 carried.push(weight.of_last(graph, weight.length));
             }
             let Frame { axes, position } = self.frames[twist.frame];
@@ -185,8 +187,11 @@ impl<'a> Loads<'a> {
     fn carried(&self, graph: &mut Graph, element: &Element<'_>) -> Vec<Acting> {
         let frame = element.effect.frame;
         let mut carried: Vec<Acting> =
-            self.acting.iter().filter(|load| load.frame >= frame).copied().collect();
-        for weight in self.weights.iter().filter(|weight| weight.effect.frame > frame) {
+            self.acting.iter().filter(|load| self.spec.carries(frame, load.frame)).copied().collect();
+        let behind = |weight: &&Weight<'_>| {
+            weight.effect.frame != frame && self.spec.carries(frame, weight.effect.frame)
+        };
+        for weight in self.weights.iter().filter(behind) {
             carried.push(weight.of_last(graph, weight.length));
         }
         carried

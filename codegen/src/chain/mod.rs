@@ -11,7 +11,8 @@
 //! order. `joint_step` (by `minors`) cancels the errors to first order and `residual` is the error
 //! left after it. `dexterity` holds rows of `J_q` (`joint_columns`), `tool_compliance` the
 //! displacement per force. `equivalent_forms` and `moving` state alternative forms, from which a
-//! program takes the cheapest. [`Model`] holds the results.
+//! program takes the cheapest. `tree` builds the same quantities for frames that branch, and for
+//! loops. [`Model`] holds the results.
 
 mod accumulate;
 mod by_source;
@@ -40,6 +41,7 @@ mod six;
 mod sources;
 mod symbol_jacobian;
 mod tool_compliance;
+mod tree;
 mod walk;
 
 pub(crate) use accumulate::Accumulated;
@@ -61,4 +63,5 @@ pub(crate) use rows::Rows;
 pub use sources::{DeviationNode, EffectNode, deviations, effects};
 pub(crate) use symbol_jacobian::swing;
 pub use tool_compliance::ToolCompliance;
+pub(crate) use tree::{CLOSED, Loops, REFINEMENTS, RealNodes};
 pub use walk::transform;

@@ -19,6 +19,7 @@ use super::real::RealChain;
 use super::rows::Rows;
 use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
+use super::tree::{self, Loops};
 use super::walk::{Step, transform, walk};
 use crate::graph::{Frame, Graph, Node, Op, Vector};
 
@@ -81,6 +82,8 @@ pub struct Model {
     pub joint_local_twists: Vec<LocalTwist>,
     /// Twists of each transform per unit of the parameters. Only for a long chain.
     pub parameter_local_twists: Vec<LocalTwist>,
+    /// How the loops close, and the exact poses with errors. Only for a tree of frames.
+    pub(crate) loops: Option<Loops>,
 }
 
 /// Largest number of frames for which straight-line code is generated. Beyond it, straight-line
@@ -90,6 +93,10 @@ pub(super) const LONGEST_WITHOUT_LOOPS: usize = 30;
 impl Model {
     /// Builds all nodes. This cannot fail for a checked spec.
     pub fn new(spec: &Spec) -> Self {
+        if spec.is_serial() { Self::chain(spec) } else { tree::model(spec) }
+    }
+
+    fn chain(spec: &Spec) -> Self {
         let mut graph = Graph::with_tables(&spec.tables);
         let g = &mut graph;
         let mut steps: Vec<Step> = Vec::new();
@@ -218,12 +225,13 @@ impl Model {
             joint_twists,
             joint_local_twists,
             parameter_local_twists,
+            loops: None,
         }
     }
 }
 
 /// Names the entries of a pose: `r2_13` is row 1, column 3 of `R_2`, `p2_x` the x of its position.
-fn name(graph: &mut Graph, frame: &Frame, index: &str) {
+pub(super) fn name(graph: &mut Graph, frame: &Frame, index: &str) {
     for (j, column) in frame.axes.iter().enumerate() {
         for (i, node) in column.iter().enumerate() {
             graph.propose(*node, || format!("r{index}_{}{}", i + 1, j + 1));
@@ -236,7 +244,7 @@ fn name(graph: &mut Graph, frame: &Frame, index: &str) {
 
 /// Names the constant lengths of a transform: `x2` is the length along x from frame 1 to frame 2,
 /// `a2` the radius where a matrix has `a cos θ` and `a sin θ`.
-fn name_lengths(graph: &mut Graph, factors: &[Factor], index: &str) {
+pub(super) fn name_lengths(graph: &mut Graph, factors: &[Factor], index: &str) {
     for factor in factors {
         match factor {
             Factor::Elementary(Elementary { motion: Motion::Translation, axis, amount }) => {
@@ -268,5 +276,5 @@ fn name_length(graph: &mut Graph, amount: Node, axis: usize, index: &str) {
 
 /// Returns `true` if the functions of the chain are loops over its frames.
 pub(crate) fn is_long(spec: &Spec) -> bool {
-    spec.frames.len() > LONGEST_WITHOUT_LOOPS
+    spec.is_serial() && spec.frames.len() > LONGEST_WITHOUT_LOOPS
 }

@@ -20,7 +20,7 @@ use super::accumulate::Links;
 use super::local::Local;
 use super::sources::Causes;
 use super::walk::{Step, apply_with, transform, walk};
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node, Vector, in_programs};
 
 /// The chain with the errors of all sources, each times its magnitude.
 pub(super) struct RealChain<'a> {
@@ -49,13 +49,34 @@ impl<'a> RealChain<'a> {
     /// Returns the poses of all frames and `A_T` of the real machine, without errors that are
     /// always zero.
     pub(super) fn poses(&self, graph: &mut Graph) -> Vec<Frame> {
-        let mut pose = graph.identity();
-        let links = 0..=self.spec.frames.len();
-        let behind = |link| {
-            pose = self.behind(graph, pose, link);
-            pose
-        };
-        links.map(behind).collect()
+        let mut poses = self.poses_below(graph, None);
+        let before = poses[self.spec.tool_frame];
+        poses.push(self.behind(graph, before, self.spec.frames.len()));
+        poses
+    }
+
+    /// Returns the poses of all frames of the real machine relative to one of them, or to `F_0`;
+    /// those of frames that do not hang on it are the identity.
+    pub(super) fn poses_below(&self, graph: &mut Graph, root: Option<usize>) -> Vec<Frame> {
+        let identity = graph.identity();
+        let mut poses = Vec::with_capacity(self.spec.frames.len() + 1);
+        for (link, frame) in self.spec.frames.iter().enumerate() {
+            let is_below = root.is_none_or(|root| root != link && self.spec.carries(root, link));
+            let before = frame.parent.map_or(identity, |parent| poses[parent]);
+            poses.push(if is_below { self.behind(graph, before, link) } else { identity });
+        }
+        poses
+    }
+
+    /// Returns a length between two frames with the deviations of its numbers.
+    pub(super) fn length(&self, graph: &mut Graph, length: &Expression) -> Node {
+        graph.lower_with(length, &|graph, symbol| self.value(graph, symbol))
+    }
+
+    /// Returns the value of a symbol with its deviation.
+    fn value(&self, graph: &mut Graph, symbol: Symbol) -> Node {
+        let node = graph.symbol(in_programs(symbol));
+        self.deviation_of(symbol).map_or(node, |error| graph.add(node, error))
     }
 
     /// Extends a pose by a link of the real machine; the tool is the last link.
@@ -175,10 +196,7 @@ impl<'a> RealChain<'a> {
             let mut unused: Vec<Step> = Vec::new();
             return walk(graph, pose, factors, &mut unused);
         }
-        let value = |graph: &mut Graph, symbol: Symbol| {
-            let node = graph.symbol(symbol);
-            self.deviation_of(symbol).map_or(node, |error| graph.add(node, error))
-        };
+        let value = |graph: &mut Graph, symbol: Symbol| self.value(graph, symbol);
         factors.iter().enumerate().fold(pose, |pose, (place, factor)| {
             let more = self.deviation_of_factor(frame, place);
             let lower = |graph: &mut Graph, amount: &Expression| {

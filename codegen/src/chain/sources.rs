@@ -114,13 +114,13 @@ pub(super) fn effects_and_causes(spec: &Spec) -> (Graph, Vec<EffectNode>, Causes
 
 /// Returns the poses of a frame (from 0) and those behind it, relative to the frame before it.
 fn poses(graph: &mut Graph, spec: &Spec, first: usize) -> Vec<Frame> {
-    let mut at = graph.identity();
-    let frames = spec.frames.iter().skip(first);
-    let poses = frames.map(|frame| {
-        at = walk(graph, at, &frame.factors, &mut Vec::new());
-        at
-    });
-    poses.collect()
+    let identity = graph.identity();
+    let mut poses: Vec<Frame> = Vec::new();
+    for frame in spec.frames.iter().skip(first) {
+        let before = frame.parent.and_then(|parent| parent.checked_sub(first)).map(|parent| poses[parent]);
+        poses.push(walk(graph, before.unwrap_or(identity), &frame.factors, &mut Vec::new()));
+    }
+    poses
 }
 
 /// Returns the effects of every enabled source, source by source, without those that are always

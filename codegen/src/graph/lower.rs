@@ -4,10 +4,19 @@ use abbe_spec::expr::{Binary, Expression, Kind, Symbol};
 
 use super::{Graph, Node};
 
+/// Returns the symbol by which nodes read a symbol of a spec: programs read passive variables from
+/// an array.
+pub(crate) fn in_programs(symbol: Symbol) -> Symbol {
+    match symbol {
+        Symbol::Passive(i) => Symbol::Local(i),
+        symbol => symbol,
+    }
+}
+
 impl Graph {
     /// Returns the node of an expression.
     pub fn lower(&mut self, expression: &Expression) -> Node {
-        self.lower_with(expression, &|graph, symbol| graph.symbol(symbol))
+        self.lower_with(expression, &|graph, symbol| graph.symbol(in_programs(symbol)))
     }
 
     /// Returns the node of an expression in which `value` gives the node of each symbol.

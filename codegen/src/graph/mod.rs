@@ -19,5 +19,6 @@ mod vector;
 
 pub use arena::Graph;
 pub use classes::Signed;
+pub(crate) use lower::in_programs;
 pub use node::{Node, Op};
 pub use vector::{Frame, Vector};

@@ -47,7 +47,7 @@ impl<'s> Names<'s> {
     /// Creates the names of a routine. Reserved words and the names of arrays, called routines and
     /// tables are not available.
     pub(super) fn new(spec: &'s Spec, routine: &Routine, reserved: &str, identifiers: Identifiers) -> Self {
-        let signatures = Function::ALL.map(Function::signature);
+        let signatures: Vec<_> = routine.function.into_iter().chain(Function::ALL).map(Function::signature).collect();
         let arrays =
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
         let arrays = arrays.map(|array| array.name).chain(routine.arrays.iter().map(|array| array.name));
@@ -152,7 +152,7 @@ impl<'s> Names<'s> {
             // Named before the body is printed, in the functions that take errors.
             Symbol::Error(i) => &self.errors[i],
             Symbol::Magnitude(i) => &self.magnitudes[i],
-            Symbol::Local(i) => &self.locals[i],
+            Symbol::Passive(i) | Symbol::Local(i) => &self.locals[i],
         }
     }
 

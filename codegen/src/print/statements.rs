@@ -376,7 +376,7 @@ fn uses(routine: &Routine, symbols: &HashSet<Symbol>, description: &Description,
             Symbol::Input(_) => "u",
             Symbol::Error(_) => return matches!(routine.arrays[array].name, "errors" | "variances"),
             Symbol::Magnitude(_) => "magnitudes",
-            Symbol::Local(_) => return false,
+            Symbol::Passive(_) | Symbol::Local(_) => return false,
         };
         name == routine.arrays[array].name
     });

@@ -1,13 +1,13 @@
 //! The description of a manipulator, a constant in generated code.
 
-use abbe_core::{Description, Effect, Frame, Input, Parameter, Source, Variable};
+use abbe_core::{Branch, Description, Effect, Frame, Input, Parameter, Source, Variable};
 use abbe_spec::Spec;
 
 use crate::chain::lower_pairs;
 
 /// Returns the description of a spec with the effects of its enabled sources.
 pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>) -> Description {
-    let frames = spec.frames.iter().zip(lower_pairs(spec));
+    let frames = spec.frames.iter().zip(lower_pairs(spec)).enumerate();
     let variables = spec.variables.iter();
     let parameters = spec.parameters.iter();
     let inputs = spec.inputs.iter();
@@ -17,19 +17,19 @@ pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>
         length: spec.length,
         orientation: spec.orientation,
         frames: frames
-            .map(|(frame, lower_pair)| Frame {
+            .map(|(index, (frame, lower_pair))| Frame {
                 name: frame.name.as_str().into(),
                 variable: frame.variable,
-                lower_pair,
+                lower_pair: lower_pair && spec.is_serial(),
+                branch: (!spec.is_serial()).then(|| Branch {
+                    parent: frame.parent,
+                    passive: frame.passive.map(|passive| variable(&spec.passive[passive])),
+                    carries_tool: index == spec.tool_frame,
+                }),
             })
             .collect(),
         variables: variables
-            .map(|variable| Variable {
-                name: variable.name.as_str().into(),
-                kind: variable.kind,
-                limits: variable.limits,
-                home: variable.home,
-            })
+            .map(variable)
             .collect(),
         parameters: parameters
             .map(|parameter| Parameter {
@@ -57,5 +57,14 @@ pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>
             })
             .collect(),
         effects: effects.into_iter().collect(),
+    }
+}
+
+fn variable(variable: &abbe_spec::Variable) -> Variable {
+    Variable {
+        name: variable.name.as_str().into(),
+        kind: variable.kind,
+        limits: variable.limits,
+        home: variable.home,
     }
 }

@@ -21,6 +21,7 @@ mod routines;
 mod select;
 mod step;
 mod straight_line;
+mod tree;
 mod write;
 
 pub use checked::Checks;

@@ -72,6 +72,8 @@ pub(super) fn alternatives(function: Function, model: &Model) -> Vec<Outputs> {
         }
         Function::RealPose => plain(vec![pose(&model.real_pose)]),
         Function::DrawnPose => plain(vec![pose(&model.drawn_pose)]),
+        // The tree of frames has their stages.
+        Function::Passive | Function::DisplacedPose => plain(vec![Vec::new()]),
         Function::CompensatorStep => plain(vec![pose(&model.real_pose), model.joint_twists.concat()]),
     }
 }

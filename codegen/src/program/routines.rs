@@ -12,6 +12,7 @@ use super::loops::Loops;
 use super::outputs::{Outputs, alternatives, fewest};
 use super::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage, Sums, Table};
 use super::select::Selections;
+use super::tree::Draft;
 use super::{Action, Operations, Program};
 use crate::chain::{EffectNode, Model, is_long};
 
@@ -20,7 +21,7 @@ use crate::chain::{EffectNode, Model, is_long};
 pub struct Routines {
     /// Description of the manipulator, which also gives the sizes of arrays.
     pub description: Description,
-    /// The functions in the order of [`Function::ALL`], then the helpers.
+    /// The functions in the order of [`Function::all`], then the helpers.
     pub list: Vec<Routine>,
     /// Names of the functions that users call, those of corrected commands among them. Others are
     /// there because these call them.
@@ -50,9 +51,10 @@ impl Routines {
         let mut list: Vec<Routine> = Vec::new();
         let mut selections = Selections::default();
         let mut known: Vec<(Function, Outputs)> = Vec::new();
-        for function in Function::ALL {
+        for function in Function::all(&description) {
             let signature = function.signature();
             let mut arrays = arguments_and_results(signature, spec.orientation);
+            let own = model.loops.as_ref().and_then(|tree| Draft::new(model, tree, &mut arrays).own_stages(function));
             let same = |outputs: &Outputs| {
                 let (other, _) =
                     known.iter().find(|(other, its)| is_same(*other, its, signature, outputs))?;
@@ -62,17 +64,19 @@ impl Routines {
             // A function with a single form that equals another function needs no program of its
             // own.
             let only = if let [only] = &alternatives[..] { same(only) } else { None };
-            let stages = if let (Function::CompensatorStep, Some(_), None) = (function, &only, &loops) {
+            let stages = if let Some(stages) = own {
+                stages
+            } else if let (Function::CompensatorStep, Some(_), None) = (function, &only, &loops) {
                 // If no errors are to be corrected, the pose has the same bits as `pose`, and the
                 // correction is 0.
                 let Outputs { results, .. } = &alternatives[0];
                 let graph = &model.graph;
                 let program = Program::after(graph, &results[0], &results.concat(), &mut selections);
-                vec![at_once(&arrays, program)]
+                at_once(model, &mut arrays, program)
             } else if let Some(call) = only {
                 vec![call]
             } else if loops.is_none() && function == Function::CompensatorStep {
-                compensator_step(model, &arrays, &description)
+                compensator_step(model, &mut arrays, &description)
             } else {
                 let (outputs, program) = fewest(alternatives, model, &mut selections);
                 let stages = if let Some(call) = same(&outputs) {
@@ -80,7 +84,7 @@ impl Routines {
                 } else {
                     let looped = loops.as_mut().filter(|_| program.steps.len() > spec.frames.len());
                     let looped = looped.and_then(|loops| loops.stages(function, &mut arrays));
-                    looped.unwrap_or_else(|| vec![at_once(&arrays, program)])
+                    looped.unwrap_or_else(|| at_once(model, &mut arrays, program))
                 };
                 known.push((function, outputs));
                 stages
@@ -93,7 +97,7 @@ impl Routines {
         list.extend(helpers);
         let lookup_tables = spec.tables.clone();
         let commands = Some(&COMPENSATED).filter(|_| !description.variables.is_empty());
-        let exported = Function::ALL.map(Function::signature).into_iter().chain(commands);
+        let exported = Function::all(&description).map(Function::signature).chain(commands);
         let exported = exported.map(|signature| signature.name).collect();
         let mut routines = Self { description, list, exported, tables, sums, lookup_tables };
         for index in 0..routines.list.len() {
@@ -143,7 +147,7 @@ impl Routines {
 
     /// Iterates over the signatures of the exported functions, in their order.
     pub fn signatures(&self) -> impl Iterator<Item = &'static Signature> {
-        let all = Function::ALL.map(Function::signature).into_iter().chain([&COMPENSATED]);
+        let all = Function::all(&self.description).map(Function::signature).chain([&COMPENSATED]);
         all.filter(|signature| self.exported.contains(&signature.name))
     }
 
@@ -243,25 +247,35 @@ fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec
     arguments.chain(results).chain(signature.has_margin(orientation).then_some(margin)).collect()
 }
 
-/// Returns a stage with a program that fills all results.
-fn at_once(arrays: &[Array], program: Program) -> Stage {
+/// Returns the stages with a program that fills all results.
+fn at_once(model: &Model, arrays: &mut Vec<Array>, program: Program) -> Vec<Stage> {
+    if let Some(tree) = &model.loops {
+        return Draft::new(model, tree, arrays).at_once(program, None);
+    }
     let filled = |(_, array): &(usize, &Array)| array.role != Role::Argument;
     let writes =
         arrays.iter().enumerate().filter(filled).map(|(array, _)| ArrayRows { array, row: Row::All });
-    Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })
+    vec![Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })]
 }
 
 /// Returns the stages for the real pose and for the nominal twists of the joints, which share
 /// almost no operations.
-fn compensator_step(model: &Model, arrays: &[Array], description: &Description) -> Vec<Stage> {
+fn compensator_step(model: &Model, arrays: &mut Vec<Array>, description: &Description) -> Vec<Stage> {
     let is_columns = |array: &Array| array.name == "columns";
     let (columns, others): (Vec<_>, Vec<_>) =
         (0..arrays.len()).partition(|index| is_columns(&arrays[*index]));
     let mut stages = vec![Stage::Call { routine: Function::RealPose.name(), arrays: others }];
-    for array in columns.into_iter().filter(|array| !arrays[*array].is_empty(description)) {
+    let columns: Vec<usize> =
+        columns.into_iter().filter(|array| !arrays[*array].is_empty(description)).collect();
+    for array in columns {
         let program = Program::new(&model.graph, &model.joint_twists.concat());
-        let writes = vec![ArrayRows { array, row: Row::All }];
-        stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
+        match &model.loops {
+            Some(tree) => stages.extend(Draft::new(model, tree, arrays).at_once(program, Some(vec![array]))),
+            None => {
+                let writes = vec![ArrayRows { array, row: Row::All }];
+                stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
+            }
+        }
     }
     stages
 }

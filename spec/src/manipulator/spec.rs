@@ -101,6 +101,24 @@ impl Spec {
         path
     }
 
+    /// Returns `true` if a frame moves with another one: that frame itself, or one that hangs on it.
+    pub fn carries(&self, frame: usize, other: usize) -> bool {
+        std::iter::successors(Some(other), |at| self.frames[*at].parent).any(|at| at == frame)
+    }
+
+    /// Returns the end of a loop that belongs to it alone, and −1 for the first frame or 1 for the
+    /// second: nothing hangs on it, no other loop ends there, and it does not carry the tool.
+    pub fn own_end(&self, closed: &Loop) -> Option<(usize, f64)> {
+        let is_own = |frame: usize| {
+            let uses = self.loops.iter().flat_map(|other| other.frames).filter(|end| *end == Some(frame));
+            frame != self.tool_frame
+                && uses.count() == 1
+                && self.frames.iter().all(|other| other.parent != Some(frame))
+        };
+        let ends = closed.frames.into_iter().zip([-1.0, 1.0]);
+        ends.filter_map(|(frame, sign)| Some((frame?, sign))).find(|(frame, _)| is_own(*frame))
+    }
+
     /// Returns the number of equations of all loops.
     pub fn equations(&self) -> usize {
         self.loops.iter().map(|closed| closed.closure.equations()).sum()

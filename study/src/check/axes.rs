@@ -181,7 +181,8 @@ fn values(graph: &Graph, spec: &Spec, nodes: &[Node], nominal: bool) -> Vec<f64>
         Symbol::Parameter(i) => spec.parameters[i].value,
         Symbol::Input(i) if nominal => spec.inputs[i].value,
         Symbol::Input(i) => spec.inputs[i].range[1],
-        Symbol::Error(_) | Symbol::Local(_) | Symbol::Magnitude(_) => f64::NAN,
+        Symbol::Passive(i) | Symbol::Local(i) => spec.passive[i].home,
+        Symbol::Error(_) | Symbol::Magnitude(_) => f64::NAN,
     })
 }
 

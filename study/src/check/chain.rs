@@ -119,6 +119,8 @@ pub(super) fn value_at_home(symbol: Symbol, spec: &Spec) -> f64 {
         Symbol::Variable(i) => spec.variables[i].home,
         Symbol::Parameter(i) => spec.parameters[i].value,
         Symbol::Input(i) => spec.inputs[i].value,
-        Symbol::Magnitude(_) | Symbol::Error(_) | Symbol::Local(_) => 0.0,
+        // Nodes read passive variables as local symbols.
+        Symbol::Passive(i) | Symbol::Local(i) => spec.passive.get(i).map_or(0.0, |variable| variable.home),
+        Symbol::Magnitude(_) | Symbol::Error(_) => 0.0,
     }
 }

@@ -94,7 +94,11 @@ fn constant(graph: &Graph, spec: &Spec, velocity: [Node; 3], rotation: [Node; 3]
         graph.evaluate(&nodes, |symbol| match symbol {
             Symbol::Variable(i) => spec.variables[i].home + (1.3 * (sample * (i + 2)) as f64).sin(),
             Symbol::Parameter(i) => spec.parameters[i].value,
-            Symbol::Input(_) | Symbol::Error(_) | Symbol::Local(_) | Symbol::Magnitude(_) => f64::NAN,
+            Symbol::Passive(_)
+            | Symbol::Input(_)
+            | Symbol::Error(_)
+            | Symbol::Local(_)
+            | Symbol::Magnitude(_) => f64::NAN,
         })
     };
     let first = at(0);

@@ -35,6 +35,7 @@ mod interpreter;
 mod json_reference;
 mod laws;
 mod long_chains;
+mod loops;
 mod machine_tool;
 mod mounting;
 mod mutants;

@@ -215,6 +215,7 @@ fn values(given: &Given, model: &Model, function: Function) -> Option<Vec<Vec<f6
 fn value_of(given: &Given, function: Function, symbol: Symbol) -> f64 {
     match symbol {
         Symbol::Variable(k) => given[0].1[k],
+        Symbol::Passive(_) => f64::NAN,
         Symbol::Parameter(k) => given[1].1[k],
         Symbol::Input(k) => given[2].1[k],
         Symbol::Error(k) if function == Function::Covariance => given[4].1[k],

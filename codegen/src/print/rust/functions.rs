@@ -115,6 +115,7 @@ fn size(count: Count) -> String {
         Count::Errors => "ERRORS",
         Count::Distinct => "DISTINCT",
         Count::Variables => "VARIABLES",
+        Count::Passive => "PASSIVE",
         Count::Parameters => "PARAMETERS",
         Count::Inputs => "INPUTS",
         Count::Effects => "EFFECTS",

@@ -31,7 +31,11 @@ impl Loops<'_> {
     pub(super) fn stages(&mut self, function: Function, arrays: &mut Vec<Array>) -> Option<Vec<Stage>> {
         let mut draft = Draft::new(self, arrays);
         match function {
-            Function::Effects | Function::GeneralizedErrors => return None,
+            // The last two are functions of trees, which have no loops over their frames.
+            Function::Effects
+            | Function::GeneralizedErrors
+            | Function::Passive
+            | Function::DisplacedPose => return None,
             Function::Transforms => draft.transforms(),
             Function::Pose => draft.pose(),
             Function::ErrorJacobian => draft.error_jacobian(false),

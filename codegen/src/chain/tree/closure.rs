@@ -1,0 +1,141 @@
+//! Equations of a loop, and their rates.
+//!
+//! With the frames a and b of a loop, c the frame that b hangs on, and `d = p_a − p_b`:
+//!
+//! ```text
+//! position    R_cᵀ d                         R_cᵀ (v_a − v_b − ω_c × d)
+//! rotation    vee(R_cᵀ W R_c), W = R_a R_bᵀ  R_cᵀ ((tr W I − W)(ω_a − ω_c) − (tr W I − Wᵀ)(ω_b − ω_c)) / 2
+//! distance    |d| − l                        d · (v_a − v_b) / |d| − l̇
+//! ```
+//!
+//! `vee` takes the vector of the antisymmetric part. The rates of the rotation follow from `[ω] W +
+//! Wᵀ [ω] = [(tr W I − W) ω]`.
+
+use abbe_spec::{Closure, Loop, Spec};
+
+use super::view::{Motion, View};
+use crate::graph::{Frame, Graph, Node, Vector};
+
+/// Frames of a loop.
+#[derive(Clone, Copy)]
+pub(super) struct Ends {
+    first: Option<usize>,
+    second: Option<usize>,
+    /// The frame in whose axes coordinates are given.
+    axes: Option<usize>,
+}
+
+impl Ends {
+    /// Returns the frames of a loop. The axes of a distance are those of its second frame: they have
+    /// no influence.
+    pub(super) fn new(spec: &Spec, closed: &Loop) -> Self {
+        let [first, second] = closed.frames;
+        let axes = match closed.closure {
+            Closure::Coordinates(_) => second.and_then(|second| spec.frames[second].parent),
+            Closure::Distance(_) => second,
+        };
+        Self { first, second, axes }
+    }
+
+    /// Returns the last frame that carries all of them; `None` for `F_0`.
+    pub(super) fn root(self, spec: &Spec) -> Option<usize> {
+        let paths = [self.first, self.second, self.axes].map(|frame| spec.path(frame));
+        let is_common = |frame: &&usize| paths.iter().all(|path| path.contains(frame));
+        paths[0].iter().rev().find(is_common).copied()
+    }
+}
+
+/// Returns the equations of a loop, which are zero where it closes, from the poses of its frames.
+pub(super) fn residual(
+    graph: &mut Graph,
+    ends: Ends,
+    closure: &Closure,
+    length: Option<Node>,
+    pose: impl Fn(Option<usize>) -> Frame,
+) -> Vec<Node> {
+    let [a, b, c] = [ends.first, ends.second, ends.axes].map(pose);
+    let difference = graph.sub_vectors(a.position, b.position);
+    match (closure, length) {
+        (Closure::Coordinates(coordinates), _) => {
+            let mut rows = c.axes.map(|axis| graph.dot(axis, difference)).to_vec();
+            if coordinates.iter().any(|coordinate| *coordinate >= 3) {
+                // Entry (i, j) of W is the sum over the columns of a and b.
+                let relative = relative(graph, &a, &b);
+                let antisymmetric: Vector = std::array::from_fn(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    graph.sub(relative[j][k], relative[k][j])
+                });
+                let half = graph.constant(0.5);
+                let vector = graph.scale(half, antisymmetric);
+                rows.extend(c.axes.map(|axis| graph.dot(axis, vector)));
+            }
+            coordinates.iter().map(|coordinate| rows[*coordinate]).collect()
+        }
+        (Closure::Distance(_), length) => {
+            let square = graph.dot(difference, difference);
+            let distance = graph.sqrt(square);
+            let length = length.unwrap_or(graph.zero());
+            vec![graph.sub(distance, length)]
+        }
+    }
+}
+
+/// Returns the rates of the equations under motions of frames; `length` is the rate of the length.
+pub(super) fn rate(
+    graph: &mut Graph,
+    view: &View<'_>,
+    ends: Ends,
+    closure: &Closure,
+    motions: &[Motion],
+    length: Node,
+) -> Vec<Node> {
+    let all = [ends.first, ends.second, ends.axes];
+    // What moves the loop as a whole does not change it.
+    let changes = |motion: &&Motion| all.iter().any(|frame| !view.moves(motion.frame, *frame));
+    let motions: Vec<&Motion> = motions.iter().filter(changes).collect();
+    let [a, b, c] = all.map(|frame| *view.pose(frame));
+    let [at_a, at_b, at_c] = all.map(|frame| view.twist(graph, motions.iter().copied(), frame));
+    let difference = graph.sub_vectors(a.position, b.position);
+    let velocity = graph.sub_vectors(at_a[0], at_b[0]);
+    match closure {
+        Closure::Coordinates(coordinates) => {
+            let swing = graph.cross(at_c[1], difference);
+            let velocity = graph.sub_vectors(velocity, swing);
+            let mut rows = c.axes.map(|axis| graph.dot(axis, velocity)).to_vec();
+            if coordinates.iter().any(|coordinate| *coordinate >= 3) {
+                let columns = relative(graph, &a, &b);
+                let transposed = std::array::from_fn(|i| columns.map(|column: Vector| column[i]));
+                let turns = [at_a, at_b].map(|twist| graph.sub_vectors(twist[1], at_c[1]));
+                let first = traced(graph, &columns, turns[0]);
+                let second = traced(graph, &transposed, turns[1]);
+                let (half, change) = (graph.constant(0.5), graph.sub_vectors(first, second));
+                let change = graph.scale(half, change);
+                rows.extend(c.axes.map(|axis| graph.dot(axis, change)));
+            }
+            coordinates.iter().map(|coordinate| rows[*coordinate]).collect()
+        }
+        Closure::Distance(_) => {
+            let square = graph.dot(difference, difference);
+            let distance = graph.sqrt(square);
+            let along = graph.dot(difference, velocity);
+            let change = graph.div(along, distance);
+            vec![graph.sub(change, length)]
+        }
+    }
+}
+
+/// Returns the columns of `W = R_a R_bᵀ`.
+fn relative(graph: &mut Graph, a: &Frame, b: &Frame) -> [Vector; 3] {
+    std::array::from_fn(|column| {
+        let row = b.axes.map(|axis| axis[column]);
+        graph.turn(&a.axes, row)
+    })
+}
+
+/// Returns `(tr W I − W) ω`.
+fn traced(graph: &mut Graph, columns: &[Vector; 3], omega: Vector) -> Vector {
+    let sum = graph.add(columns[0][0], columns[1][1]);
+    let trace = graph.add(sum, columns[2][2]);
+    let (whole, part) = (graph.scale(trace, omega), graph.turn(columns, omega));
+    graph.sub_vectors(whole, part)
+}

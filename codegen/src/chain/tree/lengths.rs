@@ -1,0 +1,37 @@
+//! Errors of the lengths of legs and struts as errors of the frames at their ends.
+
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Closure, Spec};
+
+use super::closure::Ends;
+use super::view::View;
+use crate::chain::FrameTwist;
+use crate::graph::{Graph, in_programs};
+
+/// Adds the twists that are equivalent to the change of lengths per unit of a symbol. A leg from b
+/// to a that is longer by `δl` has the effect of its end a, displaced against the direction `u = (p_a
+/// − p_b) / |p_a − p_b|`, or of its end b, displaced along it:
+///
+/// ```text
+/// δp_a = −u δl        δp_b = u δl
+/// ```
+pub(crate) fn add_lengths(graph: &mut Graph, spec: &Spec, symbol: Symbol, twists: &mut [FrameTwist]) {
+    for closed in &spec.loops {
+        let Closure::Distance(length) = &closed.closure else { continue };
+        let length = graph.lower(length);
+        let slope = graph.diff(length, in_programs(symbol));
+        let Some((end, sign)) = spec.own_end(closed).filter(|_| slope != graph.zero()) else { continue };
+        let ends = Ends::new(spec, closed);
+        let view = View::new(graph, spec, ends.root(spec));
+        let [a, b] = closed.frames.map(|frame| *view.pose(frame));
+        let difference = graph.sub_vectors(a.position, b.position);
+        let square = graph.dot(difference, difference);
+        let distance = graph.sqrt(square);
+        let signed = graph.constant(sign);
+        let change = graph.mul(signed, slope);
+        let per_length = graph.div(change, distance);
+        let shift = graph.scale(per_length, difference);
+        let shift = view.pose(Some(end)).axes.map(|axis| graph.dot(axis, shift));
+        twists[end].velocity = graph.add_vectors(twists[end].velocity, shift);
+    }
+}

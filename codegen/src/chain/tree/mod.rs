@@ -1,0 +1,23 @@
+//! Frames that branch, and loops: the quantities of a model by the structured rule.
+//!
+//! `view` holds the poses of the frames below one of them, and moves them; `closure` states the
+//! equations φ of a loop and their rates under such motions. `factored` solves `φ_p x = b` in
+//! straight-line code. `model` eliminates the passive variables:
+//!
+//! ```text
+//! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε
+//! ```
+//!
+//! `loops` has Newton's steps for p, of the nominal machine and with errors. `lengths` converts
+//! errors of the lengths of legs to errors of frames.
+
+mod closure;
+mod factored;
+mod lengths;
+mod loops;
+mod model;
+mod view;
+
+pub(super) use lengths::add_lengths;
+pub(crate) use loops::{CLOSED, Loops, REFINEMENTS, RealNodes};
+pub(super) use model::model;
