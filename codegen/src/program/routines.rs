@@ -62,8 +62,10 @@ impl Routines {
             };
             let alternatives = alternatives(function, model);
             // A function with a single form that equals another function needs no program of its
-            // own.
-            let only = if let [only] = &alternatives[..] { same(only) } else { None };
+            // own. Errors that move passive variables change the pose, not its nodes.
+            let is_moved = function == Function::CompensatorStep
+                && model.loops.as_ref().is_some_and(|tree| tree.real.moves_passive(tree));
+            let only = if let [only] = &alternatives[..] { same(only).filter(|_| !is_moved) } else { None };
             let stages = if let Some(stages) = own {
                 stages
             } else if let (Function::CompensatorStep, Some(_), None) = (function, &only, &loops) {

@@ -30,7 +30,7 @@ impl<'d> Draft<'d> {
         if loops.passive_home.is_empty() {
             return None;
         }
-        let is_pose = |real: &RealNodes| real.pose == self.model.tool && real.step == loops.step;
+        let is_pose = |real: &RealNodes| real.pose == self.model.tool && !real.moves_passive(loops);
         match function {
             Function::Passive => self.passive(),
             Function::RealPose if !is_pose(&loops.real) => self.real_pose(&loops.real),

@@ -52,3 +52,10 @@ fn laws_hold() {
     let machine = interpreter(FOUR_BAR);
     laws::all(&machine, 50).unwrap_or_else(|failure| panic!("{failure}"));
 }
+
+#[test]
+fn batches_equal_single_configurations() {
+    let machine = interpreter(FOUR_BAR);
+    let found = laws::batches(&machine, 50).unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(found.relative <= laws::ROUNDING_TOLERANCE, "{found:?}");
+}

@@ -181,6 +181,11 @@ impl RealNodes {
         Self::of_chain(graph, spec, &chain, Vec::new())
     }
 
+    /// Returns `true` if the errors move the passive variables from their nominal values.
+    pub(crate) fn moves_passive(&self, nominal: &Loops) -> bool {
+        self.step != nominal.step
+    }
+
     fn of_chain(graph: &mut Graph, spec: &Spec, chain: &RealChain<'_>, errors: Vec<Node>) -> Self {
         let poses = chain.poses(graph);
         let mut residual = Vec::new();

@@ -5,8 +5,8 @@ use super::{Discrepancy, Failure};
 use crate::function::{Array, Count};
 use crate::lanes::Sweepable;
 use crate::lanes::{Batches, InstructionSet, Tiles, one_by_one};
-use crate::sampling;
-use crate::{Error, Function, Manipulator, Quantity};
+use crate::{Description, Error, Function, Manipulator, Quantity};
+use crate::{distinct, sampling};
 
 /// Compares every function evaluated in batches with the methods for one configuration, on every
 /// instruction set of this machine. Lengths are relative to the arm length.
@@ -94,10 +94,7 @@ fn scales(array: &Array, subject: &Subject) -> Vec<f64> {
     let column = [arm, arm, arm, 1.0, 1.0, 1.0];
     let unit = match *array.shape {
         [.., Count::Exactly(4), Count::Exactly(3)] => [[1.0; 9].as_slice(), &[arm; 3]].concat(),
-        [Count::Frames, Count::Distinct, Count::Exactly(3)] => {
-            let numbers = [[1.0; 9], [arm; 9], [1.0; 9]].concat();
-            numbers[..3 * Count::Distinct.value(description)].to_vec()
-        }
+        [Count::Frames, Count::Distinct, Count::Exactly(3)] => distinct_scales(description, arm),
         [Count::Exactly(6), Count::Exactly(6)] => column.iter().flat_map(|a| column.map(|b| a * b)).collect(),
         [.., Count::Exactly(6)] => column.to_vec(),
         [Count::Effects] => {
@@ -107,4 +104,15 @@ fn scales(array: &Array, subject: &Subject) -> Vec<f64> {
         _ => vec![1.0],
     };
     unit.into_iter().cycle().take(array.len(description)).collect()
+}
+
+/// Returns the scales of the distinct numbers of a frame.
+fn distinct_scales(description: &Description, arm: f64) -> Vec<f64> {
+    match distinct::vectors_of(description) {
+        // Rows 1–3 and rows 4–6 of each column: three translations, then three rotations.
+        distinct::VECTORS_OF_TREE => {
+            [[[1.0; 3], [1.0 / arm; 3]].concat().repeat(3), [[arm; 3], [1.0; 3]].concat().repeat(3)].concat()
+        }
+        vectors => [[1.0; 9], [arm; 9], [1.0; 9]].concat()[..3 * vectors].to_vec(),
+    }
 }
