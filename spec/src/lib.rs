@@ -45,6 +45,6 @@ mod not_toml;
 pub use manipulator::{
     Axes, Beam, Cause, ChainNumber, Closure, Compliance, Covariance, Deviation, DeviationCause, DhConvention,
     DhNumber, Effect, Factor, Fitted, Frame, Identified, Input, Load, Loop, MAGNITUDE, Magnitude, Matrix,
-    Parameter, Point, Source, Spec, TABLES, Uncertain, Undetermined, Variable, as_identifier, check_name,
-    rules,
+    Parameter, Point, Source, Spec, TABLES, Tree, Uncertain, Undetermined, Variable, as_identifier,
+    check_name, rules,
 };

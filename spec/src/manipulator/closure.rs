@@ -31,6 +31,14 @@ impl Closure {
     /// Names of the six coordinates.
     pub const COORDINATES: [&'static str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
+    /// Returns the distance; `None` for coordinates.
+    pub fn length(&self) -> Option<&Expression> {
+        match self {
+            Self::Distance(length) => Some(length),
+            Self::Coordinates(_) => None,
+        }
+    }
+
     /// Returns the number of equations.
     pub fn equations(&self) -> usize {
         match self {

@@ -2,7 +2,7 @@
 
 use super::chain_number::DhConvention;
 use crate::diagnostic::Span;
-use crate::expr::{Elementary, Expression, Motion};
+use crate::expr::{Elementary, Expression, Motion, Symbol};
 
 /// A frame `F_i` and its transform from the frame that it hangs on: `F_{i-1}`, unless it begins a
 /// branch.
@@ -49,6 +49,13 @@ pub struct Matrix {
     pub rows: [[Expression; 4]; 3],
     /// Location in the file.
     pub span: Span,
+}
+
+impl Frame {
+    /// Returns the symbols on which the transform depends.
+    pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
+        self.factors.iter().flat_map(Factor::expressions).flat_map(Expression::symbols)
+    }
 }
 
 impl Factor {

@@ -33,6 +33,6 @@ pub enum Axes {
 pub enum Point {
     /// Position relative to the frame.
     Here([Expression; 3]),
-    /// The tool point; the frame is the last one.
+    /// The tool point; the frame is the one that carries the tool.
     Tool,
 }

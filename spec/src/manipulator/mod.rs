@@ -13,6 +13,7 @@ mod names;
 mod read;
 mod source;
 mod spec;
+mod tree;
 mod tunable;
 mod undetermined;
 
@@ -27,5 +28,6 @@ pub use names::{as_identifier, check_name};
 pub use read::keys::{TABLES, rules};
 pub use source::{Beam, Cause, Compliance, Deviation, DeviationCause, Effect, Magnitude, Source, Uncertain};
 pub use spec::Spec;
+pub use tree::Tree;
 pub use tunable::MAGNITUDE;
 pub use undetermined::Undetermined;

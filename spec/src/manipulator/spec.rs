@@ -7,13 +7,14 @@ use abbe_core::{Class, LengthUnit, Orientation};
 use indexmap::IndexSet;
 
 use super::chain_number::ChainNumber;
-use super::closure::{Closure, Loop};
+use super::closure::Loop;
 use super::covariance::Covariance;
 use super::declared::{Input, Parameter, Variable};
 use super::fitted::Fitted;
 use super::frame::{Factor, Frame};
 use super::load::Load;
 use super::source::{Deviation, Source, Uncertain};
+use super::tree::Tree;
 use super::undetermined::Undetermined;
 use crate::expr::{Expression, Symbol, Table};
 
@@ -84,39 +85,29 @@ impl Spec {
         self.frames.iter().map(|frame| &frame.factors).chain([&self.tool]).map(variables).collect()
     }
 
+    /// Returns the frames and loops as a tree.
+    pub fn tree(&self) -> Tree<'_> {
+        Tree { frames: &self.frames, loops: &self.loops, tool_frame: self.tool_frame }
+    }
+
     /// Returns `true` if the frames are a chain from the base to the tool, without loops.
     pub fn is_serial(&self) -> bool {
-        let follows = |(i, frame): (usize, &Frame)| frame.parent == i.checked_sub(1);
-        self.passive.is_empty()
-            && self.loops.is_empty()
-            && self.tool_frame + 1 == self.frames.len()
-            && self.frames.iter().enumerate().all(follows)
+        self.tree().is_serial()
     }
 
     /// Returns the frames from `F_0` to a frame, this one last; none for `F_0` itself.
     pub fn path(&self, frame: Option<usize>) -> Vec<usize> {
-        let mut path: Vec<usize> =
-            std::iter::successors(frame, |frame| self.frames[*frame].parent).collect();
-        path.reverse();
-        path
+        self.tree().path(frame)
     }
 
     /// Returns `true` if a frame moves with another one: that frame itself, or one that hangs on it.
     pub fn carries(&self, frame: usize, other: usize) -> bool {
-        std::iter::successors(Some(other), |at| self.frames[*at].parent).any(|at| at == frame)
+        self.tree().carries(frame, other)
     }
 
-    /// Returns the end of a loop that belongs to it alone, and −1 for the first frame or 1 for the
-    /// second: nothing hangs on it, no other loop ends there, and it does not carry the tool.
+    /// Returns the end of a loop that belongs to it alone, see [`Tree::own_end`].
     pub fn own_end(&self, closed: &Loop) -> Option<(usize, f64)> {
-        let is_own = |frame: usize| {
-            let uses = self.loops.iter().flat_map(|other| other.frames).filter(|end| *end == Some(frame));
-            frame != self.tool_frame
-                && uses.count() == 1
-                && self.frames.iter().all(|other| other.parent != Some(frame))
-        };
-        let ends = closed.frames.into_iter().zip([-1.0, 1.0]);
-        ends.filter_map(|(frame, sign)| Some((frame?, sign))).find(|(frame, _)| is_own(*frame))
+        self.tree().own_end(closed)
     }
 
     /// Returns the number of equations of all loops.
@@ -126,10 +117,7 @@ impl Spec {
 
     /// Returns the lengths of the loops that close by a distance.
     pub fn lengths(&self) -> impl Iterator<Item = &Expression> {
-        self.loops.iter().filter_map(|closed| match &closed.closure {
-            Closure::Distance(length) => Some(length),
-            Closure::Coordinates(_) => None,
-        })
+        self.loops.iter().filter_map(|closed| closed.closure.length())
     }
 
     /// Returns the same manipulator with all tables held at their ends: where corrected commands

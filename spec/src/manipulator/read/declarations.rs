@@ -122,13 +122,12 @@ impl Declarations {
     pub(super) fn read_variable(
         &mut self,
         frame: usize,
-        known: &[&Keys],
         item: &Item<'_>,
         document: &mut Document,
     ) -> Option<Symbol> {
         let mut table = document.section(item)?;
         table.name = "`variable`".to_owned();
-        table.check_keys(known, document);
+        table.check_keys(&[&keys::VARIABLE, &keys::FRAME_VARIABLE], document);
         let name_item = table.required("name", document);
         let kind = table.required("kind", document).and_then(|kind| document.choice(&kind, &JOINT_KINDS));
         let dimension = kind.map(|kind| match kind {
@@ -137,7 +136,7 @@ impl Declarations {
         });
         let name_item = name_item?;
         let name = document.string(&name_item)?;
-        let passive = table.get("passive").filter(|_| known.iter().any(|keys| keys.contain("passive")));
+        let passive = table.get("passive");
         let is_passive = passive.and_then(|item| document.boolean(&item)).unwrap_or(false);
         let symbol = match is_passive {
             true => Symbol::Passive(self.passive.len()),

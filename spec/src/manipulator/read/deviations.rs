@@ -7,14 +7,13 @@ use super::keys;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
-use crate::manipulator::{ChainNumber, Closure, Deviation, DeviationCause, DhNumber, Factor, Frame, Loop};
+use crate::manipulator::{ChainNumber, Deviation, DeviationCause, DhNumber, Factor, Tree};
 use crate::value::find_name;
 
 /// Nominal chain as far as it could be read; `tool` is `None` after a mistake in it.
 #[derive(Clone, Copy)]
 pub(super) struct Chain<'a> {
-    pub(super) frames: &'a [Frame],
-    pub(super) loops: &'a [Loop],
+    pub(super) tree: Tree<'a>,
     pub(super) tool: Option<&'a [Factor]>,
     pub(super) scope: &'a Scope,
 }
@@ -23,13 +22,10 @@ impl Chain<'_> {
     /// Returns `true` if a symbol occurs in an `A_i` or the tool, or may occur in one that has a
     /// mistake.
     fn uses(&self, symbol: Symbol) -> bool {
-        let mistaken = self.tool.is_none() || self.frames.iter().any(|frame| frame.factors.is_empty());
-        let factors =
-            self.frames.iter().flat_map(|frame| &frame.factors).chain(self.tool.unwrap_or_default());
-        let lengths = self.loops.iter().filter_map(|closed| match &closed.closure {
-            Closure::Distance(length) => Some(length),
-            Closure::Coordinates(_) => None,
-        });
+        let Tree { frames, loops, .. } = self.tree;
+        let mistaken = self.tool.is_none() || frames.iter().any(|frame| frame.factors.is_empty());
+        let factors = frames.iter().flat_map(|frame| &frame.factors).chain(self.tool.unwrap_or_default());
+        let lengths = loops.iter().filter_map(|closed| closed.closure.length());
         let mut expressions = factors.flat_map(Factor::expressions).chain(lengths);
         mistaken || expressions.any(|e| e.symbols().any(|used| used == symbol))
     }
@@ -164,14 +160,25 @@ fn find_symbol(
         _ => false,
     };
     let declared = chain.scope.names.get(&name);
+    if let Some(passive) =
+        declared.filter(|declared| matches!(declared.symbol, Symbol::Passive(_)) && of_joint)
+    {
+        document.mistake(
+            Diagnostic::new(
+                place.span(),
+                format!("the passive joint `{name}` has no error and no stiffness"),
+            )
+            .label("the loops determine its value")
+            .context(passive.span.clone(), "declared here")
+            .help("give the clearance of its bearing as errors e_x … e_p of its `frame`"),
+        );
+        return None;
+    }
     if let Some(other) = declared.filter(|declared| !fits(declared.symbol)) {
         let (kind, help) = match other.symbol {
             Symbol::Variable(_) => ("a joint", format!("write joint = \"{name}\"")),
             Symbol::Parameter(_) => ("a parameter", format!("write parameter = \"{name}\"")),
-            Symbol::Passive(_) => (
-                "a passive joint",
-                "the loops take up an error along its motion; give its clearance as errors of its frame".to_owned(),
-            ),
+            Symbol::Passive(_) => ("a passive joint", "give errors e_x … e_p of its `frame`".to_owned()),
             _ => ("an input", "an input can be used in `error`, but is not part of the chain".to_owned()),
         };
         document.mistake(
@@ -183,7 +190,7 @@ fn find_symbol(
     }
     let known = chain.scope.names.iter().filter(|(_, declared)| fits(declared.symbol));
     let known: Vec<&str> = known.map(|(name, _)| name.as_str()).collect();
-    if let Some(frame) = chain.frames.iter().find(|frame| frame.name == name && declared.is_none())
+    if let Some(frame) = chain.tree.frames.iter().find(|frame| frame.name == name && declared.is_none())
         && of_joint
         && let Some(joint) = frame.variable.and_then(|variable| known.get(variable))
     {
@@ -222,12 +229,12 @@ fn read_numbers(
     table.name = "`dh`".to_owned();
     table.check_keys(&[&keys::NUMBERS], document);
     let named = section.required("frame", document)?;
-    let frame = find_frame(&named, chain.frames, document)?;
-    if chain.frames[frame].convention.is_none() && !chain.frames[frame].factors.is_empty() {
+    let frame = find_frame(&named, chain.tree.frames, document)?;
+    if chain.tree.frames[frame].convention.is_none() && !chain.tree.frames[frame].factors.is_empty() {
         document.mistake(
             Diagnostic::new(
                 named.span(),
-                format!("the frame \"{}\" has no Denavit-Hartenberg numbers", chain.frames[frame].name),
+                format!("the frame \"{}\" has no Denavit-Hartenberg numbers", chain.tree.frames[frame].name),
             )
             .label("not given by `dh` or `mdh`")
             .help("give its errors e_x, e_y, e_z, e_s, e_r, e_p, or those of a `joint` or `parameter`"),

@@ -3,7 +3,8 @@
 use abbe_core::{Component, Distribution};
 
 use super::choices::{
-    BEAM_AXES, CLASSES, CLOSURES, INTERPOLATIONS, JOINT_KINDS, LENGTHS, LOAD_AXES, ORIENTATIONS, OUTSIDE, TOOL,
+    BEAM_AXES, CLASSES, CLOSURES, INTERPOLATIONS, JOINT_KINDS, LENGTHS, LOAD_AXES, ORIENTATIONS, OUTSIDE,
+    TOOL,
 };
 use crate::keys::Value::{self, Boolean, Choice, Either, List, Names, Number, Table, Tables, Text};
 use crate::keys::{Rule, Then, When, words};
@@ -89,7 +90,7 @@ crate::tables! {
         "variable": Table("[frame.variable]"), "-", "none: the frame is fixed", "Joint variable that moves the frame";
     ]
     TOOL_FRAME: ["[tool]"], [
-        "frame": Text("name of a frame"), "-", "the last frame", "Frame that carries the tool";
+        "frame": Text("name of a frame"), "-", "the last frame of the first chain, before any `parent`", "Frame that carries the tool";
     ]
     DESCRIBED: ["[[frame]]", "[tool]"], [
         "description": Text("text"), "-", "empty", "Description, for people";
@@ -247,7 +248,7 @@ crate::tables! {
             "Axes of `force` and `moment`: those of the moving frame, or those of `F_0`";
         "frame": Text("name of a frame"), "-", "required", "Frame that carries the load";
         "point": Either("three expressions, or `\"tool\"`", &[List("", Some(3), &EXPRESSION), Choice(|| words(&TOOL))]), "length unit", "the frame's origin",
-            "Point of action in that frame; `\"tool\"` is the tool point, with the last frame";
+            "Point of action in that frame; `\"tool\"` is the tool point, with the frame that carries the tool";
         "description": Text("text"), "-", "empty", "Description of the load, for people";
         "reference": Text("text"), "-", "empty", "Origin of the values";
     ]

@@ -6,12 +6,12 @@ use super::keys;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
-use crate::manipulator::{Axes, Cause, ChainNumber, Effect, Frame, Load, Point, Source, Variable};
+use crate::manipulator::{Axes, Cause, ChainNumber, Effect, Load, Point, Source, Tree, Variable};
 
 /// Reads all loads of a spec.
 pub(super) fn read_loads(
     root: &Section<'_>,
-    frames: &[Frame],
+    tree: Tree<'_>,
     scope: &Scope,
     document: &mut Document,
 ) -> Vec<Load> {
@@ -25,18 +25,13 @@ pub(super) fn read_loads(
             for text in ["name", "description", "reference"] {
                 section.optional_text(text, document);
             }
-            loads.extend(read_load(&section, frames, scope, document));
+            loads.extend(read_load(&section, tree, scope, document));
         }
     }
     loads
 }
 
-fn read_load(
-    section: &Section<'_>,
-    frames: &[Frame],
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Load> {
+fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope, document: &mut Document) -> Option<Load> {
     let acts = ["mass", "force", "moment"].map(|key| section.get(key));
     if acts.iter().all(Option::is_none) {
         document.mistake(
@@ -71,9 +66,9 @@ fn read_load(
         Some(item) => document.choice(&item, &LOAD_AXES),
         None => Some(Axes::Frame),
     };
-    let frame = section.required("frame", document).and_then(|item| find_frame(&item, frames, document));
+    let frame = section.required("frame", document).and_then(|item| find_frame(&item, tree.frames, document));
     let point = match section.get("point") {
-        Some(item) if item.is_text() => read_tool_point(&item, frame, frames, document),
+        Some(item) if item.is_text() => read_tool_point(&item, frame, tree, document),
         Some(item) => {
             vector(&item, Dimension::LENGTH, "a coordinate of a load", scope, document).map(Point::Here)
         }
@@ -93,21 +88,22 @@ fn optional<'d, T>(item: Option<Item<'d>>, read: impl FnOnce(&Item<'d>) -> Optio
     }
 }
 
-/// Reads `point = "tool"`. The tool is fixed to the last frame.
+/// Reads `point = "tool"`, for a load on the frame that carries the tool.
 fn read_tool_point(
     item: &Item<'_>,
     frame: Option<usize>,
-    frames: &[Frame],
+    tree: Tree<'_>,
     document: &mut Document,
 ) -> Option<Point> {
     document.choice(item, &TOOL)?;
-    if let Some(last) = frames.last()
-        && frame.is_some_and(|frame| frame + 1 < frames.len())
+    if let Some(carrier) = tree.frames.get(tree.tool_frame)
+        && frame.is_some_and(|frame| frame != tree.tool_frame)
     {
+        let name = &carrier.name;
         document.mistake(
             Diagnostic::new(item.span(), "the tool point is not fixed to this frame")
-                .label(format!("it is fixed to \"{}\"", last.name))
-                .help(format!("write frame = \"{}\", or the three coordinates of the point", last.name)),
+                .label(format!("it is fixed to \"{name}\""))
+                .help(format!("write frame = \"{name}\", or the three coordinates of the point")),
         );
         return None;
     }
@@ -140,6 +136,7 @@ fn vector(
 /// Checks that elastic elements have loads and masses have gravity.
 pub(super) fn check_loaded(
     root: &Section<'_>,
+    tree: Tree<'_>,
     sources: &[Source],
     loads: &[Load],
     joints: &[Variable],
@@ -160,12 +157,15 @@ pub(super) fn check_loaded(
             _ => None,
         });
         for (frame, span) in elements.chain(elastic) {
-            let load = loads.iter().any(|load| load.frame >= frame);
-            if !load && !effects().any(|other| other.frame >= frame && weight(other).is_some()) {
+            let load = loads.iter().any(|load| tree.carries(frame, load.frame));
+            if !load && !effects().any(|other| tree.carries(frame, other.frame) && weight(other).is_some()) {
+                let carried = if tree.is_serial() { "a later one" } else { "one that hangs on it" };
                 document.mistake(
                     Diagnostic::new(span.clone(), format!("no load acts on the source \"{}\"", source.name))
                         .label("without a load it causes no error")
-                        .help("add a [[load]] at its frame or a later one, or `mass_per_length` to a beam"),
+                        .help(format!(
+                            "add a [[load]] at its frame or {carried}, or `mass_per_length` to a beam"
+                        )),
                 );
             }
         }

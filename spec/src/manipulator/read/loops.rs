@@ -1,33 +1,44 @@
-//! `[[loop]]`: conditions that close loops of frames, and the count of freedoms.
+//! `[[loop]]`: conditions that close loops of frames.
 
 use super::choices::CLOSURES;
 use super::declarations::Declarations;
 use super::keys;
-use super::spec::frame_or_base;
+use super::named::{Named, frame_or_base};
+use super::samples::depends;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Symbol};
+use crate::expr::{Allowed, Dimension, Entry, Expression, Symbol};
 use crate::manipulator::names::title_of;
-use crate::manipulator::{Closure, Factor, Frame, Loop};
+use crate::manipulator::{Closure, Loop};
+
+/// Maximum number of loops. The code that closes them grows with the cube of their equations.
+const MOST_LOOPS: usize = 100;
 
 /// A loop whose length has not been read yet, because it may use names declared later.
 pub(super) struct RawLoop<'d> {
     section: Section<'d>,
     name: String,
     frames: Option<[Option<usize>; 2]>,
+    /// Variable of a leg.
+    own: Option<Symbol>,
 }
 
-/// Reads all loops of a spec except their lengths, and declares the variables of legs; `names` are
-/// those of the frames.
+/// Reads all loops of a spec except their lengths, and declares the variables of legs; `named` are
+/// the frames.
 pub(super) fn read_loops<'d>(
     root: &Section<'d>,
-    names: &[&str],
+    named: &[Named<'_>],
     declarations: &mut Declarations,
     document: &mut Document,
 ) -> Vec<RawLoop<'d>> {
-    let items = root.get("loop").and_then(|item| document.array_of_tables(&item, "loop"));
     let mut loops: Vec<RawLoop<'d>> = Vec::new();
-    for (index, item) in items.unwrap_or_default().iter().enumerate() {
+    let Some(item) = root.get("loop") else { return loops };
+    let Some(items) = document.array_of_tables(&item, "loop") else { return loops };
+    let help = "replace parts that move as one body by a single frame";
+    if document.at_most(&item, items.len(), MOST_LOOPS, "loops", help).is_none() {
+        return loops;
+    }
+    for (index, item) in items.iter().enumerate() {
         let Some(mut section) = document.section(item) else { continue };
         section.span = item.span();
         section.name = format!("loop {}", index + 1);
@@ -50,14 +61,15 @@ pub(super) fn read_loops<'d>(
         section.check_keys(&[&keys::LOOP], document);
         let frames = section.required("frames", document).and_then(|item| {
             let pair: [Item<'_>; 2] = document.entries(&item, "two names of frames")?;
-            let [first, second] = pair.map(|item| frame_or_base(&item, names, document));
+            let [first, second] = pair.map(|item| frame_or_base(&item, named, document));
             same_frame(&item, [first?, second?], document)
         });
-        if let Some(item) = section.get("variable") {
-            let end = frames.and_then(|[first, second]| first.or(second)).unwrap_or(0);
-            declarations.read_variable(end, &[&keys::VARIABLE], &item, document);
-        }
-        loops.push(RawLoop { section, name, frames });
+        let end = frames.and_then(|[first, second]| first.or(second)).unwrap_or(0);
+        let own = section.get("variable").and_then(|item| {
+            check_driven(&item, document);
+            declarations.read_variable(end, &item, document)
+        });
+        loops.push(RawLoop { section, name, frames, own });
     }
     loops
 }
@@ -79,6 +91,16 @@ fn same_frame(
     None
 }
 
+/// Records `passive` in the variable of a leg: the loop itself determines a length without a drive.
+fn check_driven(variable: &Item<'_>, document: &mut Document) {
+    let Some(passive) = variable.key_of_table("passive") else { return };
+    document.mistake(
+        Diagnostic::new(passive.key_span, "the variable of a leg cannot be `passive`")
+            .label("a length without a drive closes nothing")
+            .help("remove `passive` if the leg has a drive, or remove this [[loop]] if it has none"),
+    );
+}
+
 impl RawLoop<'_> {
     /// Reads the condition.
     pub(super) fn read(&self, declarations: &Declarations, document: &mut Document) -> Option<Loop> {
@@ -87,32 +109,52 @@ impl RawLoop<'_> {
             true => document.choice(&closes, &CLOSURES)?.to_vec(),
             false => read_coordinates(&closes, document)?,
         };
-        let length = match coordinates.is_empty() {
-            true => self.section.required("length", document),
-            false => self.section.get("length"),
-        };
-        let closure = match length {
-            None => {
-                if coordinates.is_empty() {
-                    return None;
-                }
+        let closure = match coordinates.is_empty() {
+            true => Closure::Distance(self.read_length(declarations, document)?),
+            false => {
+                self.check_without_length(&closes, document)?;
                 Closure::Coordinates(coordinates)
-            }
-            Some(item) if !coordinates.is_empty() => {
-                document.mistake(
-                    Diagnostic::new(item.key_span, "`length` belongs to `closes = \"distance\"`")
-                        .context(closes.key_span, "this closes at coordinates")
-                        .help("remove one of them"),
-                );
-                return None;
-            }
-            Some(item) => {
-                let what = "the length between two frames";
-                let entry = Entry { dimension: Some(Dimension::LENGTH), what, names: Allowed::Geometry };
-                Closure::Distance(document.expression(&item, &declarations.scope, entry)?)
             }
         };
         Some(Loop { name: self.name.clone(), frames: self.frames?, closure, span: self.section.span.clone() })
+    }
+
+    /// Reads the length of a leg, which depends on its own variable, or of a strut.
+    fn read_length(&self, declarations: &Declarations, document: &mut Document) -> Option<Expression> {
+        let item = self.section.required("length", document)?;
+        let what = "the length between two frames";
+        let entry = Entry { dimension: Some(Dimension::LENGTH), what, names: Allowed::Geometry };
+        let length = document.expression(&item, &declarations.scope, entry)?;
+        if let Some(own) = self.own
+            && let Some(variable) = declarations.variable(own)
+            && declarations.scope.names.get(&variable.name).is_some_and(|name| name.symbol == own)
+            && !depends(&length, own, declarations)
+        {
+            let name = &variable.name;
+            document.mistake(
+                Diagnostic::new(item.span(), format!("`{name}` does not change the length of its leg"))
+                    .label("this does not depend on it")
+                    .help(format!("write `l0 + {name}`, or declare `{name}` in the frame that it moves")),
+            );
+            return None;
+        }
+        Some(length)
+    }
+
+    /// Records the keys of a leg in a loop that closes at coordinates.
+    fn check_without_length(&self, closes: &Item<'_>, document: &mut Document) -> Option<()> {
+        let (item, help) = match (self.section.get("length"), self.section.get("variable")) {
+            (None, None) => return Some(()),
+            (Some(length), _) => (length, "remove it, or write closes = \"distance\""),
+            (None, Some(variable)) => (variable, "declare the variable in the [[frame]] that it moves"),
+        };
+        document.mistake(
+            Diagnostic::new(item.key_span, format!("`{}` belongs to `closes = \"distance\"`", item.key))
+                .label("only a leg has one")
+                .context(closes.key_span.clone(), "this closes at coordinates")
+                .help(help),
+        );
+        None
     }
 }
 
@@ -125,7 +167,9 @@ fn read_coordinates(item: &Item<'_>, document: &mut Document) -> Option<Vec<usiz
         let coordinate = document.choice(entry, &names)?;
         if coordinates.contains(&coordinate) {
             document.mistake(
-                Diagnostic::new(entry.span(), "this coordinate is listed twice").help("remove one of them"),
+                Diagnostic::new(entry.span(), "this coordinate is listed twice")
+                    .label("second use")
+                    .help("remove one of them"),
             );
             return None;
         }
@@ -133,79 +177,12 @@ fn read_coordinates(item: &Item<'_>, document: &mut Document) -> Option<Vec<usiz
     }
     if coordinates.is_empty() {
         document.mistake(
-            Diagnostic::new(item.span(), "`closes` is empty")
-                .label("nothing closes here")
-                .help("list coordinates such as [\"x\", \"y\"], or write \"point\", \"pose\" or \"distance\""),
+            Diagnostic::new(item.span(), "`closes` is empty").label("nothing closes here").help(
+                "list coordinates such as [\"x\", \"y\"], or write \"point\", \"pose\" or \"distance\"",
+            ),
         );
         return None;
     }
     coordinates.sort_unstable();
     Some(coordinates)
-}
-
-/// Checks that the loops determine the passive variables: that each belongs to a loop, and that
-/// there are as many equations.
-pub(super) fn check_freedoms(
-    frames: &[Frame],
-    loops: &[Loop],
-    declarations: &Declarations,
-    document: &mut Document,
-) {
-    let before = document.found.len();
-    for (index, variable) in declarations.passive.iter().enumerate() {
-        let moves = |end: &Option<usize>| {
-            let mut path = std::iter::successors(*end, |frame| frames[*frame].parent);
-            path.any(|frame| uses(&frames[frame], Symbol::Passive(index)))
-        };
-        let is_in = |closed: &Loop| {
-            let [first, second] = closed.frames.each_ref().map(moves);
-            let length = match &closed.closure {
-                Closure::Distance(length) => length.symbols().any(|symbol| symbol == Symbol::Passive(index)),
-                Closure::Coordinates(_) => false,
-            };
-            first || second || length
-        };
-        if !loops.iter().any(is_in) {
-            let span = declarations.scope.names.get(&variable.name).map_or(0..0, |name| name.span.clone());
-            document.mistake(
-                Diagnostic::new(span, format!("no loop determines the passive variable `{}`", variable.name))
-                    .label("it moves neither frame of any [[loop]]")
-                    .help("add the [[loop]] that it belongs to, or remove `passive`"),
-            );
-        }
-    }
-    let equations: usize = loops.iter().map(|closed| closed.closure.equations()).sum();
-    let passive = declarations.passive.len();
-    if equations == passive || document.found.len() > before {
-        return;
-    }
-    let Some(last) = loops.last() else { return };
-    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-    let (freedoms, help) = match equations < passive {
-        true => (
-            format!("the machine can move by itself in {}", counted(passive - equations, "direction")),
-            "close more coordinates, add a [[loop]], or remove `passive` where a joint is driven",
-        ),
-        false => (
-            format!("{} too many", counted(equations - passive, "equation")),
-            "a planar loop closes at [\"x\", \"y\"]; declare a joint `passive`, or close fewer coordinates",
-        ),
-    };
-    let each: Vec<String> = loops
-        .iter()
-        .map(|closed| format!("\"{}\" {}", closed.name, closed.closure.equations()))
-        .collect();
-    let message = format!(
-        "{} of the loops for {}: {freedoms}",
-        counted(equations, "equation"),
-        counted(passive, "passive variable"),
-    );
-    document.mistake(
-        Diagnostic::new(last.span.clone(), message).label(format!("equations: {}", each.join(", "))).help(help),
-    );
-}
-
-/// Returns `true` if the transform of a frame depends on a symbol.
-fn uses(frame: &Frame, symbol: Symbol) -> bool {
-    frame.factors.iter().flat_map(Factor::expressions).any(|e| e.symbols().any(|used| used == symbol))
 }

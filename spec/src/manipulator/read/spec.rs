@@ -12,9 +12,12 @@ use super::declarations::Declarations;
 use super::deviations::Chain;
 use super::fitted::read_fitted;
 use super::frames::{OwnVariable, convention, read_factors};
+use super::freedoms::check_freedoms;
+use super::in_loops::check_sources_in_loops;
 use super::keys;
 use super::loads::{check_loaded, read_gravity, read_loads};
-use super::loops::{check_freedoms, read_loops};
+use super::loops::read_loops;
+use super::named::{Named, read_parent};
 use super::positive::check_signs;
 use super::rigid::check_rigid;
 use super::samples::depends;
@@ -24,7 +27,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
 use crate::manipulator::names::{check_manipulator_name, title_of};
-use crate::manipulator::{Factor, Frame, Loop, Spec, Variable};
+use crate::manipulator::{Factor, Frame, Loop, Spec, Tree, Variable};
 use crate::value::find_name;
 
 impl Spec {
@@ -84,46 +87,57 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     declarations.read_tables(root, document)?;
     declarations.read_parameters(root, document);
     declarations.read_inputs(root, document);
+    let before = document.found.len();
     let raw_frames = read_frames(root, &mut declarations, document);
-    let names: Vec<&str> = raw_frames.iter().flatten().map(|raw| raw.name.as_str()).collect();
-    let raw_loops = read_loops(root, &names, &mut declarations, document);
+    let named = raw_frames.iter().flatten().map(|raw| (raw.name.as_str(), raw.section.span.clone()));
+    let named: Vec<Named<'_>> = named.collect();
+    let raw_loops = read_loops(root, &named, &mut declarations, document);
     let mut complete = true;
     let mut frames = Vec::new();
-    for raw in raw_frames.iter().flatten() {
+    for (index, raw) in raw_frames.iter().flatten().enumerate() {
+        let parent = match raw.section.get("parent") {
+            Some(item) => read_parent(&item, index, &named, document),
+            None => index.checked_sub(1),
+        };
         let factors = read_frame_factors(raw, &declarations, document);
         complete &= factors.is_some();
         frames.push(Frame {
             name: raw.name.clone(),
             description: raw.section.optional_text("description", document),
-            parent: raw.parent,
-            variable: raw.own.and_then(|(own, _)| index(own, Symbol::Variable)),
-            passive: raw.own.and_then(|(own, _)| index(own, Symbol::Passive)),
+            parent,
+            variable: raw.own.and_then(|(own, _)| if let Symbol::Variable(i) = own { Some(i) } else { None }),
+            passive: raw.own.and_then(|(own, _)| if let Symbol::Passive(i) = own { Some(i) } else { None }),
             factors: factors.unwrap_or_default(),
             convention: convention(&raw.section),
         });
     }
+    let end = end_of_first_chain(&frames);
     let tool = match root.get("tool") {
-        Some(item) => read_tool(&item, &names, &declarations, document),
-        None => Some((Vec::new(), frames.len().saturating_sub(1))),
+        Some(item) => read_tool(&item, &named, end, &declarations, document),
+        None => Some((Vec::new(), end)),
     };
-    let tool_frame = tool.as_ref().map_or(0, |(_, frame)| *frame);
+    let tool_frame = tool.as_ref().map_or(end, |(_, frame)| *frame);
     let tool = tool.map(|(factors, _)| factors);
-    let read: Vec<Option<Loop>> =
-        raw_loops.iter().map(|raw| raw.read(&declarations, document)).collect();
+    let read: Vec<Option<Loop>> = raw_loops.iter().map(|raw| raw.read(&declarations, document)).collect();
     complete &= read.iter().all(Option::is_some);
     let loops: Vec<Loop> = read.into_iter().flatten().collect();
-    if complete {
-        check_freedoms(&frames, &loops, &declarations, document);
+    let tree = Tree { frames: &frames, loops: &loops, tool_frame };
+    let is_known = complete && document.found.len() == before;
+    if is_known {
+        check_freedoms(tree, &declarations, document);
     }
-    let chain = Chain { frames: &frames, loops: &loops, tool: tool.as_deref(), scope: &declarations.scope };
+    let chain = Chain { tree, tool: tool.as_deref(), scope: &declarations.scope };
     let mut sources = read_sources(root, chain, document);
-    let loads = read_loads(root, &frames, &declarations.scope, document);
+    if is_known {
+        check_sources_in_loops(tree, &sources, &declarations, document);
+    }
+    let loads = read_loads(root, tree, &declarations.scope, document);
     let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
     let gravity = match &gravity_item {
         Some(item) => Some(read_gravity(item, &declarations.scope, document)?),
         None => None,
     };
-    check_loaded(root, &sources, &loads, &declarations.variables, gravity.is_some(), document);
+    check_loaded(root, tree, &sources, &loads, &declarations.variables, gravity.is_some(), document);
     check_signs(&sources, &loads, &declarations, document);
     let fitted = read_fitted(root, &declarations, document);
     let covariance = read_covariance(root, &sources, &declarations.scope, document);
@@ -214,7 +228,6 @@ struct RawFrame<'d> {
     name: String,
     own: OwnVariable,
     variable_span: Option<Span>,
-    parent: Option<usize>,
 }
 
 fn read_frames<'d>(
@@ -261,52 +274,13 @@ fn read_frames<'d>(
             );
         }
         section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
-        let parent = match section.get("parent") {
-            Some(item) => read_parent(&item, &frames, document),
-            None => index.checked_sub(1),
-        };
         let variable = section.get("variable");
-        let own = variable.as_ref().and_then(|item| {
-            declarations.read_variable(index, &[&keys::VARIABLE, &keys::FRAME_VARIABLE], item, document)
-        });
+        let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item, document));
         let own = own.and_then(|own| Some((own, declarations.variable(own)?.kind)));
         let variable_span = variable.map(|item| item.span());
-        frames.push(RawFrame { section, name, own, variable_span, parent });
+        frames.push(RawFrame { section, name, own, variable_span });
     }
     Some(frames)
-}
-
-/// Returns the index of the frame that a frame hangs on, among those before it.
-fn read_parent(item: &Item<'_>, before: &[RawFrame<'_>], document: &mut Document) -> Option<usize> {
-    let names: Vec<&str> = before.iter().map(|frame| frame.name.as_str()).collect();
-    frame_or_base(item, &names, document).flatten()
-}
-
-/// Returns the index of the frame with the name that an item holds; `Some(None)` for the base.
-pub(super) fn frame_or_base(
-    item: &Item<'_>,
-    names: &[&str],
-    document: &mut Document,
-) -> Option<Option<usize>> {
-    let name = document.string(item)?;
-    let found = names.iter().position(|frame| *frame == name);
-    if found.is_some() || name == BASE {
-        return Some(found);
-    }
-    let known: Vec<&str> = names.iter().copied().chain([BASE]).collect();
-    find_name(document, item.span(), &name, &known, "frame")?;
-    None
-}
-
-/// Name of `F_0` where a frame is named.
-const BASE: &str = "base";
-
-/// Returns the index in a symbol of this kind.
-fn index(symbol: Symbol, kind: fn(usize) -> Symbol) -> Option<usize> {
-    match symbol {
-        Symbol::Variable(i) | Symbol::Passive(i) if kind(i) == symbol => Some(i),
-        _ => None,
-    }
 }
 
 fn read_frame_factors(
@@ -330,9 +304,17 @@ fn read_frame_factors(
     Some(factors)
 }
 
+/// Returns the index of the last frame of the first chain, which carries the tool by default.
+fn end_of_first_chain(frames: &[Frame]) -> usize {
+    let follows = |(i, frame): &(usize, &Frame)| frame.parent == i.checked_sub(1);
+    frames.iter().enumerate().take_while(follows).count().saturating_sub(1)
+}
+
+/// Reads the tool, and the index of the frame that carries it.
 fn read_tool(
     item: &Item<'_>,
-    frames: &[&str],
+    frames: &[Named<'_>],
+    default: usize,
     declarations: &Declarations,
     document: &mut Document,
 ) -> Option<(Vec<Factor>, usize)> {
@@ -342,9 +324,10 @@ fn read_tool(
     let frame = match section.get("frame") {
         Some(item) => {
             let name = document.string(&item)?;
-            find_name(document, item.span(), &name, frames, "frame")
+            let known: Vec<&str> = frames.iter().map(|(name, _)| *name).collect();
+            find_name(document, item.span(), &name, &known, "frame")
         }
-        None => frames.len().checked_sub(1),
+        None => Some(default),
     };
     let factors = read_factors(&section, None, &declarations.scope, document)?;
     check_matrices(&factors, declarations, document)?;
