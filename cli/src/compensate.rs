@@ -53,8 +53,9 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         let provenance = Provenance::new(spec, map, files)?;
         let evaluator = job.machine.evaluator(true);
         let machine = evaluator.description();
-        let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
-        file.fill(&abbe_report::compensation(spec, machine, &job.map, &report, &provenance, Some(&live)))
+        let live =
+            Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
+        file.fill(&abbe_report::compensation(spec, machine, &job.map, &report, &provenance, live.as_ref()))
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
     let text = match arguments.running.json {

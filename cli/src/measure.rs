@@ -36,8 +36,8 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let files = [("measurements", &arguments.measured.data)];
     let provenance = Provenance::new(&spec, Some(&job.map), files)?;
-    let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut Console::default())?;
-    let text = abbe_report::measurement(&spec, &job.map, &report, &provenance, Some(&live));
+    let live = Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
+    let text = abbe_report::measurement(&spec, &job.map, &report, &provenance, live.as_ref());
     outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
     outcome(arguments, &spec, &report)
 }

@@ -36,14 +36,14 @@ pub(crate) fn run(arguments: &arguments::Merge) -> Result<Outcome, Failure> {
     let live = match &begun {
         Some(_) => {
             let analysis = Cow::Borrowed(merge.job());
-            Some(Explore { analysis, study: merge.study(), residuals: None }.run(&mut console)?)
+            Explore { analysis, study: merge.study(), residuals: None }.panel(&mut console)?
         }
         None => None,
     };
     let mut report = merge.report(&mut console)?;
     arguments.dated.date(&mut report.record);
-    if let (Some((folder, files, outputs)), Some(live)) = (begun, &live) {
-        analyze::write(folder, files, outputs, &report, live)?;
+    if let Some((folder, files, outputs)) = begun {
+        analyze::write(folder, files, outputs, &report, live.as_ref())?;
         note("note: configurations.csv is not written: parts do not contain single configurations");
     }
     analyze::outcome(

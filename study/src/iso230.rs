@@ -84,7 +84,7 @@ fn direction(spec: &Spec, manipulator: &dyn Manipulator, variable: usize) -> Opt
         q[variable] = value;
         let mut transforms = vec![Pose::IDENTITY; spec.frames.len() + 1];
         manipulator.transforms(&q, &s, &mut transforms).ok()?;
-        Some(transforms[..=frame].iter().fold(Pose::IDENTITY, |pose, next| pose.then(next)))
+        Some(manipulator.description().frame_pose(&transforms, Some(frame)))
     };
     let zero = at(0.0)?;
     let close = |a: f64, b: f64| (a - b).abs() < 1e-9;

@@ -18,6 +18,7 @@ use crate::calibration::{
     calibration_errors, has_magnitude, is_calibration_error, is_measured, tool_in_last_frame,
 };
 use crate::changes::Changes;
+use crate::mistake;
 use crate::named;
 use crate::table_paths::with_table_paths;
 
@@ -169,6 +170,18 @@ impl Machine {
     /// Returns whether changes are applied to the spec.
     pub(crate) fn is_changed(&self) -> bool {
         self.changed
+    }
+
+    /// Fails unless the frames are a chain. `refused` says what is not done for other machines,
+    /// `instead` what to do.
+    pub(crate) fn require_chain(&self, refused: &str, instead: &str) -> Result<(), Diagnostics> {
+        let structure = match self.spec.is_serial() {
+            true => return Ok(()),
+            false if self.spec.loops.is_empty() => "branches",
+            false => "closed loops",
+        };
+        let message = format!("{refused}: machines with {structure} are not supported here yet");
+        Err(mistake::with_help(&self.origin, message, instead))
     }
 
     /// Returns the text of the spec before changes.

@@ -84,7 +84,7 @@ pub(crate) fn warn_of_other_tool<'r>(
 
 impl OtherTool {
     fn warning(&self, spec: &Spec, what: &str) -> String {
-        let frame = spec.frames.last().map_or("", |frame| &frame.name);
+        let frame = spec.frames.get(spec.tool_frame).map_or("", |frame| &frame.name);
         let place = |points: &[[f64; 3]]| match points {
             [[x, y, z], rest @ ..] => {
                 let [x, y, z] = [x, y, z].map(|v| digits(*v, 6));

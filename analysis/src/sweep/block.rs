@@ -160,7 +160,7 @@ impl<'a> Block<'a> {
     ///
     /// Configurations that scalar code accepts stay, although lanes are below the margin by a
     /// rounding error. A manipulator written by hand may have no position rows there, either: such
-    /// configurations are removed and count as unreachable.
+    /// configurations are removed and count as unreachable. So do those where loops do not close.
     fn find_singular(&mut self) -> Result<(), Unevaluated> {
         let description = self.manipulator.description();
         let sources = description.sources.len();
@@ -174,7 +174,9 @@ impl<'a> Block<'a> {
             let index = self.indices[place];
             let jacobian = self.manipulator.error_jacobian(&here.q, &here.s, &mut columns);
             let effects = self.manipulator.effects(&here.q, &here.s, &here.u, &mut effects);
-            effects.map_err(|error| self.at(place, error))?;
+            if jacobian != Err(Error::NotClosed) {
+                effects.map_err(|error| self.at(place, error))?;
+            }
             let infinite = |rows: usize| {
                 (0..sources).find(|source| {
                     (0..rows).any(|row| !self.displacements.get(6 * source + row, place).is_finite())
@@ -188,7 +190,7 @@ impl<'a> Block<'a> {
                         return Err(self.at(place, Error::NotFinite { quantity: Quantity::Effects, index }));
                     }
                 }
-                Err(error @ Error::EulerSingularity { .. }) if infinite(3).is_some() => {
+                Err(error @ (Error::NotClosed | Error::EulerSingularity { .. })) if infinite(3).is_some() => {
                     let (point, reason) = (self.workspace.point(index), ReachError::Evaluation(error));
                     self.unreachable.push(Unreachable { index, point, requested: here.clone(), reason });
                     continue;

@@ -54,6 +54,11 @@ impl Frame {
         Self { axes: [x, y, z, y, roll, after.0[0]], origin: after.position(), after }
     }
 
+    /// Returns a frame whose errors do not move the tool.
+    pub(super) fn at_rest(after: Pose) -> Self {
+        Self { axes: [[0.0; 3]; 6], origin: after.position(), after }
+    }
+
     /// Returns the derivative of a point with respect to a component.
     pub(super) fn point(&self, component: Component, point: [f64; 3]) -> [f64; 3] {
         let axis = self.axes[component.index()];

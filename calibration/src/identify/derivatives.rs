@@ -5,7 +5,6 @@
 //! base moves fixtures and targets alike and changes only observables that [see the
 //! base](super::InstrumentKind::sees_base).
 
-use super::columns::Frame;
 use super::instrument::{Evaluation, Geometry};
 use super::scratch::Scratch;
 use super::vectors::dot;
@@ -97,7 +96,7 @@ impl Model<'_> {
             Unknown::Base(station, component) if station == scratch.station => {
                 scratch.frames[0].point(component, point)
             }
-            Unknown::Error(frame, component) => scratch.frames[frame + 1].point(component, point),
+            Unknown::Error(frame, component) => scratch.point(frame, component, point),
             Unknown::Tool(placement, component) if placement == scratch.placement => {
                 scratch.frames[last].point(component, point)
             }
@@ -109,7 +108,7 @@ impl Model<'_> {
             | Unknown::Zero(_)
             | Unknown::Intrinsic(_) => [0.0; 3],
             Unknown::Magnitude(source) => {
-                self.by_magnitude(scratch, source, |frame, c| frame.point(c, point))
+                self.by_magnitude(scratch, source, |frame, c| scratch.point(frame, c, point))
             }
         }
     }
@@ -121,7 +120,7 @@ impl Model<'_> {
             Unknown::Base(station, component) if station == scratch.station => {
                 scratch.frames[0].turn(component)
             }
-            Unknown::Error(frame, component) => scratch.frames[frame + 1].turn(component),
+            Unknown::Error(frame, component) => scratch.turn(frame, component),
             Unknown::Tool(placement, component) if placement == scratch.placement => {
                 scratch.frames[scratch.errors.len() + 1].turn(component)
             }
@@ -131,7 +130,9 @@ impl Model<'_> {
             | Unknown::Fixture(..)
             | Unknown::Zero(_)
             | Unknown::Intrinsic(_) => [0.0; 3],
-            Unknown::Magnitude(source) => self.by_magnitude(scratch, source, Frame::turn),
+            Unknown::Magnitude(source) => {
+                self.by_magnitude(scratch, source, |frame, c| scratch.turn(frame, c))
+            }
         }
     }
 
@@ -140,13 +141,13 @@ impl Model<'_> {
         &self,
         scratch: &Scratch,
         source: usize,
-        derivative: impl Fn(&Frame, Component) -> [f64; 3],
+        derivative: impl Fn(usize, Component) -> [f64; 3],
     ) -> [f64; 3] {
         let description = self.manipulator.description();
         let mut sum = [0.0; 3];
         for (effect, size) in description.effects.iter().zip(&scratch.effects) {
             if effect.source == source {
-                let moved = derivative(&scratch.frames[effect.frame + 1], effect.component);
+                let moved = derivative(effect.frame, effect.component);
                 sum = core::array::from_fn(|i| sum[i] + size * moved[i]);
             }
         }

@@ -43,10 +43,13 @@ type Twist = ([f64; 3], [f64; 3]);
 /// Finds the groups of a model whose variables in `moved` vary and whose others stay at `q`.
 ///
 /// Each group needs all six errors of two neighbouring frames among the unknowns; other groups are
-/// omitted. `pose`: whole poses are measured.
+/// omitted, and all of a machine that is not a chain. `pose`: whole poses are measured.
 pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<Vec<Group>, Error> {
     let description = model.manipulator.description();
     let mut groups = Vec::new();
+    if !description.is_chain() {
+        return Ok(groups);
+    }
     let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
     model.manipulator.transforms(q, &model.s, &mut transforms)?;
     let has = |unknown| model.unknowns.contains(&unknown);

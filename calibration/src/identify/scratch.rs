@@ -2,8 +2,9 @@
 //! zeros.
 
 use super::columns::{Displaced, Frame};
+use super::vectors::cross;
 use super::{Camera, Failure, Model, Observation, Role, Unknown};
-use abbe_core::{Error, Pose, Quantity};
+use abbe_core::{Component, Error, Pose, Quantity, twist};
 
 /// Reusable memory for the evaluation of one configuration.
 #[derive(Clone, Debug)]
@@ -12,6 +13,9 @@ pub struct Scratch {
     pub(super) errors: Vec<[f64; 6]>,
     pub(super) effects: Vec<f64>,
     pub(super) frames: Vec<Frame>,
+    /// Columns of J_e as twists of the tool point, in the axes of the instrument. Empty without loops:
+    /// the frames then have them.
+    closed: Vec<[f64; 6]>,
     /// Displacements by the errors of base, frames and tool.
     displaced: Vec<Displaced>,
     /// Derivatives of three numbers with respect to each unknown.
@@ -42,6 +46,24 @@ impl Scratch {
     pub(super) fn tool(&self) -> Pose {
         self.frames[self.errors.len() + 1].after
     }
+
+    /// Returns the derivative of a point of the tool with respect to an error of a frame.
+    pub(super) fn point(&self, frame: usize, component: Component, point: [f64; 3]) -> [f64; 3] {
+        let Some([x, y, z, turn @ ..]) = self.closed.get(6 * frame + component.index()) else {
+            return self.frames[frame + 1].point(component, point);
+        };
+        let origin = self.frames[self.errors.len()].after.position();
+        let swing = cross(*turn, core::array::from_fn(|i| point[i] - origin[i]));
+        core::array::from_fn(|i| [x, y, z][i] + swing[i])
+    }
+
+    /// Returns the rotation vector of the tool per unit of an error of a frame.
+    pub(super) fn turn(&self, frame: usize, component: Component) -> [f64; 3] {
+        match self.closed.get(6 * frame + component.index()) {
+            Some([.., a, b, c]) => [*a, *b, *c],
+            None => self.frames[frame + 1].turn(component),
+        }
+    }
 }
 
 impl Model<'_> {
@@ -54,6 +76,7 @@ impl Model<'_> {
             errors: vec![[0.0; 6]; frames],
             effects: vec![0.0; description.effects.len()],
             frames: Vec::with_capacity(frames + 2),
+            closed: Vec::new(),
             displaced: vec![Displaced::NOTHING; frames + 2],
             lines: Default::default(),
             targets: self.targets.clone(),
@@ -138,20 +161,19 @@ impl Model<'_> {
                 found: observation.station as usize + 1,
             },
         })?;
-        self.errors(scratch, observation, x)
-            .and_then(|()| self.manipulator.transforms(&observation.q, &self.s, &mut scratch.transforms))
-            .map_err(|error| Failure::Observation { line: observation.line, error })?;
         scratch.frames.clear();
-        let Scratch { displaced, frames, transforms, .. } = scratch;
-        frames.push(Frame::new(&station.pose, displaced[0].by(&scratch.base)));
-        for i in 0..scratch.errors.len() {
-            let before = frames[i].after.then(&transforms[i]);
-            frames.push(Frame::new(&before, displaced[i + 1].by(&scratch.errors[i])));
-        }
-        let last = scratch.errors.len();
-        let tool = frames[last].after.then(&transforms[last]);
+        let has_loops = self.manipulator.description().passive().next().is_some();
+        let tool = self
+            .errors(scratch, observation, x)
+            .and_then(|()| {
+                let base = Frame::new(&station.pose, scratch.displaced[0].by(&scratch.base));
+                scratch.frames.push(base);
+                if has_loops { self.close(scratch, observation) } else { self.branches(scratch, observation) }
+            })
+            .map_err(|error| Failure::Observation { line: observation.line, error })?;
         let mounted = tool.then(&self.mountings[scratch.placement]);
-        frames.push(Frame::new(&mounted, displaced[last + 1].by(&scratch.tool)));
+        let Scratch { displaced, frames, errors, .. } = scratch;
+        frames.push(Frame::new(&mounted, displaced[errors.len() + 1].by(&scratch.tool)));
         if let Some(from) = observation.from() {
             let mut previous = scratch.previous.take().unwrap_or_else(|| Box::new(self.scratch()));
             self.chain(&mut previous, from, x)?;
@@ -160,6 +182,40 @@ impl Model<'_> {
             scratch.previous = None;
         }
         Ok(())
+    }
+
+    /// Appends the frames, each behind the one that it hangs on, and returns the pose of the tool
+    /// without its mounting.
+    fn branches(&self, scratch: &mut Scratch, observation: &Observation) -> Result<Pose, Error> {
+        let Scratch { displaced, frames, transforms, errors, .. } = scratch;
+        let description = self.manipulator.description();
+        self.manipulator.transforms(&observation.q, &self.s, transforms)?;
+        for (i, errors) in errors.iter().enumerate() {
+            let parent = description.parent(i).map_or(0, |parent| parent + 1);
+            let before = frames[parent].after.then(&transforms[i]);
+            let frame = Frame::new(&before, displaced[i + 1].by(errors));
+            frames.push(if description.carries_tool(i) { frame } else { Frame::at_rest(frame.after) });
+        }
+        let carrier = description.tool_frame().map_or(0, |frame| frame + 1);
+        Ok(frames[carrier].after.then(&transforms[errors.len()]))
+    }
+
+    /// Closes the loops, and returns the pose of the tool without its mounting. The derivatives are
+    /// J_e, those at ε = 0: errors change them in proportion to their size, so that steps converge
+    /// linearly.
+    fn close(&self, scratch: &mut Scratch, observation: &Observation) -> Result<Pose, Error> {
+        let Scratch { frames, errors, closed, .. } = scratch;
+        let (description, base) = (self.manipulator.description(), frames[0].after);
+        closed.resize(6 * errors.len(), [0.0; 6]);
+        let nominal = self.manipulator.error_jacobian(&observation.q, &self.s, closed)?;
+        for column in closed {
+            let [x, y, z, turn @ ..] = twist(description.orientation, &nominal, column);
+            let ([x, y, z], [a, b, c]) = (base.turn([x, y, z]), base.turn(turn));
+            *column = [x, y, z, a, b, c];
+        }
+        let tool = base.then(&self.manipulator.displaced_pose(&observation.q, &self.s, errors)?);
+        frames.extend(errors.iter().map(|_| Frame::at_rest(tool)));
+        Ok(tool)
     }
 
     /// Returns the pose of the tool in the frame of the instrument; ignores the measurement.

@@ -45,8 +45,9 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
             let mut show = |row: &Row| files.configuration(row);
             let report = dated(job.run_with_rows(Some(&mut show), &mut console)?);
             let study = arguments.study.as_ref().map(|study| study.to_string_lossy().into_owned());
-            let live = Explore { analysis: Cow::Borrowed(&job), study, residuals: None }.run(&mut console)?;
-            write(folder, files, outputs, &report, &live)?;
+            let live =
+                Explore { analysis: Cow::Borrowed(&job), study, residuals: None }.panel(&mut console)?;
+            write(folder, files, outputs, &report, live.as_ref())?;
             report
         }
     };
@@ -57,17 +58,18 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     outcome(&report, arguments.running.json, arguments.check, &arguments.showing, next)
 }
 
-/// Writes the files of a report into its folder. `live` is the data of its live panel.
+/// Writes the files of a report into its folder. `live` is the data of its live panel, if
+/// it has one.
 pub(crate) fn write(
     folder: &Path,
     files: Files,
     mut outputs: Outputs,
     report: &Report,
-    live: &explore::Report,
+    live: Option<&explore::Report>,
 ) -> Result<(), Failure> {
     let (mut complete, page) = files.finish(report)?;
     let mut page = Some(page);
-    for file in abbe_report::analysis(report, Some(live)) {
+    for file in abbe_report::analysis(report, live) {
         let begun = match page.take_if(|_| file.name == abbe_report::PAGE) {
             Some(page) => page,
             None => outputs.file(&folder.join(&file.name))?,

@@ -10,9 +10,12 @@ const AXIS: f64 = 0.11;
 const LEAST: f64 = 0.3;
 
 pub(super) fn scene(stick: &Stick, up: usize, report: &Report) -> Scene {
-    let Stick { origins, size } = stick;
-    let links = origins.iter().map(|place| place.origin).collect::<Vec<_>>();
-    let mut marks = vec![Mark::line(Colour::LINK, 7.0, links.clone())];
+    let Stick { origins, links, size } = stick;
+    let points = origins.iter().map(|place| place.origin).collect::<Vec<_>>();
+    let mut marks = vec![match &links[..] {
+        [line] => Mark::line(Colour::LINK, 7.0, line.clone()),
+        lines => Mark::lines(Colour::LINK, 7.0, lines.to_vec()),
+    }];
     let mut tips = Vec::new();
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let arrow = |place: &abbe_study::analyze::figures::FrameOrigin| {
@@ -23,7 +26,7 @@ pub(super) fn scene(stick: &Stick, up: usize, report: &Report) -> Scene {
         tips.extend(arrows.iter().flatten().copied());
         marks.push(Mark::lines(Colour::XYZ[axis], 2.2, arrows).named(format!("{name} axes of the frames")));
     }
-    marks.push(Mark::points(Colour::INK, 4.0, links));
+    marks.push(Mark::points(Colour::INK, 4.0, points));
     marks.push(Mark::texts(origins.iter().map(|place| (place.origin, place.label.clone())).collect()));
     let axes = [0, 1, 2].map(|axis| {
         let [least, most] = ends(tips.iter().map(|tip| tip[axis]));

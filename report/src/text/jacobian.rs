@@ -43,7 +43,10 @@ pub fn jacobian(report: &Report) -> String {
     let mut table = Table::new(&[&[""][..], &report.rows].concat());
     table.row(cells("ΔX = J_e ε", &report.displacement));
     text += &table.right(&[1, 2, 3, 4, 5, 6]).to_string();
-    text += "\nReal pose of the tool, by the exact chain\n";
+    text += match report.spec.is_serial() {
+        true => "\nReal pose of the tool, by the exact chain\n",
+        false => "\nReal pose of the tool, exact\n",
+    };
     text + &matrix(&report.real_pose)
 }
 

@@ -376,6 +376,26 @@ impl Description {
         self.frames.iter().position(carries).or(self.frames.len().checked_sub(1))
     }
 
+    /// Returns the pose of a frame in `F_0` from `A_1 … A_n`; `None` is `F_0` itself.
+    pub fn frame_pose(&self, transforms: &[Pose], frame: Option<usize>) -> Pose {
+        let mut pose = Pose::IDENTITY;
+        let mut frame = frame;
+        while let Some(at) = frame {
+            pose = transforms[at].then(&pose);
+            frame = self.parent(at);
+        }
+        pose
+    }
+
+    /// Returns `true` if the tool hangs on a frame, or is on it.
+    pub fn carries_tool(&self, frame: usize) -> bool {
+        let mut at = self.tool_frame();
+        while at.is_some_and(|at| at > frame) {
+            at = at.and_then(|at| self.parent(at));
+        }
+        at == Some(frame)
+    }
+
     /// Returns the pose of the tool point in `F_0` from `A_1 … A_n` and `T`, and the generalized
     /// errors of the frames; frames beyond the end of `errors` have none.
     ///

@@ -24,6 +24,15 @@ impl Report {
         sentences.into_iter().flatten().collect()
     }
 
+    /// Returns what first order is compared with.
+    pub fn exact(&self) -> &'static str {
+        match (self.spec.is_serial(), self.spec.loops.is_empty()) {
+            (true, _) => "the exact chain",
+            (_, true) => "the exact tree of frames",
+            _ => "the exact machine with closed loops",
+        }
+    }
+
     pub(super) fn show(&self, value: f64) -> String {
         format!("{} {}", number::trimmed(value, self.decimals()), self.spec.length.symbol())
     }
@@ -139,8 +148,11 @@ fn first_order(report: &Report) -> String {
         largest => ("differs", format!(" by {}", report.upper_bound(largest))),
     };
     format!(
-        "First order: J_e ε of the {which} {differs} from the exact chain A_1 E_1 … A_n E_n T{by}, at {} \
-         configurations{spread}.",
+        "First order: J_e ε of the {which} {differs} from {}{by}, at {} configurations{spread}.",
+        match report.spec.is_serial() {
+            true => "the exact chain A_1 E_1 … A_n E_n T",
+            false => report.exact(),
+        },
         first_order.checked,
     )
 }

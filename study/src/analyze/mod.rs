@@ -33,7 +33,7 @@ mod verdict;
 pub use first_order::FirstOrder;
 pub use job::Analyze;
 pub use ledger::{allowance_table, ledger, orientation_ledger};
-pub use norm_comparison::{NormComparison, norm_comparison_table};
+pub use norm_comparison::{NOT_CERTIFIED, NormComparison, norm_comparison_table};
 pub use report::{
     AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis,
     ErrorAllowance, Ledger, LedgerEntry, LongestEllipsoid, MachineVerdicts, MonteCarloErrors,

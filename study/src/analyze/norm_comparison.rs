@@ -49,6 +49,9 @@ impl Report {
     }
 }
 
+/// Reason why nothing is certified of machines that are not a chain.
+pub const NOT_CERTIFIED: &str = "bounds are proved for chains of frames only";
+
 /// Returns the table of sampled and certified norms; `None` if nothing is certified.
 pub fn norm_comparison_table(report: &Report) -> Option<Listing> {
     let decimals = report.decimals();
@@ -69,8 +72,11 @@ pub fn norm_comparison_table(report: &Report) -> Option<Listing> {
     if rows.is_empty() { None } else { Some(Listing { header, rows, numbers: 1..4 }) }
 }
 
-/// Returns a sentence with the certified norms; `None` if nothing is certified.
+/// Returns a sentence with the certified norms; `None` if nothing is certified of a chain.
 pub(super) fn sentence(report: &Report) -> Option<String> {
+    if !report.spec.is_serial() {
+        return Some(format!("Certified: nothing; {NOT_CERTIFIED}."));
+    }
     let unit = report.spec.length.symbol();
     let compared =
         report.norm_comparisons().into_iter().filter_map(|NormComparison { sources, sampled, bound }| {

@@ -26,9 +26,14 @@ pub(super) struct Domain {
 }
 
 impl Domain {
-    /// Creates the box of a machine and a study; changes are already applied. Fails if a span is
-    /// unlimited or too many names move.
+    /// Creates the box of a machine and a study; changes are already applied. Fails if the frames
+    /// are not a chain, a span is unlimited or too many names move.
     pub(super) fn new(machine: &Machine, study: &Study) -> Result<Self, Diagnostics> {
+        machine.require_chain(
+            "no bound can be proved",
+            "use `abbe analyze`: it samples the errors over the workspace, to first order, and compares \
+             them with the exact machine",
+        )?;
         let spans = study.region.spans(&machine.spec, &*machine.evaluator(true), &machine.origin)?;
         let domain = Self { spec: machine.spec.clone(), spans };
         let moving = domain.moving_count();

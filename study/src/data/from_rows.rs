@@ -136,7 +136,12 @@ fn moments(
         let mut q = row.q.to_vec();
         q[variable] += by;
         manipulator.transforms(&q, &s, &mut transforms).ok()?;
-        let place = transforms[..=at].iter().fold(Pose::IDENTITY, |before, one| before.then(one)).position();
+        let description = manipulator.description();
+        let place = match at < spec.frames.len() {
+            true => description.frame_pose(&transforms, Some(at)),
+            false => description.tool_pose(&transforms, &[]),
+        };
+        let place = place.position();
         Some((0..3).map(|k| place[k] * down[k]).sum::<f64>())
     };
     debug_assert!(at >= spec.variables[variable].frame, "the joint moves what is behind it");

@@ -30,6 +30,11 @@ impl Export {
     /// Writes the files as text, reads them back and compares the poses of the tool.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine: Machine { spec, origin, .. }, format, samples, seed } = self;
+        self.machine.require_chain(
+            "no format can hold the errors of this machine",
+            "use `abbe compensate` for corrected commands, or `abbe generate` for code that corrects them in the \
+             controller",
+        )?;
         let mut machine = RealMachine::new(spec, self.machine.fixed_inputs(), *samples, *seed, origin)?;
         if machine.is_nominal() {
             notes.warn("this spec has no repeatable source: the nominal machine is exported");

@@ -76,8 +76,8 @@ pub(super) fn constant_errors(
     if let Some(errors) = constant(graph, spec, velocity, rotation) {
         return Some((frame, errors));
     }
-    // Ad(A): ω' = R ω, v' = R v + p × ω'.
-    let before = frame.checked_sub(1)?;
+    // Ad(A): ω' = R ω, v' = R v + p × ω'. In a tree, other frames may hang on that one.
+    let before = spec.frames[frame].parent.filter(|_| spec.is_serial())?;
     let Frame { axes, position } = transform(graph, &spec.frames[frame].factors);
     let turned = graph.turn(&axes, rotation);
     let (moved, swing) = (graph.turn(&axes, velocity), graph.cross(position, turned));

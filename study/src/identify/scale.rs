@@ -93,7 +93,8 @@ pub(super) fn reference_length(
 ) -> Result<Option<ReferenceLength>, Error> {
     let description = ideal.manipulator.description();
     let has_slides = moved.iter().any(|j| description.variables[*j].kind == VariableKind::Prismatic);
-    let is_determined = has_slides || !ideal.known_distances.is_empty();
+    // The frames of a chain follow each other.
+    let is_determined = !description.is_chain() || has_slides || !ideal.known_distances.is_empty();
     if is_determined || !ideal.observables.iter().any(Observable::is_blind_to_size) {
         return Ok(None);
     }

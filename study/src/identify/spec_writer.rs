@@ -324,7 +324,7 @@ pub(super) fn format_number(value: f64) -> String {
 
 /// Returns the load and the gravity that compliances need, each empty if the spec has one.
 fn weight(spec: &Spec) -> [String; 2] {
-    let last = spec.frames.last().map_or("", |frame| frame.name.as_str());
+    let last = spec.frames.get(spec.tool_frame).map_or("", |frame| frame.name.as_str());
     let load = format!(
         "\n[[load]]\nname = \"weight at the tool point\"\nmass = \"1 kg\"\nframe = {}\npoint = \"tool\"\n",
         quoted(last)

@@ -80,7 +80,7 @@ impl FoundModel {
         if self.unexplained == 0.0 {
             return String::new();
         }
-        let frame = spec.frames.last().map_or("", |frame| frame.name.as_str());
+        let frame = spec.frames.get(spec.tool_frame).map_or("", |frame| frame.name.as_str());
         let size = format!("{} {}", format_number(self.unexplained), spec.length.symbol());
         let source = |axis: &str| {
             format!(

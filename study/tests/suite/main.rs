@@ -2,6 +2,7 @@
 
 mod camera;
 mod clinic;
+mod closed_loops;
 mod compensated;
 mod extrapolation;
 mod inputs_from_rows;
@@ -25,3 +26,6 @@ mod thorough;
 
 #[path = "../../../tests/src/erroneous.rs"]
 mod erroneous;
+
+#[path = "../../../tests/src/closed_machines.rs"]
+mod closed_machines;

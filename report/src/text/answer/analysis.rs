@@ -2,7 +2,7 @@
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{
-    Agreement, CompensationBasis, MachineVerdicts, Report, ToleranceVerdict, Verdict, unit,
+    Agreement, CompensationBasis, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict, Verdict, unit,
     unreachable_summary,
 };
 use abbe_study::bound::ErrorBound;
@@ -182,6 +182,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if let Some(worst) = worst.and_then(|verdict| report.configuration(verdict.configuration)) {
         facts.push(("", format!("compensated {}", super::place(&report.label(worst)))));
     }
+    if !report.spec.is_serial() {
+        facts.push(("Certified", format!("nothing: {NOT_CERTIFIED}")));
+    }
     let (factor, unit) = error_unit(report.length);
     let [bounded, radius] =
         [report.budget.combined.bounded_radius, report.budget.combined.radius].map(|largest| largest.value);
@@ -222,7 +225,8 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     facts.push((
         "Exact",
         format!(
-            "figures to first order; the exact chain differs by up to {} {unit} at {}",
+            "figures to first order; {} differs by up to {} {unit} at {}",
+            report.exact(),
             number::rounded_up(largest, number::decimals(largest, 2)),
             number::counted(report.first_order.checked, "configuration", "configurations")
         ),

@@ -66,7 +66,7 @@ impl<'a> FiguresBuilder<'a> {
             let (request, bounds) = (builder.figure.clone(), builder.bounds);
             let data = match request.content {
                 Content::Manipulator(_) => {
-                    let stick = Stick::at_home(manipulator, home);
+                    let stick = Stick::at_home(manipulator, home, spec);
                     FigureData::Manipulator(stick.map_err(|error| mistake::whole(&spec.file, &error))?)
                 }
                 _ => builder.finish(),

@@ -2,6 +2,7 @@
 
 use abbe::analysis::Configuration;
 use abbe::{Error, Manipulator, Pose};
+use abbe_spec::{Closure, Spec};
 use serde::Serialize;
 
 /// Origins of the frames, base to tip.
@@ -9,6 +10,9 @@ use serde::Serialize;
 pub struct Stick {
     /// Distinct origins; several frames may share one.
     pub origins: Vec<FrameOrigin>,
+    /// Lines through the origins: one for a chain; one per frame and per leg for a tree.
+    #[serde(skip)]
+    pub links: Vec<Vec<[f64; 3]>>,
     /// Longest side of the bounding box, in the length unit; 1 if all origins coincide.
     pub size: f64,
 }
@@ -26,18 +30,21 @@ pub struct FrameOrigin {
 
 impl Stick {
     /// Evaluates the frames at the home configuration.
-    pub(super) fn at_home(manipulator: &dyn Manipulator, home: &Configuration) -> Result<Self, Error> {
-        let frames = &manipulator.description().frames;
+    pub(super) fn at_home(
+        manipulator: &dyn Manipulator,
+        home: &Configuration,
+        spec: &Spec,
+    ) -> Result<Self, Error> {
+        let description = manipulator.description();
+        let frames = &description.frames;
         let mut transforms = vec![Pose::IDENTITY; frames.len() + 1];
         manipulator.transforms(&home.q, &home.s, &mut transforms)?;
         let named = frames.iter().enumerate().map(|(i, frame)| format!("F{} {}", i + 1, frame.name));
-        let names = named.chain(["tool point".to_owned()]);
-        let mut pose = Pose::IDENTITY;
-        let mut all = vec![("F0".to_owned(), pose)];
-        for (name, transform) in names.zip(&transforms) {
-            pose = pose.then(transform);
-            all.push((name, pose));
-        }
+        let pose = |frame: Option<usize>| description.frame_pose(&transforms, frame);
+        let mut all = vec![("F0".to_owned(), Pose::IDENTITY)];
+        all.extend(named.enumerate().map(|(i, name)| (name, pose(Some(i)))));
+        let tool = description.tool_pose(&transforms, &[]);
+        all.push(("tool point".to_owned(), tool));
         let size = (0..3).map(|axis| {
             let along = all.iter().map(|(_, pose)| pose.position()[axis]);
             along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
@@ -55,7 +62,22 @@ impl Stick {
                 None => origins.push(FrameOrigin { label, origin, axes: [x, y, z] }),
             }
         }
-        Ok(Self { origins, size })
+        let links = match spec.is_serial() {
+            true => vec![origins.iter().map(|place| place.origin).collect()],
+            false => {
+                let origin = |frame: Option<usize>| pose(frame).position();
+                let links = (0..frames.len()).map(|i| vec![origin(description.parent(i)), origin(Some(i))]);
+                let legs = spec.loops.iter().filter(|closed| matches!(closed.closure, Closure::Distance(_)));
+                let legs = legs.map(|leg| leg.frames.map(origin).to_vec());
+                let tool = vec![origin(description.tool_frame()), tool.position()];
+                links
+                    .chain(legs)
+                    .chain([tool])
+                    .filter(|link| distance(link[0], link[1]) > 1e-6 * size)
+                    .collect()
+            }
+        };
+        Ok(Self { origins, links, size })
     }
 }
 
