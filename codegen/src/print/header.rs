@@ -1,8 +1,8 @@
 //! The documentation at the top of a generated module.
 
-use abbe_core::Orientation;
-use abbe_spec::expr::{Binary, Expression, Extrapolation, Function, Interpolation, Kind, Term};
-use abbe_spec::{Factor, Spec};
+use abbe_core::{Function, Orientation};
+use abbe_spec::expr::{Binary, Expression, Extrapolation, Function as Call, Interpolation, Kind, Term};
+use abbe_spec::{Closure, Factor, Loop, Spec};
 
 use super::layout::Writer;
 use super::text::escaped;
@@ -57,11 +57,24 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     }
     let mut row = |text: &str| writer.documentation_line(text);
     row("");
-    row("| frame | name | variable |");
-    row("|---|---|---|");
+    let in_tree = !spec.is_serial();
+    row(if in_tree { "| frame | name | hangs on | variable |" } else { "| frame | name | variable |" });
+    row(if in_tree { "|---|---|---|---|" } else { "|---|---|---|" });
     for (i, frame) in spec.frames.iter().enumerate() {
-        let variable = frame.variable.map_or("fixed", |index| &spec.variables[index].name);
-        row(&format!("| {} | {} | {variable} |", i + 1, escaped(&frame.name)));
+        let own = frame.variable.map(|index| spec.variables[index].name.clone());
+        let own = own.or(frame.passive.map(|index| format!("{} (passive)", spec.passive[index].name)));
+        let own = own.unwrap_or("fixed".to_owned());
+        let parent = frame.parent.map_or("base".to_owned(), |parent| (parent + 1).to_string());
+        let parent = if in_tree { format!("{parent} | ") } else { String::new() };
+        row(&format!("| {} | {} | {parent}{own} |", i + 1, escaped(&frame.name)));
+    }
+    if !spec.loops.is_empty() {
+        row("");
+        row("| loop | closes |");
+        row("|---|---|");
+    }
+    for closed in &spec.loops {
+        row(&format!("| {} | {} |", escaped(&closed.name), escaped(&condition(spec, closed))));
     }
     if spec.enabled_sources().next().is_some() {
         row("");
@@ -75,14 +88,36 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     row("| function | operations |");
     row("|---|---|");
     for routine in routines.list.iter().filter(|routine| routines.exports(routine)) {
-        row(&format!("| `{}` | {} |", routine.name, operations(routine)));
+        row(&format!("| `{}` | {} |", routine.name, operations(routine, !spec.loops.is_empty())));
     }
 }
 
-/// Returns the operation counts of a function, and whether they include a loop over the frames.
-fn operations(routine: &Routine) -> String {
+/// Returns the condition of a loop.
+fn condition(spec: &Spec, closed: &Loop) -> String {
+    let [first, second] =
+        closed.frames.map(|frame| frame.map_or("base", |frame| spec.frames[frame].name.as_str()));
+    match &closed.closure {
+        Closure::Distance(_) => format!("distance of {first} and {second}"),
+        Closure::Coordinates(coordinates) => {
+            let names: Vec<&str> = coordinates.iter().map(|i| Closure::COORDINATES[*i]).collect();
+            format!("{} of {first} and {second}", names.join(", "))
+        }
+    }
+}
+
+/// Returns the operation counts of a function, and whether they include a loop over the frames, or
+/// steps of Newton's method beyond those for the nominal passive variables.
+fn operations(routine: &Routine, has_loops: bool) -> String {
     let is_loop = |stage: &Stage| matches!(stage, Stage::Block(Block { repeated: Some(_), .. }));
-    let loops = if routine.stages.iter().any(is_loop) { ", in a loop over the frames" } else { "" };
+    let loops = match routine.function {
+        Some(Function::RealPose | Function::DrawnPose | Function::Passive | Function::DisplacedPose)
+            if has_loops =>
+        {
+            ", with Newton's steps"
+        }
+        _ if routine.stages.iter().any(is_loop) => ", in a loop over the frames",
+        _ => "",
+    };
     format!("{}{loops}", routine.operations)
 }
 
@@ -107,7 +142,7 @@ fn one_sided(spec: &Spec) -> Option<String> {
 fn place_without_derivative(spec: &Spec, term: &Term) -> Option<String> {
     let place = match term.kind {
         _ if term.value.is_some() => return None,
-        Kind::Call(function @ (Function::Abs | Function::Sign), _) => {
+        Kind::Call(function @ (Call::Abs | Call::Sign), _) => {
             format!("where the argument of `{}` is 0", function.name())
         }
         Kind::Binary(Binary::Min, ..) => "where the arguments of `min` are equal".to_owned(),

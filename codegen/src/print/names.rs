@@ -109,6 +109,7 @@ impl<'s> Names<'s> {
         let letter = self.letter(array);
         let singular = array.name.trim_end_matches('s');
         let proposed = |i: usize| match (used.len(), array.name) {
+            (_, "passive" | "real_passive") => self.spec.passive[i].name.clone(),
             (12, _) if i < 9 => format!("{letter}_{}{}", i % 3 + 1, i / 3 + 1),
             (12, _) => format!("{letter}_{}", ["x", "y", "z"][i - 9]),
             (6, "errors" | "variances") => {
@@ -182,6 +183,7 @@ impl<'s> Names<'s> {
             }
             Operand::Symbol(Symbol::Parameter(i)) => of(&self.spec.parameters[i].name),
             Operand::Symbol(Symbol::Input(i)) => of(&self.spec.inputs[i].name),
+            Operand::Symbol(Symbol::Local(i)) if i < self.spec.passive.len() => of(&self.locals[i]),
             _ => {
                 self.counter += 1;
                 of(&self.counter.to_string())

@@ -143,9 +143,16 @@ impl Frame {
         Self { name: Text::Constant(name), variable, lower_pair: true, branch: None }
     }
 
-    /// Creates a frame of a tree.
-    pub const fn in_tree(name: &'static str, variable: Option<usize>, branch: Branch) -> Self {
-        Self { name: Text::Constant(name), variable, lower_pair: false, branch: Some(branch) }
+    /// Creates a frame of a tree from its fields and those of its [`Branch`].
+    pub const fn in_tree(
+        name: &'static str,
+        variable: Option<usize>,
+        parent: Option<usize>,
+        passive: Option<Variable>,
+        carries_tool: bool,
+    ) -> Self {
+        let branch = Some(Branch { parent, passive, carries_tool });
+        Self { name: Text::Constant(name), variable, lower_pair: false, branch }
     }
 }
 

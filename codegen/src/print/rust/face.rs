@@ -1,12 +1,13 @@
 //! Public items of a generated module: constants, parameters, inputs, the checked functions, the
 //! trait.
 
+use abbe_core::distinct::VECTORS_OF_TREE;
 use abbe_core::{Class, LengthUnit, Orientation, VariableKind};
-use abbe_spec::Spec;
+use abbe_spec::{Spec, Variable};
 
 use super::literal::number;
 use crate::chain::{EffectNode, lower_pairs};
-use crate::print::layout::{Writer, array};
+use crate::print::layout::{Writer, array, call};
 use crate::print::text::escaped;
 
 /// Types that a generated module defines or imports, and types of the prelude.
@@ -63,9 +64,12 @@ pub(super) fn type_name(name: &str) -> String {
 /// Prints the counts, and [`DESCRIPTION`] with every name, unit and limit.
 pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNode]) {
     let distinct = match spec.orientation {
+        _ if !spec.is_serial() => VECTORS_OF_TREE,
         Orientation::RotationVector => 6,
         Orientation::EulerYzx | Orientation::Iec61217 => 9,
     };
+    let passive = spec.passive.len();
+    let passive = (passive > 0).then_some(("PASSIVE", passive, "Number of passive variables."));
     for (name, count, documentation) in [
         ("FRAMES", spec.frames.len(), "Number of frames n."),
         ("ERRORS", 6 * spec.frames.len(), "Number of generalized errors: 6n, the length of ε."),
@@ -79,7 +83,10 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
             distinct,
             "Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.",
         ),
-    ] {
+    ]
+    .into_iter()
+    .chain(passive)
+    {
         writer.documentation(documentation);
         writer.lines(&format!("pub const {name}: usize = {count};"));
     }
@@ -102,19 +109,32 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     let mut list = |name: &str, entries: Vec<(&str, Vec<String>)>| {
         writer.array_of_calls(&format!("{name}: List::Constant(&"), &entries, "),");
     };
-    let frames = spec.frames.iter().zip(lower_pairs(spec)).map(|(frame, lower_pair)| {
-        let constructor = if lower_pair { "Frame::lower_pair" } else { "Frame::new" };
-        (constructor, vec![quoted(&frame.name), format!("{:?}", frame.variable)])
-    });
-    list("frames", frames.collect());
-    let variables = spec.variables.iter().map(|variable| {
+    let variable = |indent: usize, variable: &Variable| {
         let kind = match variable.kind {
             VariableKind::Revolute => "VariableKind::Revolute",
             VariableKind::Prismatic => "VariableKind::Prismatic",
         };
-        let (limits, home) = (interval(entries + 4, variable.limits), number(variable.home));
-        ("Variable::new", vec![quoted(&variable.name), kind.to_owned(), limits, home])
+        let (limits, home) = (interval(indent, variable.limits), number(variable.home));
+        vec![quoted(&variable.name), kind.to_owned(), limits, home]
+    };
+    let frames = spec.frames.iter().zip(lower_pairs(spec)).enumerate().map(|(index, (frame, lower_pair))| {
+        let constructor = match lower_pair {
+            _ if !spec.is_serial() => "Frame::in_tree",
+            true => "Frame::lower_pair",
+            false => "Frame::new",
+        };
+        let mut fields = vec![quoted(&frame.name), format!("{:?}", frame.variable)];
+        if !spec.is_serial() {
+            let passive = frame.passive.map_or("None".to_owned(), |passive| {
+                let fields = variable(entries + 8, &spec.passive[passive]);
+                call(entries + 5, "Some(Variable::new", &fields) + ")"
+            });
+            fields.extend([format!("{:?}", frame.parent), passive, (index == spec.tool_frame).to_string()]);
+        }
+        (constructor, fields)
     });
+    list("frames", frames.collect());
+    let variables = spec.variables.iter().map(|one| ("Variable::new", variable(entries + 4, one)));
     list("variables", variables.collect());
     let parameters = spec.parameters.iter().map(|parameter| {
         let value = number(parameter.value);
@@ -248,7 +268,8 @@ pub(super) fn checked(writer: &mut Writer, spec: &Spec) {
     writer.open("::abbe::checked_functions!");
     let title = escaped(spec.title.trim_end_matches('.'));
     writer.documentation(&format!("{title}, as a [`Manipulator`](::abbe::Manipulator)."));
-    writer.lines(&type_name(&spec.name));
+    let with = if spec.passive.is_empty() { "" } else { " loops" };
+    writer.lines(&format!("{}{with}", type_name(&spec.name)));
     writer.close("}");
     writer.blank();
 }

@@ -23,14 +23,15 @@ pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines
     }
 }
 
-/// Returns `true` if one program gives both `J_e` and its distinct entries, which is the case if
-/// neither is computed in loops.
+/// Returns `true` if one program gives both `J_e` and its distinct entries, which is the case for a
+/// chain if neither is computed in loops.
 pub(super) fn shares_columns(routines: &Routines) -> bool {
     let [dense, distinct] = [Function::ErrorJacobian, Function::ErrorJacobianDistinct]
         .map(|function| routines.function(function));
     let is_program =
         |routine: &Routine| matches!(&routine.stages[..], [Stage::Block(Block { repeated: None, .. })]);
-    is_program(dense) && is_program(distinct) && dense.operations == distinct.operations
+    let is_shared = is_program(dense) && is_program(distinct) && dense.operations == distinct.operations;
+    is_shared && routines.description.is_chain()
 }
 
 /// Prints `J_e` and its distinct entries by one shared function, which passes on each column as

@@ -42,7 +42,9 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     }
     let shares_columns = shares_columns(routines);
     writer.open("pub mod raw");
-    writer.imports("super", &SIZES);
+    let passive = (!spec.passive.is_empty()).then_some("PASSIVE");
+    let sizes: Vec<&str> = SIZES.into_iter().chain(passive).collect();
+    writer.imports("super", &sizes);
     writer.lines(if shares_columns { "use ::abbe::{ErrorColumns, Scalar};" } else { "use ::abbe::Scalar;" });
     let (functions, helpers): (Vec<_>, Vec<_>) =
         routines.list.iter().partition(|routine| routine.function.is_some());
@@ -87,7 +89,7 @@ fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
         _ => None,
     });
     let values = spec.parameters.iter().map(|p| p.value).chain(spec.inputs.iter().map(|i| i.value));
-    let limits = spec.variables.iter().flat_map(|v| [v.limits[0], v.limits[1], v.home]);
+    let limits = spec.variables.iter().chain(&spec.passive).flat_map(|v| [v.limits[0], v.limits[1], v.home]);
     let ranges = spec.inputs.iter().flat_map(|i| i.range);
     let outputs = programs().flat_map(|program| &program.outputs).filter_map(|output| match output {
         Operand::Constant(value) => Some(*value),
@@ -121,7 +123,7 @@ fn programs(routines: &Routines) -> impl Iterator<Item = &Program> {
 
 fn used_types(spec: &Spec, model: &Model) -> Vec<&'static str> {
     let mut names = vec!["Description", "Frame", "LengthUnit", "List", "Orientation", "Text"];
-    if !spec.variables.is_empty() {
+    if !spec.variables.is_empty() || !spec.passive.is_empty() {
         names.extend(["Variable", "VariableKind"]);
     }
     if !spec.parameters.is_empty() {
