@@ -26,7 +26,7 @@ mod write;
 
 pub use checked::Checks;
 pub use count::Operations;
-pub use outputs::{results, straight_line};
+pub use outputs::{locals, results, straight_line};
 pub use rounding::Rounded;
 pub use routine::{Array, ArrayRows, Block, Repeated, Role, Routine, Row, Stage, Sums, Table};
 pub use routines::Routines;

@@ -79,13 +79,17 @@ impl Mul for Rounded {
 }
 
 impl Program {
-    /// Returns the outputs at exact values of the symbols, computed with the given unit of
-    /// roundoff.
-    pub fn rounded(&self, tables: &[Arc<Table>], symbol: impl Fn(Symbol) -> f64, unit: f64) -> Vec<Rounded> {
+    /// Returns the outputs at values of the symbols, computed with the given unit of roundoff.
+    pub fn rounded(
+        &self,
+        tables: &[Arc<Table>],
+        symbol: impl Fn(Symbol) -> Rounded,
+        unit: f64,
+    ) -> Vec<Rounded> {
         let mut registers = vec![Rounded::exact(f64::NAN, unit); self.registers];
         let of = |registers: &[Rounded], operand: Operand| match operand {
             Operand::Constant(value) => Rounded::new(value, unit),
-            Operand::Symbol(symbol_) => Rounded::exact(symbol(symbol_), unit),
+            Operand::Symbol(given) => symbol(given),
             Operand::Register(register) => registers[register],
         };
         for step in &self.steps {

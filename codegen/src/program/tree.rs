@@ -4,7 +4,7 @@ use abbe_core::Function;
 use abbe_core::function::Count;
 use abbe_spec::expr::{Function as Call, Symbol};
 
-use super::Program;
+use super::{Program, Rounded};
 use super::routine::{Array, ArrayRows, Block, Repeated, Role, Row, Stage};
 use crate::chain::{CLOSED, Loops, Model, REFINEMENTS, RealNodes};
 use crate::graph::{Graph, Node};
@@ -141,17 +141,105 @@ impl<'d> Draft<'d> {
         let program = Program::new(&graph, &outputs);
         self.block(&reads, &[passive], program, Some(REFINEMENTS - 1));
 
-        let squares: Vec<Node> = step.iter().map(|step| graph.mul(*step, *step)).collect();
-        let zero = graph.zero();
-        let sum = squares.into_iter().fold(zero, |sum, square| graph.add(sum, square));
-        let largest = graph.constant(CLOSED);
-        let room = graph.sub(largest, sum);
-        let sign = graph.call(Call::Sign, room);
+        let values: Vec<Node> = (0..step.len()).map(|i| graph.symbol(Symbol::Local(i))).collect();
+        let [change, size] = [step, &values].map(|of| squares(&mut graph, of));
+        let (one, relative) = (graph.constant(1.0), graph.constant(CLOSED));
+        let scale = graph.add(one, size);
+        let largest = graph.mul(relative, scale);
+        let margin = graph.sub(largest, change);
+        let sign = graph.call(Call::Sign, margin);
         // 1, or the root of a negative number.
         let one = graph.sqrt(sign);
         let checked: Vec<Node> = step.iter().map(|step| graph.div(*step, one)).collect();
         let outputs = stepped(&mut graph, &checked);
         self.block(&reads, &[passive], Program::new(&graph, &outputs), None);
+    }
+}
+
+fn squares(graph: &mut Graph, values: &[Node]) -> Node {
+    let squares: Vec<Node> = values.iter().map(|value| graph.mul(*value, *value)).collect();
+    squares.into_iter().fold(graph.zero(), |sum, square| graph.add(sum, square))
+}
+
+/// Returns the local symbols that the outputs of a function read, with bounds of their rounding
+/// errors: the passive variables, nominal or with errors, and the errors. Empty for a chain.
+pub(super) fn locals(
+    model: &Model,
+    function: Function,
+    symbol: impl Fn(Symbol) -> f64,
+    unit: f64,
+) -> Vec<Rounded> {
+    let Some(tree) = model.loops.as_ref().filter(|tree| !tree.passive_home.is_empty()) else {
+        return Vec::new();
+    };
+    let Loops { passive_home, home, continuation, .. } = tree;
+    let mut p = passive_home.clone();
+    for k in 1..=continuation + REFINEMENTS {
+        let share = (k as f64 / *continuation as f64).min(1.0);
+        let moved = |given: Symbol| match given {
+            Symbol::Variable(i) => home[i] + share * (symbol(given) - home[i]),
+            _ => symbol(given),
+        };
+        newton(&model.graph, &tree.step, &mut p, &[], &moved);
+    }
+    let nominal = rounded_step(&model.graph, &tree.step, &p, &[], &symbol, unit);
+    let real = match function {
+        Function::RealPose => &tree.real,
+        Function::DrawnPose => &tree.drawn,
+        Function::DisplacedPose => &tree.displaced,
+        _ => return nominal,
+    };
+    let graph = &model.graph;
+    let errors = Program::new(graph, &real.errors).rounded(
+        graph.tables(),
+        |given| rounded_symbol(given, &nominal, &symbol, unit),
+        unit,
+    );
+    let values: Vec<f64> = errors.iter().map(|error| error.value).collect();
+    for _ in 0..=REFINEMENTS {
+        newton(graph, &real.step, &mut p, &values, &symbol);
+    }
+    let passive = rounded_step(graph, &real.step, &p, &errors, &symbol, unit);
+    passive.into_iter().chain(errors).collect()
+}
+
+/// Subtracts Newton's step from passive variables.
+fn newton(graph: &Graph, step: &[Node], p: &mut [f64], errors: &[f64], symbol: &dyn Fn(Symbol) -> f64) {
+    let step = graph.evaluate(step, |given| match given {
+        // Other nodes may read more of them.
+        Symbol::Local(i) => p.iter().chain(errors).nth(i).copied().unwrap_or(f64::NAN),
+        given => symbol(given),
+    });
+    p.iter_mut().zip(step).for_each(|(value, step)| *value -= step);
+}
+
+/// Returns passive variables after Newton's step from exact values, with the bound of its rounding
+/// errors: what earlier steps leave does not matter.
+fn rounded_step(
+    graph: &Graph,
+    step: &[Node],
+    p: &[f64],
+    errors: &[Rounded],
+    symbol: &dyn Fn(Symbol) -> f64,
+    unit: f64,
+) -> Vec<Rounded> {
+    let exact: Vec<Rounded> = p.iter().map(|value| Rounded::exact(*value, unit)).collect();
+    let locals: Vec<Rounded> = exact.iter().chain(errors).copied().collect();
+    let mut graph = graph.clone();
+    let outputs = stepped(&mut graph, step);
+    let program = Program::new(&graph, &outputs);
+    program.rounded(graph.tables(), |given| rounded_symbol(given, &locals, symbol, unit), unit)
+}
+
+fn rounded_symbol(
+    given: Symbol,
+    locals: &[Rounded],
+    symbol: &dyn Fn(Symbol) -> f64,
+    unit: f64,
+) -> Rounded {
+    match given {
+        Symbol::Local(i) => locals.get(i).copied().unwrap_or(Rounded::exact(f64::NAN, unit)),
+        given => Rounded::exact(symbol(given), unit),
     }
 }
 

@@ -4,7 +4,7 @@
 use abbe::{Function, Orientation};
 use abbe_codegen::chain::Model;
 use abbe_codegen::graph::Node;
-use abbe_codegen::program::{Operations, results, straight_line};
+use abbe_codegen::program::{Operations, Rounded, results, straight_line};
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
@@ -78,7 +78,11 @@ fn programs_give_what_was_made_first() {
             let nodes: Vec<Node> = results.into_iter().flatten().chain(margin).collect();
             for sample in 0..3 {
                 let made = model.graph.evaluate(&nodes, values(sample));
-                let chosen = program.rounded(model.graph.tables(), values(sample), f64::EPSILON / 2.0);
+                let chosen = program.rounded(
+                    model.graph.tables(),
+                    |symbol| Rounded::exact(values(sample)(symbol), f64::EPSILON / 2.0),
+                    f64::EPSILON / 2.0,
+                );
                 let chosen: Vec<f64> = chosen.into_iter().map(|number| number.value).collect();
                 close(&format!("{}: {}", spec.file, function.name()), &made, &chosen);
             }

@@ -28,6 +28,8 @@ pub(crate) struct Loops {
     pub(crate) drawn: RealNodes,
     /// The machine with given errors of the frames.
     pub(crate) displaced: RealNodes,
+    /// The passive variables.
+    pub(crate) passive: Vec<Node>,
 }
 
 /// A machine with errors.
@@ -67,6 +69,7 @@ impl Loops {
             real,
             drawn,
             displaced,
+            passive: (0..spec.passive.len()).map(|i| graph.symbol(Symbol::Local(i))).collect(),
         }
     }
 }
@@ -102,9 +105,9 @@ fn continuation(spec: &Spec) -> usize {
                 _ => f64::NAN,
             });
             p.iter_mut().zip(&newton).for_each(|(p, step)| *p -= step);
-            change = newton.iter().map(|step| step * step).sum();
+            change = squares(&newton);
         }
-        (change <= CLOSED).then_some(p)
+        (change <= CLOSED * (1.0 + squares(&p))).then_some(p)
     };
     let is_same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6 * b.abs().max(1.0));
     let mut needed = STEPS[0];
@@ -123,9 +126,14 @@ fn continuation(spec: &Spec) -> usize {
 /// Number of Newton's steps at the final values of the joint variables.
 pub(crate) const REFINEMENTS: usize = 3;
 
-/// Largest sum of squares of the last step, in the length unit and rad, of loops that close. The
-/// next step would be of the order of its square.
-pub(crate) const CLOSED: f64 = 1e-12;
+/// Largest square of the last step, relative to 1 plus that of the passive variables, of loops that
+/// close: above the rounding errors in single precision, and such that the next step, of the order
+/// of its square, is far below all errors.
+pub(crate) const CLOSED: f64 = 1e-10;
+
+fn squares(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum()
+}
 
 /// Returns a value within the limits, by multiples of the golden ratio that differ for each
 /// variable; within a turn of home without limits.

@@ -13,7 +13,7 @@ use super::real::Real;
 use super::support::Support;
 use crate::chain::Model;
 use crate::print::layout::Writer;
-use crate::program::{Rounded, Routines, results, straight_line};
+use crate::program::{Rounded, Routines, locals, results, straight_line};
 
 pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.blank();
@@ -204,7 +204,11 @@ fn where_most_has_a_value(spec: &Spec, model: &Model, functions: &[Function], re
 /// Returns the results of a function, array by array. Returns `None` near a singularity of Euler
 /// angles, or if a number is not finite.
 fn values(given: &Given, model: &Model, function: Function) -> Option<Vec<Vec<f64>>> {
-    let symbol = |symbol| value_of(given, function, symbol);
+    let locals = locals(function, model, |symbol| value_of(given, function, symbol), 0.0);
+    let symbol = |symbol| match symbol {
+        Symbol::Local(i) => locals.get(i).map_or(f64::NAN, |local| local.value),
+        symbol => value_of(given, function, symbol),
+    };
     let (arrays, margin) = results(function, model);
     let margin = margin.map_or(1.0, |node| model.graph.evaluate(&[node], symbol)[0]);
     let arrays: Vec<Vec<f64>> = arrays.iter().map(|nodes| model.graph.evaluate(nodes, symbol)).collect();
@@ -215,13 +219,12 @@ fn values(given: &Given, model: &Model, function: Function) -> Option<Vec<Vec<f6
 fn value_of(given: &Given, function: Function, symbol: Symbol) -> f64 {
     match symbol {
         Symbol::Variable(k) => given[0].1[k],
-        Symbol::Passive(_) => f64::NAN,
         Symbol::Parameter(k) => given[1].1[k],
         Symbol::Input(k) => given[2].1[k],
         Symbol::Error(k) if function == Function::Covariance => given[4].1[k],
         Symbol::Error(k) => given[3].1[k],
         Symbol::Magnitude(k) => given[5].1[k],
-        Symbol::Local(_) => f64::NAN,
+        Symbol::Passive(_) | Symbol::Local(_) => f64::NAN,
     }
 }
 
@@ -238,7 +241,12 @@ fn sums(
     let units = [real, Real::Double].map(Real::unit_roundoff);
     let program = straight_line(function, model);
     let [mut here, mut there] = units.map(|unit| {
-        program.rounded(model.graph.tables(), |symbol| value_of(given, function, symbol), unit).into_iter()
+        let locals = locals(function, model, |symbol| value_of(given, function, symbol), unit);
+        let symbol = |symbol| match symbol {
+            Symbol::Local(i) => locals.get(i).copied().unwrap_or(Rounded::exact(f64::NAN, unit)),
+            symbol => Rounded::exact(value_of(given, function, symbol), unit),
+        };
+        program.rounded(model.graph.tables(), symbol, unit).into_iter()
     });
     let sum = |numbers: &mut dyn Iterator<Item = Rounded>, unit| {
         let weighted =
