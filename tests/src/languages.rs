@@ -149,7 +149,7 @@ pub fn compare(
     let mut worst: f64 = 0.0;
     let commands = COMPENSATED.results_len(robot.description());
     for given in given {
-        for function in Function::ALL {
+        for function in Function::all(robot.description()) {
             let expected = evaluate(function, &arguments(robot, function.signature(), given));
             let results = found.split_off(..expected.len()).ok_or("numbers are missing")?;
             let mut first = 0;

@@ -61,10 +61,11 @@ crate::for_each_function!(all);
 crate::for_each_function_of_loops!(of_loops);
 
 impl Function {
-    /// Iterates over the functions of a manipulator.
+    /// Iterates over the functions of a manipulator, in the order of generated code: those that
+    /// others call come first.
     pub fn all(description: &crate::Description) -> impl Iterator<Item = Self> + use<> {
         let has_loops = description.passive().next().is_some();
-        Self::ALL.into_iter().chain(Self::OF_LOOPS.into_iter().filter(move |_| has_loops))
+        Self::OF_LOOPS.into_iter().filter(move |_| has_loops).chain(Self::ALL)
     }
 
     /// Returns the name in generated code.

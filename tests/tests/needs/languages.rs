@@ -1,6 +1,6 @@
 //! Code generated for JavaScript, NumPy and Octave equals Rust to 1e-13 of the largest number of a
-//! result: every function of every shipped robot, of a long chain, and of a robot with names that
-//! have a meaning in these languages. Compensated commands are equal to 1e-9 of a metre or a rad.
+//! result: every function of every shipped robot, of a long chain, of loops, and of a robot with
+//! names that have a meaning in these languages. Compensated commands are equal to 1e-9 of a metre or a rad.
 //!
 //! `PYTHON` names a Python that has NumPy, if `python3` has none. Octave is slow and evaluates 20
 //! configurations; `CONFIGURATIONS=1000` sets the number for all.
@@ -46,6 +46,7 @@ fn in_all(language: Language, usual: usize) -> Result<(), Missing> {
     assert_equal(language, &command, Spec::parse("long.toml", &long_chain()).unwrap(), few);
     assert_equal(language, &command, Spec::parse("coupled.toml", coupled_joints()).unwrap(), few);
     assert_equal(language, &command, Spec::read(specs::path("measured")).unwrap(), count);
+    assert_equal(language, &command, Spec::read(specs::path("linkage")).unwrap(), few);
     assert_equal(language, &command, Spec::parse("names.toml", NAMES).unwrap(), few);
     Ok(())
 }
@@ -72,9 +73,8 @@ fn called(robot: &dyn Manipulator) -> Value {
         let results: Vec<_> = names(signature.results).into_iter().chain(behind).collect();
         json!([signature.name, names(signature.arguments), results])
     };
-    let functions = Function::ALL.map(Function::signature);
-    let functions = functions
-        .into_iter()
+    let functions = Function::all(description)
+        .map(Function::signature)
         .map(|signature| one(signature, signature.has_margin(description.orientation).then_some("margin")));
     let functions = functions.chain([one(&COMPENSATED, Some("status"))]);
     json!({ "arrays": arrays.collect::<Vec<_>>(), "functions": functions.collect::<Vec<_>>() })

@@ -26,6 +26,7 @@ fn tree_sitter() -> Result<(), Missing> {
         Spec::parse("long.toml", &long_chain()).unwrap(),
         Spec::parse("names.toml", NAMES).unwrap(),
         Spec::read(specs::path("measured")).unwrap(),
+        Spec::read(specs::path("linkage")).unwrap(),
     ];
     for spec in shipped.chain(others) {
         let file = Language::StructuredText.files(&spec).remove(0);

@@ -4,6 +4,7 @@
 use abbe::laws;
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_tests::specs;
 
 const FOUR_BAR: &str = r#"
 [manipulator]
@@ -58,4 +59,10 @@ fn batches_equal_single_configurations() {
     let machine = interpreter(FOUR_BAR);
     let found = laws::batches(&machine, 50).unwrap_or_else(|failure| panic!("{failure}"));
     assert!(found.relative <= laws::ROUNDING_TOLERANCE, "{found:?}");
+}
+
+#[test]
+fn laws_hold_for_several_loops() {
+    let machine = Interpreter::new(Spec::read(specs::path("linkage")).unwrap());
+    laws::all(&machine, 50).unwrap_or_else(|failure| panic!("{failure}"));
 }

@@ -27,6 +27,7 @@ mod single;
 pub(crate) const TESTS: Tests = &[
     ("shipped_robots", shipped_robots),
     ("long_chains", long_chains),
+    ("loops", loops),
     ("tables_and_functions", tables_and_functions),
     ("names_that_mean_something", names_that_mean_something),
     ("headers_are_those_of_cpp_too", headers_are_those_of_cpp_too),
@@ -61,6 +62,12 @@ fn long_chains() -> Result<(), Missing> {
     tool("cc", "")?;
     assert_equal(Spec::parse("long.toml", &long_chain()).unwrap(), 50);
     assert_equal(Spec::parse("coupled.toml", coupled_joints()).unwrap(), 50);
+    Ok(())
+}
+
+fn loops() -> Result<(), Missing> {
+    tool("cc", "")?;
+    assert_equal(Spec::read(specs::path("linkage")).unwrap(), 1000);
     Ok(())
 }
 
@@ -127,9 +134,9 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
         Spec::parse(name, shipped.spec).unwrap()
     });
     let long = Spec::parse("long.toml", &long_chain()).unwrap();
-    let measured = Spec::read(specs::path("measured")).unwrap();
+    let [measured, linkage] = ["measured", "linkage"].map(|name| Spec::read(specs::path(name)).unwrap());
     for (spec, real) in
-        specs.into_iter().chain([long, measured]).flat_map(|spec| Real::ALL.map(|real| (spec.clone(), real)))
+        specs.into_iter().chain([long, measured, linkage]).flat_map(|spec| Real::ALL.map(|real| (spec.clone(), real)))
     {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &spec, real);

@@ -42,7 +42,7 @@ pub(crate) fn functions(robot: &Interpreter) -> Vec<Function> {
     let has_results = |function: &Function| {
         function.signature().results.iter().all(|array| !array.is_empty(robot.description()))
     };
-    Function::ALL.into_iter().filter(has_results).collect()
+    Function::all(robot.description()).filter(has_results).collect()
 }
 
 /// Returns the numbers of the self-test, and of every function and of compensated commands at every

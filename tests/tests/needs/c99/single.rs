@@ -206,6 +206,7 @@ pub(crate) fn long_chains_and_tables() -> Result<(), Missing> {
         Spec::parse("long.toml", &long_chain()).unwrap(),
         Spec::parse("coupled.toml", coupled_joints()).unwrap(),
         Spec::read(specs::path("measured")).unwrap(),
+        Spec::read(specs::path("linkage")).unwrap(),
         Spec::parse("names.toml", NAMES).unwrap(),
     ] {
         let robot = Interpreter::new(spec.clone());

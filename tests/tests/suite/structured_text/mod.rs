@@ -64,7 +64,7 @@ fn assert_equal(spec: Spec, count: usize) {
     let (program, prefix) = (program(&spec), prefix(&spec).to_owned());
     let robot = Interpreter::new(spec);
     let given = configurations(&robot, count);
-    for function in Function::ALL {
+    for function in Function::all(robot.description()) {
         compared(&program, &prefix, &robot, function, &given).unwrap_or_else(|fault| panic!("{fault}"));
     }
 }
@@ -123,6 +123,11 @@ fn shipped_manipulators_have_the_bits_of_rust() {
 fn long_chains_have_the_bits_of_rust() {
     assert_equal(Spec::parse("long.toml", &long_chain()).unwrap(), 3);
     assert_equal(Spec::parse("coupled.toml", coupled_joints()).unwrap(), 3);
+}
+
+#[test]
+fn loops_have_the_bits_of_rust() {
+    assert_equal(Spec::read(specs::path("linkage")).unwrap(), 5);
 }
 
 #[test]
