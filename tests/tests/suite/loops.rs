@@ -1,10 +1,14 @@
 //! Closed loops: the machine closes, and `J_e` is the derivative of the machine that closes with
 //! errors.
 
-use abbe::laws;
+use std::fmt::Write;
+
+use abbe::{Pose, displacement, laws};
 use abbe_interpreter::Interpreter;
-use abbe_spec::Spec;
+use abbe_spec::{Closure, Spec};
 use abbe_tests::specs;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 const FOUR_BAR: &str = r#"
 [manipulator]
@@ -65,4 +69,136 @@ fn batches_equal_single_configurations() {
 fn laws_hold_for_several_loops() {
     let machine = Interpreter::new(Spec::read(specs::path("linkage")).unwrap());
     laws::all(&machine, 50).unwrap_or_else(|failure| panic!("{failure}"));
+}
+
+/// Random mechanisms: each loop has passive joints of its own, as many as equations, in a branch
+/// that begins at any earlier frame and ends where another one was put at home.
+struct Mechanism {
+    random: Xoshiro256PlusPlus,
+    text: String,
+    /// Poses of all frames at home, in `F_0`.
+    poses: Vec<Pose>,
+    passive: usize,
+    commanded: usize,
+}
+
+impl Mechanism {
+    fn new(seed: u64) -> Self {
+        let mut mechanism = Self {
+            random: Xoshiro256PlusPlus::seed_from_u64(seed),
+            text: "[manipulator]\nname = \"mechanism\"\nlength = \"m\"\n".to_owned(),
+            poses: Vec::new(),
+            passive: 0,
+            commanded: 0,
+        };
+        mechanism.joint(None, false);
+        let loops = 1 + seed % 3;
+        for number in 0..loops {
+            mechanism.close(number);
+        }
+        // The tool is on any frame that something moves.
+        let tool = mechanism.below(mechanism.poses.len());
+        let _ = write!(mechanism.text, "[tool]\nframe = \"f{tool}\"\ntransform = \"Tx(0.2) Rz(0.3) Ty(0.1)\"\n");
+        mechanism
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        self.random.random_range(0..count)
+    }
+
+    /// Returns a number from −1 to 1 with three decimals.
+    fn number(&mut self) -> f64 {
+        (self.below(2001) as f64 - 1000.0) / 1000.0
+    }
+
+    /// Adds a frame in general position with a joint, and returns its index.
+    fn joint(&mut self, parent: Option<usize>, passive: bool) -> usize {
+        let numbers: Vec<f64> = (0..6).map(|_| self.number()).collect();
+        let home = 0.4 * self.number();
+        let (axis, is_slide) = (self.below(3), self.below(4) == 0);
+        let [x, y, z, a, b, c] = [0, 1, 2, 3, 4, 5].map(|i| numbers[i]);
+        let index = self.poses.len();
+        let name = match passive {
+            true => format!("p{}", self.passive),
+            false => format!("q{}", self.commanded),
+        };
+        let kind = if is_slide { "prismatic" } else { "revolute" };
+        let motion = format!("{}{}({name})", if is_slide { "T" } else { "R" }, ["x", "y", "z"][axis]);
+        let flags = match passive {
+            true => "passive = true".to_owned(),
+            false => format!("limits = [{}, {}]", home - 0.05, home + 0.05),
+        };
+        let parent_name = parent.map_or("base".to_owned(), |parent| format!("f{parent}"));
+        let _ = write!(
+            self.text,
+            "[[frame]]\nname = \"f{index}\"\nparent = \"{parent_name}\"\n\
+             variable = {{ name = \"{name}\", kind = \"{kind}\", home = {home}, {flags} }}\n\
+             transform = \"Tx({x}) Ty({y}) Tz({z}) Ry({a}) Rz({b}) Rx({c}) {motion}\"\n"
+        );
+        *(if passive { &mut self.passive } else { &mut self.commanded }) += 1;
+        let rest = displacement(&[x, y, z, a, b, c]);
+        let mut moved = [0.0; 6];
+        moved[if is_slide { axis } else { [5, 3, 4][axis] }] = home;
+        let before = parent.map_or(Pose::IDENTITY, |parent| self.poses[parent]);
+        self.poses.push(before.then(&rest).then(&displacement(&moved)));
+        index
+    }
+
+    /// Adds a loop that closes at home.
+    fn close(&mut self, number: u64) {
+        let mut coordinates: Vec<usize> = (0..6).filter(|_| self.below(2) == 0).collect();
+        let is_distance = self.below(3) == 0;
+        if is_distance || coordinates.is_empty() {
+            coordinates = vec![0];
+        }
+        let start = self.below(self.poses.len());
+        let mut end = start;
+        let mut remaining = coordinates.len();
+        while remaining > 0 {
+            // A commanded joint between passive ones now and then.
+            let passive = self.below(4) != 0;
+            end = self.joint(Some(end), passive);
+            remaining -= usize::from(passive);
+        }
+        let other = if self.below(2) == 0 { None } else { Some(self.below(start + 1)) };
+        let before = other.map_or(Pose::IDENTITY, |other| self.poses[other]);
+        let mut there = before.inverse().then(&self.poses[end]);
+        let closes = match is_distance {
+            true => {
+                there.0[3] = there.0[3].map(|coordinate| coordinate + 0.5);
+                format!("\"distance\"\nlength = \"{:?} m\"", 0.5 * 3_f64.sqrt())
+            }
+            false => format!("{:?}", coordinates.iter().map(|i| Closure::COORDINATES[*i]).collect::<Vec<_>>()),
+        };
+        let row = |i: usize| format!("[{:?}, {:?}, {:?}, {:?}]", there.0[0][i], there.0[1][i], there.0[2][i], there.0[3][i]);
+        let index = self.poses.len();
+        let other_name = other.map_or("base".to_owned(), |other| format!("f{other}"));
+        let _ = write!(
+            self.text,
+            "[[frame]]\nname = \"f{index}\"\nparent = \"{other_name}\"\n\
+             matrix = [{}, {}, {}, [0, 0, 0, 1]]\n\
+             [[loop]]\nname = \"{number}\"\nframes = [\"f{end}\", \"f{index}\"]\ncloses = {closes}\n",
+            row(0),
+            row(1),
+            row(2),
+        );
+        self.poses.push(before.then(&there));
+    }
+}
+
+/// Laws hold for mechanisms in general position; singular ones are told by their condition at home.
+#[test]
+fn laws_hold_for_random_mechanisms() {
+    let (mut held, mut loops) = (0, [0; 3]);
+    for seed in 0.. {
+        let Mechanism { text, .. } = Mechanism::new(seed);
+        let spec = Spec::parse("mechanism.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
+        let machine = Interpreter::new(spec.clone());
+        let result = laws::all(&machine, 4);
+        println!("{seed} {} {:?} {}", spec.loops.len(), result.as_ref().err().map(|f| f.to_string()), spec.passive.len());
+        if result.is_ok() { held += 1; loops[spec.loops.len() - 1] += 1; }
+        if seed == 80 { break; }
+    }
+    println!("{held} {loops:?}");
+    panic!();
 }
