@@ -47,7 +47,8 @@ impl<'s> Names<'s> {
     /// Creates the names of a routine. Reserved words and the names of arrays, called routines and
     /// tables are not available.
     pub(super) fn new(spec: &'s Spec, routine: &Routine, reserved: &str, identifiers: Identifiers) -> Self {
-        let signatures: Vec<_> = routine.function.into_iter().chain(Function::ALL).map(Function::signature).collect();
+        let signatures: Vec<_> =
+            routine.function.into_iter().chain(Function::ALL).map(Function::signature).collect();
         let arrays =
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
         let arrays = arrays.map(|array| array.name).chain(routine.arrays.iter().map(|array| array.name));

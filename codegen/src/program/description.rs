@@ -28,9 +28,7 @@ pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>
                 }),
             })
             .collect(),
-        variables: variables
-            .map(variable)
-            .collect(),
+        variables: variables.map(variable).collect(),
         parameters: parameters
             .map(|parameter| Parameter {
                 name: parameter.name.as_str().into(),

@@ -3,8 +3,8 @@
 use abbe_core::Function;
 use abbe_spec::expr::Symbol;
 
-use super::{Program, Rounded, tree};
 use super::select::Selections;
+use super::{Program, Rounded, tree};
 use crate::chain::{Jacobian, Model};
 use crate::graph::{Frame, Node};
 
@@ -24,12 +24,7 @@ pub fn straight_line(function: Function, model: &Model) -> Program {
 
 /// Returns the local symbols that these nodes of a function read, with bounds of their rounding
 /// errors: passive variables and, for poses with errors, the errors. Empty for a chain of frames.
-pub fn locals(
-    function: Function,
-    model: &Model,
-    symbol: impl Fn(Symbol) -> f64,
-    unit: f64,
-) -> Vec<Rounded> {
+pub fn locals(function: Function, model: &Model, symbol: impl Fn(Symbol) -> f64, unit: f64) -> Vec<Rounded> {
     tree::locals(model, function, symbol, unit)
 }
 
@@ -86,9 +81,7 @@ pub(super) fn alternatives(function: Function, model: &Model) -> Vec<Outputs> {
         Function::DrawnPose => plain(vec![pose(&model.drawn_pose)]),
         // In terms of passive variables that `tree` finds.
         Function::Passive => plain(vec![model.loops.iter().flat_map(|tree| tree.passive.clone()).collect()]),
-        Function::DisplacedPose => {
-            plain(model.loops.iter().map(|tree| pose(&tree.displaced.pose)).collect())
-        }
+        Function::DisplacedPose => plain(model.loops.iter().map(|tree| pose(&tree.displaced.pose)).collect()),
         Function::CompensatorStep => plain(vec![pose(&model.real_pose), model.joint_twists.concat()]),
     }
 }

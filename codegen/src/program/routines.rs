@@ -54,7 +54,10 @@ impl Routines {
         for function in Function::all(&description) {
             let signature = function.signature();
             let mut arrays = arguments_and_results(signature, spec.orientation);
-            let own = model.loops.as_ref().and_then(|tree| Draft::new(model, tree, &mut arrays).own_stages(function));
+            let own = model
+                .loops
+                .as_ref()
+                .and_then(|tree| Draft::new(model, tree, &mut arrays).own_stages(function));
             let same = |outputs: &Outputs| {
                 let (other, _) =
                     known.iter().find(|(other, its)| is_same(*other, its, signature, outputs))?;

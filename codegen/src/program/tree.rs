@@ -4,8 +4,8 @@ use abbe_core::Function;
 use abbe_core::function::Count;
 use abbe_spec::expr::{Function as Call, Symbol};
 
-use super::{Program, Rounded};
 use super::routine::{Array, ArrayRows, Block, Repeated, Role, Row, Stage};
+use super::{Program, Rounded};
 use crate::chain::{CLOSED, Loops, Model, REFINEMENTS, RealNodes};
 use crate::graph::{Graph, Node};
 
@@ -231,12 +231,7 @@ fn rounded_step(
     program.rounded(graph.tables(), |given| rounded_symbol(given, &locals, symbol, unit), unit)
 }
 
-fn rounded_symbol(
-    given: Symbol,
-    locals: &[Rounded],
-    symbol: &dyn Fn(Symbol) -> f64,
-    unit: f64,
-) -> Rounded {
+fn rounded_symbol(given: Symbol, locals: &[Rounded], symbol: &dyn Fn(Symbol) -> f64, unit: f64) -> Rounded {
     match given {
         Symbol::Local(i) => locals.get(i).copied().unwrap_or(Rounded::exact(f64::NAN, unit)),
         given => Rounded::exact(symbol(given), unit),

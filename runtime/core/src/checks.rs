@@ -76,11 +76,7 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
 
 /// Checks that all values of a result are finite. If the manipulator has loops, values that are not
 /// finite mean that these do not close.
-pub fn result_is_finite(
-    description: &Description,
-    quantity: Quantity,
-    values: &[f64],
-) -> Result<(), Error> {
+pub fn result_is_finite(description: &Description, quantity: Quantity, values: &[f64]) -> Result<(), Error> {
     let has_loops = || description.passive().next().is_some();
     finite(quantity, values).map_err(|error| if has_loops() { Error::NotClosed } else { error })
 }

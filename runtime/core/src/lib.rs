@@ -55,8 +55,8 @@ pub use chain::{chain, deviation, displacement, euler_margin, located, real_pose
 pub use component::Component;
 pub use delegate::Delegate;
 pub use description::{
-    Branch, Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
-    Variable, VariableKind,
+    Branch, Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter,
+    Source, Variable, VariableKind,
 };
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]

@@ -55,11 +55,12 @@ impl Loops {
         let residual = parts.residual(graph);
         let step = parts.factored.solve(graph, &residual);
         let repeatable = spec.enabled_sources().map(|source| source.class == Class::Repeatable);
-        let magnitudes = repeatable.map(|one| graph.constant(if one { 1.0 } else { 0.0 })).collect();
-        let real = RealNodes::new(graph, spec, causes, magnitudes);
-        let magnitudes =
+        let magnitudes: Vec<Node> =
+            repeatable.map(|one| graph.constant(if one { 1.0 } else { 0.0 })).collect();
+        let real = RealNodes::new(graph, spec, causes, &magnitudes);
+        let magnitudes: Vec<Node> =
             (0..spec.enabled_sources().count()).map(|i| graph.symbol(Symbol::Magnitude(i))).collect();
-        let drawn = RealNodes::new(graph, spec, causes, magnitudes);
+        let drawn = RealNodes::new(graph, spec, causes, &magnitudes);
         let displaced = RealNodes::displaced(graph, spec, errors);
         Self {
             passive_home: home(&spec.passive),
@@ -109,7 +110,8 @@ fn continuation(spec: &Spec) -> usize {
         }
         (change <= CLOSED * (1.0 + squares(&p))).then_some(p)
     };
-    let is_same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6 * b.abs().max(1.0));
+    let is_same =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6 * b.abs().max(1.0));
     let mut needed = STEPS[0];
     for sample in 0..SAMPLES {
         let q: Vec<f64> =
@@ -145,13 +147,14 @@ fn sampled(variable: &Variable, index: usize, sample: usize) -> f64 {
     };
     let lower = if lower.is_finite() { lower } else { variable.home - half };
     let upper = if upper.is_finite() { upper } else { variable.home + half };
-    let share = (0.618_033_988_749_894_9 * (sample + 1) as f64 * (index + 1) as f64 + 0.1 * index as f64).fract();
+    let share =
+        (0.618_033_988_749_894_9 * (sample + 1) as f64 * (index + 1) as f64 + 0.1 * index as f64).fract();
     lower + (upper - lower) * share
 }
 
 impl RealNodes {
     /// Returns the machine with the errors of sources, each times its magnitude.
-    fn new(graph: &mut Graph, spec: &Spec, causes: &Causes, magnitudes: Vec<Node>) -> Self {
+    fn new(graph: &mut Graph, spec: &Spec, causes: &Causes, magnitudes: &[Node]) -> Self {
         let mut causes = causes.clone();
         let mut errors = Vec::new();
         let one = graph.constant(1.0);
@@ -159,9 +162,10 @@ impl RealNodes {
             let magnitude = magnitudes[placed.source];
             placed.errors.iter_mut().map(move |error| (magnitude, error))
         });
-        let of_numbers = causes.deviations.iter_mut().map(|deviation| {
-            (magnitudes[deviation.source], &mut deviation.error)
-        });
+        let of_numbers = causes
+            .deviations
+            .iter_mut()
+            .map(|deviation| (magnitudes[deviation.source], &mut deviation.error));
         for (magnitude, error) in of_errors.chain(of_numbers) {
             *error = graph.mul(magnitude, *error);
             // Without loops nothing is repeated, and errors need no array.

@@ -182,15 +182,15 @@ pub(crate) fn model(spec: &Spec) -> Model {
     let (effects, causes) = sources::effects_in(g, spec, |_| &loads);
     let generalized_errors = sources::generalized_errors(g, spec, &effects);
 
-    let symbols: Vec<[Node; 6]> = (0..frames.len())
-        .map(|i| std::array::from_fn(|k| g.symbol(Symbol::Error(6 * i + k))))
-        .collect();
+    let symbols: Vec<[Node; 6]> =
+        (0..frames.len()).map(|i| std::array::from_fn(|k| g.symbol(Symbol::Error(6 * i + k)))).collect();
     let displaced = |g: &mut Graph, errors: &[[Node; 6]]| {
         let [velocity, rotation] = parts.by_errors(g, errors);
         rows.column(g, velocity, rotation)
     };
     let displacement = Jacobian { columns: vec![displaced(g, &symbols)], margin };
-    let covariance = Jacobian { columns: covariance(g, &error_jacobian.columns, symbols.as_flattened()), margin };
+    let covariance =
+        Jacobian { columns: covariance(g, &error_jacobian.columns, symbols.as_flattened()), margin };
     let two_forms = |g: &mut Graph, errors: &[Vec<[Node; 6]>]| {
         let summed = errors.iter().map(|errors| displaced(g, errors)).collect();
         let product = |errors: &Vec<_>| by_source::product(g, &error_jacobian.columns, errors);

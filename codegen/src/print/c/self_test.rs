@@ -12,8 +12,9 @@ use abbe_spec::expr::Symbol;
 use super::real::Real;
 use super::support::Support;
 use crate::chain::Model;
+use crate::graph::Node;
 use crate::print::layout::Writer;
-use crate::program::{Rounded, Routines, locals, results, straight_line};
+use crate::program::{Program, Rounded, Routines, locals, results, straight_line};
 
 pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.blank();
@@ -204,16 +205,29 @@ fn where_most_has_a_value(spec: &Spec, model: &Model, functions: &[Function], re
 /// Returns the results of a function, array by array. Returns `None` near a singularity of Euler
 /// angles, or if a number is not finite.
 fn values(given: &Given, model: &Model, function: Function) -> Option<Vec<Vec<f64>>> {
-    let locals = locals(function, model, |symbol| value_of(given, function, symbol), 0.0);
-    let symbol = |symbol| match symbol {
-        Symbol::Local(i) => locals.get(i).map_or(f64::NAN, |local| local.value),
-        symbol => value_of(given, function, symbol),
+    let values = |array: usize, nodes: &[Node]| {
+        let locals = locals_of(given, model, function, array, 0.0);
+        model.graph.evaluate(nodes, |symbol| match symbol {
+            Symbol::Local(i) => locals.get(i).map_or(f64::NAN, |local| local.value),
+            symbol => value_of(given, function, symbol),
+        })
     };
     let (arrays, margin) = results(function, model);
-    let margin = margin.map_or(1.0, |node| model.graph.evaluate(&[node], symbol)[0]);
-    let arrays: Vec<Vec<f64>> = arrays.iter().map(|nodes| model.graph.evaluate(nodes, symbol)).collect();
+    let margin = margin.map_or(1.0, |node| values(0, &[node])[0]);
+    let arrays: Vec<Vec<f64>> =
+        arrays.iter().enumerate().map(|(array, nodes)| values(array, nodes)).collect();
     let all_finite = arrays.iter().flatten().all(|value| value.is_finite());
     (margin >= 0.1 && margin.is_finite() && all_finite).then_some(arrays)
+}
+
+/// Returns the local symbols that an array of the results reads. The pose of a step of the
+/// compensator is the real one, everything else is nominal.
+fn locals_of(given: &Given, model: &Model, function: Function, array: usize, unit: f64) -> Vec<Rounded> {
+    let function = match (function, array) {
+        (Function::CompensatorStep, 0) => Function::RealPose,
+        _ => function,
+    };
+    locals(function, model, |symbol| value_of(given, function, symbol), unit)
 }
 
 fn value_of(given: &Given, function: Function, symbol: Symbol) -> f64 {
@@ -239,14 +253,21 @@ fn sums(
     real: Real,
 ) -> Vec<(usize, Rounded)> {
     let units = [real, Real::Double].map(Real::unit_roundoff);
-    let program = straight_line(function, model);
+    // The arrays of a tree of frames may read different passive variables.
+    let programs = match model.loops.is_some() {
+        true => results(function, model).0.iter().map(|nodes| Program::new(&model.graph, nodes)).collect(),
+        false => vec![straight_line(function, model)],
+    };
     let [mut here, mut there] = units.map(|unit| {
-        let locals = locals(function, model, |symbol| value_of(given, function, symbol), unit);
-        let symbol = |symbol| match symbol {
-            Symbol::Local(i) => locals.get(i).copied().unwrap_or(Rounded::exact(f64::NAN, unit)),
-            symbol => Rounded::exact(value_of(given, function, symbol), unit),
+        let rounded = |(array, program): (usize, &Program)| {
+            let locals = locals_of(given, model, function, array, unit);
+            let symbol = |symbol| match symbol {
+                Symbol::Local(i) => locals.get(i).copied().unwrap_or(Rounded::exact(f64::NAN, unit)),
+                symbol => Rounded::exact(value_of(given, function, symbol), unit),
+            };
+            program.rounded(model.graph.tables(), symbol, unit)
         };
-        program.rounded(model.graph.tables(), symbol, unit).into_iter()
+        programs.iter().enumerate().flat_map(rounded).collect::<Vec<_>>().into_iter()
     });
     let sum = |numbers: &mut dyn Iterator<Item = Rounded>, unit| {
         let weighted =

@@ -32,10 +32,9 @@ impl Loops<'_> {
         let mut draft = Draft::new(self, arrays);
         match function {
             // The last two are functions of trees, which have no loops over their frames.
-            Function::Effects
-            | Function::GeneralizedErrors
-            | Function::Passive
-            | Function::DisplacedPose => return None,
+            Function::Effects | Function::GeneralizedErrors | Function::Passive | Function::DisplacedPose => {
+                return None;
+            }
             Function::Transforms => draft.transforms(),
             Function::Pose => draft.pose(),
             Function::ErrorJacobian => draft.error_jacobian(false),

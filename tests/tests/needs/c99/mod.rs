@@ -135,8 +135,10 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
     });
     let long = Spec::parse("long.toml", &long_chain()).unwrap();
     let [measured, linkage] = ["measured", "linkage"].map(|name| Spec::read(specs::path(name)).unwrap());
-    for (spec, real) in
-        specs.into_iter().chain([long, measured, linkage]).flat_map(|spec| Real::ALL.map(|real| (spec.clone(), real)))
+    for (spec, real) in specs
+        .into_iter()
+        .chain([long, measured, linkage])
+        .flat_map(|spec| Real::ALL.map(|real| (spec.clone(), real)))
     {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &spec, real);
