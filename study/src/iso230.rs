@@ -37,12 +37,15 @@ impl IsoAxis {
     }
 
     /// Returns the axes of a machine with slides along X, Y and Z of `F_0`; none of another
-    /// machine.
+    /// machine, or if its frames are not a chain.
     ///
     /// Rotary axes before the first slide carry the workpiece; all other axes are taken to carry
     /// the tool, which a spec does not say. An axis has names if the axes of its frame are those of
     /// `F_0` where all variables are 0.
     pub fn all(spec: &Spec, manipulator: &dyn Manipulator) -> Vec<Self> {
+        if !spec.is_serial() {
+            return Vec::new();
+        }
         let slides = spec.variables.iter().filter(|one| one.kind == VariableKind::Prismatic);
         let Some(first) = slides.map(|one| one.frame).min() else { return Vec::new() };
         let axes: Vec<Self> = spec

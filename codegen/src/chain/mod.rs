@@ -63,5 +63,6 @@ pub(crate) use rows::Rows;
 pub use sources::{DeviationNode, EffectNode, deviations, effects};
 pub(crate) use symbol_jacobian::swing;
 pub use tool_compliance::ToolCompliance;
+pub use tree::LoopEquations;
 pub(crate) use tree::{CLOSED, Loops, REFINEMENTS, RealNodes};
 pub use walk::transform;

@@ -39,6 +39,14 @@ impl Closure {
         }
     }
 
+    /// Returns `true` if an equation is about an angle, `false` if it is about a length.
+    pub fn is_angle(&self, equation: usize) -> bool {
+        match self {
+            Self::Coordinates(coordinates) => coordinates.get(equation).is_some_and(|one| *one >= 3),
+            Self::Distance(_) => false,
+        }
+    }
+
     /// Returns the number of equations.
     pub fn equations(&self) -> usize {
         match self {

@@ -110,6 +110,15 @@ impl Spec {
         self.tree().own_end(closed)
     }
 
+    /// Returns the leg that declares a variable; `None` if a frame does.
+    pub fn leg(&self, variable: usize) -> Option<&Loop> {
+        if self.frames.iter().any(|frame| frame.variable == Some(variable)) {
+            return None;
+        }
+        let depends = |length: &Expression| length.symbols().any(|used| used == Symbol::Variable(variable));
+        self.loops.iter().find(|closed| closed.closure.length().is_some_and(depends))
+    }
+
     /// Returns the number of equations of all loops.
     pub fn equations(&self) -> usize {
         self.loops.iter().map(|closed| closed.closure.equations()).sum()

@@ -2,6 +2,7 @@
 
 use super::closure::Loop;
 use super::frame::Frame;
+use crate::expr::{Expression, Symbol};
 
 /// A tree of frames with its loops.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +43,13 @@ impl Tree<'_> {
             path.iter().copied().filter(|frame| !other.contains(frame)).collect()
         };
         [only(&first, &second), only(&second, &first)].concat()
+    }
+
+    /// Returns the symbols that change a loop: those between its ends, and of its length.
+    pub fn symbols(self, closed: &Loop) -> Vec<Symbol> {
+        let frames = self.between(closed).into_iter().flat_map(|frame| self.frames[frame].symbols());
+        let length = closed.closure.length().into_iter().flat_map(Expression::symbols);
+        frames.chain(length).collect()
     }
 
     /// Returns the end of a loop that belongs to it alone, and −1 for the first frame or 1 for the

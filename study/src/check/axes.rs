@@ -26,8 +26,12 @@ struct Axis {
 }
 
 /// Returns a sentence for each frame with a source whose rotation axis is parallel to the frame's
-/// joint axis but apart from it, or is the axis of another joint.
+/// joint axis but apart from it, or is the axis of another joint. None if the frames are not a
+/// chain.
 pub(super) fn notes(spec: &Spec) -> Vec<String> {
+    if !spec.is_serial() {
+        return Vec::new();
+    }
     let plain = plain_errors(spec);
     let (mut graph, nodes) = effects(&plain);
     let turned = by_source_and_frame(spec, &nodes);

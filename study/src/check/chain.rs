@@ -1,5 +1,7 @@
 //! The nominal chain at home: the matrices `A_i` from the spec, and their product.
 
+use std::borrow::Cow;
+
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose};
 use abbe_codegen::graph::Graph;
@@ -12,7 +14,7 @@ use serde::Serialize;
 pub struct Chain {
     /// Frames, base to tip.
     pub frames: Vec<Link>,
-    /// Tool `T`, from `F_n` to the tool point, a homogeneous matrix, row by row.
+    /// Tool `T`, from the frame that carries it, `F_n` in a chain, to the tool point, a homogeneous matrix, row by row.
     pub tool: [[f64; 4]; 4],
     /// Pose of the tool in `F_0`, a homogeneous matrix, row by row.
     pub pose: [[f64; 4]; 4],
@@ -27,7 +29,8 @@ pub struct Link {
     /// order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dh: Option<Dh>,
-    /// Matrix from `F_i` coordinates to `F_{i-1}`, a homogeneous matrix, row by row.
+    /// Matrix from `F_i` coordinates to those of the frame that it hangs on, `F_{i-1}` in a chain, a
+    /// homogeneous matrix, row by row.
     pub matrix: [[f64; 4]; 4],
 }
 
@@ -54,6 +57,7 @@ impl Chain {
         let (q, s) = (sampling::home(description), sampling::nominal_parameters(description));
         let mut transforms = vec![Pose::IDENTITY; spec.frames.len() + 1];
         manipulator.transforms(&q, &s, &mut transforms).ok()?;
+        let spec = &at_closed_loops(spec, manipulator, &q, &s)?;
         // Adding 0 turns −0 into 0.
         let rows = |pose: &Pose| pose.rows().map(|row| row.map(|entry| entry + 0.0));
         let frames = spec.frames.iter().zip(&transforms).map(|(frame, matrix)| Link {
@@ -67,6 +71,23 @@ impl Chain {
             pose: rows(&manipulator.pose(&q, &s).ok()?),
         })
     }
+}
+
+/// Returns the spec with the values of the passive variables for which the loops close as home.
+fn at_closed_loops<'s>(
+    spec: &'s Spec,
+    manipulator: &dyn Manipulator,
+    q: &[f64],
+    s: &[f64],
+) -> Option<Cow<'s, Spec>> {
+    if spec.passive.is_empty() {
+        return Some(Cow::Borrowed(spec));
+    }
+    let mut passive = vec![0.0; spec.passive.len()];
+    manipulator.passive(q, s, &mut passive).ok()?;
+    let mut spec = spec.clone();
+    spec.passive.iter_mut().zip(passive).for_each(|(variable, value)| variable.home = value);
+    Some(Cow::Owned(spec))
 }
 
 impl Dh {

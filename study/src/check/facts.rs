@@ -39,8 +39,14 @@ pub struct Facts {
 pub struct Frame {
     /// Name of the frame.
     pub name: String,
-    /// Name of its joint variable; `None` for a fixed frame.
+    /// Name of its joint variable; `None` for a frame without a drive.
     pub variable: Option<String>,
+    /// Name of its passive variable; absent if it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passive: Option<String>,
+    /// Name of the frame that it hangs on, `base` for `F_0`; absent if all frames are a chain.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parent: Option<String>,
 }
 
 /// Joint variable, in the length unit or rad.
@@ -115,6 +121,9 @@ impl Facts {
         let frames = spec.frames.iter().map(|frame| Frame {
             name: frame.name.clone(),
             variable: frame.variable.map(|i| spec.variables[i].name.clone()),
+            passive: frame.passive.map(|i| spec.passive[i].name.clone()),
+            parent: (!spec.is_serial())
+                .then(|| frame.parent.map_or("base".to_owned(), |i| spec.frames[i].name.clone())),
         });
         let variables = spec.variables.iter().map(|variable| Variable {
             name: variable.name.clone(),
@@ -161,7 +170,7 @@ impl Facts {
     }
 }
 
-fn kind(kind: VariableKind) -> &'static str {
+pub(super) fn kind(kind: VariableKind) -> &'static str {
     match kind {
         VariableKind::Revolute => "revolute",
         VariableKind::Prismatic => "prismatic",

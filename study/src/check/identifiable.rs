@@ -1,12 +1,15 @@
 //! Number of generalized errors that measurements can identify.
 
-use abbe::Manipulator;
-use abbe::analysis::{Measurement, Parts, Workspace, identifiable_in_parts, random_joint_samples};
+use abbe::analysis::{
+    Configuration, Measurement, Parts, Workspace, identifiable, identifiable_in_parts, random_joint_samples,
+};
+use abbe::{Error, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::notes::Notes;
+use crate::number;
 
 /// Seed of the sampled configurations.
 const SEED: u64 = 1;
@@ -34,19 +37,43 @@ pub struct Identifiable {
     pub reason: String,
 }
 
-/// Counts the identifiable errors when all joints move. Returns the counts and the number of
-/// configurations.
-pub(super) fn count(
-    manipulator: &Interpreter,
-    notes: &mut dyn Notes,
-) -> Result<(Vec<Identifiable>, usize), Diagnostics> {
+/// Counts of identifiable errors.
+#[derive(Default)]
+pub(super) struct Counted {
+    pub(super) list: Vec<Identifiable>,
+    /// Number of configurations with closed loops.
+    pub(super) configurations: usize,
+    /// Sentence about configurations at which loops do not close.
+    pub(super) remark: Option<String>,
+}
+
+/// Counts the identifiable errors when all joints move.
+pub(super) fn count(manipulator: &Interpreter, notes: &mut dyn Notes) -> Result<Counted, Diagnostics> {
     let description = manipulator.description();
     let parts = Parts::new(&manipulator.spec().variables_of_transforms());
+    let is_chain = manipulator.spec().is_serial();
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
-    let configurations = configurations(parts.longest());
+    let longest = if is_chain { parts.longest() } else { description.frames.len() + 1 };
+    let configurations = configurations(longest);
     let samples = random_joint_samples(manipulator, &moved, configurations, SEED)
         .map(|workspace| workspace.reached())
         .map_err(|error| error.to_string());
+    let is_open = |at: &Configuration| matches!(manipulator.pose(&at.q, &at.s), Err(Error::NotClosed));
+    let (open, samples) = match samples {
+        Ok(all) => {
+            let (open, closed): (Vec<_>, Vec<_>) = all.into_iter().partition(is_open);
+            (open, if closed.is_empty() { Err(Error::NotClosed.to_string()) } else { Ok(closed) })
+        }
+        error => (Vec::new(), error),
+    };
+    let remark = open.first().map(|first| {
+        let joints = number::variables(&first.q, manipulator.spec());
+        format!(
+            "The loops do not close at {} of {configurations} configurations within the joint limits, such as \
+             {joints}: narrow the limits to where they close.",
+            open.len()
+        )
+    });
     let measurements = [
         ("pose", Measurement::Pose, false),
         ("pose", Measurement::Pose, true),
@@ -57,8 +84,11 @@ pub(super) fn count(
     for (name, measurement, base) in measurements {
         notes.go_on()?;
         let found = samples.as_ref().map_err(String::clone).and_then(|samples| {
-            identifiable_in_parts(manipulator, &parts, samples, measurement, base)
-                .map_err(|error| error.to_string())
+            let found = match is_chain {
+                true => identifiable_in_parts(manipulator, &parts, samples, measurement, base),
+                false => identifiable(manipulator, samples, measurement, base),
+            };
+            found.map_err(|error| error.to_string())
         });
         counted.push(Identifiable {
             measurement: name,
@@ -68,5 +98,6 @@ pub(super) fn count(
             unknowns: 6 * (description.frames.len() + usize::from(base)),
         });
     }
-    Ok((counted, configurations))
+    let configurations = samples.map_or(configurations, |closed| closed.len());
+    Ok(Counted { list: counted, configurations, remark })
 }

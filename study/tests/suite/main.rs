@@ -1,6 +1,7 @@
 //! Tests of the jobs as library calls.
 
 mod camera;
+mod checked_loops;
 mod clinic;
 mod closed_loops;
 mod compensated;

@@ -58,6 +58,29 @@ fn laws_hold() {
     laws::all(&machine, 50).unwrap_or_else(|failure| panic!("{failure}"));
 }
 
+/// An error of the command of a leg has the effect of that command, exactly and to first order.
+#[test]
+fn an_error_of_a_leg_is_one_of_its_command() {
+    let page = include_str!("../../../docs/reference/spec.md");
+    let text = page.split("```").find_map(|block| block.strip_prefix("toml\n# lift.toml\n")).unwrap();
+    let lift = interpreter(text);
+    for q in [-80.0, -30.0, 0.0, 25.0, 39.0] {
+        let (real, moved) = (lift.real_pose(&[q], &[], &[]).unwrap(), lift.pose(&[q + 0.2], &[]).unwrap());
+        for (found, expected) in real.0.as_flattened().iter().zip(moved.0.as_flattened()) {
+            assert!((found - expected).abs() < 1e-11 * 500.0, "{found}, not {expected}");
+        }
+        let (mut joint, mut columns, mut errors) = ([[0.0; 6]], [[0.0; 6]; 18], [[0.0; 6]; 3]);
+        lift.joint_jacobian(&[q], &[], &mut joint).unwrap();
+        lift.error_jacobian(&[q], &[], &mut columns).unwrap();
+        lift.generalized_errors(&[q], &[], &[], &mut errors).unwrap();
+        for row in 0..6 {
+            let terms = columns.iter().zip(errors.as_flattened()).map(|(column, error)| column[row] * error);
+            let (found, expected) = (terms.sum::<f64>(), 0.2 * joint[0][row]);
+            assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
+        }
+    }
+}
+
 #[test]
 fn batches_equal_single_configurations() {
     let machine = interpreter(FOUR_BAR);

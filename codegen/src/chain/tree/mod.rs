@@ -8,16 +8,18 @@
 //! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε
 //! ```
 //!
-//! `loops` has Newton's steps for p, of the nominal machine and with errors. `lengths` converts
+//! `equations` exposes φ and φ_p. `loops` has Newton's steps for p, of the nominal machine and with errors. `lengths` converts
 //! errors of the lengths of legs to errors of frames.
 
 mod closure;
+mod equations;
 mod factored;
 mod lengths;
 mod loops;
 mod model;
 mod view;
 
+pub use equations::LoopEquations;
 pub(super) use lengths::add_lengths;
 pub(crate) use loops::{CLOSED, Loops, REFINEMENTS, RealNodes};
 pub(super) use model::model;

@@ -49,10 +49,9 @@ impl<'s> Parts<'s> {
         }
         let factored = Factored::new(graph, Vec::new());
         let mut parts = Self { whole, loops, factored, eliminated: vec![Vec::new(); 6] };
-        let passive = (0..spec.passive.len()).map(Symbol::Local);
-        let columns: Vec<Vec<Node>> =
-            passive.clone().map(|symbol| parts.rates_by_symbol(graph, symbol)).collect();
+        let columns = parts.derivatives(graph, spec);
         parts.factored = Factored::new(graph, columns);
+        let passive = (0..spec.passive.len()).map(Symbol::Local);
         let tool: Vec<[Node; 6]> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
         parts.eliminated = (0..6)
             .map(|row| {
@@ -70,6 +69,11 @@ impl<'s> Parts<'s> {
             residual.extend(closure::residual(graph, *ends, closure, *length, |frame| *view.pose(frame)));
         }
         residual
+    }
+
+    /// Returns the columns of `φ_p`, one per passive variable.
+    pub(super) fn derivatives(&self, graph: &mut Graph, spec: &Spec) -> Vec<Vec<Node>> {
+        (0..spec.passive.len()).map(|i| self.rates_by_symbol(graph, Symbol::Local(i))).collect()
     }
 
     /// Returns the rates of all equations per unit of a symbol.

@@ -1,10 +1,10 @@
 //! The answer of a check: whether the spec is valid, and what it describes.
 
-use abbe_spec::Spec;
+use abbe_spec::{Frame, Spec};
 use abbe_study::check::{Identifiable, Report};
 use abbe_study::number::{self, counted, quantity, short};
 
-use super::full::check::joint;
+use super::full::check::{joint, loops, not_closed};
 use super::{Answer, aligned, first};
 
 /// Number of joints shown one by one.
@@ -15,7 +15,12 @@ const REMARKS: usize = 3;
 pub(in crate::text) fn check(report: &Report) -> String {
     let mut answer =
         Answer::new(&format!("{} ({}): {}", report.spec.title, report.facts.spec, verdict(report)));
-    for failure in report.laws.iter().filter_map(|law| law.failure.as_ref()) {
+    if let Some(failure) = report.tree.as_ref().and_then(|tree| not_closed(tree, &report.spec)) {
+        answer.block(&super::wrapped(&failure, 0));
+    }
+    let mut failures: Vec<&String> = report.laws.iter().filter_map(|law| law.failure.as_ref()).collect();
+    failures.dedup();
+    for failure in failures {
         answer.block(&super::wrapped(failure, 0));
     }
     answer.block(&joints(&report.spec));
@@ -31,6 +36,9 @@ fn verdict(report: &Report) -> String {
         0 => String::new(),
         count => format!(", {}", counted(count, "remark", "remarks")),
     };
+    if report.tree.as_ref().is_some_and(|tree| !tree.closes()) {
+        return format!("FAILED, the loops are not closed at home{remarks}");
+    }
     match failed.as_slice() {
         [] => format!("OK, spec valid, {count} self-checks passed{remarks}"),
         failed => format!("FAILED, {} of {count} self-checks: {}{remarks}", failed.len(), failed.join(", ")),
@@ -38,10 +46,13 @@ fn verdict(report: &Report) -> String {
 }
 
 fn joints(spec: &Spec) -> String {
-    let rows = spec.frames.iter().filter_map(|frame| {
-        let variable = &spec.variables[frame.variable?];
+    let rows = spec.variables.iter().enumerate().map(|(i, variable)| {
         let [kind, limits, home] = joint(variable, spec.length);
-        Some([variable.name.clone(), kind, limits, format!("home {home}"), format!("frame {}", frame.name)])
+        let moved = match spec.leg(i) {
+            Some(leg) => format!("loop {}", leg.name),
+            None => format!("frame {}", spec.frames[variable.frame].name),
+        };
+        [variable.name.clone(), kind, limits, format!("home {home}"), moved]
     });
     let rows: Vec<_> = rows.collect();
     let shown = if rows.len() > JOINTS { JOINTS - 1 } else { rows.len() };
@@ -55,11 +66,16 @@ fn joints(spec: &Spec) -> String {
 fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let spec = &report.spec;
     let moving = spec.variables.len();
-    let fixed = spec.frames.iter().filter(|frame| frame.variable.is_none()).count();
+    let is_fixed = |frame: &&Frame| frame.variable.is_none() && frame.passive.is_none();
+    let fixed = spec.frames.iter().filter(is_fixed).count();
+    let (name, tool) = match &report.tree {
+        Some(tree) => ("Tree", format!("; tool on {}", tree.tool)),
+        None => ("Chain", String::new()),
+    };
     let mut facts = vec![(
-        "Chain",
+        name,
         format!(
-            "{}, {}, {} fixed; lengths in {}; orientation as {}",
+            "{}, {}, {} fixed{tool}; lengths in {}; orientation as {}",
             counted(spec.frames.len(), "frame", "frames"),
             counted(moving, "joint", "joints"),
             fixed,
@@ -67,6 +83,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
             report.facts.orientation
         ),
     )];
+    facts.extend(report.tree.iter().filter(|tree| tree.closes()).flat_map(|tree| loops(tree, spec)));
     if let Some(home) = &report.home {
         let [x, y, z] =
             [0, 1, 2].map(|i| number::trimmed(home.pose[i][3], number::error_decimals(spec.length)));
@@ -91,7 +108,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
             .collect();
         facts.push(("Inputs", first(&inputs, 4)));
     }
-    facts.push(("Identify", identifiable(&report.identifiable)));
+    if !report.identifiable.is_empty() {
+        facts.push(("Identify", identifiable(&report.identifiable)));
+    }
     facts
 }
 

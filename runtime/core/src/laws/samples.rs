@@ -42,10 +42,12 @@ impl<'a> Subject<'a> {
         Ok(Self { manipulator, arm })
     }
 
-    /// Returns the samples at which all rows exist, and the number of those skipped.
+    /// Returns the samples at which all loops close and all rows exist, and the number of those
+    /// skipped.
     pub(super) fn samples(&self, count: usize) -> Result<(Vec<Sample>, usize), Failure> {
         let description = self.manipulator.description();
         let mut samples = Vec::with_capacity(count);
+        let mut open = None;
         for index in 0..count {
             let mut given = self.configuration(index);
             let mut transforms = self.transforms(&given.q, &given.s);
@@ -54,7 +56,13 @@ impl<'a> Subject<'a> {
                 given.s = sampling::nominal_parameters(description);
                 transforms = self.transforms(&given.q, &given.s);
             }
-            let transforms = transforms.map_err(|error| Failure::Evaluation { at: given.clone(), error })?;
+            let transforms = match transforms {
+                Err(Error::NotClosed) => {
+                    open.get_or_insert(given);
+                    continue;
+                }
+                transforms => transforms.map_err(|error| Failure::Evaluation { at: given.clone(), error })?,
+            };
             let pose = description.tool_pose(&transforms, &[]);
             let margin = euler_margin(description.orientation, &pose);
             if margin >= EULER_MARGIN {
@@ -64,6 +72,9 @@ impl<'a> Subject<'a> {
         }
         let skipped = count - samples.len();
         if 2 * skipped > count {
+            if let Some(at) = open {
+                return Err(Failure::Evaluation { at, error: Error::NotClosed });
+            }
             return Err(Failure::Skipped { skipped, samples: count });
         }
         Ok((samples, skipped))

@@ -14,6 +14,8 @@ use crate::value::find_name;
 #[derive(Clone, Copy)]
 pub(super) struct Chain<'a> {
     pub(super) tree: Tree<'a>,
+    /// `false` after a mistake in a frame or loop.
+    pub(super) complete: bool,
     pub(super) tool: Option<&'a [Factor]>,
     pub(super) scope: &'a Scope,
 }
@@ -23,7 +25,8 @@ impl Chain<'_> {
     /// mistake.
     fn uses(&self, symbol: Symbol) -> bool {
         let Tree { frames, loops, .. } = self.tree;
-        let mistaken = self.tool.is_none() || frames.iter().any(|frame| frame.factors.is_empty());
+        let mistaken =
+            !self.complete || self.tool.is_none() || frames.iter().any(|frame| frame.factors.is_empty());
         let factors = frames.iter().flat_map(|frame| &frame.factors).chain(self.tool.unwrap_or_default());
         let lengths = loops.iter().filter_map(|closed| closed.closure.length());
         let mut expressions = factors.flat_map(Factor::expressions).chain(lengths);

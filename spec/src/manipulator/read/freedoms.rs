@@ -15,7 +15,7 @@ pub(super) fn check_freedoms(tree: Tree<'_>, declarations: &Declarations, docume
         .loops
         .iter()
         .map(|closed| {
-            let symbols = symbols(tree, closed);
+            let symbols = tree.symbols(closed);
             let passive = (0..declarations.passive.len()).filter(|i| symbols.contains(&Symbol::Passive(*i)));
             let passive: Vec<usize> = passive.collect();
             if passive.is_empty() {
@@ -35,12 +35,6 @@ pub(super) fn check_freedoms(tree: Tree<'_>, declarations: &Declarations, docume
             document.mistake(part.mistake(tree.loops, &declarations.passive));
         }
     }
-}
-
-/// Returns the symbols that change a loop.
-fn symbols(tree: Tree<'_>, closed: &Loop) -> Vec<Symbol> {
-    let frames = tree.between(closed).into_iter().flat_map(|frame| tree.frames[frame].symbols());
-    frames.chain(closed.closure.length().into_iter().flat_map(|length| length.symbols())).collect()
 }
 
 fn without_passive(closed: &Loop, symbols: &[Symbol], declarations: &Declarations) -> Diagnostic {

@@ -261,6 +261,7 @@ pub fn rules() -> Vec<Rule> {
         rule("[tables.NAME]", When::Has("file"), Then::Needs(vec!["x.column", "y.column"])),
         rule("[[frame]]", When::Always, Then::NeedsOne(TRANSFORM.names().collect())),
         rule("[tool]", When::Always, Then::NeedsOne(TRANSFORM.names().collect())),
+        rule("[[loop]]", When::Is("closes", "distance"), Then::Needs(vec!["length"])),
         rule("[[source]]", When::Is("class", "random"), Then::Needs(vec!["distribution"])),
         rule("[[source]]", When::Lacks(vec!["joint", "parameter", "effect"]), Then::Needs(vec!["frame"])),
         rule("[[source.effect]]", When::Lacks(vec!["joint", "parameter"]), Then::Needs(vec!["frame"])),

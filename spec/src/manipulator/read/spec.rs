@@ -126,7 +126,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     if is_known {
         check_freedoms(tree, &declarations, document);
     }
-    let chain = Chain { tree, tool: tool.as_deref(), scope: &declarations.scope };
+    let chain = Chain { tree, complete, tool: tool.as_deref(), scope: &declarations.scope };
     let mut sources = read_sources(root, chain, document);
     if is_known {
         check_sources_in_loops(tree, &sources, &declarations, document);

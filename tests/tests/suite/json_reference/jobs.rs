@@ -81,12 +81,34 @@ fn machine(name: &str) -> Machine {
     Machine::find(name).expect("a shipped machine")
 }
 
+/// Returns a four-bar linkage.
+fn linkage() -> Machine {
+    let page = include_str!("../../../../docs/reference/spec.md");
+    let text = page.split("```").find(|block| block.starts_with("toml\n# linkage.toml")).expect("an example");
+    Machine::of_spec(Spec::parse("linkage.toml", &text["toml".len()..]).unwrap(), "linkage.toml")
+}
+
+/// Returns a machine whose loop leaves a passive joint free.
+fn hinge() -> Machine {
+    let text = r#"
+        manipulator = { name = "hinge", length = "mm" }
+        frame = [
+            { name = "slide", variable = { name = "q1", kind = "prismatic" }, transform = "Tx(q1)" },
+            { name = "hinge", variable = { name = "p1", kind = "revolute", passive = true }, transform = "Rz(p1)" },
+        ]
+        loop = [{ name = "pin", frames = ["hinge", "slide"], closes = ["x"] }]
+    "#;
+    Machine::of_spec(Spec::parse("hinge.toml", text).unwrap(), "hinge.toml")
+}
+
 /// Returns the reports by the name of their class.
 pub(super) fn reports() -> Vec<(&'static str, Value)> {
     let mut all = vec![
         ("CheckReport", json(&Check { machine: machine("pps") }.run(&mut ()).unwrap())),
         ("CheckReport", json(&Check { machine: machine("machine3") }.run(&mut ()).unwrap())),
         ("CheckReport", json(&Check { machine: machine("ur5") }.run(&mut ()).unwrap())),
+        ("CheckReport", json(&Check { machine: linkage() }.run(&mut ()).unwrap())),
+        ("CheckReport", json(&Check { machine: hinge() }.run(&mut ()).unwrap())),
         ("JacobianReport", json(&Jacobian { machine: machine("pps"), q: None }.run(&mut ()).unwrap())),
     ];
     let list = json(&List.run(&mut ()).unwrap());

@@ -1,12 +1,15 @@
 //! Nominal chain at home: Denavit-Hartenberg numbers of frames that have them, axes and origins
 //! of the others.
 
+use abbe_spec::Spec;
 use abbe_study::check::{Chain, Link};
 use abbe_study::number::{short, trimmed};
 
 use super::super::table;
 
-pub(super) fn text(chain: &Chain, length: &str) -> String {
+pub(super) fn text(chain: &Chain, spec: &Spec) -> String {
+    let length = spec.length.symbol();
+    let named = |frame: Option<usize>| format!("F_{}", frame.map_or(0, |frame| frame + 1));
     let mut text = String::new();
     let numbered = || (1..).zip(&chain.frames);
     if chain.frames.iter().any(|link| link.dh.is_some()) {
@@ -31,9 +34,9 @@ pub(super) fn text(chain: &Chain, length: &str) -> String {
     let origin = format!("origin ({length})");
     let header = ["", "from", "to", "x axis", "y axis", "z axis", origin.as_str()];
     let others = numbered().filter(|(_, link)| link.dh.is_none()).map(|(i, Link { name, matrix, .. })| {
-        row(i.to_string(), format!("F_{}", i - 1), name.clone(), matrix)
+        row(i.to_string(), named(spec.frames[i - 1].parent), name.clone(), matrix)
     });
-    let tool = row(String::new(), format!("F_{}", chain.frames.len()), "tool point".to_owned(), &chain.tool);
+    let tool = row(String::new(), named(Some(spec.tool_frame)), "tool point".to_owned(), &chain.tool);
     let home = row(String::new(), "F_0".to_owned(), "tool point".to_owned(), &chain.pose);
     text + &format!("Axes and origins at home\n{}", table(&header, others.chain([tool, home])))
 }

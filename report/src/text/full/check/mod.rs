@@ -1,6 +1,7 @@
 //! Full text of a check.
 
 mod chain;
+mod tree;
 
 use std::f64::consts::PI;
 
@@ -10,6 +11,8 @@ use abbe_study::check::{Identifiable, Law, Report};
 use abbe_study::number::{quantity, short};
 
 use super::{table, wrapped};
+
+pub(in crate::text) use tree::{facts as loops, failure as not_closed};
 
 /// Returns what `abbe check` prints.
 pub(in crate::text) fn check(report: &Report) -> String {
@@ -25,8 +28,11 @@ pub(in crate::text) fn check(report: &Report) -> String {
     if !report.iso_axes.is_empty() {
         parts.push(iso_axes(report));
     }
+    if let Some(tree) = &report.tree {
+        parts.push(tree::text(tree, spec));
+    }
     if let Some(home) = &report.home {
-        parts.push(chain::text(home, length));
+        parts.push(chain::text(home, spec));
     }
     if !spec.parameters.is_empty() {
         let rows = spec
@@ -54,11 +60,13 @@ pub(in crate::text) fn check(report: &Report) -> String {
         let notes: String = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect();
         parts.push(format!("Notes\n{notes}"));
     }
-    parts.push(format!(
-        "Identifiability\n{}",
-        identifiable(&report.identifiable, report.identifiability_configurations)
-    ));
-    parts.push(format!("Laws, at {} configurations\n{}", report.configurations, laws(&report.laws)));
+    if !report.laws.is_empty() {
+        parts.push(format!(
+            "Identifiability\n{}",
+            identifiable(&report.identifiable, report.identifiability_configurations)
+        ));
+        parts.push(format!("Laws, at {} configurations\n{}", report.configurations, laws(&report.laws)));
+    }
     let rows = report.facts.operations.iter().map(|f| [f.function.to_owned(), f.operations.to_string()]);
     parts.push(format!("Operations of the generated code\n{}", table(&["function", "operations"], rows)));
     parts.join("\n")
@@ -72,6 +80,9 @@ fn verdict(report: &Report) -> String {
         1 => ", with one remark".to_owned(),
         some => format!(", with {some} remarks"),
     };
+    if let Some(failure) = report.tree.as_ref().and_then(|tree| tree::failure(tree, &report.spec)) {
+        return wrapped(&format!("FAILED: the loops are not closed at home{warnings}. {failure}"), 0);
+    }
     match failed.as_slice() {
         [] => format!("OK: spec valid, {} self-checks passed{warnings}", report.laws.len()),
         failed => format!("FAILED: {} of {} self-checks{warnings}", failed.len(), report.laws.len()),
@@ -81,13 +92,40 @@ fn verdict(report: &Report) -> String {
 fn frames(spec: &Spec) -> String {
     let rows = spec.frames.iter().enumerate().map(|(i, frame)| {
         let number = (i + 1).to_string();
-        let Some(variable) = frame.variable.map(|variable| &spec.variables[variable]) else {
+        let driven = frame.variable.map(|variable| &spec.variables[variable]);
+        let Some(variable) = driven.or(frame.passive.map(|passive| &spec.passive[passive])) else {
             return [number, frame.name.clone(), String::new(), "fixed".into(), String::new(), String::new()];
         };
         let [kind, limits, home] = joint(variable, spec.length);
+        let kind = if driven.is_some() { kind } else { format!("{kind}, passive") };
         [number, frame.name.clone(), variable.name.clone(), kind, limits, home]
     });
-    table(&["", "frame", "variable", "kind", "limits", "home"], rows)
+    let header = ["", "frame", "variable", "kind", "limits", "home"];
+    if spec.is_serial() {
+        return table(&header, rows);
+    }
+    let parents = spec.frames.iter().map(|frame| match frame.parent {
+        Some(parent) => spec.frames[parent].name.clone(),
+        None => "base".to_owned(),
+    });
+    let rows = rows.zip(parents).map(|([number, frame, variable, kind, limits, home], parent)| {
+        [number, frame, parent, variable, kind, limits, home]
+    });
+    let legs = spec.variables.iter().enumerate().filter_map(|(i, variable)| {
+        let leg = spec.leg(i)?;
+        let [kind, limits, home] = joint(variable, spec.length);
+        Some([
+            String::new(),
+            format!("loop {}", leg.name),
+            String::new(),
+            variable.name.clone(),
+            kind,
+            limits,
+            home,
+        ])
+    });
+    let header = ["", "frame", "hangs on", "variable", "kind", "limits", "home"];
+    table(&header, rows.chain(legs))
 }
 
 /// Lists the names of ISO 230-1.
