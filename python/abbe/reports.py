@@ -314,7 +314,9 @@ class Chain(Fields):
     """Frames, base to tip."""
 
     tool: list[list[float]]
-    """Tool `T`, from `F_n` to the tool point, a homogeneous matrix, row by row."""
+    """Tool `T`, from the frame that carries it, `F_n` in a chain, to the tool point, a homogeneous matrix, row by
+    row.
+    """
 
     pose: list[list[float]]
     """Pose of the tool in `F_0`, a homogeneous matrix, row by row."""
@@ -447,6 +449,9 @@ class CheckReport(Report):
     iso_axes: list[IsoAxis] | None
     """Names of ISO 230-1 of the errors of each axis, of a machine with slides along X, Y and Z."""
 
+    tree: Tree | None
+    """Freedoms and loops; absent if the frames are a chain."""
+
     home: Chain | None
     """Nominal chain at home; None if its pose is not finite."""
 
@@ -457,13 +462,15 @@ class CheckReport(Report):
     """Properties of the spec that are easily misunderstood, one sentence each."""
 
     identifiable: list[Identifiable]
-    """Identifiability from poses, then from tool points; each with a known and an unknown base frame."""
+    """Identifiability from poses, then from tool points; each with a known and an unknown base frame. Empty if loops
+    do not close at home.
+    """
 
     configurations: int
     """Number of configurations at which the laws were checked."""
 
     laws: list[Law]
-    """Results of the self-checks, one per law."""
+    """Results of the self-checks, one per law; empty if loops do not close at home."""
 
 
 class CombinedReport(Fields):
@@ -1173,7 +1180,26 @@ class Frame(Fields):
     """Name of the frame."""
 
     variable: str | None
-    """Name of its joint variable; None for a fixed frame."""
+    """Name of its joint variable; None for a frame without a drive."""
+
+    passive: str | None = None
+    """Name of its passive variable; absent if it has none."""
+
+    parent: str | None = None
+    """Name of the frame that it hangs on, `base` for `F_0`; absent if all frames are a chain."""
+
+
+class Free(Fields):
+    """Direction in which passive variables can move by themselves."""
+
+    passive: list[str]
+    """Names of the passive variables that move."""
+
+    motion: list[float]
+    """Motion of each, relative to the fastest, without a unit: lengths relative to the arm length."""
+
+    loops: list[str]
+    """Names of the loops whose equations depend on each other."""
 
 
 class FunctionOperations(Fields):
@@ -1249,6 +1275,22 @@ class HiddenNumber(Fields):
 
     standard_deviation_there: float
     """Predicted standard deviation with the advised target at the same configurations, in the length unit or rad."""
+
+
+class Home(Fields):
+    """Loops at home."""
+
+    state: Literal["closed", "open", "far", "singular"]
+    """How the loops close: `closed`, `open` if no values of the passive variables near home close them, `far` if they
+    close at values that Newton's method does not reach from home, or `singular` if passive variables can move by
+    themselves.
+    """
+
+    condition: float | None
+    """Condition number of φ_p in the 2-norm, with lengths relative to the arm length; null if it is not finite."""
+
+    free: list[Free] | None = None
+    """Directions in which the passive variables can move by themselves; empty unless singular."""
 
 
 class Identifiable(Fields):
@@ -1781,7 +1823,9 @@ class Link(Fields):
     """Denavit-Hartenberg parameters, if the spec states them, or a product of motions in their order."""
 
     matrix: list[list[float]]
-    """Matrix from `F_i` coordinates to `F_{i-1}`, a homogeneous matrix, row by row."""
+    """Matrix from `F_i` coordinates to those of the frame that it hangs on, `F_{i-1}` in a chain, a homogeneous
+    matrix, row by row.
+    """
 
 
 class LongestEllipsoid(Fields):
@@ -1795,6 +1839,30 @@ class LongestEllipsoid(Fields):
 
     worst: Named[float]
     """Configuration with this ellipsoid."""
+
+
+class Loop(Fields):
+    """A loop."""
+
+    name: str
+    """Name of the loop."""
+
+    frames: list[str]
+    """Names of its two frames, `base` for `F_0`."""
+
+    equations: int
+    """Number of its equations."""
+
+    passive: list[str]
+    """Names of the passive variables that move it."""
+
+    gap: float | None
+    """Distance by which it stays open at home, in the length unit: root of the sum of squares of its equations of
+    lengths; null without one.
+    """
+
+    angular_gap: float | None
+    """Angle by which it stays open at home, in rad; null without equations of angles."""
 
 
 class LowerBound(Fields):
@@ -2302,6 +2370,31 @@ class Parameter(Fields):
 
     hardly_known: bool
     """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
+
+
+class Passive(Fields):
+    """Passive joint variable, in the length unit or rad."""
+
+    name: str
+    """Name of the variable."""
+
+    frame: str
+    """Name of the frame that it moves."""
+
+    kind: str
+    """Kind of the joint: `revolute` or `prismatic`."""
+
+    start: float
+    """Value at home in the spec, from which its value is found.
+
+    Unit: length unit or rad.
+    """
+
+    value: float
+    """Value at home for which the loops close, or for which they are nearest to closing.
+
+    Unit: length unit or rad.
+    """
 
 
 class PlacementAtStation(Fields):
@@ -3177,6 +3270,28 @@ class ToolPointDeviation(Fields):
 
     Unit: length unit.
     """
+
+
+class Tree(Fields):
+    """Machine whose frames are not a chain."""
+
+    tool: str
+    """Name of the frame that carries the tool."""
+
+    commanded: int
+    """Number of commanded variables: the freedoms of the machine."""
+
+    passive: list[Passive]
+    """Passive variables, which the loops determine."""
+
+    equations: int
+    """Number of equations of all loops; as many as passive variables."""
+
+    loops: list[Loop]
+    """Loops."""
+
+    home: Home | None = None
+    """Conditioning of the loops at home; absent without loops."""
 
 
 class UncertaintyBudget(Fields):

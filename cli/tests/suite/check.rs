@@ -242,3 +242,36 @@ fn angles_beyond_a_turn_are_doubted() {
         );
     }
 }
+
+const PAGE: &str = include_str!("../../../docs/reference/spec.md");
+
+/// Loops that close are shown on the first screen; those that do not are exit status 1, with a way
+/// out.
+#[test]
+fn loops_at_home() {
+    let linkage = PAGE.split("```").find_map(|block| block.strip_prefix("toml\n# linkage.toml\n")).unwrap();
+    let folder = tempdir().unwrap();
+    let checked = |text: &str| {
+        let run = abbe(&["check", write(folder.path(), "linkage.toml", text).to_str().unwrap()]);
+        assert!(run.stdout.lines().count() <= 25, "{}", run.stdout);
+        narrow(&run.stdout);
+        (run.status, run.stdout.split_whitespace().collect::<Vec<_>>().join(" "))
+    };
+    let narrow_range = linkage.replace("-170 deg", "50 deg").replace("170 deg", "70 deg");
+    let straight = linkage.replace("60 deg", "0 deg").replace("-40 deg", "0 deg").replace("65 deg", "0 deg");
+    for (text, status, words) in [
+        (linkage.to_owned(), 0, "Loops 2 equations for 2 passive variables: knee 2"),
+        (linkage.to_owned(), 0, "p1 = -41.624°, p2 = 64.9435°; condition number 2.6"),
+        (linkage.to_owned(), 0, "Tree 3 frames, 1 joint, 0 fixed; tool on coupler"),
+        (linkage.replace("Tx(80)", "Tx(10)"), 1, "the loops are not closed at home Open at home: \"knee\" by 42 mm."),
+        (narrow_range.replace("65 deg", "150 deg"), 1, "write these as `home` of the passive joints"),
+        (
+            straight.replace("Tx(120)", "Tx(100)").replace("Tx(80)", "Tx(40)"),
+            1,
+            "p1, p2 can move together, 0.4 : 1 (loop knee)",
+        ),
+    ] {
+        let (found, shown) = checked(&text);
+        assert!(found == Some(status) && shown.contains(words), "{found:?}, {words}\n{shown}");
+    }
+}

@@ -76,9 +76,7 @@ pub struct Loop {
 /// Loops at home.
 #[derive(Clone, Debug, Serialize)]
 pub struct Home {
-    /// How the loops close: `closed`, `open` if no values of the passive variables near home close
-    /// them, `far` if they close at values that Newton's method does not reach from home, or
-    /// `singular` if passive variables can move by themselves.
+    /// State of the loops.
     pub state: State,
     /// Condition number of φ_p in the 2-norm, with lengths relative to the arm length; null if it
     /// is not finite.

@@ -1,17 +1,16 @@
 //! Full text of a check.
 
 mod chain;
+mod joint;
 mod tree;
 
-use std::f64::consts::PI;
-
-use abbe::{LengthUnit, VariableKind};
-use abbe_spec::{Spec, Variable};
+use abbe_spec::Spec;
 use abbe_study::check::{Identifiable, Law, Report};
 use abbe_study::number::{quantity, short};
 
 use super::{table, wrapped};
 
+pub(in crate::text) use joint::joint;
 pub(in crate::text) use tree::{facts as loops, failure as not_closed};
 
 /// Returns what `abbe check` prints.
@@ -146,20 +145,6 @@ fn iso_axes(report: &Report) -> String {
         text += &(wrapped(sign, 0) + "\n");
     }
     text
-}
-
-/// Returns the kind, the limits and the home of a joint, in deg or in the length unit.
-pub(in crate::text) fn joint(variable: &Variable, length: LengthUnit) -> [String; 3] {
-    let (kind, scale, unit) = match variable.kind {
-        VariableKind::Revolute => ("revolute", 180.0 / PI, "deg"),
-        VariableKind::Prismatic => ("prismatic", 1.0, length.symbol()),
-    };
-    let [lower, upper] = variable.limits.map(|limit| short(limit * scale));
-    let limits = match variable.limits.map(f64::is_finite) {
-        [false, false] => "no limits".to_owned(),
-        _ => format!("{lower} … {upper} {unit}"),
-    };
-    [kind.to_owned(), limits, quantity(variable.home * scale, unit)]
 }
 
 fn identifiable(counted: &[Identifiable], configurations: usize) -> String {

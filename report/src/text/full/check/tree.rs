@@ -5,7 +5,7 @@ use abbe_study::check::{Free, Loop, State, Tree};
 use abbe_study::number::{self, counted, digits, short};
 
 use super::super::{table, wrapped};
-use super::joint;
+use super::joint::joint;
 
 /// Number of loops and of variables named in a sentence.
 const NAMED: usize = 6;
