@@ -42,4 +42,4 @@ abbe::include_manipulators!();
 
 mod shipped;
 
-pub use shipped::{MAPS, PLANS, SHIPPED, STUDIES, STUDY_FILES, Shipped};
+pub use shipped::{MAPS, MECHANISMS, PLANS, SHIPPED, STUDIES, STUDY_FILES, Shipped};

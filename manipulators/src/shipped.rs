@@ -46,6 +46,14 @@ shipped! {
     wam: Wam,
 }
 
+/// Shipped machines with closed loops, by name, in alphabetical order. They have no generated code
+/// here, so that programs that use the others need not compile it.
+pub const MECHANISMS: &[(&str, &str)] = &[
+    ("delta", include_str!("../mechanisms/delta.toml")),
+    ("hexapod", include_str!("../mechanisms/hexapod.toml")),
+    ("palletizer", include_str!("../mechanisms/palletizer.toml")),
+];
+
 /// Studies beside those of [`SHIPPED`], by name: section 6 of the paper for `pps`.
 pub const STUDIES: &[(&str, &str)] = &[("pps-section6", include_str!("../studies/pps-section6.toml"))];
 

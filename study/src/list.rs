@@ -1,7 +1,7 @@
 //! Shipped manipulators.
 
 use abbe::VariableKind;
-use abbe_manipulators::SHIPPED;
+use abbe_manipulators::{MECHANISMS, SHIPPED};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
@@ -22,7 +22,8 @@ pub struct ShippedManipulator {
     pub title: String,
     /// Number of frames.
     pub frames: usize,
-    /// Joint of each frame, base to tip: `P` prismatic, `R` revolute, `F` fixed.
+    /// Joint of each frame, base to tip: `P` prismatic, `R` revolute, `F` fixed. With loops, the
+    /// commanded joints and the number of loops.
     pub joints: String,
     /// Symbol of the length unit.
     pub length: &'static str,
@@ -35,25 +36,35 @@ pub struct ShippedManipulator {
 impl List {
     /// Returns all shipped manipulators, sorted by name.
     pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<ShippedManipulator>, Diagnostics> {
-        let manipulators = SHIPPED.iter().map(|shipped| {
-            let machine = Machine::shipped(shipped)?;
-            Ok(describe(&machine.spec, shipped.study.is_some()))
-        });
-        manipulators.collect()
+        let names = SHIPPED.iter().map(|shipped| shipped.name).chain(MECHANISMS.iter().map(|one| one.0));
+        let mut listed = Vec::new();
+        for name in names {
+            let Some(Machine { spec, shipped, .. }) = Machine::named(name)? else { continue };
+            listed.push(describe(&spec, shipped.is_some_and(|shipped| shipped.study.is_some())));
+        }
+        listed.sort_by(|a, b| a.name.cmp(&b.name));
+        Ok(listed)
     }
 }
 
 fn describe(spec: &Spec, study: bool) -> ShippedManipulator {
-    let joints = spec.frames.iter().map(|frame| match frame.variable.map(|i| spec.variables[i].kind) {
+    let letter = |variable: Option<usize>| match variable.map(|i| spec.variables[i].kind) {
         Some(VariableKind::Prismatic) => 'P',
         Some(VariableKind::Revolute) => 'R',
         None => 'F',
-    });
+    };
+    let joints = match spec.loops.len() {
+        0 => spec.frames.iter().map(|frame| letter(frame.variable)).collect(),
+        loops => {
+            let commanded: String = (0..spec.variables.len()).map(|i| letter(Some(i))).collect();
+            format!("{commanded}, {loops} loops")
+        }
+    };
     ShippedManipulator {
         name: spec.name.clone(),
         title: spec.title.clone(),
         frames: spec.frames.len(),
-        joints: joints.collect(),
+        joints,
         length: spec.length.symbol(),
         sources: spec.sources.len(),
         study,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use abbe::analysis::Sweepable;
 use abbe::{Class, Distribution};
 use abbe_interpreter::Interpreter;
-use abbe_manipulators::{SHIPPED, Shipped};
+use abbe_manipulators::{MECHANISMS, SHIPPED, Shipped};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::{Expression, Symbol};
@@ -49,18 +49,25 @@ impl Machine {
     pub fn find(argument: impl AsRef<OsStr>) -> Result<Self, Diagnostics> {
         let path = Path::new(&argument);
         let name = path.to_string_lossy();
-        let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
-        match shipped {
-            Some(shipped) if !named::is_path(path) => Self::shipped(shipped),
-            None if !named::is_path(path) => {
-                let names = SHIPPED.iter().map(|shipped| shipped.name).collect::<Vec<_>>();
-                Err(named::unknown("SPEC", &name, &names, "shipped manipulator"))
-            }
-            _ => {
-                let file = Some(path.to_owned());
-                Ok(Self { file, ..Self::new(Spec::read(path)?, &name, None) })
-            }
+        if named::is_path(path) {
+            let file = Some(path.to_owned());
+            return Ok(Self { file, ..Self::new(Spec::read(path)?, &name, None) });
         }
+        Self::named(&name)?.ok_or_else(|| {
+            let shipped = SHIPPED.iter().map(|shipped| shipped.name);
+            let names: Vec<&str> = shipped.chain(MECHANISMS.iter().map(|(name, _)| *name)).collect();
+            named::unknown("SPEC", &name, &names, "shipped manipulator")
+        })
+    }
+
+    /// Returns the shipped manipulator with a name, if there is one.
+    pub fn named(name: &str) -> Result<Option<Self>, Diagnostics> {
+        if let Some(shipped) = SHIPPED.iter().find(|shipped| shipped.name == name) {
+            return Self::shipped(shipped).map(Some);
+        }
+        let Some((_, text)) = MECHANISMS.iter().find(|(known, _)| *known == name) else { return Ok(None) };
+        let spec = Spec::parse(&format!("{name}.toml"), text)?;
+        Ok(Some(Self::new(spec, name, None)))
     }
 
     /// Returns a shipped manipulator.

@@ -103,11 +103,17 @@ fn alone_it_says_what_it_can_do() {
 fn every_shipped_manipulator_is_listed() {
     let text = prints(&["list"]);
     let listed = json(&["list", "--json"]);
-    assert_eq!(listed.as_array().map(Vec::len), Some(abbe_manipulators::SHIPPED.len()));
+    let shipped = abbe_manipulators::SHIPPED.len() + abbe_manipulators::MECHANISMS.len();
+    assert_eq!(listed.as_array().map(Vec::len), Some(shipped));
     for shipped in abbe_manipulators::SHIPPED {
         assert!(text.contains(shipped.name));
     }
-    assert_eq!(listed[4]["joints"], "PPPRRR");
+    let joints = |name: &str| {
+        let mut listed = listed.as_array().unwrap().iter();
+        listed.find(|one| one["name"] == name).unwrap()["joints"].clone()
+    };
+    assert_eq!(joints("pps"), "PPPRRR");
+    assert_eq!(joints("hexapod"), "PPPPPP, 6 loops");
 }
 
 #[test]

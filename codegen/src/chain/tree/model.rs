@@ -2,7 +2,7 @@
 
 use abbe_core::Component;
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Closure, Spec};
+use abbe_spec::{Closure, Factor, Spec};
 
 use super::closure::{self, Ends};
 use super::factored::{Factored, dot};
@@ -20,6 +20,8 @@ pub(super) struct Parts<'s> {
     /// View of the whole tree from `F_0`.
     whole: View<'s>,
     loops: Vec<Part<'s>>,
+    /// Frames whose errors have no effect.
+    free: Vec<bool>,
     pub(super) factored: Factored,
     /// Rows of `M = J_p φ_p⁻¹`: velocity and rotation of the tool.
     eliminated: Vec<Vec<Node>>,
@@ -30,7 +32,6 @@ struct Part<'s> {
     ends: Ends,
     closure: &'s Closure,
     length: Option<Node>,
-    /// Index of its view.
     view: View<'s>,
 }
 
@@ -48,7 +49,8 @@ impl<'s> Parts<'s> {
             loops.push(Part { ends, closure: &closed.closure, length, view });
         }
         let factored = Factored::new(graph, Vec::new());
-        let mut parts = Self { whole, loops, factored, eliminated: vec![Vec::new(); 6] };
+        let free = free_frames(spec);
+        let mut parts = Self { whole, loops, free, factored, eliminated: vec![Vec::new(); 6] };
         let columns = parts.derivatives(graph, spec);
         parts.factored = Factored::new(graph, columns);
         let passive = (0..spec.passive.len()).map(Symbol::Local);
@@ -127,6 +129,9 @@ impl<'s> Parts<'s> {
 
     /// Returns velocity and rotation of the tool per unit of an error.
     fn by_error(&self, graph: &mut Graph, frame: usize, component: Component) -> [Vector; 2] {
+        if self.free[frame] {
+            return [[graph.zero(); 3]; 2];
+        }
         let motion = self.whole.by_error(graph, frame, component);
         let twist = self.tool(graph, &[motion]);
         let rates = self.rates(graph, |graph, view| match view.is_below(frame) {
@@ -138,12 +143,50 @@ impl<'s> Parts<'s> {
 
     /// Returns the displacement of the tool due to errors of all frames.
     fn by_errors(&self, graph: &mut Graph, errors: &[[Node; 6]]) -> [Vector; 2] {
-        let motions = self.whole.by_errors(graph, errors);
+        let none = [graph.zero(); 6];
+        let of_frame = |(errors, free): (&[Node; 6], &bool)| if *free { none } else { *errors };
+        let errors: Vec<[Node; 6]> = errors.iter().zip(&self.free).map(of_frame).collect();
+        let motions = self.whole.by_errors(graph, &errors);
         let twist = self.tool(graph, &motions);
-        let rates = self.rates(graph, |graph, view| view.by_errors(graph, errors));
+        let rates = self.rates(graph, |graph, view| view.by_errors(graph, &errors));
         self.closed(graph, twist, &rates)
     }
 }
+
+/// Returns, for every frame, whether it belongs to a body that six passive joints in a row let move
+/// freely. They undo any motion that an error of one of these frames gives the body, so that these
+/// errors have no effect: `φ_ε = φ_p x` and `J_ε = J_p x` for the motion x of the joints.
+fn free_frames(spec: &Spec) -> Vec<bool> {
+    let count = spec.frames.len();
+    let only_child = |frame: usize| {
+        let mut children = (0..count).filter(|child| spec.frames[*child].parent == Some(frame));
+        let child = children.next().filter(|_| children.next().is_none())?;
+        let is_end = spec.loops.iter().any(|closed| closed.frames.contains(&Some(frame)));
+        (!is_end && spec.tool_frame != frame).then_some(child)
+    };
+    let mut free = vec![false; count];
+    for first in 0..count {
+        // Motions of one body: each joint moves the next, and nothing else hangs on it.
+        let row: Vec<usize> = std::iter::successors(Some(first), |frame| only_child(*frame)).collect();
+        let passive = row.iter().filter(|frame| moves_alone(spec, **frame)).count();
+        if passive == FREEDOMS {
+            row.iter().for_each(|frame| free[*frame] = true);
+        }
+    }
+    free
+}
+
+/// Returns `true` if a frame has a passive variable on which nothing else depends.
+fn moves_alone(spec: &Spec, frame: usize) -> bool {
+    let Some(passive) = spec.frames[frame].passive else { return false };
+    let others = spec.frames.iter().enumerate().filter(|(other, _)| *other != frame);
+    let factors = others.flat_map(|(_, other)| &other.factors).chain(&spec.tool);
+    let mut expressions = factors.flat_map(Factor::expressions).chain(spec.lengths());
+    !expressions.any(|expression| expression.symbols().any(|symbol| symbol == Symbol::Passive(passive)))
+}
+
+/// Freedoms of a body in space.
+const FREEDOMS: usize = 6;
 
 /// Builds all nodes of a tree of frames. This cannot fail for a checked spec.
 pub(crate) fn model(spec: &Spec) -> Model {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe_manipulators::SHIPPED;
+use abbe_manipulators::{MECHANISMS, SHIPPED};
 use abbe_spec::Spec;
 use abbe_spec::bounded::{Bounded, Contents, Unfit};
 use abbe_spec::diagnostic::Diagnostics;
@@ -145,10 +145,9 @@ impl AnalysisRequest {
         contents: Option<&Arc<Contents>>,
         notes: &mut dyn Notes,
     ) -> Result<Analyze, Diagnostics> {
-        let shipped = SHIPPED.iter().find(|shipped| shipped.name == self.spec);
-        let machine = match (&self.spec_text, shipped) {
+        let machine = match (&self.spec_text, Machine::named(&self.spec)?) {
             (Some(file), _) => Machine::of_spec(Spec::from_document(file.document(contents))?, &self.spec),
-            (None, Some(shipped)) => Machine::shipped(shipped)?,
+            (None, Some(shipped)) => shipped,
             (None, None) => {
                 let help = "give the text of the spec, or the name of a shipped manipulator";
                 return Err(mistake::with_help(
@@ -191,7 +190,8 @@ impl AnalysisRequest {
 
     /// Returns true if the spec is a shipped one.
     pub fn is_shipped(&self) -> bool {
-        SHIPPED.iter().any(|shipped| shipped.name == self.spec) && self.spec_text.is_none()
+        let mut names = SHIPPED.iter().map(|shipped| shipped.name).chain(MECHANISMS.iter().map(|one| one.0));
+        names.any(|name| name == self.spec) && self.spec_text.is_none()
     }
 }
 
