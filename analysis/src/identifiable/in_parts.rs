@@ -26,7 +26,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{Identifiability, Measurement, Parts, not_finite, singular_values};
+use super::{Identifiability, Measurement, Parts, identifiable, not_finite, singular_values};
 use crate::{Configuration, Unevaluated, sampling};
 use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
 
@@ -38,6 +38,8 @@ use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
 /// Three times [`Parts::longest`] configurations suffice: the rows then outnumber the unknowns of
 /// every part by half if points are measured, and by more if poses are.
 ///
+/// For a tree of frames this is [`identifiable`] itself.
+///
 /// Returns [`Error::Count`] if `parts` are not those of `A_1 … A_n, T`.
 pub fn identifiable_in_parts(
     manipulator: &dyn Manipulator,
@@ -47,6 +49,9 @@ pub fn identifiable_in_parts(
     base: bool,
 ) -> Result<Identifiability, Unevaluated> {
     let at = |configuration, error| Unevaluated { configuration, error };
+    if !manipulator.description().is_chain() {
+        return identifiable(manipulator, configurations, measurement, base);
+    }
     let frames = manipulator.description().frames.len();
     if parts.transforms() != frames + 1 {
         let (expected, found) = (frames + 1, parts.transforms());

@@ -74,7 +74,7 @@ impl Identifiability {
 ///
 /// Take the configurations from [`joint_samples`](super::joint_samples) with the joints that will
 /// be moved; about 50 determine the rank of any arm. Columns are normalized, so that mm and rad
-/// have the same weight. The work is proportional to the number of configurations and to the square
+/// have the same weight. Configurations where loops do not close are left out. The work is proportional to the number of configurations and to the square
 /// of the number of frames; use [`identifiable_in_parts`] for long chains.
 pub fn identifiable(
     manipulator: &dyn Manipulator,
@@ -101,7 +101,10 @@ pub fn identifiable(
         let mut stack = triangle.resize_vertically(above + rows * block.len(), 0.0);
         for (i, Configuration { q, s, .. }) in block.iter().enumerate() {
             let index = Some(b * count + i);
-            let pose = manipulator.error_jacobian(q, s, &mut columns).map_err(|error| at(index, error))?;
+            let pose = match manipulator.error_jacobian(q, s, &mut columns) {
+                Err(Error::NotClosed) => continue,
+                pose => pose.map_err(|error| at(index, error))?,
+            };
             let own = columns.iter().map(|column| twist(description.orientation, &pose, column));
             let base = Component::ALL.iter().filter(|_| base).map(|c| base_column(*c, &pose));
             for (j, column) in own.chain(base).enumerate() {

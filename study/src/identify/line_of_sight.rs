@@ -1,5 +1,6 @@
 //! Configurations at which the instruments of a map can be read.
 
+use abbe::analysis::sampling;
 use abbe::identify::{
     CONTACT, Camera, Failure, Fixture, FixtureGeometry, Measurement, Model, Observable, Observation,
     joints_at_values,
@@ -17,13 +18,15 @@ use crate::mistake;
 /// the search ends after `most`.
 ///
 /// Without instruments, or with instruments that can be read anywhere, the configurations stay
-/// unchanged.
+/// unchanged. Those where loops do not close are left out.
 pub(crate) fn readable_configurations(
     setup: &Setup,
     map: &Map,
     mut configurations: Vec<Observation>,
     most: usize,
 ) -> Result<Vec<Observation>, Failure> {
+    let Model { manipulator, s, .. } = &setup.ideal;
+    configurations.retain(|configuration| sampling::closes(*manipulator, &configuration.q, s));
     let Some(all) = map.instruments() else {
         configurations.truncate(most);
         return Ok(configurations);

@@ -7,6 +7,7 @@ pub mod options;
 mod report;
 mod sets;
 
+use abbe::analysis::sampling::closes;
 use abbe::analysis::{Configuration, Workspace, joint_samples, random_joint_samples};
 use abbe::identify::{
     Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, knowable,
@@ -267,10 +268,12 @@ impl Plan {
         let step = workspace.len().div_ceil(USED).max(1);
         let configurations =
             (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
+        let configurations = configurations.filter(|Configuration { q, s, .. }| closes(manipulator, q, s));
         let mut configurations: Vec<_> = configurations.collect();
         if configurations.is_empty() {
             let every: Vec<usize> = (0..description.variables.len()).collect();
             configurations = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
+            configurations.retain(|Configuration { q, s, .. }| closes(manipulator, q, s));
         }
         let nothing = || Measurement::Points(Vec::new().into());
         let rows = (1..)

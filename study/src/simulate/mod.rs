@@ -187,7 +187,8 @@ impl Simulate {
         let list = match &self.at {
             Places::Rows(data) => Cow::Borrowed(data),
             Places::Samples(count) => {
-                if map.instruments().is_none() && !map.follows_from_rows() {
+                let has_loops = interpreter.description().passive().next().is_some();
+                if map.instruments().is_none() && !map.follows_from_rows() && !has_loops {
                     let (samples, stations) = (self.samples(interpreter, *count)?, map.station_names().len());
                     return Ok(Planned::Sampled { samples, stations });
                 }
@@ -247,8 +248,8 @@ impl Simulate {
     ) -> Result<Data, Diagnostics> {
         let tries = match self.map.instruments() {
             Some(all) if all.camera.is_some() => TRIES_OF_VIEW * count,
-            Some(_) => TRIES * count,
-            None => count,
+            None if manipulator.description().is_chain() => count,
+            _ => TRIES * count,
         };
         let stations = self.map.station_names();
         let tried = Planned::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
