@@ -92,10 +92,11 @@ e_s = "0.1 mrad"
 "#;
 
 /// Returns a six-legged platform whose legs have the length 580 mm + q, with joints on circles of
-/// the radii 400 mm (base) and 250 mm (platform). Every leg has a source "leg I" of its length and
-/// two sources of its joints, "base joint I" and "joint I", with these errors, leg by leg: length,
-/// x, y, z of the base joint, x, y, z of the platform joint.
-pub fn hexapod(errors: &[[f64; 7]; 6]) -> String {
+/// the radii 400 mm (base) and 250 mm (platform). Every leg has seven sources with these errors: its
+/// length, "leg I"; x, y, z of its joint on the base, "base I x" and so on; x, y, z of its joint on
+/// the platform, "joint I x" and so on; `more` are further
+/// keys of each.
+pub fn hexapod(errors: &[[f64; 7]; 6], more: &str) -> String {
     let mut text = "[manipulator]\nname = \"hexapod\"\nlength = \"mm\"\n".to_owned();
     let motions = [
         ("x", "prismatic", "Tx"),
@@ -114,7 +115,7 @@ pub fn hexapod(errors: &[[f64; 7]; 6]) -> String {
              variable = {{ name = \"{variable}\", kind = \"{kind}\", passive = true, home = {home} }}\n",
         );
     }
-    for (i, [length, x, y, z, u, v, w]) in errors.iter().enumerate() {
+    for (i, errors) in errors.iter().enumerate() {
         let leg = i + 1;
         let side = if i % 2 == 0 { -1.0 } else { 1.0 };
         let at = |radius: f64, degrees: f64| {
@@ -127,15 +128,21 @@ pub fn hexapod(errors: &[[f64; 7]; 6]) -> String {
              \n[[frame]]\nname = \"joint {leg}\"\nparent = \"platform\"\ntransform = \"{}\"\n\
              \n[[loop]]\nname = \"leg {leg}\"\nframes = [\"base {leg}\", \"joint {leg}\"]\n\
              closes = \"distance\"\nlength = \"580 mm + q{leg}\"\n\
-             variable = {{ name = \"q{leg}\", kind = \"prismatic\", limits = [-60, 150] }}\n\
-             \n[[source]]\nname = \"leg {leg}\"\nclass = \"repeatable\"\njoint = \"q{leg}\"\nerror = {length}\n\
-             \n[[source]]\nname = \"base joint {leg}\"\nclass = \"repeatable\"\nframe = \"base {leg}\"\n\
-             e_x = {x}\ne_y = {y}\ne_z = {z}\n\
-             \n[[source]]\nname = \"joint {leg}\"\nclass = \"repeatable\"\nframe = \"joint {leg}\"\n\
-             e_x = {u}\ne_y = {v}\ne_z = {w}\n",
+             variable = {{ name = \"q{leg}\", kind = \"prismatic\", limits = [-60, 150] }}\n",
             at(400.0, 15.0),
             at(250.0, 45.0),
         );
+        let of_joint = |frame: &str, axis: &str| {
+            (format!("{frame} {leg} {axis}"), format!("frame = \"{frame} {leg}\"\ne_{axis}"))
+        };
+        let of_joints = ["base", "joint"].map(|frame| ["x", "y", "z"].map(|axis| of_joint(frame, axis)));
+        let length = (format!("leg {leg}"), format!("joint = \"q{leg}\"\nerror"));
+        for ((name, key), error) in [length].iter().chain(of_joints.as_flattened()).zip(errors) {
+            let _ = write!(
+                text,
+                "\n[[source]]\nname = \"{name}\"\nclass = \"repeatable\"\n{key} = {error}\n{more}"
+            );
+        }
     }
     text + "\n[tool]\nframe = \"platform\"\ntransform = \"Tz(100)\"\n"
 }

@@ -74,8 +74,9 @@ impl Identifiability {
 ///
 /// Take the configurations from [`joint_samples`](super::joint_samples) with the joints that will
 /// be moved; about 50 determine the rank of any arm. Columns are normalized, so that mm and rad
-/// have the same weight. Configurations where loops do not close are left out. The work is proportional to the number of configurations and to the square
-/// of the number of frames; use [`identifiable_in_parts`] for long chains.
+/// have the same weight. Configurations where loops do not close are left out. The work is
+/// proportional to the number of configurations and to the square of the number of frames; use
+/// [`identifiable_in_parts`] for long chains.
 pub fn identifiable(
     manipulator: &dyn Manipulator,
     configurations: &[Configuration],

@@ -4,7 +4,7 @@
 use super::columns::{Displaced, Frame};
 use super::vectors::cross;
 use super::{Camera, Failure, Model, Observation, Role, Unknown};
-use abbe_core::{Component, Error, Pose, Quantity, twist};
+use abbe_core::{Component, Error, Pose, Quantity, drawn_pose, twist};
 
 /// Reusable memory for the evaluation of one configuration.
 #[derive(Clone, Debug)]
@@ -12,6 +12,8 @@ pub struct Scratch {
     transforms: Vec<Pose>,
     pub(super) errors: Vec<[f64; 6]>,
     pub(super) effects: Vec<f64>,
+    /// Factor of each source, for machines with loops.
+    magnitudes: Vec<f64>,
     pub(super) frames: Vec<Frame>,
     /// Columns of J_e as twists of the tool point, in the axes of the instrument. Empty without loops:
     /// the frames then have them.
@@ -75,6 +77,7 @@ impl Model<'_> {
             transforms: vec![Pose::IDENTITY; frames + 1],
             errors: vec![[0.0; 6]; frames],
             effects: vec![0.0; description.effects.len()],
+            magnitudes: vec![0.0; description.sources.len()],
             frames: Vec::with_capacity(frames + 2),
             closed: Vec::new(),
             displaced: vec![Displaced::NOTHING; frames + 2],
@@ -106,6 +109,8 @@ impl Model<'_> {
         for (zero, reading) in scratch.zeros.iter_mut().zip(&self.observables) {
             *zero = reading.zero;
         }
+        let known = |role: &Role| f64::from(u8::from(*role == Role::Known));
+        scratch.magnitudes.iter_mut().zip(&self.roles).for_each(|(one, role)| *one = known(role));
         let description = self.manipulator.description();
         if self.roles.iter().any(|role| *role != Role::Off) {
             self.manipulator.effects(&observation.q, &self.s, &observation.u, &mut scratch.effects)?;
@@ -135,6 +140,7 @@ impl Model<'_> {
                     }
                 }
                 Unknown::Magnitude(source) => {
+                    scratch.magnitudes[source] += value;
                     for (effect, size) in description.effects.iter().zip(&scratch.effects) {
                         if effect.source == source {
                             scratch.errors[effect.frame][effect.component.index()] += value * size;
@@ -202,9 +208,10 @@ impl Model<'_> {
 
     /// Closes the loops, and returns the pose of the tool without its mounting. The derivatives are
     /// J_e, those at ε = 0: errors change them in proportion to their size, so that steps converge
-    /// linearly.
+    /// linearly. Where all errors are those of sources, the pose is that of the sources themselves, such
+    /// as a leg of another length.
     fn close(&self, scratch: &mut Scratch, observation: &Observation) -> Result<Pose, Error> {
-        let Scratch { frames, errors, closed, .. } = scratch;
+        let Scratch { frames, errors, closed, magnitudes, .. } = scratch;
         let (description, base) = (self.manipulator.description(), frames[0].after);
         closed.resize(6 * errors.len(), [0.0; 6]);
         let nominal = self.manipulator.error_jacobian(&observation.q, &self.s, closed)?;
@@ -213,7 +220,12 @@ impl Model<'_> {
             let ([x, y, z], [a, b, c]) = (base.turn([x, y, z]), base.turn(turn));
             *column = [x, y, z, a, b, c];
         }
-        let tool = base.then(&self.manipulator.displaced_pose(&observation.q, &self.s, errors)?);
+        let has_own_errors = self.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Error(..)));
+        let real = match has_own_errors {
+            true => self.manipulator.displaced_pose(&observation.q, &self.s, errors)?,
+            false => drawn_pose(self.manipulator, &observation.q, &self.s, &observation.u, magnitudes)?,
+        };
+        let tool = base.then(&real);
         frames.extend(errors.iter().map(|_| Frame::at_rest(tool)));
         Ok(tool)
     }

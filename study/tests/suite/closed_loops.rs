@@ -25,7 +25,7 @@ fn analyzed(text: &str) -> Report {
 }
 
 fn all() -> [String; 3] {
-    [TWO_ARMS.to_owned(), FOUR_BAR.to_owned(), hexapod(&some_errors())]
+    [TWO_ARMS.to_owned(), FOUR_BAR.to_owned(), hexapod(&some_errors(), "")]
 }
 
 /// What proves, searches or writes chains refuses other machines, and names their structure.
@@ -78,7 +78,7 @@ fn other_branches_have_no_share() {
 /// Configurations where the loops do not close are counted, each with its reason.
 #[test]
 fn configurations_that_do_not_close_are_unreachable() {
-    let report = analyzed(&hexapod(&some_errors()));
+    let report = analyzed(&hexapod(&some_errors(), ""));
     let [reason] = &report.unreachable_reasons[..] else { panic!("{:?}", report.unreachable_reasons) };
     assert!(reason.reason.contains("loops do not close"), "{}", reason.reason);
     assert_eq!(reason.count + report.budget.configurations, 1000);
@@ -97,7 +97,7 @@ fn the_figure_of_the_machine_is_a_tree() {
         });
         sticks.last().unwrap()
     };
-    let legs = drawn(&hexapod(&some_errors()));
+    let legs = drawn(&hexapod(&some_errors(), ""));
     let length = |link: &Vec<[f64; 3]>| (0..3).map(|i| (link[1][i] - link[0][i]).powi(2)).sum::<f64>().sqrt();
     assert_eq!(legs.iter().filter(|leg| (length(leg) - 580.0).abs() < 1e-9).count(), 6);
     let four_bar: Vec<f64> = drawn(FOUR_BAR).iter().map(length).collect();

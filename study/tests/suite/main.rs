@@ -6,6 +6,7 @@ mod clinic;
 mod closed_loops;
 mod compensated;
 mod extrapolation;
+mod hexapod;
 mod inputs_from_rows;
 mod instruments;
 mod interpretations;
