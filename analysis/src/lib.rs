@@ -76,7 +76,8 @@ pub use uncertainty::{
     compliance, errors_at, normal_compliance, student_95,
 };
 pub use workspace::{
-    Axis, BaseBox, Configuration, JointGrid, JointSamples, Listed, Presentation, PresentedVolume, ReachedBox,
-    Subset, ToolOrientation, Unreachable, UnreachableSummary, WithInputs, Workspace, base_box, joint_grid,
-    joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
+    Axis, BaseBox, Configuration, JointGrid, JointSamples, Legs, Listed, PlatformGrid, Presentation,
+    PresentedVolume, ReachedBox, Subset, ToolOrientation, Unreachable, UnreachableSummary, WithInputs,
+    Workspace, base_box, joint_grid, joint_samples, listed, platform_grid, presented_volume,
+    random_joint_samples, with_inputs,
 };

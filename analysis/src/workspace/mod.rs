@@ -1,8 +1,8 @@
 //! Sets of configurations over which errors are analyzed.
 //!
 //! A [`Workspace`] generates configurations by index: grids and samples of joints, a volume of tool
-//! points presented at one point, a box of points, or a list, each with optional values of inputs.
-//! Unreachable configurations are counted by reason.
+//! points presented at one point, a box of points, poses of a platform, or a list, each with
+//! optional values of inputs. Unreachable configurations are counted by reason.
 
 mod axis;
 mod base_box;
@@ -11,6 +11,7 @@ mod configuration_list;
 mod configurations;
 mod joint_grid;
 mod joint_samples;
+mod platform_grid;
 mod presented_volume;
 mod subset;
 mod unreachable;
@@ -26,6 +27,7 @@ pub use configurations::Workspace;
 pub use joint_grid::{JointGrid, joint_grid};
 pub(crate) use joint_samples::STREAM;
 pub use joint_samples::{JointSamples, joint_samples, random_joint_samples};
+pub use platform_grid::{Legs, PlatformGrid, platform_grid};
 pub use presented_volume::{Presentation, PresentedVolume, presented_volume};
 pub use subset::Subset;
 pub use unreachable::{Unreachable, UnreachableSummary};

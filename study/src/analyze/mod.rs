@@ -6,7 +6,7 @@
 //!
 //! The other files turn the report into text: `summary` and `verdict` (first sentences), `ledger`
 //! and `uncertainty` (tables), `norm_comparison` (certified bounds), `agreement` (published
-//! figures), `unreachable` (reasons), `singular` (Euler angles), `conclusions` (closing sentences),
+//! figures), `unreachable` (reasons), `loop_condition` (loops), `singular` (Euler angles), `conclusions` (closing sentences),
 //! and `unit` (units). `calibration` is its uncertainty, `compensated` the machine after
 //! compensation.
 
@@ -18,6 +18,7 @@ pub mod figures;
 mod first_order;
 mod job;
 mod ledger;
+mod loop_condition;
 mod norm_comparison;
 pub mod options;
 pub mod parts;
@@ -33,6 +34,7 @@ mod verdict;
 pub use first_order::FirstOrder;
 pub use job::Analyze;
 pub use ledger::{allowance_table, ledger, orientation_ledger};
+pub use loop_condition::{LoopCondition, NEARLY_SINGULAR};
 pub use norm_comparison::{NOT_CERTIFIED, NormComparison, norm_comparison_table};
 pub use report::{
     AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis,

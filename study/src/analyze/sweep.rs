@@ -15,6 +15,7 @@ use super::calibration::LargestCalibrationErrors;
 use super::compensated::CompensatedSweep;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
+use super::loop_condition::LoopCondition;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, ErrorAllowance,
     ErrorSites, JudgedErrors, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport,
@@ -162,6 +163,7 @@ impl Sweep<'_> {
             comparisons: Comparison::all(&study.published, &sources, &budget.combined),
             after_compensation: study.compensated.as_ref().map(|left| AfterCompensation::new(left, &budget)),
             first_order,
+            loops: LoopCondition::new(spec, manipulator, workspace),
             certified,
             unreachable_reasons: unreachable::unreachable_reasons(&budget.unreachable, spec),
             not_reproducible: study.not_reproducible.clone(),

@@ -27,6 +27,7 @@ use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
 use super::instruments::{coordinate_fits, instrument_fits, unequal_note};
 use super::known_distances::known_distance_fits;
+use super::leg_terms::leg_terms;
 use super::options::{LOSSES, Settings, TERMS};
 use super::parameters::{magnitudes, parameters};
 use super::plausibility::{check_lengths, tool_note};
@@ -118,6 +119,12 @@ impl Identify {
                  cross-validation"
             ));
         }
+        if !self.terms.is_empty() || !self.harmonics.is_empty() {
+            machine.require_chain(
+                "no richer terms can be selected",
+                "leave `terms` and `harmonics` out, or declare the terms as sources with a `magnitude` in the spec",
+            )?;
+        }
         map.carried_targets(machine).iter().for_each(|warning| notes.warn(warning));
         let derived = derived(&machine.spec, map, &self.terms, &data);
         let spec = with_inputs(&machine.spec, &derived);
@@ -130,7 +137,7 @@ impl Identify {
         let sets = competing(&spec, &derived, &self.terms, &self.harmonics);
         let input = FitInput { spec: &spec, map, data: &data, settings };
         let chosen = if sets.is_empty() { Chosen::default() } else { choose(&input, &sets, notes)? };
-        let terms = chosen.terms();
+        let terms = [leg_terms(&spec), chosen.terms()].concat();
         let interpreter = input.interpreter(&terms);
         let (setup, solved) = input.complete_fit(&interpreter, &terms, sets.is_empty(), notes)?;
         let profiles = find_profiles(&self.terms, &spec, (&setup, &solved), &data, settings, notes)?;

@@ -52,6 +52,7 @@ mod interpretation_check;
 mod job;
 mod joint_profiles;
 mod known_distances;
+mod leg_terms;
 mod line_of_sight;
 mod magnitude;
 mod map_interpretation;

@@ -106,6 +106,8 @@ impl Figure {
                 presentation.solved.iter().copied().chain(approaches).collect()
             }
             Form::Grid(axes) => axes.iter().map(|axis| axis.index).collect(),
+            // A leg has no grid of its own.
+            Form::Platform(..) => Vec::new(),
             Form::Samples { moved, .. } => moved.clone(),
             Form::Box(region) => region.solved.clone(),
             Form::Path(path) => path.variables().collect(),

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use abbe::analysis::{Axis, sampling};
 use abbe::{LengthUnit, VariableKind};
-use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
+use abbe_spec::{Spec, Variable};
 
 use crate::number;
 
@@ -43,13 +43,17 @@ enum Unit<'a> {
 impl<'a> Candidates<'a> {
     /// Returns the variables of a spec.
     pub fn variables(spec: &'a Spec) -> Self {
-        let list = spec.variables.iter().map(|variable| Candidate {
+        Self::joints(&spec.variables, spec.length)
+    }
+
+    fn joints(variables: &'a [Variable], length: LengthUnit) -> Self {
+        let list = variables.iter().map(|variable| Candidate {
             name: &variable.name,
             dimension: match variable.kind {
                 VariableKind::Revolute => Dimension::NONE,
                 VariableKind::Prismatic => Dimension::LENGTH,
             },
-            unit: Unit::Joint(variable.kind, spec.length),
+            unit: Unit::Joint(variable.kind, length),
             within: ("limits", variable.limits),
         });
         Self { what: "variable", list: list.collect() }
@@ -82,6 +86,13 @@ impl<'a> Candidates<'a> {
         all.list.extend(Self::inputs(spec).list);
         let what = if spec.inputs.is_empty() { "variable" } else { "variable or input" };
         Self { what, ..all }
+    }
+
+    /// Returns the passive variables of a spec, then its inputs.
+    pub(super) fn passive_and_inputs(spec: &'a Spec) -> Self {
+        let mut all = Self::joints(&spec.passive, spec.length);
+        all.list.extend(Self::inputs(spec).list);
+        Self { what: "passive variable", ..all }
     }
 
     /// Removes the limits: values beyond them count as unreachable instead of invalid.

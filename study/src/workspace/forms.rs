@@ -11,6 +11,7 @@ use super::choices::ORIENTATIONS;
 use super::constant::{constant, count, whole};
 use super::keys::{self, BESIDE, WORKSPACE};
 use super::path;
+use super::platform::legs;
 use super::region::{Form, LARGEST, Region, has_range};
 
 /// Reads `[workspace]`: one of the forms, and `inputs` with their own values. Inputs without a name
@@ -55,7 +56,7 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
 /// Reads the form with this key.
 fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
     if form.key == "grid" {
-        return Some(grid(form, document, spec));
+        return grid(form, document, spec);
     }
     let section = document.section(form)?;
     match form.key.as_str() {
@@ -67,17 +68,31 @@ fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Re
     }
 }
 
-/// Reads `[workspace.grid]`: values of variables and inputs.
-fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Region {
-    let mut region = Region::new(Form::Grid(Vec::new()));
-    let Form::Grid(axes) = &mut region.form else { return region };
-    for axis in Candidates::variables_and_inputs(spec).axes(item, document, spec) {
-        match axis.index.checked_sub(spec.variables.len()) {
-            None => axes.push(axis),
-            Some(index) => region.inputs.push(Axis { index, ..axis }),
-        }
-    }
-    region
+/// Reads `[workspace.grid]`: values of variables, or of passive variables, and inputs.
+fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
+    let is_passive = |item: &Item<'_>| spec.passive.iter().any(|passive| passive.name == item.key);
+    let of_platform = document.section(item)?.items().any(|item| is_passive(&item));
+    let (candidates, count) = match of_platform {
+        true => (Candidates::passive_and_inputs(spec), spec.passive.len()),
+        false => (Candidates::variables_and_inputs(spec), spec.variables.len()),
+    };
+    let all = candidates.axes(item, document, spec);
+    let (axes, inputs): (Vec<Axis>, Vec<Axis>) = all.into_iter().partition(|axis| axis.index < count);
+    let form = match of_platform {
+        false => Form::Grid(axes),
+        true => match legs(spec) {
+            Ok(legs) => Form::Platform(axes, legs),
+            Err(reason) => {
+                let message = "poses of a platform need legs that follow from them";
+                let help = "name the commanded variables in the grid instead";
+                let mistake = Diagnostic::new(item.key_span.clone(), message);
+                document.mistake(mistake.label(reason).help(help));
+                return None;
+            }
+        },
+    };
+    let inputs = inputs.into_iter().map(|axis| Axis { index: axis.index - count, ..axis });
+    Some(Region { inputs: inputs.collect(), ..Region::new(form) })
 }
 
 /// Reads `[workspace.presented]`: tool points, each moved to one point in space.

@@ -16,7 +16,7 @@ abbe_spec::tables! {
         "presented": Table("[workspace.presented]"), "-", "one of the forms",
             "Tool points, each brought to one point in space by inverse kinematics";
         "grid": Names("table of `NAME = values`", &AXIS), "length unit or rad; of inputs as the spec's", "one of the forms",
-            "Every combination of values of variables and inputs; other variables stay at home";
+            "Every combination of values of variables and inputs; other variables stay at home. With passive variables instead, such as the coordinates of a platform, the lengths of its legs follow";
         "joints": Table("[workspace.joints]"), "-", "one of the forms", "Samples that fill the joint limits evenly, the same in each run";
         "random": Table("[workspace.random]"), "-", "one of the forms", "Random samples within the joint limits";
         "box": Table("[workspace.box]"), "-", "one of the forms", "Grid of points in `F_0`, reached by inverse kinematics from home";

@@ -1,7 +1,7 @@
 //! Configurations of a study or a plan: `[workspace]`.
 //!
 //! `region` is the definition of a workspace. `forms` reads its forms, `axis` the values of a
-//! variable or parameter, `path` a file of configurations, and `constant` single values. `span`
+//! variable or parameter, `path` a file of configurations, `platform` legs from poses, and `constant` single values. `span`
 //! computes the enclosing box.
 
 mod axis;
@@ -10,6 +10,7 @@ mod constant;
 mod forms;
 mod keys;
 mod path;
+mod platform;
 mod region;
 mod span;
 

@@ -1,8 +1,8 @@
 //! Workspace of a study.
 
 use abbe::analysis::{
-    Axis, BaseBox, Configuration, JointSamples, Presentation, ToolOrientation, Workspace, base_box,
-    joint_grid, joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
+    Axis, BaseBox, Configuration, JointSamples, Legs, Presentation, ToolOrientation, Workspace, base_box,
+    joint_grid, joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
 };
 use abbe::{Error, Manipulator};
 use abbe_spec::{Input, Spec};
@@ -40,6 +40,9 @@ pub enum Form {
     Presented(Presentation),
     /// Every combination of values of some variables.
     Grid(Vec<Axis>),
+    /// Every combination of values of some passive variables, with the joint variables as their
+    /// function.
+    Platform(Vec<Axis>, Legs),
     /// Samples of some variables within their limits: random with a seed, a low-discrepancy
     /// sequence without.
     Samples {
@@ -119,7 +122,7 @@ impl Region {
             Form::Presented(Presentation { tool_points, approaches, .. }) => {
                 tool_points.iter().chain(approaches).map(|axis| axis.values.len()).collect()
             }
-            Form::Grid(axes) => axes.iter().map(|axis| axis.values.len()).collect(),
+            Form::Grid(axes) | Form::Platform(axes, _) => axes.iter().map(|axis| axis.values.len()).collect(),
             Form::Box(region) => region.points.iter().map(Vec::len).collect(),
             Form::Samples { count, .. } => vec![*count],
             Form::Path(path) => vec![path.configurations.len()],
@@ -139,6 +142,7 @@ impl Region {
         let workspace: Box<dyn Workspace + 'a> = match &self.form {
             Form::Presented(presentation) => Box::new(presented_volume(manipulator, presentation)?),
             Form::Grid(axes) => Box::new(joint_grid(manipulator, axes)?),
+            Form::Platform(axes, legs) => Box::new(platform_grid(manipulator, axes, legs.clone())?),
             Form::Samples { moved, count, seed: None } => {
                 Box::new(sampled(joint_samples(manipulator, moved, *count)?)?)
             }
@@ -209,6 +213,12 @@ impl Region {
                 let axes =
                     axes.iter().map(|axis| format!("{} × {}", axis.values.len(), variable(&axis.index)));
                 format!("grid of {}", names(axes))
+            }
+            Form::Platform(axes, _) => {
+                let passive = |axis: &Axis| &spec.passive[axis.index].name;
+                let axes = axes.iter().map(|axis| format!("{} × {}", axis.values.len(), passive(axis)));
+                let legs = names(spec.variables.iter().map(|variable| variable.name.as_str()));
+                format!("grid of {}, each reached by {legs}", names(axes))
             }
             Form::Samples { moved, count, seed } => {
                 let random = if seed.is_some() { "random " } else { "" };

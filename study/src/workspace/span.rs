@@ -64,6 +64,7 @@ impl Region {
             Form::Grid(axes) => axes.iter().map(over(Symbol::Variable)).collect(),
             Form::Samples { moved, .. } => moved.iter().map(limits).collect(),
             Form::Box(BaseBox { solved, .. }) => reached(solved),
+            Form::Platform(..) => reached(&(0..spec.variables.len()).collect::<Vec<_>>()),
             Form::Path(path) => path.columns().map(|(symbol, values)| hull(symbol, &values)).collect(),
             Form::One(q) => {
                 let joint = |(i, value): (usize, &f64)| hull(Symbol::Variable(i), &[*value]);

@@ -1,7 +1,11 @@
 //! Jobs on machines that are not a chain: their figures are right, or they are refused.
 
+use abbe::Manipulator;
+use abbe::analysis::ReachError;
+use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
 use abbe_study::analyze::figures::FigureData;
 use abbe_study::analyze::{Analyze, Report};
 use abbe_study::bound::Bound;
@@ -91,11 +95,11 @@ fn configurations_that_do_not_close_are_unreachable() {
 fn the_figure_of_the_machine_is_a_tree() {
     let drawn = |text: &str| {
         let figures = analyzed(text).figures.unwrap().figures;
-        let sticks = figures.into_iter().filter_map(|figure| match figure.data {
+        let mut sticks = figures.into_iter().filter_map(|figure| match figure.data {
             FigureData::Manipulator(stick) => Some(stick.links),
             _ => None,
         });
-        sticks.last().unwrap()
+        sticks.next_back().unwrap()
     };
     let legs = drawn(&hexapod(&some_errors(), ""));
     let length = |link: &Vec<[f64; 3]>| (0..3).map(|i| (link[1][i] - link[0][i]).powi(2)).sum::<f64>().sqrt();
@@ -106,4 +110,100 @@ fn the_figure_of_the_machine_is_a_tree() {
         assert!((found - expected).abs() < 1e-9, "{four_bar:?}");
     }
     assert_eq!(four_bar.len(), 4);
+}
+
+fn over(text: &str, workspace: &str) -> Result<(Machine, Study), String> {
+    let machine = machine(text);
+    let study = format!("[study]\ntitle = \"Platform\"\n\n{workspace}");
+    let study = Study::read(Document::new("study.toml", study), &machine.spec);
+    study.map(|study| (machine, study)).map_err(|mistakes| mistakes.to_string())
+}
+
+/// Legs follow from the poses of a platform: at every configuration the machine has the passive
+/// variables of the grid. Poses beyond the limits of the legs are unreachable.
+#[test]
+fn legs_follow_from_poses() {
+    let grid = "[workspace.grid]\nx = [-20, 20]\nz = { from = 500, to = 700, count = 5 }\n\
+                a = [\"-3 deg\", \"3 deg\"]\nc = [\"2 deg\"]\n";
+    let (machine, study) = over(&hexapod(&some_errors(), ""), grid).unwrap();
+    let evaluator = machine.evaluator(true);
+    let workspace = study.region.workspace(&*evaluator, None).unwrap();
+    assert_eq!(workspace.len(), 20);
+    let angle = 3.0_f64.to_radians();
+    let mut outside = 0;
+    for index in 0..20 {
+        let [x, z] = [[-20.0, 20.0][index / 10], 500.0 + 50.0 * ((index / 2) % 5) as f64];
+        match workspace.configuration(index) {
+            Ok(at) => {
+                let mut p = [0.0; 6];
+                evaluator.passive(&at.q, &at.s, &mut p).unwrap();
+                let expected = [x, 0.0, z, [-angle, angle][index % 2], 0.0, 2.0_f64.to_radians()];
+                for (p, expected) in p.iter().zip(expected) {
+                    assert!((p - expected).abs() < 1e-9, "{p} {expected}");
+                }
+            }
+            Err(ReachError::OutsideLimits { value, limits: [lower, upper], .. }) => {
+                assert!(value < lower || value > upper);
+                outside += 1;
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+    assert!(outside > 0 && outside < 10, "{outside}");
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    assert_eq!(report.budget.configurations, 20 - outside);
+}
+
+/// Where legs do not follow in closed form, a grid of passive variables is a mistake with its
+/// reason; so is a grid of both kinds of variables.
+#[test]
+fn grids_of_passive_variables_need_legs() {
+    let refused = |text: &str, grid: &str| over(text, &format!("[workspace.grid]\n{grid}")).err().unwrap();
+    let message = refused(FOUR_BAR, "p1 = [0]\n");
+    assert!(message.contains("the loop \"knee\" is not a leg of the length `… + q`"), "{message}");
+    let mixed = refused(&hexapod(&some_errors(), ""), "x = [0]\nq1 = [0]\n");
+    assert!(mixed.contains("no passive variable `q1`"), "{mixed}");
+    let two = hexapod(&some_errors(), "").replace("580 mm + q2", "580 mm + 2 * q2");
+    let message = refused(&two, "x = [0]\n");
+    assert!(message.contains("the loop \"leg 2\" is not a leg"), "{message}");
+}
+
+/// The condition of the loops of a four-bar linkage is that of the two directions in which its knee
+/// moves, `120 (−sin, cos)(q1 + p1)` and `80 (−sin, cos) p2`: with the angle α between them and the
+/// ratio r of their lengths, σ² = (1 + r² ± √((1 + r²)² − 4 r² sin² α)) / 2.
+#[test]
+fn the_condition_of_loops_is_that_of_theory() {
+    let condition = |q1: f64| {
+        let spec = machine(FOUR_BAR).spec.clone();
+        let mut p = [0.0; 2];
+        Interpreter::new(spec).passive(&[q1], &[], &mut p).unwrap();
+        let sine = (q1 + p[0] - p[1]).sin();
+        let sum: f64 = 1.0 + (80.0_f64 / 120.0).powi(2);
+        let root = (sum * sum - 4.0 * (80.0_f64 / 120.0 * sine).powi(2)).sqrt();
+        ((sum + root) / (sum - root)).sqrt()
+    };
+    let (machine, study) =
+        over(FOUR_BAR, "[workspace.grid]\nq1 = [\"-90 deg\", \"0 deg\", \"100 deg\"]\n").unwrap();
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    let expected = [-90.0_f64, 0.0, 100.0, 60.0].map(|q1| condition(q1.to_radians()));
+    let largest = expected.into_iter().fold(0.0, f64::max);
+    let loops = report.loops.as_ref().unwrap();
+    assert!((loops.largest / largest - 1.0).abs() < 1e-9, "{} {largest}", loops.largest);
+    assert!(!loops.is_nearly_singular());
+    assert_eq!(loops.configurations, 3);
+    assert!(analyzed(TWO_ARMS).loops.is_none());
+}
+
+/// From a condition number of 1000 on, the verdict is that the machine is nearly singular.
+#[test]
+fn nearly_singular_loops_are_a_verdict() {
+    let mut report = analyzed(FOUR_BAR);
+    for (largest, is_nearly_singular) in [(1000.0, false), (1001.0, true)] {
+        let loops = report.loops.as_mut().unwrap();
+        loops.largest = largest;
+        loops.at = "q1 = 179.9°".to_owned();
+        assert_eq!(loops.is_nearly_singular(), is_nearly_singular);
+        let sentence = report.loop_sentence().unwrap();
+        assert_eq!(sentence.starts_with("nearly singular at q1 = 179.9°"), is_nearly_singular, "{sentence}");
+    }
 }

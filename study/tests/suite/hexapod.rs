@@ -7,12 +7,17 @@ use abbe::identify::{Measurement, Model, Observation, Options, Uncertainty, Unkn
 use abbe::{Component, Distribution, Manipulator, Orientation, Pose, deviation, displacement};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_study::data::{Data, Map};
+use abbe_study::identify::{Identify, Settings};
+use abbe_study::{Acceptance, Machine};
 
 use crate::closed_machines::{hexapod, some_errors};
 use crate::thorough::sample_size;
 
 fn interpreter(errors: &[[f64; 7]; 6]) -> Interpreter {
-    Interpreter::new(Spec::parse("hexapod.toml", &hexapod(errors, "")).unwrap_or_else(|error| panic!("{error}")))
+    Interpreter::new(
+        Spec::parse("hexapod.toml", &hexapod(errors, "")).unwrap_or_else(|error| panic!("{error}")),
+    )
 }
 
 /// Returns poses of the platform with the given errors, exact, at configurations that close.
@@ -131,4 +136,49 @@ fn compensated_platforms_reach_their_poses() {
         corrected += 1;
     }
     assert!(corrected > 80, "{corrected}");
+}
+
+/// Returns the text of a spec without its sources.
+fn without_sources(text: &str) -> String {
+    let tables = text.split("\n\n").filter(|table| !table.starts_with("[[source]]"));
+    tables.collect::<Vec<_>>().join("\n\n")
+}
+
+/// `identify` finds the lengths of the legs beside the errors of the frames, without any source in
+/// the spec: the identified machine has the poses of the real one at rows that were not fitted, and
+/// the rank is that of 42 numbers.
+#[test]
+fn lengths_of_legs_are_identified() {
+    let nominal = without_sources(&hexapod(&[[0.0; 7]; 6], ""));
+    let machine = Machine::of_spec(Spec::parse("hexapod.toml", &nominal).unwrap(), "hexapod.toml");
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"q{i}\", unit = \"mm\" }}\n")).collect();
+    let map = format!(
+        "[data]\nuncertainty = \"0.001 mm\"\nangle_uncertainty = \"2 urad\"\nbase = \"unknown\"\n\n[joints]\n{joints}\n\
+         [pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
+         quaternion = {{ columns = [\"a\", \"b\", \"c\", \"d\"], order = \"wxyz\" }}\n"
+    );
+    let map = Map::parse("map.toml", &map, &machine.spec).unwrap();
+    let truth = some_errors();
+    let mut observations = poses(&truth, 80);
+    let test = observations.split_off(60);
+    let data = |file: &str, observations| Data { file: file.to_owned(), observations, ..Data::default() };
+    let job = Identify {
+        machine,
+        map,
+        data: data("data.csv", observations),
+        test: Some(data("test.csv", test)),
+        terms: Vec::new(),
+        harmonics: Vec::new(),
+        settings: Settings::default(),
+        accept: Acceptance::default(),
+    };
+    let report = job.run(&mut ()).unwrap();
+    assert_eq!(report.rank, 42);
+    let found = report.found.identified_spec(&job.machine.spec, &nominal, "found.toml").unwrap().text;
+    assert!(found.contains("joint = \"q1\""), "{found}");
+    assert!(Spec::parse("found.toml", &found).is_ok());
+    // The identified machine predicts rows that were not fitted.
+    let test = report.test.unwrap();
+    assert!(test.after.max < 1e-6 && test.before.max > 0.1, "{:?}", test.after);
 }

@@ -1,11 +1,13 @@
-//! The equations of all loops as functions of the passive variables, for checks of a spec.
+//! The equations of all loops as functions of the passive variables.
 
 use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 
 use super::model::Parts;
 use crate::graph::{Graph, Node};
 
 /// Equations φ of the loops and their derivatives `φ_p`. Passive variables are local symbols, from 0.
+#[derive(Clone, Debug)]
 pub struct LoopEquations {
     /// Graph of the nodes.
     pub graph: Graph,
@@ -23,5 +25,24 @@ impl LoopEquations {
         let residual = parts.residual(&mut graph);
         let derivatives = parts.derivatives(&mut graph, spec);
         Self { graph, residual, derivatives }
+    }
+
+    /// Returns φ at given values of joint variables, passive variables and parameters.
+    pub fn residual_at(&self, q: &[f64], p: &[f64], s: &[f64]) -> Vec<f64> {
+        self.evaluate(&self.residual, q, p, s)
+    }
+
+    /// Returns the entries of `φ_p` there, column by column.
+    pub fn derivatives_at(&self, q: &[f64], p: &[f64], s: &[f64]) -> Vec<f64> {
+        self.evaluate(&self.derivatives.concat(), q, p, s)
+    }
+
+    fn evaluate(&self, nodes: &[Node], q: &[f64], p: &[f64], s: &[f64]) -> Vec<f64> {
+        self.graph.evaluate(nodes, |symbol| match symbol {
+            Symbol::Variable(i) => q[i],
+            Symbol::Local(i) => p[i],
+            Symbol::Parameter(i) => s[i],
+            _ => f64::NAN,
+        })
     }
 }

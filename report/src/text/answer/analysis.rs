@@ -2,8 +2,8 @@
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{
-    Agreement, CompensationBasis, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict, Verdict, unit,
-    unreachable_summary,
+    Agreement, CompensationBasis, LoopCondition, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict,
+    Verdict, unit, unreachable_summary,
 };
 use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self, fixed, percent, steady};
@@ -217,6 +217,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if unreachable.count > 0 {
         let reasons = unreachable_summary(unreachable, &report.spec);
         facts.push(("Reach", format!("{} configurations unreachable: {reasons}", unreachable.count)));
+    }
+    if report.loops.as_ref().is_some_and(LoopCondition::is_nearly_singular) {
+        facts.extend(report.loop_sentence().map(|sentence| ("Loops", sentence)));
     }
     if report.singular() > 0 {
         facts.push(("Euler", report.singular_sentence()));

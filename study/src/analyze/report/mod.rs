@@ -43,6 +43,7 @@ pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 use super::compensated::CompensatedSweep;
 use super::figures::Figures;
 use super::first_order::FirstOrder;
+use super::loop_condition::LoopCondition;
 use super::unreachable::UnreachableReason;
 use crate::bound::CertifiedNorms;
 use crate::study_file::{CombinedFigure, PublishedResidual, Study, Subject};
@@ -89,6 +90,9 @@ pub struct Report {
     pub after_compensation: Option<AfterCompensation>,
     /// First-order error.
     pub first_order: FirstOrder,
+    /// Condition of the loops; absent without loops.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loops: Option<LoopCondition>,
     /// Certified upper bounds on the norms; `None` if the workspace has no enclosing box, or too
     /// many names vary.
     #[serde(skip_serializing_if = "Option::is_none")]

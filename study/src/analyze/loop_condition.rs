@@ -1,0 +1,107 @@
+//! How well the loops determine the passive variables: the condition of `φ_p`.
+
+use abbe::analysis::decompose::singular_values;
+use abbe::analysis::sampling::arm_length;
+use abbe::analysis::{Configuration, Workspace};
+use abbe::{Manipulator, VariableKind};
+use abbe_codegen::chain::LoopEquations;
+use abbe_spec::Spec;
+use nalgebra::DMatrix;
+use serde::Serialize;
+
+use super::report::Report;
+use crate::number;
+
+/// Largest number of configurations at which the condition is evaluated.
+const CHECKED: usize = 2000;
+
+/// Condition number from which on the machine counts as nearly singular: errors in the loops are
+/// then up to that many times larger at the tool than where the loops are best determined.
+pub const NEARLY_SINGULAR: f64 = 1000.0;
+
+/// Condition number of `φ_p`, the derivative of the equations of the loops with respect to the
+/// passive variables, with lengths in arm lengths. It is infinite where the machine can move
+/// although all commanded joints are held.
+#[derive(Clone, Debug, Serialize)]
+pub struct LoopCondition {
+    /// Number of configurations that were evaluated, spread evenly over the workspace.
+    pub configurations: usize,
+    /// Largest condition number.
+    pub largest: f64,
+    /// Its configuration: differences from home.
+    pub at: String,
+}
+
+impl LoopCondition {
+    /// Evaluates home and at most 2000 configurations of a workspace where the loops close. Returns
+    /// `None` for a machine without loops.
+    pub(super) fn new(spec: &Spec, manipulator: &dyn Manipulator, workspace: &dyn Workspace) -> Option<Self> {
+        if spec.loops.is_empty() {
+            return None;
+        }
+        let equations = LoopEquations::new(spec);
+        let home = workspace.home();
+        let arm = arm_length(manipulator, &home.s).ok()?;
+        let condition = |at: &Configuration| condition(spec, manipulator, &equations, at, arm);
+        let label = |at: &Configuration| number::configuration(at, home, spec);
+        let mut found = Self { configurations: 0, largest: condition(home)?, at: label(home) };
+        let step = workspace.len().div_ceil(CHECKED).max(1);
+        for index in (0..workspace.len()).step_by(step) {
+            let Ok(at) = workspace.configuration(index) else { continue };
+            let Some(here) = condition(&at) else { continue };
+            found.configurations += 1;
+            if here > found.largest {
+                (found.largest, found.at) = (here, label(&at));
+            }
+        }
+        Some(found)
+    }
+
+    /// Returns whether the machine comes near a singular configuration.
+    pub fn is_nearly_singular(&self) -> bool {
+        self.largest > NEARLY_SINGULAR
+    }
+}
+
+/// Returns the condition number at a configuration; `None` where the loops do not close.
+fn condition(
+    spec: &Spec,
+    manipulator: &dyn Manipulator,
+    equations: &LoopEquations,
+    Configuration { q, s, .. }: &Configuration,
+    arm: f64,
+) -> Option<f64> {
+    let mut p = vec![0.0; spec.passive.len()];
+    manipulator.passive(q, s, &mut p).ok()?;
+    let unit = |is_angle: bool| if is_angle { 1.0 } else { arm };
+    let closures = spec.loops.iter().map(|closed| &closed.closure);
+    let rows = closures.flat_map(|closure| (0..closure.equations()).map(|i| unit(closure.is_angle(i))));
+    let rows: Vec<f64> = rows.collect();
+    let columns = spec.passive.iter().map(|variable| unit(variable.kind == VariableKind::Revolute));
+    let columns: Vec<f64> = columns.collect();
+    let entries = equations.derivatives_at(q, &p, s);
+    let matrix = DMatrix::from_fn(rows.len(), columns.len(), |row, column| {
+        entries[column * rows.len() + row] * columns[column] / rows[row]
+    });
+    let values = singular_values(matrix)?;
+    let (largest, least) = (values.first()?, values.last()?);
+    Some(if *least > 0.0 { largest / least } else { f64::MAX })
+}
+
+impl Report {
+    /// Returns the condition of the loops in one sentence; `None` without loops.
+    pub fn loop_sentence(&self) -> Option<String> {
+        let LoopCondition { configurations, largest, ref at } = *self.loops.as_ref()?;
+        Some(match largest > NEARLY_SINGULAR {
+            true => format!(
+                "nearly singular at {at}: the condition number of φ_p is {}, above {NEARLY_SINGULAR}; errors \
+                 grow there without limit",
+                number::digits(largest, 3)
+            ),
+            false => format!(
+                "the condition number of φ_p is at most {}, at {at}, of {configurations} configurations",
+                number::digits(largest, 3)
+            ),
+        })
+    }
+}
