@@ -1281,10 +1281,7 @@ class Home(Fields):
     """Loops at home."""
 
     state: Literal["closed", "open", "far", "singular"]
-    """How the loops close: `closed`, `open` if no values of the passive variables near home close them, `far` if they
-    close at values that Newton's method does not reach from home, or `singular` if passive variables can move by
-    themselves.
-    """
+    """State of the loops."""
 
     condition: float | None
     """Condition number of φ_p in the 2-norm, with lengths relative to the arm length; null if it is not finite."""

@@ -100,7 +100,7 @@ impl Spec {
         self.tree().path(frame)
     }
 
-    /// Returns `true` if a frame moves with another one: that frame itself, or one that hangs on it.
+    /// Returns `true` if `other` moves with `frame`: that frame itself, or one that hangs on it.
     pub fn carries(&self, frame: usize, other: usize) -> bool {
         self.tree().carries(frame, other)
     }

@@ -31,7 +31,7 @@ impl Tree<'_> {
         path
     }
 
-    /// Returns `true` if a frame moves with another one: that frame itself, or one that hangs on it.
+    /// Returns `true` if `other` moves with `frame`: that frame itself, or one that hangs on it.
     pub fn carries(self, frame: usize, other: usize) -> bool {
         std::iter::successors(Some(other), |at| self.frames[*at].parent).any(|at| at == frame)
     }

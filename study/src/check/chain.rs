@@ -14,7 +14,8 @@ use serde::Serialize;
 pub struct Chain {
     /// Frames, base to tip.
     pub frames: Vec<Link>,
-    /// Tool `T`, from the frame that carries it, `F_n` in a chain, to the tool point, a homogeneous matrix, row by row.
+    /// Tool `T`, from the frame that carries it, `F_n` in a chain, to the tool point, a homogeneous
+    /// matrix, row by row.
     pub tool: [[f64; 4]; 4],
     /// Pose of the tool in `F_0`, a homogeneous matrix, row by row.
     pub pose: [[f64; 4]; 4],
@@ -29,8 +30,8 @@ pub struct Link {
     /// order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dh: Option<Dh>,
-    /// Matrix from `F_i` coordinates to those of the frame that it hangs on, `F_{i-1}` in a chain, a
-    /// homogeneous matrix, row by row.
+    /// Matrix from `F_i` coordinates to those of the frame that it hangs on, `F_{i-1}` in a chain,
+    /// a homogeneous matrix, row by row.
     pub matrix: [[f64; 4]; 4],
 }
 

@@ -66,8 +66,8 @@ pub struct Loop {
     pub equations: usize,
     /// Names of the passive variables that move it.
     pub passive: Vec<String>,
-    /// Distance by which it stays open at home, in the length unit: root of the sum of squares of its
-    /// equations of lengths; null without one.
+    /// Distance by which it stays open at home, in the length unit: root of the sum of squares of
+    /// its equations of lengths; null without one.
     pub gap: Option<f64>,
     /// Angle by which it stays open at home, in rad; null without equations of angles.
     pub angular_gap: Option<f64>,

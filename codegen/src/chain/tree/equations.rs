@@ -6,7 +6,8 @@ use abbe_spec::expr::Symbol;
 use super::model::Parts;
 use crate::graph::{Graph, Node};
 
-/// Equations φ of the loops and their derivatives `φ_p`. Passive variables are local symbols, from 0.
+/// Equations φ of the loops and their derivatives `φ_p`. Passive variables are local symbols, from
+/// 0.
 #[derive(Clone, Debug)]
 pub struct LoopEquations {
     /// Graph of the nodes.

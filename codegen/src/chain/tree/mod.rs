@@ -8,8 +8,8 @@
 //! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε
 //! ```
 //!
-//! `equations` exposes φ and φ_p. `loops` has Newton's steps for p, of the nominal machine and with errors. `lengths` converts
-//! errors of the lengths of legs to errors of frames.
+//! `loops` has Newton's steps for p, of the nominal machine and with errors, and `equations` has φ
+//! and φ_p themselves. `lengths` converts errors of the lengths of legs to errors of frames.
 
 mod closure;
 mod equations;

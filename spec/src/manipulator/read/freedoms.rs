@@ -1,5 +1,5 @@
-//! Checks that the loops determine the passive variables: each belongs to a loop, and no part of the
-//! machine has more or fewer equations than passive variables.
+//! Checks that the loops determine the passive variables: each belongs to a loop, and no part of
+//! the machine has more or fewer equations than passive variables.
 
 use super::declarations::Declarations;
 use crate::diagnostic::{Diagnostic, first};

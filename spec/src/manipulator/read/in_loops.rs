@@ -1,7 +1,7 @@
 //! Checks sources that act on loops: their effect must follow from the frames.
 //!
-//! The forces of a loop load all elastic elements between its ends, and statics of the tree does not
-//! know them. An error of a length acts as a displacement of one end of the leg.
+//! The forces of a loop load all elastic elements between its ends, and statics of the tree does
+//! not know them. An error of a length acts as a displacement of one end of the leg.
 
 use super::declarations::Declarations;
 use crate::diagnostic::{Diagnostic, Span};
