@@ -129,7 +129,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     let chain = Chain { tree, complete, tool: tool.as_deref(), scope: &declarations.scope };
     let mut sources = read_sources(root, chain, document);
     if is_known {
-        check_sources_in_loops(tree, &sources, &declarations, document);
+        check_sources_in_loops(tree, tool.as_deref().unwrap_or_default(), &sources, &declarations, document);
     }
     let loads = read_loads(root, tree, &declarations.scope, document);
     let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
