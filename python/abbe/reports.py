@@ -130,6 +130,9 @@ class AnalyzeReport(Report):
     first_order: FirstOrder
     """First-order error."""
 
+    loops: LoopCondition | None
+    """Condition of the loops; absent without loops."""
+
     certified: CertifiedNorms | None
     """Certified upper bounds on the norms; None if the workspace has no enclosing box, or too many names vary."""
 
@@ -1860,6 +1863,21 @@ class Loop(Fields):
 
     angular_gap: float | None
     """Angle by which it stays open at home, in rad; null without equations of angles."""
+
+
+class LoopCondition(Fields):
+    """Condition number of `φ_p`, the derivative of the equations of the loops with respect to the passive variables,
+    with lengths in arm lengths. It is infinite where the machine can move although all commanded joints are held.
+    """
+
+    configurations: int
+    """Number of configurations that were evaluated, spread evenly over the workspace."""
+
+    largest: float
+    """Condition number in the 2-norm, the largest of them."""
+
+    at: str
+    """Its configuration: differences from home."""
 
 
 class LowerBound(Fields):

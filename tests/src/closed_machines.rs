@@ -1,5 +1,5 @@
-//! Machines that are not a chain: two arms on a torso, a four-bar linkage and a six-legged platform.
-//! This file is included in every crate whose tests use them.
+//! Machines that are not a chain: two arms on a torso, a four-bar linkage and a six-legged
+//! platform. This file is included in every crate whose tests use them.
 #![allow(dead_code, unreachable_pub)]
 
 use std::f64::consts::PI;
@@ -92,10 +92,9 @@ e_s = "0.1 mrad"
 "#;
 
 /// Returns a six-legged platform whose legs have the length 580 mm + q, with joints on circles of
-/// the radii 400 mm (base) and 250 mm (platform). Every leg has seven sources with these errors: its
-/// length, "leg I"; x, y, z of its joint on the base, "base I x" and so on; x, y, z of its joint on
-/// the platform, "joint I x" and so on; `more` are further
-/// keys of each.
+/// the radii 400 mm (base) and 250 mm (platform). Every leg has seven sources with these errors:
+/// its length, "leg I"; x, y, z of its joint on the base, "base I x" and so on; x, y, z of its
+/// joint on the platform, "joint I x" and so on; `more` are further keys of each.
 pub fn hexapod(errors: &[[f64; 7]; 6], more: &str) -> String {
     let mut text = "[manipulator]\nname = \"hexapod\"\nlength = \"mm\"\n".to_owned();
     let motions = [

@@ -15,8 +15,8 @@ pub struct Scratch {
     /// Factor of each source, for machines with loops.
     magnitudes: Vec<f64>,
     pub(super) frames: Vec<Frame>,
-    /// Columns of J_e as twists of the tool point, in the axes of the instrument. Empty without loops:
-    /// the frames then have them.
+    /// Columns of J_e as twists of the tool point, in the axes of the instrument. Empty without
+    /// loops: the frames then have them.
     closed: Vec<[f64; 6]>,
     /// Displacements by the errors of base, frames and tool.
     displaced: Vec<Displaced>,
@@ -208,8 +208,8 @@ impl Model<'_> {
 
     /// Closes the loops, and returns the pose of the tool without its mounting. The derivatives are
     /// J_e, those at ε = 0: errors change them in proportion to their size, so that steps converge
-    /// linearly. Where all errors are those of sources, the pose is that of the sources themselves, such
-    /// as a leg of another length.
+    /// linearly. Where all errors are those of sources, the pose is that of the sources themselves,
+    /// such as a leg of another length.
     fn close(&self, scratch: &mut Scratch, observation: &Observation) -> Result<Pose, Error> {
         let Scratch { frames, errors, closed, magnitudes, .. } = scratch;
         let (description, base) = (self.manipulator.description(), frames[0].after);

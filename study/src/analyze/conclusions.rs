@@ -20,7 +20,7 @@ impl Report {
             self.compensation.as_ref().map(|compensation| residual(self, compensation)),
             norm_comparison::sentence(self),
             Some(first_order(self)),
-            self.loop_sentence().map(|sentence| format!("Loops: {sentence}.")),
+            self.loops.as_ref().map(|loops| format!("Loops: {}.", loops.sentence())),
         ];
         sentences.into_iter().flatten().collect()
     }

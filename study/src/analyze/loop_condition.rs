@@ -1,4 +1,4 @@
-//! How well the loops determine the passive variables: the condition of `φ_p`.
+//! Condition of `φ_p`: it says how well the loops determine the passive variables.
 
 use abbe::analysis::decompose::singular_values;
 use abbe::analysis::sampling::arm_length;
@@ -9,7 +9,6 @@ use abbe_spec::Spec;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-use super::report::Report;
 use crate::number;
 
 /// Largest number of configurations at which the condition is evaluated.
@@ -26,7 +25,7 @@ pub const NEARLY_SINGULAR: f64 = 1000.0;
 pub struct LoopCondition {
     /// Number of configurations that were evaluated, spread evenly over the workspace.
     pub configurations: usize,
-    /// Largest condition number.
+    /// Condition number in the 2-norm, the largest of them.
     pub largest: f64,
     /// Its configuration: differences from home.
     pub at: String,
@@ -55,6 +54,21 @@ impl LoopCondition {
             }
         }
         Some(found)
+    }
+
+    /// Returns the condition in one sentence.
+    pub fn sentence(&self) -> String {
+        let Self { configurations, largest, at } = self;
+        let largest = number::digits(*largest, 3);
+        match self.is_nearly_singular() {
+            true => format!(
+                "nearly singular at {at}: the condition number of φ_p is {largest}, above {NEARLY_SINGULAR}; \
+                 errors grow there without limit"
+            ),
+            false => format!(
+                "the condition number of φ_p is at most {largest}, at {at}, of {configurations} configurations"
+            ),
+        }
     }
 
     /// Returns whether the machine comes near a singular configuration.
@@ -86,22 +100,4 @@ fn condition(
     let values = singular_values(matrix)?;
     let (largest, least) = (values.first()?, values.last()?);
     Some(if *least > 0.0 { largest / least } else { f64::MAX })
-}
-
-impl Report {
-    /// Returns the condition of the loops in one sentence; `None` without loops.
-    pub fn loop_sentence(&self) -> Option<String> {
-        let LoopCondition { configurations, largest, ref at } = *self.loops.as_ref()?;
-        Some(match largest > NEARLY_SINGULAR {
-            true => format!(
-                "nearly singular at {at}: the condition number of φ_p is {}, above {NEARLY_SINGULAR}; errors \
-                 grow there without limit",
-                number::digits(largest, 3)
-            ),
-            false => format!(
-                "the condition number of φ_p is at most {}, at {at}, of {configurations} configurations",
-                number::digits(largest, 3)
-            ),
-        })
-    }
 }

@@ -6,9 +6,9 @@
 //!
 //! The other files turn the report into text: `summary` and `verdict` (first sentences), `ledger`
 //! and `uncertainty` (tables), `norm_comparison` (certified bounds), `agreement` (published
-//! figures), `unreachable` (reasons), `loop_condition` (loops), `singular` (Euler angles), `conclusions` (closing sentences),
-//! and `unit` (units). `calibration` is its uncertainty, `compensated` the machine after
-//! compensation.
+//! figures), `unreachable` (reasons), `loop_condition` (loops), `singular` (Euler angles),
+//! `conclusions` (closing sentences), and `unit` (units). `calibration` is its uncertainty,
+//! `compensated` the machine after compensation.
 
 mod agreement;
 mod calibration;

@@ -6,9 +6,9 @@ use abbe_spec::{ChainNumber, Deviation, Source, Spec};
 use super::chain_numbers::constant_errors;
 use super::terms::{Basis, ErrorSite, Term};
 
-/// Returns the zero of each joint that moves frames differently from configuration to configuration,
-/// such as the length of a leg, unless a source of unknown magnitude has it. They are always fitted.
-/// Those of other joints are among the errors of the frames.
+/// Returns the zero of each joint that moves frames differently from configuration to
+/// configuration, such as the length of a leg, unless a source of unknown magnitude has it. They
+/// are always fitted. Those of other joints are among the errors of the frames.
 pub(super) fn leg_terms(spec: &Spec) -> Vec<Term> {
     if spec.loops.is_empty() {
         return Vec::new();

@@ -1,8 +1,8 @@
 //! Configurations of a study or a plan: `[workspace]`.
 //!
 //! `region` is the definition of a workspace. `forms` reads its forms, `axis` the values of a
-//! variable or parameter, `path` a file of configurations, `platform` legs from poses, and `constant` single values. `span`
-//! computes the enclosing box.
+//! variable or parameter, `path` a file of configurations, `platform` legs from poses, and
+//! `constant` single values. `span` computes the enclosing box.
 
 mod axis;
 mod choices;

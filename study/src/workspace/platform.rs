@@ -8,8 +8,8 @@ use abbe_codegen::graph::Graph;
 use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::{Closure, Factor, Spec};
 
-/// Returns the joint variables as a function of the passive variables, in closed form: each loop is a
-/// leg whose length is `… + q`, so that `q = |p_a − p_b| − …`.
+/// Returns the joint variables as a function of the passive variables, in closed form: each loop is
+/// a leg whose length is `… + q`, so that `q = |p_a − p_b| − …`.
 ///
 /// Returns what is different from that for other machines.
 pub(super) fn legs(spec: &Spec) -> Result<Legs, String> {

@@ -32,7 +32,8 @@ fn all() -> [String; 3] {
     [TWO_ARMS.to_owned(), FOUR_BAR.to_owned(), hexapod(&some_errors(), "")]
 }
 
-/// What proves, searches or writes chains refuses other machines, and names their structure.
+/// Checks that jobs that prove, search or write chains refuse other machines, and name their
+/// structure.
 #[test]
 fn jobs_on_chains_are_refused() {
     for (text, structure) in all().iter().zip(["branches", "closed loops", "closed loops"]) {
@@ -154,8 +155,8 @@ fn legs_follow_from_poses() {
     assert_eq!(report.budget.configurations, 20 - outside);
 }
 
-/// Where legs do not follow in closed form, a grid of passive variables is a mistake with its
-/// reason; so is a grid of both kinds of variables.
+/// Checks that where legs do not follow in closed form, a grid of passive variables is a mistake
+/// with its reason; so is a grid of both kinds of variables.
 #[test]
 fn grids_of_passive_variables_need_legs() {
     let refused = |text: &str, grid: &str| over(text, &format!("[workspace.grid]\n{grid}")).err().unwrap();
@@ -194,7 +195,8 @@ fn the_condition_of_loops_is_that_of_theory() {
     assert!(analyzed(TWO_ARMS).loops.is_none());
 }
 
-/// From a condition number of 1000 on, the verdict is that the machine is nearly singular.
+/// Checks that from a condition number of 1000 on, the verdict is that the machine is nearly
+/// singular.
 #[test]
 fn nearly_singular_loops_are_a_verdict() {
     let mut report = analyzed(FOUR_BAR);
@@ -203,7 +205,7 @@ fn nearly_singular_loops_are_a_verdict() {
         loops.largest = largest;
         loops.at = "q1 = 179.9°".to_owned();
         assert_eq!(loops.is_nearly_singular(), is_nearly_singular);
-        let sentence = report.loop_sentence().unwrap();
+        let sentence = loops.sentence();
         assert_eq!(sentence.starts_with("nearly singular at q1 = 179.9°"), is_nearly_singular, "{sentence}");
     }
 }

@@ -1,5 +1,5 @@
-//! The 42 numbers of a six-legged platform: six lengths, and three coordinates of each of its twelve
-//! joints.
+//! The 42 numbers of a six-legged platform: six lengths, and three coordinates of each of its
+//! twelve joints.
 
 use abbe::analysis::{Configuration, Workspace, compensated, random_joint_samples, sampling};
 use abbe::compensator::Status;
@@ -50,9 +50,10 @@ fn all_numbers_are_found_again() {
     }
 }
 
-/// With known placements of base and tool, all 42 numbers are identifiable. An unknown base acts as a
-/// rigid motion of the six joints on the base, an unknown tool as one of those on the platform: they
-/// add no combination, and of the 42, 12 are then placements and 30 belong to the machine.
+/// Checks that with known placements of base and tool, all 42 numbers are identifiable. An unknown
+/// base acts as a rigid motion of the six joints on the base, an unknown tool as one of those on
+/// the platform: they add no combination, and of the 42, 12 are then placements and 30 belong to
+/// the machine.
 #[test]
 fn identifiable_combinations_are_42() {
     let ideal = interpreter(&[[1.0; 7]; 6]);
@@ -77,8 +78,8 @@ fn identifiable_combinations_are_42() {
     assert_eq!(found.kept.iter().filter(|k| **k < 12).count(), 12);
 }
 
-/// With noise, the errors of the fit are as large as their standard deviations: the mean square of
-/// their ratio is 1.
+/// Checks that with noise, the errors of the fit are as large as their standard deviations: the
+/// mean square of their ratio is 1.
 #[test]
 fn standard_deviations_hold() {
     let truth = some_errors();
@@ -97,7 +98,8 @@ fn standard_deviations_hold() {
             sum += ((found - expected) / deviation.unwrap()).powi(2);
         }
     }
-    // The squares of a run are correlated; the tolerance is four standard deviations of independent ones.
+    // The squares of a run are correlated; the tolerance is four standard deviations of independent
+    // ones.
     let count = 42.0 * runs as f64;
     let (mean, tolerance) = (sum / count, 4.0 * (2.0 / count).sqrt());
     assert!((mean - 1.0).abs() < tolerance, "{mean} ± {tolerance}");

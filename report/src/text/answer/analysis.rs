@@ -2,8 +2,8 @@
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{
-    Agreement, CompensationBasis, LoopCondition, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict,
-    Verdict, unit, unreachable_summary,
+    Agreement, CompensationBasis, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict, Verdict, unit,
+    unreachable_summary,
 };
 use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self, fixed, percent, steady};
@@ -218,9 +218,8 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         let reasons = unreachable_summary(unreachable, &report.spec);
         facts.push(("Reach", format!("{} configurations unreachable: {reasons}", unreachable.count)));
     }
-    if report.loops.as_ref().is_some_and(LoopCondition::is_nearly_singular) {
-        facts.extend(report.loop_sentence().map(|sentence| ("Loops", sentence)));
-    }
+    let nearly_singular = report.loops.as_ref().filter(|loops| loops.is_nearly_singular());
+    facts.extend(nearly_singular.map(|loops| ("Loops", loops.sentence())));
     if report.singular() > 0 {
         facts.push(("Euler", report.singular_sentence()));
     }

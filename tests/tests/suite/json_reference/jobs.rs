@@ -122,6 +122,9 @@ pub(super) fn reports() -> Vec<(&'static str, Value)> {
 
 fn predicted() -> Vec<(&'static str, Value)> {
     let mut all = Vec::new();
+    let linkage = linkage();
+    let study = Study::joint_samples(&linkage.spec);
+    all.push(("AnalyzeReport", json(&Analyze::new(linkage, study).run(&mut ()).unwrap())));
     for name in ["pps", "machine3", "scara"] {
         let study = || match name {
             "scara" => {
