@@ -193,13 +193,15 @@ impl Machine {
 
     /// Returns the text of the spec before changes.
     pub fn text(&self) -> Result<String, Diagnostics> {
-        match self.shipped {
-            Some(shipped) => Ok(shipped.spec.to_owned()),
-            None => {
-                let file = self.file.as_deref().unwrap_or(Path::new(&self.origin));
-                Ok(Document::read(file)?.text.to_string())
-            }
-        }
+        let mechanism = || MECHANISMS.iter().find(|(name, _)| *name == self.origin);
+        Ok(match (self.shipped, &self.file) {
+            (Some(shipped), _) => shipped.spec.to_owned(),
+            (None, Some(file)) => Document::read(file)?.text.to_string(),
+            (None, None) => match mechanism() {
+                Some((_, text)) => (*text).to_owned(),
+                None => Document::read(Path::new(&self.origin))?.text.to_string(),
+            },
+        })
     }
 
     /// Returns the text of the spec before changes for another file: relative paths of tables lead

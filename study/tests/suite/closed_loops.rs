@@ -195,6 +195,17 @@ fn the_condition_of_loops_is_that_of_theory() {
     assert!(analyzed(TWO_ARMS).loops.is_none());
 }
 
+/// Checks that the texts of the shipped machines with loops are those of their specs: `identify`
+/// writes the identified machine from them.
+#[test]
+fn shipped_machines_with_loops_have_their_text() {
+    for name in ["hexapod", "palletizer", "delta"] {
+        let machine = Machine::find(name).unwrap();
+        let text = machine.text().unwrap();
+        assert_eq!(Spec::parse("machine.toml", &text).unwrap().hash, machine.spec.hash);
+    }
+}
+
 /// Checks that from a condition number of 1000 on, the verdict is that the machine is nearly
 /// singular.
 #[test]
