@@ -185,12 +185,26 @@ class Machine:
         Rows as for `error_jacobian`. Columns: one per structural parameter in the order of
         `parameters`, per coherent unit.
         """
+    def passive(self, q: _Joints, *, out: _Array | None = None) -> _Array:
+        """(…, np): values of the passive variables for which all loops close, reached continuously
+        from home, in the length unit and rad.
+
+        In the order of the frames that declare them. Configurations where the loops do not
+        close raise ValueError, and so does a machine without loops.
+        """
     def displacement(self, q: _Joints, errors: ArrayLike, *, out: _Array | None = None) -> _Array:
         """(…, 6): displacement ΔX = J_e ε in F_0 for given errors ε, real minus ideal.
 
         `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`, or (…, n,
         6) as `generalized_errors` returns them. Rows as for `error_jacobian`, in the
         length unit and rad.
+        """
+    def displaced_pose(self, q: _Joints, errors: ArrayLike, *, out: _Array | None = None) -> _Array:
+        """(…, 4, 4): exact pose of the tool in F_0 with given errors ε of the frames, all loops
+        closed.
+
+        `errors`: as for `displacement`. Rows, columns and units as for `pose`. A machine
+        without loops raises ValueError.
         """
     def covariance(self, q: _Joints, sigma: ArrayLike, *, out: _Array | None = None) -> _Array:
         """(…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.

@@ -102,6 +102,13 @@ methods! {
         /// Rows as for `error_jacobian`. Columns: one per structural parameter in the order of
         /// `parameters`, per coherent unit.
         parameter_jacobian = ParameterJacobian;
+
+        /// (…, np): values of the passive variables for which all loops close, reached continuously
+        /// from home, in the length unit and rad.
+        ///
+        /// In the order of the frames that declare them. Configurations where the loops do not
+        /// close raise ValueError, and so does a machine without loops.
+        passive = Passive;
     }
     errors {
         /// (…, 6): displacement ΔX = J_e ε in F_0 for given errors ε, real minus ideal.
@@ -110,6 +117,13 @@ methods! {
         /// 6) as `generalized_errors` returns them. Rows as for `error_jacobian`, in the
         /// length unit and rad.
         displacement(errors: Numbers) = Displacement;
+
+        /// (…, 4, 4): exact pose of the tool in F_0 with given errors ε of the frames, all loops
+        /// closed.
+        ///
+        /// `errors`: as for `displacement`. Rows, columns and units as for `pose`. A machine
+        /// without loops raises ValueError.
+        displaced_pose(errors: Numbers) = DisplacedPose;
 
         /// (…, 6, 6): covariance J_e diag(σ²) J_eᵀ of ΔX in F_0 for independent errors.
         ///

@@ -58,6 +58,10 @@ impl Machine {
     ) -> PyResult<Bound<'py, PyAny>> {
         let description = self.interpreter.description();
         let signature = function.signature();
+        if Function::OF_LOOPS.contains(&function) && description.passive().next().is_none() {
+            let message = format!("this machine has no closed loops, so it has no `{}`", signature.name);
+            return Err(PyValueError::new_err(message));
+        }
         let names = self.variable_names.bind(py);
         let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
         let mut lead = given.lead.clone();

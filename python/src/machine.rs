@@ -35,7 +35,7 @@ pub(crate) struct Machine {
     pub(crate) text: Option<String>,
     /// Changes in the order of their application.
     changes: Vec<Change>,
-    layouts: [OnceLock<Layout>; Function::ALL.len()],
+    layouts: [OnceLock<Layout>; Function::COUNT],
 }
 
 /// Change: its kind, and its subject.
@@ -66,7 +66,7 @@ impl Machine {
             interpreter,
             text,
             changes,
-            layouts: [const { OnceLock::new() }; Function::ALL.len()],
+            layouts: [const { OnceLock::new() }; Function::COUNT],
         })
     }
 

@@ -167,3 +167,52 @@ def test_singular_rows_have_a_place():
     machine.pose(q)
     with pytest.raises(ValueError, match="configuration 77: Euler angles are singular"):
         machine.error_jacobian(q)
+
+
+LINKAGE = """
+[manipulator]
+name = "linkage"
+length = "mm"
+[[frame]]
+name = "crank"
+variable = { name = "q1", kind = "revolute", limits = ["-170 deg", "170 deg"], home = "60 deg" }
+transform = "Rz(q1) Tx(40)"
+[[frame]]
+name = "coupler"
+variable = { name = "p1", kind = "revolute", passive = true, home = "-30 deg" }
+transform = "Rz(p1) Tx(120)"
+[[frame]]
+name = "rocker"
+parent = "base"
+variable = { name = "p2", kind = "revolute", passive = true, home = "80 deg" }
+transform = "Tx(100) Rz(p2) Tx(80)"
+[[loop]]
+name = "knee"
+frames = ["coupler", "rocker"]
+closes = ["x", "y"]
+[tool]
+frame = "coupler"
+transform = "Ty(30)"
+"""
+
+
+def test_loops_close():
+    """Coupler and rocker meet, in batches as one by one; errors move the tool as J_e says."""
+    machine = abbe.load(text=LINKAGE)
+    q = samples(machine, 50)
+    p = machine.passive(q)
+    assert p.shape == (50, 2)
+    assert np.allclose(p[7], machine.passive(q[7]), atol=1e-12)
+    crank, knee, rocker = q[:, 0], q[:, 0] + p[:, 0], p[:, 1]
+    meets = [40 * f(crank) + 120 * f(knee) - 80 * f(rocker) for f in (np.cos, np.sin)]
+    assert np.allclose(meets[0], 100, atol=1e-9)
+    assert np.allclose(meets[1], 0, atol=1e-9)
+    errors = np.zeros((3, 6))
+    assert np.allclose(machine.displaced_pose(q, errors), machine.pose(q), atol=1e-9)
+    errors[2, 0] = 1e-4
+    moved = (machine.displaced_pose(q, errors) - machine.pose(q))[:, :3, 3]
+    assert np.allclose(moved, machine.displacement(q, errors)[:, :3], atol=1e-6)
+    arm = abbe.load(text=ARM)
+    for call in (lambda: arm.passive(arm.home), lambda: arm.displaced_pose(arm.home, np.zeros((2, 6)))):
+        with pytest.raises(ValueError, match="no closed loops"):
+            call()
