@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use abbe::analysis::Sweepable;
 use abbe::lanes::{self, Batches, Tiles};
-use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks};
+use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks, tool_pose};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::Routines;
 use abbe_spec::Spec;
@@ -188,7 +188,7 @@ impl Manipulator for Interpreter {
         count(Quantity::Errors, description.frames.len(), errors.len())?;
         let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
         self.transforms(q, s, &mut transforms)?;
-        Ok(description.tool_pose(&transforms, errors))
+        Ok(tool_pose(description, &transforms, errors))
     }
 
     fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {

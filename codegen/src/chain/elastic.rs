@@ -8,7 +8,7 @@ use abbe_core::Component;
 use abbe_spec::expr::{Function, Motion, motion};
 use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
 
-use super::deviation::FrameTwist;
+use super::frame_twist::FrameTwist;
 use super::six::{six, vectors};
 use super::walk::transform;
 use crate::graph::{Frame, Graph, Node, Vector};

@@ -2,7 +2,7 @@
 //!
 //! Generated code never calls it; it verifies generated code.
 
-use crate::{Component, Orientation, Pose, Scalar};
+use crate::{Component, Description, Orientation, Pose, Scalar};
 
 /// Returns `A_1 A_2 … A_n · T`, the tool pose in `F_0`. `transforms` holds `A_1 … A_n` and `T`.
 pub fn chain(transforms: &[Pose]) -> Pose {
@@ -22,6 +22,24 @@ pub fn real_pose(transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
         }
     }
     product
+}
+
+/// Returns the pose of the tool point in `F_0` from `A_1 … A_n` and `T` of a chain or tree of frames,
+/// and the generalized errors of the frames; frames beyond the end of `errors` have none.
+///
+/// With loops, this is the pose at the nominal values of the passive variables: the errors do not
+/// move these.
+pub fn tool_pose(description: &Description, transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
+    let mut pose = transforms.last().copied().unwrap_or(Pose::IDENTITY);
+    let mut frame = description.tool_frame();
+    while let Some(at) = frame {
+        if let Some(errors) = errors.get(at) {
+            pose = displacement(errors).then(&pose);
+        }
+        pose = transforms[at].then(&pose);
+        frame = description.parent(at);
+    }
+    pose
 }
 
 /// Returns `E_i`: translation `(e_x, e_y, e_z)` and rotation `R = R_y(e_s) R_z(e_r) R_x(e_p)`.

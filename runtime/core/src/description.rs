@@ -1,6 +1,6 @@
 //! Description of a manipulator: names, units, limits and error sources.
 
-use crate::{Component, List, Pose, Text, displacement};
+use crate::{Component, List, Pose, Text};
 
 /// Length unit of a manipulator's poses, Jacobians, variables and errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -401,24 +401,6 @@ impl Description {
             at = at.and_then(|at| self.parent(at));
         }
         at == Some(frame)
-    }
-
-    /// Returns the pose of the tool point in `F_0` from `A_1 … A_n` and `T`, and the generalized
-    /// errors of the frames; frames beyond the end of `errors` have none.
-    ///
-    /// With loops, this is the pose at the nominal values of the passive variables: the errors do
-    /// not move these.
-    pub fn tool_pose(&self, transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
-        let mut pose = transforms.last().copied().unwrap_or(Pose::IDENTITY);
-        let mut frame = self.tool_frame();
-        while let Some(at) = frame {
-            if let Some(errors) = errors.get(at) {
-                pose = displacement(errors).then(&pose);
-            }
-            pose = transforms[at].then(&pose);
-            frame = self.parent(at);
-        }
-        pose
     }
 
     /// Computes ε, six errors per frame, from the values of the effects of the repeatable sources.

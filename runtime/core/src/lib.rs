@@ -51,7 +51,9 @@ extern crate self as abbe_core;
 #[cfg(test)]
 mod by_hand;
 
-pub use chain::{chain, deviation, displacement, euler_margin, located, real_pose, rotation_vector};
+pub use chain::{
+    chain, deviation, displacement, euler_margin, located, real_pose, rotation_vector, tool_pose,
+};
 pub use component::Component;
 pub use delegate::Delegate;
 pub use description::{

@@ -1,8 +1,8 @@
 //! The interface of every manipulator, generated or interpreted.
 
-#[cfg(feature = "std")]
-use crate::checks;
 use crate::{Description, Error, Pose, Quantity};
+#[cfg(feature = "std")]
+use crate::{checks, tool_pose};
 
 /// Manipulator: pure functions of the joint variables `q`, the structural parameters `s` and the
 /// inputs `u`.
@@ -83,7 +83,7 @@ pub trait Manipulator: Sync {
         }
         let mut transforms = std::vec![Pose::IDENTITY; expected + 1];
         self.transforms(q, s, &mut transforms)?;
-        let pose = description.tool_pose(&transforms, errors);
+        let pose = tool_pose(description, &transforms, errors);
         checks::finite(Quantity::Pose, pose.0.as_flattened())?;
         Ok(pose)
     }

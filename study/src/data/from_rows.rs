@@ -1,7 +1,7 @@
 //! Inputs that are computed from the rows: from their order, or from the pose of the machine.
 
 use abbe::identify::Observation;
-use abbe::{Manipulator, Pose};
+use abbe::{Manipulator, Pose, tool_pose};
 use abbe_spec::Spec;
 use abbe_spec::literal::quoted;
 
@@ -139,7 +139,7 @@ fn moments(
         let description = manipulator.description();
         let place = match at < spec.frames.len() {
             true => description.frame_pose(&transforms, Some(at)),
-            false => description.tool_pose(&transforms, &[]),
+            false => tool_pose(description, &transforms, &[]),
         };
         let place = place.position();
         Some((0..3).map(|k| place[k] * down[k]).sum::<f64>())

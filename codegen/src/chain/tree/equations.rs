@@ -3,7 +3,7 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::model::Parts;
+use super::parts::Parts;
 use crate::graph::{Graph, Node};
 
 /// Equations φ of the loops and their derivatives `φ_p`. Passive variables are local symbols, from

@@ -5,7 +5,7 @@ use abbe_spec::{Closure, Spec};
 
 use super::closure::Ends;
 use super::view::View;
-use crate::chain::FrameTwist;
+use crate::chain::frame_twist::FrameTwist;
 use crate::graph::{Graph, in_programs};
 
 /// Adds the twists that are equivalent to the change of lengths per unit of a symbol. A leg from b

@@ -1,12 +1,13 @@
 //! Newton's steps that close the loops, of the nominal machine and with errors.
 
-use abbe_core::{Class, VariableKind};
+use abbe_core::Class;
 use abbe_spec::expr::Symbol;
-use abbe_spec::{Closure, Spec, Variable};
+use abbe_spec::{Closure, Spec};
 
 use super::closure::{self, Ends};
+use super::continuation::{Continuation, home};
 use super::factored::Factored;
-use super::model::Parts;
+use super::parts::Parts;
 use crate::chain::real::RealChain;
 use crate::chain::sources::{Causes, PlacedErrors};
 use crate::graph::{Frame, Graph, Node};
@@ -52,6 +53,7 @@ impl Loops {
         causes: &Causes,
         errors: &[[Node; 6]],
     ) -> Self {
+        let Continuation { start: passive_home, steps: continuation } = Continuation::new(spec);
         let residual = parts.residual(graph);
         let step = parts.factored.solve(graph, &residual);
         let repeatable = spec.enabled_sources().map(|source| source.class == Class::Repeatable);
@@ -63,9 +65,9 @@ impl Loops {
         let drawn = RealNodes::new(graph, spec, causes, &magnitudes);
         let displaced = RealNodes::displaced(graph, spec, errors);
         Self {
-            passive_home: home(&spec.passive),
+            passive_home,
             home: home(&spec.variables),
-            continuation: if spec.loops.is_empty() { 0 } else { continuation(spec) },
+            continuation,
             step,
             real,
             drawn,
@@ -73,83 +75,6 @@ impl Loops {
             passive: (0..spec.passive.len()).map(|i| graph.symbol(Symbol::Local(i))).collect(),
         }
     }
-}
-
-/// Returns the values of variables at home.
-fn home(variables: &[Variable]) -> Vec<f64> {
-    variables.iter().map(|variable| variable.home).collect()
-}
-
-/// Numbers of steps that are tried, the last one without comparison.
-const STEPS: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
-
-/// Number of configurations at which numbers of steps are compared.
-const SAMPLES: usize = 24;
-
-/// Returns the number of steps from home at which Newton's method finds the same passive variables
-/// as with twice as many, at samples of the joint variables within their limits.
-fn continuation(spec: &Spec) -> usize {
-    let mut graph = Graph::with_tables(&spec.tables);
-    let parts = Parts::new(&mut graph, spec);
-    let residual = parts.residual(&mut graph);
-    let step = parts.factored.solve(&mut graph, &residual);
-    let (start, home) = (home(&spec.passive), home(&spec.variables));
-    let closed = |q: &[f64], steps: usize| -> Option<Vec<f64>> {
-        let mut p = start.clone();
-        let mut change = f64::INFINITY;
-        for k in 1..=steps + REFINEMENTS {
-            let share = (k as f64 / steps as f64).min(1.0);
-            let newton = graph.evaluate(&step, |symbol| match symbol {
-                Symbol::Variable(i) => home[i] + share * (q[i] - home[i]),
-                Symbol::Parameter(i) => spec.parameters[i].value,
-                Symbol::Local(i) => p[i],
-                _ => f64::NAN,
-            });
-            p.iter_mut().zip(&newton).for_each(|(p, step)| *p -= step);
-            change = squares(&newton);
-        }
-        (change <= CLOSED * (1.0 + squares(&p))).then_some(p)
-    };
-    let is_same =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6 * b.abs().max(1.0));
-    let mut needed = STEPS[0];
-    for sample in 0..SAMPLES {
-        let q: Vec<f64> =
-            spec.variables.iter().enumerate().map(|(i, variable)| sampled(variable, i, sample)).collect();
-        let found: Vec<Option<Vec<f64>>> = STEPS.iter().map(|steps| closed(&q, *steps)).collect();
-        let Some(last) = &found[STEPS.len() - 1] else { continue };
-        let differs = |found: &Option<Vec<f64>>| found.as_ref().is_none_or(|found| !is_same(found, last));
-        let enough = found.iter().rposition(differs).map_or(0, |index| index + 1);
-        needed = needed.max(STEPS[enough]);
-    }
-    (2 * needed).min(STEPS[STEPS.len() - 1])
-}
-
-/// Number of Newton's steps at the final values of the joint variables.
-pub(crate) const REFINEMENTS: usize = 3;
-
-/// Largest square of the last step, relative to 1 plus that of the passive variables, of loops that
-/// close: above the rounding errors in single precision, and such that the next step, of the order
-/// of its square, is far below all errors.
-pub(crate) const CLOSED: f64 = 1e-10;
-
-fn squares(values: &[f64]) -> f64 {
-    values.iter().map(|value| value * value).sum()
-}
-
-/// Returns a value within the limits, by multiples of the golden ratio that differ for each
-/// variable; within a turn of home without limits.
-fn sampled(variable: &Variable, index: usize, sample: usize) -> f64 {
-    let [lower, upper] = variable.limits;
-    let half = match variable.kind {
-        VariableKind::Revolute => std::f64::consts::PI,
-        VariableKind::Prismatic => 0.0,
-    };
-    let lower = if lower.is_finite() { lower } else { variable.home - half };
-    let upper = if upper.is_finite() { upper } else { variable.home + half };
-    let share =
-        (0.618_033_988_749_894_9 * (sample + 1) as f64 * (index + 1) as f64 + 0.1 * index as f64).fract();
-    lower + (upper - lower) * share
 }
 
 impl RealNodes {

@@ -2,24 +2,27 @@
 //!
 //! `view` holds the poses of the frames below one of them, and moves them; `closure` states the
 //! equations φ of a loop and their rates under such motions. `factored` solves `φ_p x = b` in
-//! straight-line code. `model` eliminates the passive variables:
+//! straight-line code. `parts` eliminates the passive variables, and `model` reads off the nodes:
 //!
 //! ```text
 //! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε
 //! ```
 //!
-//! `loops` has Newton's steps for p, of the nominal machine and with errors, and `equations` has φ
+//! `continuation` decides how p is found, `loops` has Newton's steps for it, of the nominal machine and with errors, and `equations` has φ
 //! and φ_p themselves. `lengths` converts errors of the lengths of legs to errors of frames.
 
 mod closure;
+mod continuation;
 mod equations;
 mod factored;
 mod lengths;
 mod loops;
 mod model;
+mod parts;
 mod view;
 
+pub(crate) use continuation::{CLOSED, REFINEMENTS};
 pub use equations::LoopEquations;
 pub(super) use lengths::add_lengths;
-pub(crate) use loops::{CLOSED, Loops, REFINEMENTS, RealNodes};
+pub(crate) use loops::{Loops, RealNodes};
 pub(super) use model::model;

@@ -4,7 +4,9 @@ use super::differences::derivative;
 use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
 use crate::chain::displacement;
-use crate::{Component, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose};
+use crate::{
+    Component, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose, tool_pose,
+};
 
 /// First step of the differences, in rad or arm lengths.
 const STEP: f64 = 0.1;
@@ -13,6 +15,9 @@ const STEP: f64 = 0.1;
 /// kinks, such as a table, has kinks that long steps skip. A wrong Jacobian disagrees with short
 /// steps too.
 const SHORT_STEP: f64 = 1e-4;
+
+/// Size of a Jacobian, relative to the arm length, that is rounding errors only.
+const NOISE: f64 = 1e-11;
 
 /// Relative difference from which on short steps are tried.
 const DIFFERENT: f64 = 1e-9;
@@ -77,7 +82,7 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
                 subject
                     .transforms(&q, &at.given.s)
                     .ok()
-                    .map(|transforms| description.tool_pose(&transforms, &[]))
+                    .map(|transforms| tool_pose(description, &transforms, &[]))
             };
             let found = direction.sum(columns);
             (found, differences(subject, description.orientation, at, found, moved))
@@ -102,7 +107,7 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
                 subject
                     .transforms(&at.given.q, &s)
                     .ok()
-                    .map(|transforms| description.tool_pose(&transforms, &[]))
+                    .map(|transforms| tool_pose(description, &transforms, &[]))
             };
             let found = direction.sum(columns);
             (found, differences(subject, description.orientation, at, found, changed))
@@ -240,8 +245,7 @@ fn compare(
         }
         // An empty or zero Jacobian has no scale of its own: 1 is the order of all others. That of a
         // tool that loops hold is zero but for rounding.
-        discrepancy
-            .add(difference / if largest > super::ROUNDING_TOLERANCE { largest } else { 1.0 }, &at.given);
+        discrepancy.add(difference / if largest > NOISE { largest } else { 1.0 }, &at.given);
     }
     Ok(discrepancy)
 }

@@ -2,7 +2,7 @@
 
 use super::{Configuration, Failure};
 use crate::sampling;
-use crate::{Error, Manipulator, Pose, euler_margin};
+use crate::{Error, Manipulator, Pose, euler_margin, tool_pose};
 
 /// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
@@ -63,7 +63,7 @@ impl<'a> Subject<'a> {
                 }
                 transforms => transforms.map_err(|error| Failure::Evaluation { at: given.clone(), error })?,
             };
-            let pose = description.tool_pose(&transforms, &[]);
+            let pose = tool_pose(description, &transforms, &[]);
             let margin = euler_margin(description.orientation, &pose);
             if margin >= EULER_MARGIN {
                 let margin = if description.is_chain() { margin } else { SMALLER * margin };
@@ -131,7 +131,7 @@ impl<'a> Subject<'a> {
     pub(super) fn displaced_pose(&self, at: &Sample, errors: &[[f64; 6]]) -> Result<Pose, Failure> {
         let description = self.manipulator.description();
         if description.is_chain() {
-            return Ok(description.tool_pose(&at.transforms, errors));
+            return Ok(tool_pose(description, &at.transforms, errors));
         }
         let real = self.manipulator.displaced_pose(&at.given.q, &at.given.s, errors);
         real.map_err(|error| Failure::Evaluation { at: at.given.clone(), error })

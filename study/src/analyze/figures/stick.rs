@@ -1,7 +1,7 @@
 //! Stick figure of the manipulator at home.
 
 use abbe::analysis::Configuration;
-use abbe::{Error, Manipulator, Pose};
+use abbe::{Error, Manipulator, Pose, tool_pose};
 use abbe_spec::{Closure, Spec};
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ impl Stick {
         let pose = |frame: Option<usize>| description.frame_pose(&transforms, frame);
         let mut all = vec![("F0".to_owned(), Pose::IDENTITY)];
         all.extend(named.enumerate().map(|(i, name)| (name, pose(Some(i)))));
-        let tool = description.tool_pose(&transforms, &[]);
+        let tool = tool_pose(description, &transforms, &[]);
         all.push(("tool point".to_owned(), tool));
         let size = (0..3).map(|axis| {
             let along = all.iter().map(|(_, pose)| pose.position()[axis]);

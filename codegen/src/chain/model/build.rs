@@ -1,94 +1,28 @@
-//! Quantities that are generated for a manipulator, as nodes of one graph.
+//! The model of a chain of frames.
 
 use abbe_core::Class;
-use abbe_spec::expr::{Elementary, Motion, Symbol};
-use abbe_spec::{Factor, Spec};
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 
-use super::accumulate::Accumulated;
-use super::accumulate::Links;
-use super::by_source;
-use super::covariance::Covariance;
-use super::displacement::Displacement;
-use super::elastic::Loads;
-use super::equivalent_forms::EquivalentForms;
-use super::error_jacobian;
-use super::local_twist::{LocalTwist, local_twists};
-use super::moments::Moments;
-use super::moving;
-use super::real::RealChain;
-use super::rows::Rows;
-use super::sources::{self, EffectNode};
-use super::symbol_jacobian;
-use super::tree::{self, Loops};
-use super::walk::{Step, transform, walk};
-use crate::graph::{Frame, Graph, Node, Op, Vector};
-
-/// A Jacobian, or another matrix with the same six rows: columns, with rows 4–6 by the spec's
-/// orientation.
-#[derive(Clone, Debug)]
-pub struct Jacobian {
-    /// The columns.
-    pub columns: Vec<[Node; 6]>,
-    /// `cos ρ` if the rows are Euler angles; they are undefined where it is 0.
-    pub margin: Option<Node>,
-}
-
-/// Nodes of all quantities that are generated for a manipulator.
-#[derive(Clone, Debug)]
-pub struct Model {
-    /// The graph of the nodes.
-    pub graph: Graph,
-    /// `A_1 … A_n` and the tool transform.
-    pub transforms: Vec<Frame>,
-    /// The poses of `F_1 … F_n` in `F_0`.
-    pub frames: Vec<Frame>,
-    /// Pose of the tool point in `F_0`: `A_T`.
-    pub tool: Frame,
-    /// `J_e`: six columns per frame.
-    pub error_jacobian: Jacobian,
-    /// Entries of `J_e` that are neither zero nor repeated; the same number for each frame.
-    pub distinct: Vec<Vec<Node>>,
-    /// `J_q`: one column per variable.
-    pub joint_jacobian: Jacobian,
-    /// `∂X_T/∂s`: one column per parameter.
-    pub parameter_jacobian: Jacobian,
-    /// Effects of the enabled sources, source by source.
-    pub effects: Vec<EffectNode>,
-    /// ε: sum of the enabled repeatable sources, six per frame.
-    pub generalized_errors: Vec<[Node; 6]>,
-    /// `ΔX = J_e ε` for any ε: one column.
-    pub displacement: Jacobian,
-    /// `J_e diag(σ²) J_eᵀ` for any variances σ²: six columns.
-    pub covariance: Jacobian,
-    /// `J_e ε` of the enabled repeatable sources, one column: accumulated along the chain, and from
-    /// the columns of `J_e`.
-    pub predicted_displacement: [Jacobian; 2],
-    /// `J_e ε` of each enabled source alone, one column per source, computed in the same two forms.
-    pub source_displacements: [Jacobian; 2],
-    /// Exact pose of the tool point with the errors of the enabled repeatable sources.
-    pub real_pose: Frame,
-    /// Exact pose of the tool point with the errors of all enabled sources, each times its
-    /// magnitude.
-    pub drawn_pose: Frame,
-    /// Errors of every frame with which the nominal chain gives `real_pose`. Only for a long chain
-    /// with errors other than those at the frames themselves.
-    pub real_errors: Option<Vec<[Node; 6]>>,
-    /// Errors of every frame with which the nominal chain gives `drawn_pose`. Only for a long
-    /// chain.
-    pub drawn_errors: Vec<[Node; 6]>,
-    /// `J_q` with rotation-vector rows for any orientation of the spec.
-    pub joint_twists: Vec<[Node; 6]>,
-    /// Twists of each transform per unit of the variables. Only for a long chain.
-    pub joint_local_twists: Vec<LocalTwist>,
-    /// Twists of each transform per unit of the parameters. Only for a long chain.
-    pub parameter_local_twists: Vec<LocalTwist>,
-    /// How the loops close, and the exact poses with errors. Only for a tree of frames.
-    pub(crate) loops: Option<Loops>,
-}
-
-/// Largest number of frames for which straight-line code is generated. Beyond it, straight-line
-/// code outgrows the instruction cache and takes minutes to compile where loops take seconds.
-pub(super) const LONGEST_WITHOUT_LOOPS: usize = 30;
+use super::names::{name, name_lengths};
+use super::{Jacobian, Model, is_long};
+use crate::chain::accumulate::{Accumulated, Links};
+use crate::chain::by_source;
+use crate::chain::covariance::Covariance;
+use crate::chain::displacement::Displacement;
+use crate::chain::elastic::Loads;
+use crate::chain::equivalent_forms::EquivalentForms;
+use crate::chain::error_jacobian;
+use crate::chain::local_twist::local_twists;
+use crate::chain::moments::Moments;
+use crate::chain::moving;
+use crate::chain::real::RealChain;
+use crate::chain::rows::Rows;
+use crate::chain::sources;
+use crate::chain::symbol_jacobian;
+use crate::chain::tree;
+use crate::chain::walk::{Step, transform, walk};
+use crate::graph::{Frame, Graph, Node, Vector};
 
 impl Model {
     /// Builds all nodes. This cannot fail for a checked spec.
@@ -228,53 +162,4 @@ impl Model {
             loops: None,
         }
     }
-}
-
-/// Names the entries of a pose: `r2_13` is row 1, column 3 of `R_2`, `p2_x` the x of its position.
-pub(super) fn name(graph: &mut Graph, frame: &Frame, index: &str) {
-    for (j, column) in frame.axes.iter().enumerate() {
-        for (i, node) in column.iter().enumerate() {
-            graph.propose(*node, || format!("r{index}_{}{}", i + 1, j + 1));
-        }
-    }
-    for (node, axis) in frame.position.iter().zip("xyz".chars()) {
-        graph.propose(*node, || format!("p{index}_{axis}"));
-    }
-}
-
-/// Names the constant lengths of a transform: `x2` is the length along x from frame 1 to frame 2,
-/// `a2` the radius where a matrix has `a cos θ` and `a sin θ`.
-pub(super) fn name_lengths(graph: &mut Graph, factors: &[Factor], index: &str) {
-    for factor in factors {
-        match factor {
-            Factor::Elementary(Elementary { motion: Motion::Translation, axis, amount }) => {
-                let amount = graph.lower(amount);
-                name_length(graph, amount, *axis, index);
-            }
-            Factor::Matrix(matrix) => {
-                for (axis, row) in matrix.rows.iter().enumerate() {
-                    let amount = graph.lower(&row[3]);
-                    name_length(graph, amount, axis, index);
-                }
-            }
-            _ => {}
-        }
-    }
-}
-
-fn name_length(graph: &mut Graph, amount: Node, axis: usize, index: &str) {
-    let letter = ["x", "y", "z"][axis];
-    match graph.op(amount) {
-        Op::Constant(bits) => graph.propose_number(f64::from_bits(bits), &format!("{letter}{index}")),
-        Op::Mul(a, b) => {
-            let factor = graph.value(a).or(graph.value(b));
-            factor.into_iter().for_each(|value| graph.propose_number(value, &format!("a{index}")));
-        }
-        _ => {}
-    }
-}
-
-/// Returns `true` if the functions of the chain are loops over its frames.
-pub(crate) fn is_long(spec: &Spec) -> bool {
-    spec.is_serial() && spec.frames.len() > LONGEST_WITHOUT_LOOPS
 }

@@ -1,0 +1,183 @@
+//! The parts of a tree of frames: what moves its tool and its loops.
+
+use abbe_core::Component;
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Closure, Factor, Spec};
+
+use super::closure::{self, Ends};
+use super::factored::{Factored, dot};
+use super::view::{Motion, View};
+use crate::graph::{Graph, Node, Vector};
+
+/// The frames of a tree, its loops, and what eliminates the passive variables.
+pub(super) struct Parts<'s> {
+    /// View of the whole tree from `F_0`.
+    pub(super) whole: View<'s>,
+    loops: Vec<Part<'s>>,
+    /// Frames whose errors have no effect.
+    free: Vec<bool>,
+    pub(super) factored: Factored,
+    /// Rows of `M = J_p φ_p⁻¹`: velocity and rotation of the tool.
+    eliminated: Vec<Vec<Node>>,
+}
+
+/// A loop, seen from the last frame that carries all of it.
+struct Part<'s> {
+    ends: Ends,
+    closure: &'s Closure,
+    length: Option<Node>,
+    view: View<'s>,
+}
+
+impl<'s> Parts<'s> {
+    pub(super) fn new(graph: &mut Graph, spec: &'s Spec) -> Self {
+        let whole = View::new(graph, spec, None);
+        let mut loops = Vec::new();
+        for closed in &spec.loops {
+            let ends = Ends::new(spec, closed);
+            let length = match &closed.closure {
+                Closure::Distance(length) => Some(graph.lower(length)),
+                Closure::Coordinates(_) => None,
+            };
+            let view = View::new(graph, spec, ends.root(spec));
+            loops.push(Part { ends, closure: &closed.closure, length, view });
+        }
+        let factored = Factored::new(graph, Vec::new());
+        let free = free_frames(spec);
+        let mut parts = Self { whole, loops, free, factored, eliminated: vec![Vec::new(); 6] };
+        let columns = parts.derivatives(graph, spec);
+        parts.factored = Factored::new(graph, columns);
+        let passive = (0..spec.passive.len()).map(Symbol::Local);
+        let tool: Vec<[Node; 6]> = passive.map(|symbol| parts.tool_by_symbol(graph, symbol)).collect();
+        parts.eliminated = (0..6)
+            .map(|row| {
+                let row: Vec<Node> = tool.iter().map(|twist| twist[row]).collect();
+                parts.factored.solve_row(graph, &row)
+            })
+            .collect();
+        parts
+    }
+
+    /// Returns the equations of all loops, which are zero where these close.
+    pub(super) fn residual(&self, graph: &mut Graph) -> Vec<Node> {
+        let mut residual = Vec::new();
+        for Part { ends, closure, length, view } in &self.loops {
+            residual.extend(closure::residual(graph, *ends, closure, *length, |frame| *view.pose(frame)));
+        }
+        residual
+    }
+
+    /// Returns the columns of `φ_p`, one per passive variable.
+    pub(super) fn derivatives(&self, graph: &mut Graph, spec: &Spec) -> Vec<Vec<Node>> {
+        (0..spec.passive.len()).map(|i| self.rates_by_symbol(graph, Symbol::Local(i))).collect()
+    }
+
+    /// Returns the rates of all equations per unit of a symbol.
+    fn rates_by_symbol(&self, graph: &mut Graph, symbol: Symbol) -> Vec<Node> {
+        let mut rates = Vec::new();
+        for Part { ends, closure, length, view } in &self.loops {
+            let motions = view.by_symbol(graph, symbol);
+            let length = length.map_or(graph.zero(), |length| graph.diff(length, symbol));
+            rates.extend(closure::rate(graph, view, *ends, closure, &motions, length));
+        }
+        rates
+    }
+
+    /// Returns the rates of all equations under motions that each view has of its own.
+    fn rates(&self, graph: &mut Graph, motions: impl Fn(&mut Graph, &View<'_>) -> Vec<Motion>) -> Vec<Node> {
+        let mut rates = Vec::new();
+        for Part { ends, closure, view, .. } in &self.loops {
+            let (motions, zero) = (motions(graph, view), graph.zero());
+            rates.extend(closure::rate(graph, view, *ends, closure, &motions, zero));
+        }
+        rates
+    }
+
+    /// Returns velocity and rotation of the tool per unit of a symbol, without the loops.
+    fn tool_by_symbol(&self, graph: &mut Graph, symbol: Symbol) -> [Node; 6] {
+        let motions = self.whole.by_symbol(graph, symbol);
+        self.tool(graph, &motions)
+    }
+
+    fn tool(&self, graph: &mut Graph, motions: &[Motion]) -> [Node; 6] {
+        let [[x, y, z], [a, b, c]] = self.whole.twist(graph, motions, Some(self.whole.tool()));
+        [x, y, z, a, b, c]
+    }
+
+    /// Returns a twist of the tool with the motion of the passive variables that keeps the loops
+    /// closed: `v − M φ̇`.
+    fn closed(&self, graph: &mut Graph, twist: [Node; 6], rates: &[Node]) -> [Vector; 2] {
+        let closed: [Node; 6] = std::array::from_fn(|row| {
+            let part = dot(graph, &self.eliminated[row], rates);
+            graph.sub(twist[row], part)
+        });
+        [[closed[0], closed[1], closed[2]], [closed[3], closed[4], closed[5]]]
+    }
+
+    /// Returns velocity and rotation of the tool per unit of a symbol.
+    pub(super) fn by_symbol(&self, graph: &mut Graph, symbol: Symbol) -> [Vector; 2] {
+        let twist = self.tool_by_symbol(graph, symbol);
+        let rates = self.rates_by_symbol(graph, symbol);
+        self.closed(graph, twist, &rates)
+    }
+
+    /// Returns velocity and rotation of the tool per unit of an error.
+    pub(super) fn by_error(&self, graph: &mut Graph, frame: usize, component: Component) -> [Vector; 2] {
+        if self.free[frame] {
+            return [[graph.zero(); 3]; 2];
+        }
+        let motion = self.whole.by_error(graph, frame, component);
+        let twist = self.tool(graph, &[motion]);
+        let rates = self.rates(graph, |graph, view| match view.is_below(frame) {
+            true => vec![view.by_error(graph, frame, component)],
+            false => Vec::new(),
+        });
+        self.closed(graph, twist, &rates)
+    }
+
+    /// Returns the displacement of the tool due to errors of all frames.
+    pub(super) fn by_errors(&self, graph: &mut Graph, errors: &[[Node; 6]]) -> [Vector; 2] {
+        let none = [graph.zero(); 6];
+        let of_frame = |(errors, free): (&[Node; 6], &bool)| if *free { none } else { *errors };
+        let errors: Vec<[Node; 6]> = errors.iter().zip(&self.free).map(of_frame).collect();
+        let motions = self.whole.by_errors(graph, &errors);
+        let twist = self.tool(graph, &motions);
+        let rates = self.rates(graph, |graph, view| view.by_errors(graph, &errors));
+        self.closed(graph, twist, &rates)
+    }
+}
+
+/// Returns, for every frame, whether it belongs to a body that six passive joints in a row let move
+/// freely. They undo any motion that an error of one of these frames gives the body, so that these
+/// errors have no effect: `φ_ε = φ_p x` and `J_ε = J_p x` for the motion x of the joints.
+fn free_frames(spec: &Spec) -> Vec<bool> {
+    let count = spec.frames.len();
+    let only_child = |frame: usize| {
+        let mut children = (0..count).filter(|child| spec.frames[*child].parent == Some(frame));
+        let child = children.next().filter(|_| children.next().is_none())?;
+        let is_end = spec.loops.iter().any(|closed| closed.frames.contains(&Some(frame)));
+        (!is_end && spec.tool_frame != frame).then_some(child)
+    };
+    let mut free = vec![false; count];
+    for first in 0..count {
+        // Motions of one body: each joint moves the next, and nothing else hangs on it.
+        let row: Vec<usize> = std::iter::successors(Some(first), |frame| only_child(*frame)).collect();
+        let passive = row.iter().filter(|frame| moves_alone(spec, **frame)).count();
+        if passive == FREEDOMS {
+            row.iter().for_each(|frame| free[*frame] = true);
+        }
+    }
+    free
+}
+
+/// Returns `true` if a frame has a passive variable on which nothing else depends.
+fn moves_alone(spec: &Spec, frame: usize) -> bool {
+    let Some(passive) = spec.frames[frame].passive else { return false };
+    let others = spec.frames.iter().enumerate().filter(|(other, _)| *other != frame);
+    let factors = others.flat_map(|(_, other)| &other.factors).chain(&spec.tool);
+    let mut expressions = factors.flat_map(Factor::expressions).chain(spec.lengths());
+    !expressions.any(|expression| expression.symbols().any(|symbol| symbol == Symbol::Passive(passive)))
+}
+
+/// Freedoms of a body in space.
+const FREEDOMS: usize = 6;
