@@ -24,8 +24,8 @@ pub fn real_pose(transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
     product
 }
 
-/// Returns the pose of the tool point in `F_0` from `A_1 … A_n` and `T` of a chain or tree of frames,
-/// and the generalized errors of the frames; frames beyond the end of `errors` have none.
+/// Returns the pose of the tool point in `F_0` from `A_1 … A_n` and `T` of a chain or tree of
+/// frames, and the generalized errors of the frames; frames beyond the end of `errors` have none.
 ///
 /// With loops, this is the pose at the nominal values of the passive variables: the errors do not
 /// move these.

@@ -6,10 +6,10 @@
 /// Defines the checked functions of a generated module, and the type that implements
 /// [`Manipulator`](crate::Manipulator) by its raw functions.
 ///
-/// A manipulator with loops is followed by the word `loops`. Generated code invokes it where `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`,
-/// `EFFECTS`, `SOURCES`, `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. The types of
-/// arrays fix their sizes. Numbers that are not finite, inputs outside their range and Euler
-/// singularities are [`Error`](crate::Error)s.
+/// A manipulator with loops is followed by the word `loops`. Generated code invokes it where
+/// `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`, `EFFECTS`, `SOURCES`, `DESCRIPTION`,
+/// `Parameters`, `Inputs` and `raw` are defined. The types of arrays fix their sizes. Numbers that
+/// are not finite, inputs outside their range and Euler singularities are [`Error`](crate::Error)s.
 #[macro_export]
 macro_rules! checked_functions {
     ($(#[$documentation:meta])* $name:ident $($with:ident)?) => {

@@ -89,8 +89,8 @@ pub trait Manipulator: Sync {
     }
 
     /// Computes the passive variables, in the order of the frames that declare them, for which all
-    /// loops close: the values that are reached continuously from home as `q` moves from home to its
-    /// value. The default is for manipulators without loops.
+    /// loops close: the values that are reached continuously from home as `q` moves from home to
+    /// its value. The default is for manipulators without loops.
     ///
     /// Returns [`Error::NotClosed`] if there are none.
     fn passive(&self, _q: &[f64], _s: &[f64], passive: &mut [f64]) -> Result<(), Error> {

@@ -1,6 +1,7 @@
 //! Code generated for JavaScript, NumPy and Octave equals Rust to 1e-13 of the largest number of a
 //! result: every function of every shipped robot, of a long chain, of loops, and of a robot with
-//! names that have a meaning in these languages. Compensated commands are equal to 1e-9 of a metre or a rad.
+//! names that have a meaning in these languages. Compensated commands are equal to 1e-9 of a metre
+//! or a rad.
 //!
 //! `PYTHON` names a Python that has NumPy, if `python3` has none. Octave is slow and evaluates 20
 //! configurations; `CONFIGURATIONS=1000` sets the number for all.

@@ -432,8 +432,9 @@ impl Mechanism {
     }
 }
 
-/// Mechanisms with one to three loops obey the laws, 50 in a thorough run: `J_e` is the derivative of the machine
-/// that closes with errors. Mechanisms that are singular at home, or nearly so, do not count.
+/// Mechanisms with one to three loops obey the laws, 50 in a thorough run: `J_e` is the derivative
+/// of the machine that closes with errors. Mechanisms that are singular at home, or nearly so, do
+/// not count.
 #[test]
 fn laws_hold_for_random_mechanisms() {
     let (mut held, mut singular) = ([0; 3], 0);

@@ -71,7 +71,8 @@ pub struct Model {
     pub joint_local_twists: Vec<LocalTwist>,
     /// Twists of each transform per unit of the parameters. Only for a long chain.
     pub parameter_local_twists: Vec<LocalTwist>,
-    /// How the loops close, and the exact poses with errors. Only for a tree of frames.
+    /// Newton's steps that close the loops, and the exact poses with errors. Only for a tree of
+    /// frames.
     pub(crate) loops: Option<Loops>,
 }
 

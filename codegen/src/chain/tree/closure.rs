@@ -26,8 +26,8 @@ pub(super) struct Ends {
 }
 
 impl Ends {
-    /// Returns the frames of a loop. The axes of a distance are those of its second frame: they have
-    /// no influence.
+    /// Returns the frames of a loop. The axes of a distance are those of its second frame: they
+    /// have no influence.
     pub(super) fn new(spec: &Spec, closed: &Loop) -> Self {
         let [first, second] = closed.frames;
         let axes = match closed.closure {

@@ -1,5 +1,5 @@
-//! How passive variables are found, decided when code is generated: from which values, and in how
-//! many steps.
+//! Start and number of steps of the search for the passive variables, which are decided when code is
+//! generated.
 
 use abbe_core::VariableKind;
 use abbe_spec::expr::Symbol;

@@ -12,7 +12,7 @@ use crate::chain::real::RealChain;
 use crate::chain::sources::{Causes, PlacedErrors};
 use crate::graph::{Frame, Graph, Node};
 
-/// How the loops close. Passive variables are local symbols, from 0.
+/// Nodes that close the loops. Passive variables are local symbols, from 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Loops {
     /// Values of the passive variables at home, from which they are found.

@@ -8,8 +8,9 @@
 //! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε
 //! ```
 //!
-//! `continuation` decides how p is found, `loops` has Newton's steps for it, of the nominal machine and with errors, and `equations` has φ
-//! and φ_p themselves. `lengths` converts errors of the lengths of legs to errors of frames.
+//! `continuation` decides how p is found, `loops` has Newton's steps for it, of the nominal machine
+//! and with errors, and `equations` has φ and φ_p themselves. `lengths` converts errors of the
+//! lengths of legs to errors of frames.
 
 mod closure;
 mod continuation;

@@ -34,8 +34,8 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
     let is_chain = manipulator.description().is_chain();
     compare(manipulator, samples, 6 * frames, |subject, _, at, columns| {
         manipulator.error_jacobian(&at.given.q, &at.given.s, columns)?;
-        // With one error, equation (6) of a chain is `(A_1 … A_i) E_i (A_{i+1} … T)`: multiply both factors
-        // once.
+        // With one error, equation (6) of a chain is `(A_1 … A_i) E_i (A_{i+1} … T)`: multiply both
+        // factors once.
         let mut after = at.transforms.clone();
         for i in (1..after.len()).rev() {
             after[i - 1] = after[i - 1].then(&after[i]);
@@ -243,8 +243,8 @@ fn compare(
                 difference = larger(difference, (found - expected).abs());
             }
         }
-        // An empty or zero Jacobian has no scale of its own: 1 is the order of all others. That of a
-        // tool that loops hold is zero but for rounding.
+        // An empty or zero Jacobian has no scale of its own: 1 is the order of all others. That of
+        // a tool that loops hold is zero but for rounding.
         discrepancy.add(difference / if largest > NOISE { largest } else { 1.0 }, &at.given);
     }
     Ok(discrepancy)
