@@ -3,14 +3,14 @@
 use std::process::Command;
 
 use abbe_codegen::print;
-use abbe_manipulators::SHIPPED;
+use abbe_manipulators::{MECHANISMS, SHIPPED};
 use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
 use abbe_tests::needs::{Missing, Tests, tool};
 
 pub(crate) const TESTS: Tests = &[("rustfmt_changes_nothing", rustfmt_changes_nothing)];
 
-/// Checks freshly generated shipped manipulators, loops and coupled joints, and the checked-in
+/// Checks freshly generated shipped manipulators, long chains and coupled joints, and the checked-in
 /// goldens of hostile names and the smallest spec.
 fn rustfmt_changes_nothing() -> Result<(), Missing> {
     tool("rustfmt", "")?;
@@ -24,6 +24,7 @@ fn rustfmt_changes_nothing() -> Result<(), Missing> {
     let (long, coupled) = (long_chain(), coupled_joints());
     let specs = SHIPPED.iter().map(|shipped| (shipped.name, shipped.spec));
     let generated = specs
+        .chain(MECHANISMS.iter().copied())
         .chain([("long", &*long), ("coupled", coupled)])
         .map(|(name, text)| write(name, &print::rust(&Spec::parse(name, text).unwrap())));
     let checked_in = [

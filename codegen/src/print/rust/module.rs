@@ -43,7 +43,8 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     let shares_columns = shares_columns(routines);
     writer.open("pub mod raw");
     let passive = (!spec.passive.is_empty()).then_some("PASSIVE");
-    let sizes: Vec<&str> = SIZES.into_iter().chain(passive).collect();
+    let mut sizes: Vec<&str> = SIZES.into_iter().chain(passive).collect();
+    sizes.sort_unstable();
     writer.imports("super", &sizes);
     writer.lines(if shares_columns { "use ::abbe::{ErrorColumns, Scalar};" } else { "use ::abbe::Scalar;" });
     let (functions, helpers): (Vec<_>, Vec<_>) =
