@@ -52,6 +52,7 @@ pub const MECHANISMS: &[(&str, &str)] = &[
     ("delta", include_str!("../mechanisms/delta.toml")),
     ("hexapod", include_str!("../mechanisms/hexapod.toml")),
     ("palletizer", include_str!("../mechanisms/palletizer.toml")),
+    ("pps_hexapod", include_str!("../mechanisms/pps_hexapod.toml")),
 ];
 
 /// Studies beside those of [`SHIPPED`], by name: section 6 of the paper for `pps`.
