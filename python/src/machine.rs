@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use abbe::{Function, Manipulator};
 use abbe_interpreter::Interpreter;
-use abbe_manipulators::{MECHANISMS, SHIPPED};
+use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::parts;
@@ -166,10 +166,7 @@ pub(crate) fn restore(
 /// Returns the names of the shipped manipulators.
 #[pyfunction]
 pub(crate) fn shipped() -> Vec<&'static str> {
-    let mut names: Vec<&str> =
-        SHIPPED.iter().map(|shipped| shipped.name).chain(MECHANISMS.iter().map(|one| one.0)).collect();
-    names.sort_unstable();
-    names
+    SHIPPED.iter().map(|shipped| shipped.name).collect()
 }
 
 #[pymethods]

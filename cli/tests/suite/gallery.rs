@@ -8,6 +8,8 @@ use std::path::Path;
 
 use expect_test::expect_file;
 
+use abbe_manipulators::MECHANISMS;
+
 use super::running::{json, prints};
 
 /// Largest size of a picture, in bytes.
@@ -38,6 +40,10 @@ fn the_page_shows_what_analyze_writes() {
     for entry in listed {
         let text = |key: &str| entry[key].as_str().expect("text");
         let (name, title) = (text("name"), text("title"));
+        // Machines with loops have a chapter of their own.
+        if MECHANISMS.iter().any(|(known, _)| *known == name) {
+            continue;
+        }
         let out = folder.path().join(name);
         let screen = prints(&["analyze", name, "--out", out.to_str().unwrap()]);
         // The verdict, the figures and the sources: three blocks of the first screen.
