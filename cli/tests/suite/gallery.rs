@@ -6,9 +6,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use expect_test::expect_file;
-
 use abbe_manipulators::MECHANISMS;
+use expect_test::expect_file;
 
 use super::running::{json, prints};
 
