@@ -74,6 +74,8 @@ fn surface(canvas: &mut Canvas, corners: &[Vec<Option<Corner<Pixel>>>], [least, 
 /// Draws labels at their positions, shifted down where they would overlap.
 fn words(canvas: &mut Canvas, texts: &[(Pixel, String)], area: &Area) {
     const LINE: f64 = 15.0;
+    // Rounding may leave lines that are one below the other a little closer.
+    const OVERLAP: f64 = LINE - 1e-6;
     let font = Font::WORDS;
     let mut taken: Vec<[f64; 3]> = Vec::new();
     for ([x, y], text) in texts {
@@ -81,7 +83,7 @@ fn words(canvas: &mut Canvas, texts: &[(Pixel, String)], area: &Area) {
         let x = (x + 6.0).min(area.right() - width).max(area.left);
         let mut y = y - 6.0;
         let hits =
-            |[from, to, line]: &[f64; 3], y: f64| x < *to && x + width > *from && (line - y).abs() < LINE;
+            |[from, to, line]: &[f64; 3], y: f64| x < *to && x + width > *from && (line - y).abs() < OVERLAP;
         while let Some([_, _, line]) = taken.iter().find(|other| hits(other, y)) {
             y = line + LINE;
         }

@@ -10,7 +10,7 @@ use abbe_tests::needs::{Missing, Tests, tool};
 
 pub(crate) const TESTS: Tests = &[("rustfmt_changes_nothing", rustfmt_changes_nothing)];
 
-/// Checks freshly generated shipped manipulators, long chains and coupled joints, and the checked-in
+/// Checks freshly generated shipped manipulators, long chains and coupled joints, and checked-in
 /// goldens of hostile names and the smallest spec.
 fn rustfmt_changes_nothing() -> Result<(), Missing> {
     tool("rustfmt", "")?;

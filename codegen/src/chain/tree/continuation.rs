@@ -1,4 +1,4 @@
-//! Start and number of steps of the search for the passive variables, which are decided when code is
+//! Start and number of steps of the search for the passive variables, decided when code is
 //! generated.
 
 use abbe_core::VariableKind;
