@@ -46,6 +46,7 @@ fn frames(q: &[f64]) -> (Vec<Frame>, Point) {
     let frame = |count: usize, tool: bool| {
         let mut part = spec.clone();
         part.frames.truncate(count);
+        part.tool_frame = count.saturating_sub(1);
         part.variables.retain(|variable| variable.frame < count);
         if !tool {
             part.tool.clear();
