@@ -189,8 +189,9 @@ class Machine:
         """(…, np): values of the passive variables for which all loops close, reached continuously
         from home, in the length unit and rad.
 
-        In the order of the frames that declare them. Configurations where the loops do not
-        close raise ValueError, and so does a machine without loops.
+        One for each passive variable, in the order of the frames that declare them.
+        Configurations where the loops do not close raise ValueError, and so does a machine
+        without loops.
         """
     def displacement(self, q: _Joints, errors: ArrayLike, *, out: _Array | None = None) -> _Array:
         """(…, 6): displacement ΔX = J_e ε in F_0 for given errors ε, real minus ideal.
@@ -786,7 +787,9 @@ def positioning(
     2.0
     """
 def shipped() -> list[str]:
-    """Returns the names of the shipped manipulators."""
+    """Returns the names of the shipped manipulators that have compiled code; `load` also finds the
+    mechanisms that `abbe list` shows.
+    """
 def _commands(q: Any, left: Any, reason: Any) -> Commands: ...
 def _part(bytes: bytes) -> Part: ...
 def _report(saved: Any) -> Report: ...

@@ -106,8 +106,9 @@ methods! {
         /// (…, np): values of the passive variables for which all loops close, reached continuously
         /// from home, in the length unit and rad.
         ///
-        /// In the order of the frames that declare them. Configurations where the loops do not
-        /// close raise ValueError, and so does a machine without loops.
+        /// One for each passive variable, in the order of the frames that declare them.
+        /// Configurations where the loops do not close raise ValueError, and so does a machine
+        /// without loops.
         passive = Passive;
     }
     errors {

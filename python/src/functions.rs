@@ -58,7 +58,7 @@ impl Machine {
     ) -> PyResult<Bound<'py, PyAny>> {
         let description = self.interpreter.description();
         let signature = function.signature();
-        if Function::OF_LOOPS.contains(&function) && description.passive().next().is_none() {
+        if Function::OF_LOOPS.contains(&function) && !description.has_loops() {
             let message = format!("this machine has no closed loops, so it has no `{}`", signature.name);
             return Err(PyValueError::new_err(message));
         }

@@ -163,7 +163,8 @@ pub(crate) fn restore(
     })
 }
 
-/// Returns the names of the shipped manipulators.
+/// Returns the names of the shipped manipulators that have compiled code; `load` also finds the
+/// mechanisms that `abbe list` shows.
 #[pyfunction]
 pub(crate) fn shipped() -> Vec<&'static str> {
     SHIPPED.iter().map(|shipped| shipped.name).collect()
