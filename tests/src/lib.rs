@@ -4,6 +4,7 @@
 
 pub mod abuse;
 pub mod chains;
+pub mod closed_machines;
 pub mod erroneous;
 pub mod frame_loop;
 pub mod languages;

@@ -228,14 +228,17 @@ fn propagated(graph: &mut Graph, spec: &Spec, source: &Source, all: &[Vec<[Node;
                 unit[*frame][*component as usize] = graph.constant(1.0);
                 add_scaled(graph, &unit);
             }
-            // E_0 A_1 = A_1 E_1 with E_1 = L E_0 L⁻¹, L = A_1⁻¹.
+            // E_0 A_i = A_i E_i with E_i = L E_0 L⁻¹, L = A_i⁻¹, for every frame i that hangs on F_0.
             Uncertain::Identified(Identified::Base(component)) => {
-                let first = transform(graph, &spec.frames[0].factors);
-                let place = graph.inverse(&first);
                 let mut there = [graph.zero(); 6];
                 there[*component as usize] = graph.constant(1.0);
                 let mut whole = vec![[graph.zero(); 6]; spec.frames.len()];
-                whole[0] = at_frame(graph, &place, there);
+                let on_base = spec.frames.iter().enumerate().filter(|(_, frame)| frame.parent.is_none());
+                for (i, frame) in on_base {
+                    let first = transform(graph, &frame.factors);
+                    let place = graph.inverse(&first);
+                    whole[i] = at_frame(graph, &place, there);
+                }
                 add_scaled(graph, &whole);
             }
         }
