@@ -18,7 +18,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
-use abbe_tests::languages::{NAMES, compare, configurations, given_arrays};
+use abbe_tests::languages::{NAMES, compare, configurations, given_arrays, open_linkage};
 use abbe_tests::mutants::{Mutant, mutants};
 use abbe_tests::needs::{Missing, Tests, python, succeeds_in_time, tool};
 use abbe_tests::{is_tested, specs};
@@ -48,6 +48,7 @@ fn in_all(language: Language, usual: usize) -> Result<(), Missing> {
     assert_equal(language, &command, Spec::parse("coupled.toml", coupled_joints()).unwrap(), few);
     assert_equal(language, &command, Spec::read(specs::path("measured")).unwrap(), count);
     assert_equal(language, &command, Spec::read(specs::path("linkage")).unwrap(), few);
+    assert_open_loops_are_nan(language, &command);
     assert_equal(language, &command, Spec::parse("names.toml", NAMES).unwrap(), few);
     Ok(())
 }
@@ -89,6 +90,18 @@ fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize
     println!("{name}: {worst:e} in {count} configurations");
 }
 
+/// Checks that passive variables are NaN where the loops do not close.
+fn assert_open_loops_are_nan(language: Language, command: &[String]) {
+    let spec = Spec::read(specs::path("linkage")).unwrap();
+    let file = language.files(&spec).remove(0);
+    let robot = Interpreter::new(spec);
+    let mut called = called(&robot);
+    called["functions"].as_array_mut().unwrap().retain(|function| function[0] == "passive");
+    let given = [open_linkage(&robot)];
+    let found = results(language, command, &called, &file, &given).unwrap();
+    assert!(found.len() == 3 && found.iter().all(|value| value.is_nan()), "{found:?}");
+}
+
 /// Runs a source and compares its results with Rust. Returns the largest difference, or what is
 /// wrong.
 fn compare_source(
@@ -98,6 +111,20 @@ fn compare_source(
     file: &SourceFile,
     given: &[Vec<f64>],
 ) -> Result<f64, String> {
+    let found = results(language, command, &called(robot), file, given)?;
+    let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
+    compare(robot, evaluate, given, &found)
+}
+
+/// Runs a source and returns the results of all functions that are called, one configuration after
+/// the other, or its error messages.
+fn results(
+    language: Language,
+    command: &[String],
+    called: &Value,
+    file: &SourceFile,
+    given: &[Vec<f64>],
+) -> Result<Vec<f64>, String> {
     let folder = tempfile::tempdir().unwrap();
     let script = match language {
         Language::JavaScript => "run.mjs",
@@ -109,7 +136,7 @@ fn compare_source(
     fs::write(&source, &file.text).unwrap();
     fs::write(&input, given.concat().iter().flat_map(|value| value.to_ne_bytes()).collect::<Vec<u8>>())
         .unwrap();
-    fs::write(&functions, called(robot).to_string()).unwrap();
+    fs::write(&functions, called.to_string()).unwrap();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("languages").join(script);
     let errors = folder.path().join("errors");
     let mut run = Command::new(&command[0]);
@@ -119,10 +146,7 @@ fn compare_source(
         return Err(format!("{}: {}", file.name, fs::read_to_string(&errors).unwrap()));
     }
     let bytes = fs::read(&output).unwrap();
-    let found: Vec<f64> =
-        bytes.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap())).collect();
-    let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
-    compare(robot, evaluate, given, &found)
+    Ok(bytes.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap())).collect())
 }
 
 /// Checks that the comparison finds every mutant of a source: one of each kind in each function in

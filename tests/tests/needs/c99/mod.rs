@@ -12,7 +12,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
-use abbe_tests::languages::{NAMES, arguments, compare_compensated, configurations};
+use abbe_tests::languages::{NAMES, arguments, compare_compensated, configurations, open_linkage};
 use abbe_tests::needs::{Missing, Tests, tool};
 use abbe_tests::{is_tested, specs};
 
@@ -67,7 +67,22 @@ fn long_chains() -> Result<(), Missing> {
 
 fn loops() -> Result<(), Missing> {
     tool("cc", "")?;
-    assert_equal(Spec::read(specs::path("linkage")).unwrap(), 1000);
+    let spec = Spec::read(specs::path("linkage")).unwrap();
+    assert_equal(spec.clone(), 1000);
+    // What does not close has the status `LINKAGE_NOT_FINITE`.
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &spec, Real::Double);
+    let robot = Interpreter::new(spec);
+    let found = called(&["cc"], folder.path(), &robot, Real::Double, &[open_linkage(&robot)]);
+    let mut rest = &found[1..];
+    for function in functions(&robot) {
+        if matches!(function, Function::Passive | Function::Pose | Function::ErrorJacobian) {
+            assert_eq!(rest[0], 1.0, "{}", function.name());
+        }
+        let count: usize =
+            function.signature().results.iter().map(|array| array.len(robot.description())).sum();
+        rest = &rest[1 + count..];
+    }
     Ok(())
 }
 

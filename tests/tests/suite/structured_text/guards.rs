@@ -5,8 +5,9 @@ use abbe::Manipulator;
 use abbe::analysis::sampling::{nominal_inputs, nominal_parameters};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_tests::sample_size;
+use abbe_tests::languages::open_linkage;
 use abbe_tests::structured_text::Program;
+use abbe_tests::{sample_size, specs};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -58,6 +59,20 @@ fn functions_without_a_value_are_a_status() {
                 assert_eq!(pose.get("status"), [1.0], "{function} at {q}");
             }
         }
+    }
+}
+
+#[test]
+fn loops_that_do_not_close_are_a_status() {
+    let spec = Spec::read(specs::path("linkage")).unwrap();
+    let program = Program::parse(&text(&spec)).unwrap();
+    let given = open_linkage(&Interpreter::new(spec));
+    for function in ["pose", "passive", "error_jacobian"] {
+        let mut block = program.instance(&format!("linkage_{function}"));
+        super::set(&mut block, "q", &given[..3]);
+        super::set(&mut block, "s", &given[3..7]);
+        block.call().unwrap_or_else(|fault| panic!("{function} stops the controller: {fault}"));
+        assert_eq!(block.get("status"), [1.0], "{function}");
     }
 }
 
