@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use abbe::analysis::Sweepable;
 use abbe::lanes::{self, Batches, Tiles};
-use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks, tool_pose};
+use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks, open_pose};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::Routines;
 use abbe_spec::Spec;
@@ -180,15 +180,10 @@ impl Manipulator for Interpreter {
     }
 
     fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
-        let description = &self.routines.description;
-        if description.passive().next().is_some() {
-            let values = self.run(Function::DisplacedPose, &[q, s, errors.as_flattened()])?;
-            return Ok(pose_of(&values));
+        if !self.routines.description.has_loops() {
+            return open_pose(self, q, s, errors);
         }
-        count(Quantity::Errors, description.frames.len(), errors.len())?;
-        let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
-        self.transforms(q, s, &mut transforms)?;
-        Ok(tool_pose(description, &transforms, errors))
+        Ok(pose_of(&self.run(Function::DisplacedPose, &[q, s, errors.as_flattened()])?))
     }
 
     fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {

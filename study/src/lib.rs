@@ -82,6 +82,7 @@ mod interpretations;
 mod iso230;
 mod lines;
 mod listing;
+mod loop_units;
 mod machine;
 mod named;
 mod other_tool;

@@ -120,7 +120,12 @@ pub fn identifiable(
                 }
             }
         }
-        triangle = if stack.is_empty() { stack } else { stack.qr().r() };
+        let moving = moving(&stack);
+        let reduced = stack.select_columns(&moving).qr().r();
+        triangle = DMatrix::zeros(reduced.nrows(), unknowns);
+        for (column, j) in reduced.column_iter().zip(moving) {
+            triangle.set_column(j, &column);
+        }
     }
 
     let noise = ROUNDING * ((rows * configurations.len()) as f64).sqrt();
@@ -130,8 +135,16 @@ pub fn identifiable(
             column /= norm;
         }
     }
-    let values = singular_values(triangle).ok_or_else(|| at(None, not_finite()))?;
+    let columns = triangle.select_columns(&moving(&triangle));
+    let mut values = singular_values(columns).ok_or_else(|| at(None, not_finite()))?;
+    values.resize(unknowns, 0.0);
     Ok(Identifiability::new(unknowns, values))
+}
+
+/// Returns the indices of the columns that are not zero. Frames that do not carry the tool, such as
+/// another arm, have columns of zeros, which a decomposition need not touch.
+fn moving(matrix: &DMatrix<f64>) -> Vec<usize> {
+    (0..matrix.ncols()).filter(|j| matrix.column(*j).iter().any(|entry| *entry != 0.0)).collect()
 }
 
 /// Returns the error of a matrix that is not finite or whose decomposition does not converge.

@@ -168,7 +168,7 @@ impl Model<'_> {
             },
         })?;
         scratch.frames.clear();
-        let has_loops = self.manipulator.description().passive().next().is_some();
+        let has_loops = self.manipulator.description().has_loops();
         let tool = self
             .errors(scratch, observation, x)
             .and_then(|()| {

@@ -77,8 +77,7 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
 /// Checks that all values of a result are finite. If the manipulator has loops, values that are not
 /// finite mean that these do not close.
 pub fn result_is_finite(description: &Description, quantity: Quantity, values: &[f64]) -> Result<(), Error> {
-    let has_loops = || description.passive().next().is_some();
-    finite(quantity, values).map_err(|error| if has_loops() { Error::NotClosed } else { error })
+    finite(quantity, values).map_err(|error| if description.has_loops() { Error::NotClosed } else { error })
 }
 
 /// Checks that Euler rows exist at the margin `cos ρ` that a generated function returned.

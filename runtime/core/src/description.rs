@@ -364,6 +364,11 @@ impl Description {
         self.frames.iter().all(|frame| frame.branch.is_none())
     }
 
+    /// Returns `true` if loops determine passive variables.
+    pub fn has_loops(&self) -> bool {
+        self.passive().next().is_some()
+    }
+
     /// Iterates over the passive variables, which loops determine.
     pub fn passive(&self) -> impl Iterator<Item = &Variable> {
         self.frames.iter().filter_map(|frame| frame.branch.as_ref()?.passive.as_ref())

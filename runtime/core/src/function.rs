@@ -64,7 +64,7 @@ impl Function {
     /// Iterates over the functions of a manipulator, in the order of generated code: those that
     /// others call come first.
     pub fn all(description: &crate::Description) -> impl Iterator<Item = Self> + use<> {
-        let has_loops = description.passive().next().is_some();
+        let has_loops = description.has_loops();
         Self::OF_LOOPS.into_iter().filter(move |_| has_loops).chain(Self::ALL)
     }
 

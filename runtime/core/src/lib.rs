@@ -62,7 +62,7 @@ pub use description::{
 };
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]
-pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
+pub use drawn_pose::{drawn_pose, open_pose, repeatable_magnitudes};
 pub use error::{Error, MINIMUM_MARGIN, Quantity};
 pub use function::Function;
 pub use lookup_table::LookupTable;

@@ -1,8 +1,8 @@
 //! The interface of every manipulator, generated or interpreted.
 
-use crate::{Description, Error, Pose, Quantity};
 #[cfg(feature = "std")]
-use crate::{checks, tool_pose};
+use crate::open_pose;
+use crate::{Description, Error, Pose, Quantity};
 
 /// Manipulator: pure functions of the joint variables `q`, the structural parameters `s` and the
 /// inputs `u`.
@@ -76,16 +76,7 @@ pub trait Manipulator: Sync {
     /// The default evaluates the tree of frames, for manipulators without loops.
     #[cfg(feature = "std")]
     fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
-        let description = self.description();
-        let (expected, found) = (description.frames.len(), errors.len());
-        if expected != found {
-            return Err(Error::Count { quantity: Quantity::Errors, expected, found });
-        }
-        let mut transforms = std::vec![Pose::IDENTITY; expected + 1];
-        self.transforms(q, s, &mut transforms)?;
-        let pose = tool_pose(description, &transforms, errors);
-        checks::finite(Quantity::Pose, pose.0.as_flattened())?;
-        Ok(pose)
+        open_pose(self, q, s, errors)
     }
 
     /// Computes the passive variables, in the order of the frames that declare them, for which all

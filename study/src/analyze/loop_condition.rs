@@ -1,14 +1,14 @@
 //! Condition of `φ_p`: it says how well the loops determine the passive variables.
 
+use abbe::Manipulator;
 use abbe::analysis::decompose::singular_values;
 use abbe::analysis::sampling::arm_length;
 use abbe::analysis::{Configuration, Workspace};
-use abbe::{Manipulator, VariableKind};
 use abbe_codegen::chain::LoopEquations;
 use abbe_spec::Spec;
-use nalgebra::DMatrix;
 use serde::Serialize;
 
+use crate::loop_units::LoopUnits;
 use crate::number;
 
 /// Largest number of configurations at which the condition is evaluated.
@@ -40,8 +40,8 @@ impl LoopCondition {
         }
         let equations = LoopEquations::new(spec);
         let home = workspace.home();
-        let arm = arm_length(manipulator, &home.s).ok()?;
-        let condition = |at: &Configuration| condition(spec, manipulator, &equations, at, arm);
+        let units = LoopUnits::new(spec, arm_length(manipulator, &home.s).ok()?);
+        let condition = |at: &Configuration| condition(spec, manipulator, &equations, &units, at);
         let label = |at: &Configuration| number::configuration(at, home, spec);
         let mut found = Self { configurations: 0, largest: condition(home)?, at: label(home) };
         let step = workspace.len().div_ceil(CHECKED).max(1);
@@ -63,7 +63,7 @@ impl LoopCondition {
         match self.is_nearly_singular() {
             true => format!(
                 "nearly singular at {at}: the condition number of φ_p is {largest}, above {NEARLY_SINGULAR}; \
-                 errors grow there without limit"
+                 errors in the loops are magnified there"
             ),
             false => format!(
                 "the condition number of φ_p is at most {largest}, at {at}, of {configurations} configurations"
@@ -82,22 +82,12 @@ fn condition(
     spec: &Spec,
     manipulator: &dyn Manipulator,
     equations: &LoopEquations,
+    units: &LoopUnits,
     Configuration { q, s, .. }: &Configuration,
-    arm: f64,
 ) -> Option<f64> {
     let mut p = vec![0.0; spec.passive.len()];
     manipulator.passive(q, s, &mut p).ok()?;
-    let unit = |is_angle: bool| if is_angle { 1.0 } else { arm };
-    let closures = spec.loops.iter().map(|closed| &closed.closure);
-    let rows = closures.flat_map(|closure| (0..closure.equations()).map(|i| unit(closure.is_angle(i))));
-    let rows: Vec<f64> = rows.collect();
-    let columns = spec.passive.iter().map(|variable| unit(variable.kind == VariableKind::Revolute));
-    let columns: Vec<f64> = columns.collect();
-    let entries = equations.derivatives_at(q, &p, s);
-    let matrix = DMatrix::from_fn(rows.len(), columns.len(), |row, column| {
-        entries[column * rows.len() + row] * columns[column] / rows[row]
-    });
-    let values = singular_values(matrix)?;
+    let values = singular_values(units.derivatives(&equations.derivatives_at(q, &p, s)))?;
     let (largest, least) = (values.first()?, values.last()?);
     Some(if *least > 0.0 { largest / least } else { f64::MAX })
 }

@@ -1,13 +1,13 @@
 //! Numerical closing of the loops at home, also from values that are far away, and where the
 //! equations are singular.
 
-use abbe::VariableKind;
 use abbe_codegen::chain::{LoopEquations, transform};
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use nalgebra::{DMatrix, DVector};
 
 use super::chain::value_at_home;
+use crate::loop_units::LoopUnits;
 
 /// Maximum number of steps.
 const STEPS: usize = 500;
@@ -16,22 +16,12 @@ const STEPS: usize = 500;
 pub(super) struct Closing<'a> {
     spec: &'a Spec,
     equations: LoopEquations,
-    /// Unit of each equation: the arm length, or 1 rad.
-    rows: Vec<f64>,
-    /// Unit of each passive variable: the arm length, or 1 rad.
-    columns: Vec<f64>,
+    units: LoopUnits,
 }
 
 impl<'a> Closing<'a> {
     pub(super) fn new(spec: &'a Spec) -> Self {
-        let equations = LoopEquations::new(spec);
-        let arm = arm_length(spec);
-        let unit = |is_angle: bool| if is_angle { 1.0 } else { arm };
-        let closures = spec.loops.iter().map(|closed| &closed.closure);
-        let rows = closures.flat_map(|closure| (0..closure.equations()).map(|i| unit(closure.is_angle(i))));
-        let columns = spec.passive.iter().map(|variable| unit(variable.kind == VariableKind::Revolute));
-        let (rows, columns) = (rows.collect(), columns.collect());
-        Self { spec, equations, rows, columns }
+        Self { spec, equations: LoopEquations::new(spec), units: LoopUnits::new(spec, arm_length(spec)) }
     }
 
     /// Returns the equations, in the length unit and rad.
@@ -41,8 +31,9 @@ impl<'a> Closing<'a> {
 
     /// Returns the equations without units.
     fn scaled(&self, passive: &[f64]) -> DVector<f64> {
-        let residual = self.residual(passive).into_iter().zip(&self.rows);
-        DVector::from_iterator(self.rows.len(), residual.map(|(value, unit)| value / unit))
+        let rows = &self.units.rows;
+        let residual = self.residual(passive).into_iter().zip(rows);
+        DVector::from_iterator(rows.len(), residual.map(|(value, unit)| value / unit))
     }
 
     /// Returns the largest equation without units.
@@ -53,15 +44,7 @@ impl<'a> Closing<'a> {
 
     /// Returns `φ_p` without units.
     pub(super) fn derivatives(&self, passive: &[f64]) -> DMatrix<f64> {
-        let nodes = self.equations.derivatives.concat();
-        let values = self.evaluate(&nodes, passive);
-        let mut matrix = DMatrix::from_column_slice(self.rows.len(), self.columns.len(), &values);
-        for (i, row) in self.rows.iter().enumerate() {
-            for (j, column) in self.columns.iter().enumerate() {
-                matrix[(i, j)] *= column / row;
-            }
-        }
-        matrix
+        self.units.derivatives(&self.evaluate(&self.equations.derivatives.concat(), passive))
     }
 
     fn evaluate(&self, nodes: &[abbe_codegen::graph::Node], passive: &[f64]) -> Vec<f64> {
@@ -86,7 +69,7 @@ impl<'a> Closing<'a> {
             }
             let Some(step) = normal.cholesky().map(|factored| factored.solve(&gradient)) else { break };
             let moved: Vec<f64> =
-                (0..passive.len()).map(|i| passive[i] - step[i] * self.columns[i]).collect();
+                (0..passive.len()).map(|i| passive[i] - step[i] * self.units.columns[i]).collect();
             let found = self.scaled(&moved);
             // A comparison with NaN is false.
             if found.norm() < residual.norm() {

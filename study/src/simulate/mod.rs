@@ -187,7 +187,7 @@ impl Simulate {
         let list = match &self.at {
             Places::Rows(data) => Cow::Borrowed(data),
             Places::Samples(count) => {
-                let has_loops = interpreter.description().passive().next().is_some();
+                let has_loops = interpreter.description().has_loops();
                 if map.instruments().is_none() && !map.follows_from_rows() && !has_loops {
                     let (samples, stations) = (self.samples(interpreter, *count)?, map.station_names().len());
                     return Ok(Planned::Sampled { samples, stations });

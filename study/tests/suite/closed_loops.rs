@@ -3,6 +3,7 @@
 use abbe::Manipulator;
 use abbe::analysis::ReachError;
 use abbe_interpreter::Interpreter;
+use abbe_manipulators::MECHANISMS;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
@@ -199,7 +200,7 @@ fn the_condition_of_loops_is_that_of_theory() {
 /// writes the identified machine from them.
 #[test]
 fn shipped_machines_with_loops_have_their_text() {
-    for name in ["hexapod", "palletizer", "delta"] {
+    for (name, _) in MECHANISMS {
         let machine = Machine::find(name).unwrap();
         let text = machine.text().unwrap();
         assert_eq!(Spec::parse("machine.toml", &text).unwrap().hash, machine.spec.hash);

@@ -152,17 +152,24 @@ impl<'s> Parts<'s> {
 /// errors have no effect: `φ_ε = φ_p x` and `J_ε = J_p x` for the motion x of the joints.
 fn free_frames(spec: &Spec) -> Vec<bool> {
     let count = spec.frames.len();
-    let only_child = |frame: usize| {
-        let mut children = (0..count).filter(|child| spec.frames[*child].parent == Some(frame));
-        let child = children.next().filter(|_| children.next().is_none())?;
-        let is_end = spec.loops.iter().any(|closed| closed.frames.contains(&Some(frame)));
-        (!is_end && spec.tool_frame != frame).then_some(child)
-    };
     let mut free = vec![false; count];
+    if spec.passive.len() < FREEDOMS {
+        return free;
+    }
+    let mut children = vec![Vec::new(); count];
+    for (child, frame) in spec.frames.iter().enumerate() {
+        frame.parent.into_iter().for_each(|parent| children[parent].push(child));
+    }
+    let is_end = |frame: usize| spec.loops.iter().any(|closed| closed.frames.contains(&Some(frame)));
+    let only_child = |frame: &usize| match children[*frame][..] {
+        [child] if !is_end(*frame) && spec.tool_frame != *frame => Some(child),
+        _ => None,
+    };
+    let alone: Vec<bool> = (0..count).map(|frame| moves_alone(spec, frame)).collect();
     for first in 0..count {
         // Motions of one body: each joint moves the next, and nothing else hangs on it.
-        let row: Vec<usize> = std::iter::successors(Some(first), |frame| only_child(*frame)).collect();
-        let passive = row.iter().filter(|frame| moves_alone(spec, **frame)).count();
+        let row: Vec<usize> = std::iter::successors(Some(first), only_child).collect();
+        let passive = row.iter().filter(|frame| alone[**frame]).count();
         if passive == FREEDOMS {
             row.iter().for_each(|frame| free[*frame] = true);
         }

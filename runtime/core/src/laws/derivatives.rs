@@ -5,7 +5,8 @@ use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
 use crate::chain::displacement;
 use crate::{
-    Component, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose, tool_pose,
+    Component, Description, Error, Manipulator, Orientation, Pose, VariableKind, deviation, drawn_pose,
+    tool_pose,
 };
 
 /// First step of the differences, in rad or arm lengths.
@@ -29,32 +30,27 @@ const DIRECTIONS: usize = 60;
 /// Compares `J_e` with `∂(X_real − X_ideal)/∂ε`: central differences of equation (6) with exact
 /// rotations.
 pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
-    let orientation = manipulator.description().orientation;
-    let frames = manipulator.description().frames.len();
-    let is_chain = manipulator.description().is_chain();
+    let description = manipulator.description();
+    let orientation = description.orientation;
+    let frames = description.frames.len();
+    let has_loops = description.has_loops();
     compare(manipulator, samples, 6 * frames, |subject, _, at, columns| {
         manipulator.error_jacobian(&at.given.q, &at.given.s, columns)?;
-        // With one error, equation (6) of a chain is `(A_1 … A_i) E_i (A_{i+1} … T)`: multiply both
-        // factors once.
-        let mut after = at.transforms.clone();
-        for i in (1..after.len()).rev() {
-            after[i - 1] = after[i - 1].then(&after[i]);
-        }
-        let mut before = Pose::IDENTITY;
+        let factors = factors(description, &at.transforms);
         let mut expected = Vec::with_capacity(columns.len());
         for (frame, columns) in columns.chunks_exact(6).enumerate() {
-            before = before.then(&at.transforms[frame]);
             for (component, column) in Component::ALL.into_iter().zip(columns) {
                 let unit = if component.is_rotation() { 1.0 } else { subject.arm };
                 let real = |step: f64| {
                     let mut errors = [0.0; 6];
                     errors[component.index()] = step * unit;
-                    if is_chain {
-                        return Some(before.then(&displacement(&errors)).then(&after[frame + 1]));
+                    if has_loops {
+                        let mut all = vec![[0.0; 6]; frames];
+                        all[frame] = errors;
+                        return subject.displaced_pose(at, &all).ok();
                     }
-                    let mut all = vec![[0.0; 6]; frames];
-                    all[frame] = errors;
-                    subject.displaced_pose(at, &all).ok()
+                    let moved = |[before, after]: [Pose; 2]| before.then(&displacement(&errors)).then(&after);
+                    Some(factors[frame].map_or(at.pose, moved))
                 };
                 let found = column.map(|entry| entry * unit);
                 expected.push((found, differences(subject, orientation, at, found, real)));
@@ -62,6 +58,26 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
         }
         Ok(expected)
     })
+}
+
+/// Returns both factors of equation (6) with one error and without loops, `F E_i R`, for every
+/// frame that carries the tool: its pose F in `F_0`, and the pose R of the tool in it.
+fn factors(description: &Description, transforms: &[Pose]) -> Vec<Option<[Pose; 2]>> {
+    let mut factors = vec![None; description.frames.len()];
+    let frames = core::iter::successors(description.tool_frame(), |frame| description.parent(*frame));
+    let mut path: Vec<usize> = frames.collect();
+    let mut after = transforms.last().copied().unwrap_or(Pose::IDENTITY);
+    for frame in &path {
+        factors[*frame] = Some([Pose::IDENTITY, after]);
+        after = transforms[*frame].then(&after);
+    }
+    path.reverse();
+    let mut before = Pose::IDENTITY;
+    for frame in path {
+        before = before.then(&transforms[frame]);
+        factors[frame] = factors[frame].map(|[_, after]| [before, after]);
+    }
+    factors
 }
 
 /// Compares `J_q` with `∂X_T/∂q`: central differences of the product of the transforms.

@@ -7,7 +7,7 @@ use crate::{Error, Manipulator, Pose, euler_margin, tool_pose};
 /// Smallest `cos ρ` at which Euler rows are compared: differences lose digits near the singularity.
 const EULER_MARGIN: f64 = 0.05;
 
-/// Factor of all steps in a tree of frames, whose loops large errors may prevent from closing.
+/// Factor of all steps of a machine with loops, which large errors may prevent from closing.
 const SMALLER: f64 = 0.02;
 
 /// Largest deviation of a sampled parameter from its nominal value, as a share of it.
@@ -26,8 +26,7 @@ pub(super) struct Sample {
     /// `A_1 … A_n` and `T`.
     pub(super) transforms: Vec<Pose>,
     pub(super) pose: Pose,
-    /// `cos ρ` for Euler rows, otherwise 1, and less in a tree of frames: factor by which steps are
-    /// reduced.
+    /// `cos ρ` for Euler rows, otherwise 1, and less with loops: factor by which steps are reduced.
     pub(super) margin: f64,
 }
 
@@ -66,7 +65,7 @@ impl<'a> Subject<'a> {
             let pose = tool_pose(description, &transforms, &[]);
             let margin = euler_margin(description.orientation, &pose);
             if margin >= EULER_MARGIN {
-                let margin = if description.is_chain() { margin } else { SMALLER * margin };
+                let margin = if description.has_loops() { SMALLER * margin } else { margin };
                 samples.push(Sample { given, transforms, pose, margin });
             }
         }
