@@ -34,7 +34,7 @@ for name, taken, filled in names["functions"]:
     if not isinstance(arrays, tuple):
         arrays, first = (arrays,), (first,)
     for one, of_first, array in zip(filled, first, arrays, strict=True):
-        assert np.array_equal(of_first, array[0]), f"{name}: the first by itself"
+        assert np.array_equal(of_first, array[0], equal_nan=True), f"{name}: the first by itself"
         if one in ("pose", "transforms", "columns"):
             array = np.swapaxes(array, -1, -2)
         results.append(array.reshape(len(rows), int(np.prod(array.shape[1:]))))
@@ -42,7 +42,7 @@ for name, taken, filled in names["functions"]:
     if set(taken) == {"q", "s"}:
         nominal = called(given[0])
         nominal = nominal[0] if isinstance(nominal, tuple) else nominal
-        assert np.array_equal(nominal, arrays[0]), f"{name}: nominal parameters"
+        assert np.array_equal(nominal, arrays[0], equal_nan=True), f"{name}: nominal parameters"
 np.concatenate(results, axis=1).astype(float).tofile(output)
 
 # Another shape is told, not computed with.
