@@ -69,13 +69,10 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(configuration).collect()
 }
 
-/// Returns a configuration of the machine `linkage` whose rod does not reach the plate.
+/// Returns a configuration of the machine `linkage` at which its rod does not reach the plate.
 pub fn open_linkage(linkage: &dyn Manipulator) -> Vec<f64> {
     let mut given = configurations(linkage, 1).remove(0);
-    let parameters = &linkage.description().parameters;
-    let rod = parameters.iter().position(|parameter| parameter.name == "rod").unwrap();
-    given[..3].copy_from_slice(&[0.0, 1.0, 0.0]);
-    given[3 + rod] = 10.0;
+    given[..3].copy_from_slice(&[0.0, 1.0, 500.0]);
     given
 }
 
