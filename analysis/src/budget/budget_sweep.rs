@@ -11,11 +11,12 @@ use crate::{Measurand, ReachError, Subset, Workspace};
 use abbe_core::Class;
 use abbe_core::lanes::{InstructionSet, Kernel, Register, Sweepable};
 
-/// Number of configurations from which the error sphere and ellipsoid are initialized.
-const SCATTERED: usize = 512;
+/// Smallest and largest number of configurations from which the error sphere and ellipsoid are
+/// initialized, about one of 256.
+const SCATTERED: [usize; 2] = [512, 8192];
 /// Smallest number of chunks of a large workspace, and largest number of blocks of a chunk.
 const CHUNKS: usize = 64;
-const LARGEST_CHUNK: usize = 64;
+const LARGEST_CHUNK: usize = 256;
 
 /// Computes the error budget of a workspace, section 5 of the paper.
 ///
@@ -85,7 +86,8 @@ impl<'a> BudgetSweep<'a> {
         // If one of these cannot be evaluated, the sweep over all of them reports it.
         let known = &manipulator.description().sources;
         let mut sample = Measurand::ALL.map(|measurand| SampleErrors::new(measurand, known));
-        let _ = sweep(manipulator, &Subset { workspace, count: SCATTERED }, &mut |row| {
+        let count = (workspace.len() / 256).clamp(SCATTERED[0], SCATTERED[1]);
+        let _ = sweep(manipulator, &Subset { workspace, count }, &mut |row| {
             sample.iter_mut().for_each(|sample| sample.add(known, row));
         });
         let classes = known.iter().map(|source| source.class).collect::<Vec<_>>();
@@ -93,16 +95,16 @@ impl<'a> BudgetSweep<'a> {
         Ok(Self {
             manipulator,
             workspace,
-            position: first.finish(&classes, &home, options.tolerances[0]),
-            orientation: second.finish(&classes, &home, options.tolerances[1]),
+            position: first.finish(workspace.len(), &classes, &home, options.tolerances[0]),
+            orientation: second.finish(workspace.len(), &classes, &home, options.tolerances[1]),
             classes,
             oriented_at_home,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
         })
     }
 
-    /// Returns the number of chunks: about 64, or more so that none has more than 4096
-    /// configurations.
+    /// Returns the number of chunks: about 64, or more so that none has more than
+    /// 16,384 configurations.
     pub fn chunks(&self) -> usize {
         self.workspace.len().div_ceil(self.chunk)
     }

@@ -7,8 +7,10 @@ use super::peak;
 use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
 
-/// Relative width of the shell of points that are kept, inside the sphere of the sample.
-const SHELL: f64 = 0.1;
+/// Relative width of the shell of points that are kept, inside the sphere of a small sample and of
+/// one with more than [`LARGE`] points, whose center is more accurate.
+const SHELL: [f64; 2] = [0.1, 0.05];
+const LARGE: usize = 2000;
 /// Largest number of directions in which points are kept.
 const MOST: usize = 1 << 13;
 /// Binary logarithm of the number of cells along an edge of the finest grid.
@@ -20,12 +22,36 @@ const FINEST: u32 = 30;
 pub(super) struct View {
     pub(super) centre: [f64; 3],
     inner: f64,
+    /// Number of times the cells have doubled their width from the beginning, as a sample of the
+    /// cloud suggests.
+    doubled: u32,
 }
 
 impl View {
-    pub(super) fn around(points: &[[f64; 3]]) -> Self {
+    /// Creates the viewpoint of a cloud of `count` points, of which these are a sample.
+    pub(super) fn around(points: &[[f64; 3]], count: usize) -> Self {
         let ball = Ball::around(&vectors(points).collect::<Vec<_>>());
-        Self { centre: ball.centre.into(), inner: (1.0 - SHELL) * ball.radius }
+        let shell = SHELL[usize::from(points.len() > LARGE)];
+        let mut view = Self { centre: ball.centre.into(), inner: (1.0 - shell) * ball.radius, doubled: 0 };
+        // If all points are kept, the sphere is the smallest.
+        if count > MOST {
+            let from = points.iter().map(|point| view.from(*point));
+            let outside = from.filter(|from| Vector3::from(*from).norm() > view.inner);
+            let mut cells: Vec<u64> = outside.map(|from| cell(from, 0)).collect();
+            cells.sort_unstable();
+            cells.dedup();
+            while cells.len() > MOST / 4 {
+                cells.iter_mut().for_each(|cell| *cell = parent(*cell, 1));
+                cells.dedup();
+                view.doubled += 1;
+            }
+        }
+        view
+    }
+
+    /// Returns the vector from the center to a point.
+    fn from(&self, point: [f64; 3]) -> [f64; 3] {
+        core::array::from_fn(|i| point[i] - self.centre[i])
     }
 }
 
@@ -43,6 +69,14 @@ pub(super) struct Outline {
     doubled: u32,
     /// Sorted by the numbers of the cells.
     cells: Vec<(u64, Farthest)>,
+}
+
+/// Point outside the inner radius.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    point: [f64; 3],
+    /// Square of its distance from the center.
+    square: f64,
 }
 
 /// Farthest points in one direction.
@@ -70,16 +104,32 @@ impl Farthest {
 
 impl Outline {
     /// Creates the outline of some points, with the largest distance of those that were dropped.
-    fn new(view: &View, points: &[[f64; 3]], inside: Option<f64>) -> Self {
-        let from = |point: [f64; 3]| core::array::from_fn(|i| point[i] - view.centre[i]);
-        let mut order: Vec<(u64, usize)> =
-            points.iter().enumerate().map(|(i, point)| (cell(from(*point), 0), i)).collect();
-        order.sort_unstable();
-        let farthest = |(cell, i): (u64, usize)| {
-            let distance = Vector3::from(from(points[i])).norm();
-            (cell, Farthest { point: points[i], distance, other: None })
-        };
-        let mut outline = Self { inside, doubled: 0, cells: order.into_iter().map(farthest).collect() };
+    fn new(view: &View, points: &[Point], inside: Option<f64>) -> Self {
+        // Open addressing: places in `cells`, at most half of them taken.
+        let mut places = vec![u32::MAX; (2 * points.len()).next_power_of_two()];
+        let mut cells: Vec<(u64, Farthest)> = Vec::new();
+        for Point { point, square } in points {
+            let cell = cell(view.from(*point), view.doubled);
+            let here = Farthest { point: *point, distance: square.sqrt(), other: None };
+            let mut slot = hash(cell);
+            loop {
+                slot &= places.len() - 1;
+                match cells.get_mut(places[slot] as usize) {
+                    None => {
+                        places[slot] = cells.len() as u32;
+                        cells.push((cell, here));
+                        break;
+                    }
+                    Some((known, farthest)) if *known == cell => {
+                        farthest.merge(here);
+                        break;
+                    }
+                    Some(_) => slot += 1,
+                }
+            }
+        }
+        cells.sort_unstable_by_key(|(cell, _)| *cell);
+        let mut outline = Self { inside, doubled: view.doubled, cells };
         outline.unite();
         outline
     }
@@ -114,22 +164,22 @@ impl Outline {
             self.widen(other.doubled - self.doubled);
             self.unite();
         }
-        let (mut place, known) = (0, self.cells.len());
-        for (cell, farthest) in &other.cells {
-            let cell = parent(*cell, self.doubled - other.doubled);
-            while place < known && self.cells[place].0 < cell {
-                place += 1;
+        let doubled = self.doubled - other.doubled;
+        let others = other.cells.iter().map(|(cell, farthest)| (parent(*cell, doubled), *farthest));
+        let mut merged: Vec<(u64, Farthest)> = Vec::with_capacity(self.cells.len() + others.len());
+        let mut here = core::mem::take(&mut self.cells).into_iter().peekable();
+        for (cell, farthest) in others {
+            while let Some(before) = here.next_if(|(before, _)| *before <= cell) {
+                merged.push(before);
             }
-            match self.cells[place..known].first_mut() {
-                Some((same, kept)) if *same == cell => kept.merge(*farthest),
-                _ => self.cells.push((cell, *farthest)),
+            match merged.last_mut() {
+                Some((same, kept)) if *same == cell => kept.merge(farthest),
+                _ => merged.push((cell, farthest)),
             }
         }
-        if self.cells.len() > known {
-            // Two sorted runs.
-            self.cells.sort_by_key(|(cell, _)| *cell);
-            self.unite();
-        }
+        merged.extend(here);
+        self.cells = merged;
+        self.unite();
     }
 
     /// Returns whether all cells are valid. They may come from a file.
@@ -180,20 +230,19 @@ fn vectors(points: &[[f64; 3]]) -> impl Iterator<Item = Vector3<f64>> {
 /// Returns the number of the cell in which a direction meets the cube around the center: its face,
 /// and the interleaved digits of its position along both edges, so that cells with the same parent
 /// follow each other.
-fn cell(from: [f64; 3], doubled: u32) -> u64 {
-    let mut axis = 0;
-    for i in 1..3 {
-        if from[i].abs() > from[axis].abs() {
-            axis = i;
-        }
-    }
-    let face = 2 * axis as u64 + u64::from(from[axis] < 0.0);
-    let place = |i: usize| {
-        let share = (from[(axis + i) % 3] / from[axis].abs() + 1.0) / 2.0;
-        // Clamped at the last edge. NaN, at the center, gives 0.
-        ((share * f64::from(1_u32 << FINEST)) as u64).min((1 << FINEST) - 1)
+fn cell([x, y, z]: [f64; 3], doubled: u32) -> u64 {
+    let (axis, along, first, second) = match [x.abs(), y.abs(), z.abs()] {
+        [a, b, c] if a >= b && a >= c => (0, x, y, z),
+        [_, b, c] if b >= c => (1, y, z, x),
+        _ => (2, z, x, y),
     };
-    parent(face << (2 * FINEST) | spread(place(1)) << 1 | spread(place(2)), doubled)
+    let face = 2 * axis + u64::from(along < 0.0);
+    let place = |edge: f64| {
+        let share = (edge / along.abs() + 1.0) / 2.0;
+        // Clamped at the last edge. NaN, at the center, gives 0.
+        ((share * f64::from(1_u32 << FINEST)) as u64).min((1 << FINEST) - 1) >> doubled
+    };
+    face << (2 * FINEST) | spread(place(first)) << 1 | spread(place(second))
 }
 
 /// Returns the cell that contains this one after the width has doubled `doubled` times.
@@ -217,6 +266,11 @@ fn spread(number: u64) -> u64 {
     spread
 }
 
+/// Scatters the numbers of cells, by the multiplier of Fibonacci hashing: 2⁶⁴ over the golden ratio.
+fn hash(cell: u64) -> usize {
+    (cell.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize
+}
+
 /// Returns an upper bound of the distance of two unit vectors in a cell: the diagonal of the cell
 /// on the cube, whose faces are at distance 1. The central projection to the sphere does not
 /// lengthen it.
@@ -229,7 +283,7 @@ pub(super) struct OutlineAccumulator<R: Register> {
     view: View,
     /// Largest squared distance within the inner radius. −1 if there is none.
     inside: Lanes<R>,
-    outside: Vec<[f64; 3]>,
+    outside: Vec<Point>,
 }
 
 impl<R: Register> OutlineAccumulator<R> {
@@ -254,7 +308,7 @@ impl<R: Register> OutlineAccumulator<R> {
             if *square <= self.view.inner * self.view.inner {
                 inside = inside.max(*square);
             } else if weight.to_slice()[lane] > 0.0 {
-                self.outside.push([x[lane], y[lane], z[lane]]);
+                self.outside.push(Point { point: [x[lane], y[lane], z[lane]], square: *square });
             }
         }
         self.inside = Lanes::constant(inside).max(self.inside);
@@ -279,7 +333,12 @@ mod tests {
     }
 
     fn outline(points: &[[f64; 3]], view: &View) -> Outline {
-        Outline::new(view, points, None)
+        let square = |point: &[f64; 3]| {
+            vectors(&[*point]).map(|p| (p - Vector3::from(view.centre)).norm_squared()).sum()
+        };
+        let points: Vec<_> =
+            points.iter().map(|point| Point { point: *point, square: square(point) }).collect();
+        Outline::new(view, &points, None)
     }
 
     /// Checks that an outline with more directions than are kept does not depend on order and
@@ -287,7 +346,7 @@ mod tests {
     #[test]
     fn outlines_of_parts_merge_into_that_of_all() {
         let points = cloud(40_000);
-        let view = View::around(&points[..100]);
+        let view = View::around(&points[..100], points.len());
         let all = outline(&points, &view);
         assert!(all.doubled > 0 && all.cells.len() > MOST / 8);
         let backwards = points.iter().rev().copied().collect::<Vec<_>>();
@@ -311,7 +370,7 @@ mod tests {
         let smallest = Ball::around(&vectors(&points).collect::<Vec<_>>()).radius;
         // The excess decreases with a better view.
         for (known, excess) in [(3, 0.02), (30, 0.01), (512, 0.005)] {
-            let view = View::around(&points[..known]);
+            let view = View::around(&points[..known], points.len());
             let sphere = outline(&points, &view).sphere(&view, &points[..known]);
             let reach = |point: &[f64; 3]| norm(core::array::from_fn(|k| point[k] - sphere.centre[k]));
             let farthest = points.iter().map(reach).fold(0.0, f64::max);
@@ -321,7 +380,7 @@ mod tests {
         }
         // Without dropped points there is no excess.
         let few = &points[..4000];
-        let view = View::around(&few[..30]);
+        let view = View::around(&few[..30], few.len());
         let sphere = outline(few, &view).sphere(&view, &few[..30]);
         assert_eq!(sphere.excess, 0.0);
         let smallest = Ball::around(&vectors(few).collect::<Vec<_>>()).radius;

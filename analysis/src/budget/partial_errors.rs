@@ -43,9 +43,10 @@ impl SampleErrors {
         }
     }
 
-    /// Returns the initial values of every chunk.
+    /// Returns the initial values of every chunk of a workspace of `count` configurations.
     pub(super) fn finish(
         self,
+        count: usize,
         classes: &[Class],
         home: &[[f64; 6]],
         tolerance: Option<f64>,
@@ -60,8 +61,8 @@ impl SampleErrors {
             classes: classes.to_vec(),
             home: home.iter().map(|error| measurand.rows(error)).collect(),
             ellipsoid,
-            view: View::around(&points),
-            views: alone.iter().map(|points| View::around(points)).collect(),
+            view: View::around(&points, count),
+            views: alone.iter().map(|points| View::around(points, count)).collect(),
             points,
             alone,
         }

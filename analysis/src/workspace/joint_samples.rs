@@ -8,7 +8,7 @@ use super::axis::in_range;
 use super::{Configuration, Workspace};
 use crate::ReachError;
 use crate::sampling::{self, RadicalInverses, stream};
-use abbe_core::lanes::Tiles;
+use abbe_core::lanes::{Kernel, Register, Tiles};
 use abbe_core::{Error, Manipulator, Quantity};
 
 /// Source of the sample values.
@@ -31,12 +31,12 @@ pub struct JointSamples {
 }
 
 /// Sampled quantity.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct SampledQuantity {
     coordinate: Coordinate,
     range: [f64; 2],
-    /// Base of its radical inverse.
-    base: usize,
+    /// Terms of the Halton sequence in its dimension.
+    shares: RadicalInverses,
 }
 
 /// Variable or input, by its index.
@@ -83,7 +83,7 @@ fn samples(
     let moved = moved.iter().enumerate().map(|(dimension, &i)| SampledQuantity {
         coordinate: Coordinate::Variable(i),
         range: sampling::joint_range(&description.variables[i], arm),
-        base: sampling::prime(dimension),
+        shares: RadicalInverses::new(sampling::prime(dimension)),
     });
     let moved = moved.collect();
     Ok(JointSamples { home, moved, count, spread })
@@ -102,9 +102,10 @@ impl Workspace for JointSamples {
         configuration.copy_from(&self.home);
         match self.spread {
             Spread::Even => {
-                for &SampledQuantity { coordinate, range: [lower, upper], base } in &self.moved {
-                    let share = sampling::radical_inverse(index + 1, base);
-                    *coordinate.value(configuration) = lower + (upper - lower) * share;
+                for SampledQuantity { coordinate, range: [lower, upper], shares } in &self.moved {
+                    let mut share = [0.0];
+                    shares.fill(index + 1, &mut share);
+                    *coordinate.value(configuration) = lower + (upper - lower) * share[0];
                 }
             }
             Spread::Random { seed } => {
@@ -121,13 +122,8 @@ impl Workspace for JointSamples {
         let moved = self.moved.iter().map(|moved| self.row(moved.coordinate)).collect::<Vec<_>>();
         match self.spread {
             Spread::Even => {
-                let start =
-                    |moved: &SampledQuantity| RadicalInverses::starting_at(range.start + 1, moved.base);
-                let mut shares = self.moved.iter().map(start).collect::<Vec<_>>();
-                rows.set_each(&moved, 0, range.len(), |which| {
-                    let [lower, upper] = self.moved[which].range;
-                    shares[which].next().map_or(lower, |share| lower + (upper - lower) * share)
-                });
+                let set = rows.instruction_set();
+                set.run(Even { moved: &self.moved, chosen: &moved, first: range.start + 1, rows });
             }
             Spread::Random { .. } if !range.start.is_multiple_of(STREAM) => return false,
             Spread::Random { seed } => {
@@ -167,8 +163,8 @@ impl JointSamples {
             if !range.iter().all(|end| end.is_finite()) {
                 return Err(Error::NotFinite { quantity: Quantity::Inputs, index: i });
             }
-            let base = sampling::prime(self.moved.len());
-            self.moved.push(SampledQuantity { coordinate: Coordinate::Input(i), range, base });
+            let shares = RadicalInverses::new(sampling::prime(self.moved.len()));
+            self.moved.push(SampledQuantity { coordinate: Coordinate::Input(i), range, shares });
         }
         Ok(self)
     }
@@ -186,6 +182,33 @@ impl JointSamples {
     fn streams(&self, seed: u64, block: usize) -> Vec<impl Rng> {
         let moved = self.moved.len();
         (0..moved).map(|which| stream(seed, block * moved + which)).collect()
+    }
+}
+
+/// Writes terms of the Halton sequence to rows, from number `first` on.
+struct Even<'a> {
+    moved: &'a [SampledQuantity],
+    /// Row of each quantity.
+    chosen: &'a [usize],
+    first: usize,
+    rows: &'a mut Tiles,
+}
+
+impl Kernel for Even<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Register>(self) {
+        let mut values = [0.0; STREAM];
+        for (SampledQuantity { range: [lower, upper], shares, .. }, row) in self.moved.iter().zip(self.chosen)
+        {
+            for first in (0..self.rows.count()).step_by(STREAM) {
+                let values = &mut values[..STREAM.min(self.rows.count() - first)];
+                shares.fill(self.first + first, values);
+                values.iter_mut().for_each(|value| *value = lower + (upper - lower) * *value);
+                self.rows.set_row(*row, first, values);
+            }
+        }
     }
 }
 

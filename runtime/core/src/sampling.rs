@@ -23,72 +23,82 @@ pub fn halton(index: usize, dimension: usize) -> f64 {
 /// Returns the digits of `index` in a base, mirrored at the radix point: `0.d_0 d_1 d_2 …`, rounded
 /// once.
 pub fn radical_inverse(index: usize, base: usize) -> f64 {
-    RadicalInverses::starting_at(index, base).value()
+    let end = RadicalInverses::end(base);
+    mirrored(index, base, end) as f64 / end as f64
+}
+
+/// Returns the mirrored digits of `index` as an integer below `end`, a power of the base. Digits
+/// beyond those of the power are ignored.
+fn mirrored(index: usize, base: usize, end: u64) -> u64 {
+    let base = base as u64;
+    let (mut rest, mut mirrored, mut weight) = (index as u64, 0, end);
+    while weight >= base {
+        weight /= base;
+        mirrored += weight * (rest % base);
+        rest /= base;
+    }
+    mirrored
 }
 
 /// Radical inverses of consecutive numbers in one base.
 ///
+/// The low digits of the numbers come from a table, so that consecutive values differ by additions.
+///
 /// ```
 /// use abbe::analysis::sampling::{RadicalInverses, radical_inverse};
-/// let inverses = RadicalInverses::starting_at(1, 3).take(4);
-/// assert!(inverses.eq([1, 2, 3, 4].map(|index| radical_inverse(index, 3))));
+/// let mut values = [0.0; 4];
+/// RadicalInverses::new(3).fill(1, &mut values);
+/// assert_eq!(values, [1, 2, 3, 4].map(|index| radical_inverse(index, 3)));
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct RadicalInverses {
-    base: u64,
-    /// Mirrored digits as an integer below `end`.
-    mirrored: u64,
+    base: usize,
+    /// Mirrored digits of all numbers below a power of the base.
+    low: Vec<u64>,
     /// Largest power of the base that a floating-point number represents exactly.
     end: u64,
 }
 
 impl RadicalInverses {
-    /// Starts with the radical inverse of `index`. Digits beyond those of the largest power of the
-    /// base below 2⁵³ are ignored.
-    pub fn starting_at(index: usize, base: usize) -> Self {
-        let base = base as u64;
-        let (mut rest, mut mirrored, mut end) = (index as u64, 0, 1);
-        while end <= (1 << f64::MANTISSA_DIGITS) / base {
-            mirrored = mirrored * base + rest % base;
-            rest /= base;
-            end *= base;
+    /// Largest number of entries of the table.
+    const TABLE: usize = 1024;
+
+    /// Prepares the values in a base.
+    pub fn new(base: usize) -> Self {
+        let end = Self::end(base);
+        let mut count = base;
+        while count <= Self::TABLE / base {
+            count *= base;
         }
-        Self { base, mirrored, end }
+        let low = if count <= Self::TABLE { count } else { 1 };
+        Self { base, low: (0..low).map(|index| mirrored(index, base, end)).collect(), end }
     }
 
-    fn value(&self) -> f64 {
-        self.mirrored as f64 / self.end as f64
+    /// Returns the largest power of a base of at most 2⁵³.
+    fn end(base: usize) -> u64 {
+        let mut end = 1;
+        while end <= (1 << f64::MANTISSA_DIGITS) / base as u64 {
+            end *= base as u64;
+        }
+        end
     }
 
-    /// Adds 1 to the first digit, and carries to those after it.
-    #[inline]
-    fn advance(&mut self) {
-        let left = self.end - self.mirrored;
-        let mut weight = self.end / self.base;
-        if weight < left {
-            self.mirrored += weight;
-            return;
+    /// Writes the radical inverses of the numbers from `index` on.
+    #[inline(always)]
+    pub fn fill(&self, index: usize, values: &mut [f64]) {
+        let end = self.end as f64;
+        let (mut index, mut rest) = (index, values);
+        while !rest.is_empty() {
+            let (block, first) = (index / self.low.len(), index % self.low.len());
+            let high = mirrored(block, self.base, self.end / self.low.len() as u64);
+            let low = &self.low[first..];
+            let (values, others) = rest.split_at_mut(low.len().min(rest.len()));
+            for (value, low) in values.iter_mut().zip(low) {
+                *value = (low + high) as f64 / end;
+            }
+            index += values.len();
+            rest = others;
         }
-        if left == 1 {
-            self.mirrored = 0;
-            return;
-        }
-        // The leading digits are all `base − 1`: they become 0, and the next one grows.
-        while weight >= left {
-            weight /= self.base;
-        }
-        self.mirrored = self.mirrored + weight * (self.base + 1) - self.end;
-    }
-}
-
-impl Iterator for RadicalInverses {
-    type Item = f64;
-
-    #[inline]
-    fn next(&mut self) -> Option<f64> {
-        let value = self.value();
-        self.advance();
-        Some(value)
     }
 }
 
@@ -215,17 +225,17 @@ mod tests {
         };
         for base in [2_usize, 3, 5, 7, 131_071] {
             for first in [0, 1, base.pow(3) - 2, 12_345_678_901] {
-                let mut inverses = RadicalInverses::starting_at(first, base);
-                for index in first..first + 500 {
-                    let value = inverses.next().unwrap();
+                let mut values = [0.0; 2500];
+                RadicalInverses::new(base).fill(first, &mut values);
+                for (index, value) in (first..).zip(values) {
                     assert_eq!(value, radical_inverse(index, base));
                     assert!((value - sum(index, base)).abs() < 1e-15, "{index} {base}");
                 }
             }
         }
-        let mut last = RadicalInverses::starting_at((1 << 53) - 1, 2);
-        assert_eq!(last.next(), Some(1.0 - f64::EPSILON / 2.0));
-        assert_eq!(last.next(), Some(0.0));
+        let mut last = [0.0; 2];
+        RadicalInverses::new(2).fill((1 << 53) - 1, &mut last);
+        assert_eq!(last, [1.0 - f64::EPSILON / 2.0, 0.0]);
     }
 
     #[test]

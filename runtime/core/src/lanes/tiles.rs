@@ -135,6 +135,24 @@ impl Tiles {
         }
     }
 
+    /// Sets a row of the configurations from `first` on, the first of a tile.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the row or a configuration is out of range, or if no tile begins at `first`.
+    #[inline(always)]
+    pub fn set_row(&mut self, row: usize, first: usize, values: &[f64]) {
+        let (width, height) = (self.set.width(), self.rows);
+        assert!(
+            row < height && first.is_multiple_of(width) && first + values.len() <= self.count,
+            "no such row or configuration"
+        );
+        let numbers = &mut self.numbers_mut()[first * height + row * width..];
+        for (values, numbers) in values.chunks(width).zip(numbers.chunks_mut(width * height)) {
+            numbers[..values.len()].copy_from_slice(values);
+        }
+    }
+
     /// Repeats the last configuration in the unused lanes after it.
     pub fn pad(&mut self) {
         let Some(last) = self.count.checked_sub(1) else { return };
