@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use abbe::analysis::Sweepable;
 use abbe::lanes::{self, Batches, Tiles};
-use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks, open_pose};
+use abbe::{Description, Error, Function, Input, Manipulator, Parameter, Pose, Quantity, checks, open_pose};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::Routines;
 use abbe_spec::Spec;
@@ -19,8 +19,14 @@ const POSE: usize = 12;
 #[derive(Clone, Debug)]
 pub struct Interpreter {
     spec: Arc<Spec>,
-    routines: Arc<Routines>,
-    /// Tapes of all functions, built at first use.
+    description: Arc<Description>,
+    code: Arc<Code>,
+}
+
+/// Routines, and the tapes of all functions, built at first use.
+#[derive(Debug)]
+struct Code {
+    routines: Routines,
     tapes: [OnceLock<Tape>; Function::COUNT],
 }
 
@@ -37,8 +43,28 @@ impl Interpreter {
     }
 
     fn with(spec: Arc<Spec>, routines: impl Fn(&Spec, &Model) -> Routines) -> Self {
-        let routines = Arc::new(routines(&spec, &Model::new(&spec)));
-        Self { spec, routines, tapes: [const { OnceLock::new() }; Function::COUNT] }
+        let routines = routines(&spec, &Model::new(&spec));
+        let description = Arc::new(routines.description.clone());
+        let code = Code { routines, tapes: [const { OnceLock::new() }; Function::COUNT] };
+        Self { spec, description, code: Arc::new(code) }
+    }
+
+    /// Returns an interpreter of the spec with other nominal values of its parameters and inputs.
+    /// `spec` must not differ in anything else.
+    ///
+    /// Nothing is compiled again, except for closed loops: the steps in which they are closed
+    /// depend on the values.
+    pub fn with_values(&self, spec: Arc<Spec>) -> Self {
+        if self.description.has_loops() {
+            return Self::new(spec);
+        }
+        let mut description = Description::clone(&self.description);
+        let parameters = description.parameters.iter().zip(&spec.parameters);
+        description.parameters =
+            parameters.map(|(old, new)| Parameter { nominal: new.value, ..old.clone() }).collect();
+        let inputs = description.inputs.iter().zip(&spec.inputs);
+        description.inputs = inputs.map(|(old, new)| Input { nominal: new.value, ..old.clone() }).collect();
+        Self { spec, description: Arc::new(description), code: self.code.clone() }
     }
 
     /// Returns the spec.
@@ -46,14 +72,15 @@ impl Interpreter {
         &self.spec
     }
 
-    /// Returns the routines that the interpreter runs.
+    /// Returns the routines that the interpreter runs. Their description has the nominal values with
+    /// which they were compiled.
     pub fn routines(&self) -> &Routines {
-        &self.routines
+        &self.code.routines
     }
 
     /// Returns the tape of a function.
     fn tape(&self, function: Function) -> &Tape {
-        self.tapes[function as usize].get_or_init(|| Tape::new(&self.routines, function))
+        self.code.tapes[function as usize].get_or_init(|| Tape::new(&self.code.routines, function))
     }
 
     /// Evaluates a function: arguments and results are concatenated, and the margin is last. Only
@@ -93,8 +120,8 @@ impl Interpreter {
     /// Evaluates a function; only its arguments are checked.
     fn unchecked(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
         for (array, values) in function.signature().arguments.iter().zip(arguments) {
-            count(array.quantity, array.len(&self.routines.description), values.len())?;
-            checks::given(&self.routines.description, array.quantity, values)?;
+            count(array.quantity, array.len(&self.description), values.len())?;
+            checks::given(&self.description, array.quantity, values)?;
         }
         Ok(evaluated(self.tape(function), arguments.iter().copied().flatten()))
     }
@@ -103,15 +130,15 @@ impl Interpreter {
     fn check(&self, function: Function, values: &[f64]) -> Result<(), Error> {
         let signature = function.signature();
         let mut rest = values;
-        if signature.has_margin(self.routines.description.orientation)
+        if signature.has_margin(self.description.orientation)
             && let Some((margin, results)) = values.split_last()
         {
             checks::margin(*margin)?;
             rest = results;
         }
         for array in signature.results {
-            let (result, others) = rest.split_at(array.len(&self.routines.description));
-            checks::result_is_finite(&self.routines.description, array.quantity, result)?;
+            let (result, others) = rest.split_at(array.len(&self.description));
+            checks::result_is_finite(&self.description, array.quantity, result)?;
             rest = others;
         }
         Ok(())
@@ -119,7 +146,7 @@ impl Interpreter {
 
     /// Evaluates a function, copies its last result to a slice, checks and returns all results.
     fn fill(&self, function: Function, arguments: &[&[f64]], filled: &mut [f64]) -> Result<Vec<f64>, Error> {
-        let description = &self.routines.description;
+        let description = &self.description;
         let Some((last, others)) = function.signature().results.split_last() else { return Ok(Vec::new()) };
         let row: usize = last.shape[1..].iter().map(|count| count.value(description)).product();
         count(last.quantity, last.shape[0].value(description), filled.len() / row)?;
@@ -133,11 +160,11 @@ impl Interpreter {
 
 impl Manipulator for Interpreter {
     fn description(&self) -> &Description {
-        &self.routines.description
+        &self.description
     }
 
     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        count(Quantity::Pose, self.routines.description.frames.len() + 1, transforms.len())?;
+        count(Quantity::Pose, self.description.frames.len() + 1, transforms.len())?;
         let values = self.run(Function::Transforms, &[q, s])?;
         for (transform, values) in transforms.iter_mut().zip(values.chunks_exact(POSE)) {
             *transform = pose_of(values);
@@ -180,14 +207,14 @@ impl Manipulator for Interpreter {
     }
 
     fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
-        if !self.routines.description.has_loops() {
+        if !self.description.has_loops() {
             return open_pose(self, q, s, errors);
         }
         Ok(pose_of(&self.run(Function::DisplacedPose, &[q, s, errors.as_flattened()])?))
     }
 
     fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
-        let expected = self.routines.description.passive().count();
+        let expected = self.description.passive().count();
         count(Quantity::Passive, expected, passive.len())?;
         if expected > 0 {
             passive.copy_from_slice(&self.run(Function::Passive, &[q, s])?);
@@ -198,7 +225,7 @@ impl Manipulator for Interpreter {
 
 impl Batches for Interpreter {
     fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
-        lanes::check(function, &self.routines.description, arguments, results)?;
+        lanes::check(function, &self.description, arguments, results)?;
         arguments.instruction_set().run(Batch { tape: self.tape(function), arguments, results });
         Ok(())
     }

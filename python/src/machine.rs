@@ -45,18 +45,24 @@ type Change = (String, String);
 type Restored<'a> = (&'a str, Option<&'a str>, Vec<Change>);
 
 impl Machine {
+    /// Creates a machine with changes. `same` is an interpreter of a spec that differs in the values
+    /// of parameters and inputs only, if there is one.
     fn new(
         py: Python<'_>,
         unchanged: abbe_study::Machine,
         text: Option<String>,
         changes: Vec<Change>,
+        same: Option<&Interpreter>,
     ) -> PyResult<Self> {
         let mut machine = unchanged.clone();
         for (kind, change) in &changes {
             let changes = change_of(kind, change).read(&machine.spec);
             machine.change(&changes.map_err(|mistakes| spec_error(py, &mistakes))?);
         }
-        let interpreter = Interpreter::new(machine.spec.clone());
+        let interpreter = match same {
+            Some(interpreter) => interpreter.with_values(machine.spec.clone()),
+            None => Interpreter::new(machine.spec.clone()),
+        };
         let description = interpreter.description();
         Ok(Self {
             parameters: description.parameters.iter().map(|parameter| parameter.nominal).collect(),
@@ -71,9 +77,17 @@ impl Machine {
     }
 
     /// Returns a machine with further changes.
-    fn changed(&self, py: Python<'_>, more: impl IntoIterator<Item = Change>) -> PyResult<Self> {
-        let changes = self.changes.iter().cloned().chain(more).collect();
-        guarded(|| Self::new(py, self.unchanged.clone(), self.text.clone(), changes))
+    fn changed(&self, py: Python<'_>, more: Vec<Change>) -> PyResult<Self> {
+        let is_value = |(kind, _): &Change| kind == "number" || kind == "set";
+        let subject = |(_, change): &Change| change.split('=').next().map(str::to_owned);
+        // A new value replaces the last one.
+        let is_replaced = |old: &&Change| {
+            is_value(old) && more.iter().any(|new| is_value(new) && subject(new) == subject(old))
+        };
+        let mut changes: Vec<Change> = self.changes.iter().filter(|old| !is_replaced(old)).cloned().collect();
+        let same = more.iter().all(is_value).then_some(&self.interpreter);
+        changes.extend(more);
+        guarded(|| Self::new(py, self.unchanged.clone(), self.text.clone(), changes, same))
     }
 
     /// Reads the changes, one by one, for a job.
@@ -141,7 +155,7 @@ pub(crate) fn load(
                 Ok((machine, text))
             };
             let (machine, text) = py.detach(read).map_err(|mistakes| spec_error(py, &mistakes))?;
-            Machine::new(py, machine, text, Vec::new())
+            Machine::new(py, machine, text, Vec::new(), None)
         }
         (None, Some(text)) => restore(py, "text", Some(text), Vec::new()),
         _ => Err(PyTypeError::new_err("give a spec file or a shipped name, or else text=…")),
@@ -159,7 +173,7 @@ pub(crate) fn restore(
 ) -> PyResult<Machine> {
     guarded(|| {
         let machine = py.detach(|| find_machine(origin, text.as_deref()));
-        Machine::new(py, machine.map_err(|mistakes| spec_error(py, &mistakes))?, text, changes)
+        Machine::new(py, machine.map_err(|mistakes| spec_error(py, &mistakes))?, text, changes, None)
     })
 }
 
@@ -319,19 +333,19 @@ impl Machine {
     /// Returns a machine with these error sources enabled.
     #[pyo3(signature = (*sources))]
     fn enable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
-        self.changed(py, sources.into_iter().map(|source| ("enable".to_owned(), source)))
+        self.changed(py, sources.into_iter().map(|source| ("enable".to_owned(), source)).collect())
     }
 
     /// Returns a machine with these error sources disabled.
     #[pyo3(signature = (*sources))]
     fn disable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
-        self.changed(py, sources.into_iter().map(|source| ("disable".to_owned(), source)))
+        self.changed(py, sources.into_iter().map(|source| ("disable".to_owned(), source)).collect())
     }
 
     /// Returns a machine with the errors of this source multiplied by `factor`, which is not
     /// negative.
     fn scale(&self, py: Python<'_>, source: &str, factor: f64) -> PyResult<Self> {
-        self.changed(py, [("scale".to_owned(), format!("{source}={factor:?}"))])
+        self.changed(py, vec![("scale".to_owned(), format!("{source}={factor:?}"))])
     }
 
     fn __repr__(&self) -> String {

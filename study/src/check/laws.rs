@@ -1,6 +1,10 @@
 //! Self-checks of the closed form against the exact chain: the laws of the runtime, with their
 //! figures.
 
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
+use abbe::analysis::in_order_until;
 use abbe::lanes::Batches;
 use abbe::laws::{self, Discrepancy, Failure};
 use abbe_spec::Spec;
@@ -35,7 +39,8 @@ pub(super) fn configurations(spec: &Spec) -> usize {
     (20 * laws::SAMPLES / size.max(20)).max(10)
 }
 
-/// Checks all laws of a manipulator at this many configurations. Fails only if interrupted.
+/// Checks all laws of a manipulator at this many configurations, side by side. Fails only if
+/// interrupted.
 pub fn laws(
     manipulator: &dyn Batches,
     configurations: usize,
@@ -66,24 +71,34 @@ pub fn laws(
             laws::ROUNDING_TOLERANCE,
         ),
     ];
-    let mut checked = Vec::new();
-    let mut done = |laws: usize| {
-        notes.progress(laws * configurations, (compared.len() + 1) * configurations);
-        notes.go_on()
+    let count = compared.len() + 1;
+    let check = |i: usize| match compared.get(i) {
+        Some(&(law, compare, tolerance)) => {
+            let found = compare(manipulator, configurations);
+            let value = found.as_ref().ok().map(|found| found.relative);
+            let verdict = found.and_then(|found| found.within(law, tolerance));
+            Law::new(law, value, 0.0, tolerance, verdict)
+        }
+        None => {
+            let found = laws::remainder_slope(manipulator, configurations);
+            let value = found.as_ref().ok().map(|found| found.slope);
+            let verdict = found.and_then(|found| found.within(laws::SLOPE_TOLERANCE));
+            Law::new("slope of the first-order remainder", value, 2.0, laws::SLOPE_TOLERANCE, verdict)
+        }
     };
-    for (i, (law, compare, tolerance)) in compared.into_iter().enumerate() {
-        done(i)?;
-        let found = compare(manipulator, configurations);
-        let value = found.as_ref().ok().map(|found| found.relative);
-        let verdict = found.and_then(|found| found.within(law, tolerance));
-        checked.push(Law::new(law, value, 0.0, tolerance, verdict));
-    }
-    done(compared.len())?;
-    let found = laws::remainder_slope(manipulator, configurations);
-    let value = found.as_ref().ok().map(|found| found.slope);
-    let verdict = found.and_then(|found| found.within(laws::SLOPE_TOLERANCE));
-    checked.push(Law::new("slope of the first-order remainder", value, 2.0, laws::SLOPE_TOLERANCE, verdict));
-    done(compared.len() + 1)?;
+    notes.progress(0, count * configurations);
+    let mut checked = Vec::new();
+    in_order_until(
+        count,
+        |i| Ok::<_, Infallible>(check(i)),
+        |law| {
+            checked.push(law);
+            notes.progress(checked.len() * configurations, count * configurations);
+            if notes.stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    )
+    .unwrap_or_else(|never| match never {});
+    notes.go_on()?;
     Ok(checked)
 }
 

@@ -1,10 +1,14 @@
 //! The interpreter and the compiled code return the same numbers.
 
+use std::sync::Arc;
+
 use abbe::analysis::sampling::{arm_length, joint_sample, nominal_inputs, nominal_parameters};
-use abbe::{Error, Manipulator, Pose};
+use abbe::{Error, Function, Manipulator, Pose};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
+use abbe_tests::languages::{arguments, configurations};
+use abbe_tests::specs;
 
 /// Returns all results of a manipulator at one configuration, row by row.
 fn everything(robot: &dyn Manipulator, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
@@ -77,5 +81,31 @@ fn equal_to_compiled_code_on_a_thousand_configurations() {
         }
         println!("{}: {worst} ulp, {refused} of 1000 refused", shipped.name);
         assert!(worst <= 4.0 && refused < 100, "{}: {worst} ulp, {refused} refused", shipped.name);
+    }
+}
+
+/// New values of parameters and inputs without compiling equal an interpreter that was compiled
+/// with them, bit by bit.
+#[test]
+fn new_values_equal_a_new_interpreter() {
+    let shipped =
+        ["pps", "machine3"].map(|name| SHIPPED.iter().find(|shipped| shipped.name == name).unwrap());
+    let specs = shipped.map(|shipped| Spec::parse(shipped.name, shipped.spec).unwrap());
+    for spec in specs.into_iter().chain([Spec::read(specs::path("linkage")).unwrap()]) {
+        let first = Interpreter::new(spec.clone());
+        let mut changed = spec;
+        changed.parameters.iter_mut().for_each(|parameter| parameter.value *= 1.01);
+        changed.inputs.iter_mut().for_each(|input| input.value = 0.9 * input.value + 0.1 * input.range[0]);
+        let changed = Arc::new(changed);
+        let (found, expected) = (first.with_values(changed.clone()), Interpreter::new(changed));
+        assert_eq!(found.description(), expected.description());
+        assert_ne!(found.description(), first.description());
+        for given in configurations(&expected, 5) {
+            for function in Function::all(expected.description()) {
+                let arguments = arguments(&expected, function.signature(), &given);
+                let [found, expected] = [&found, &expected].map(|robot| robot.evaluate(function, &arguments));
+                assert_eq!(found, expected, "{}", function.name());
+            }
+        }
     }
 }
