@@ -72,8 +72,8 @@ impl Interpreter {
         &self.spec
     }
 
-    /// Returns the routines that the interpreter runs. Their description has the nominal values with
-    /// which they were compiled.
+    /// Returns the routines that the interpreter runs. Their description has the nominal values
+    /// with which they were compiled.
     pub fn routines(&self) -> &Routines {
         &self.code.routines
     }
@@ -208,7 +208,7 @@ impl Manipulator for Interpreter {
 
     fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
         if !self.description.has_loops() {
-            return open_pose(self, q, s, errors);
+            return open_pose(&self.description, |transforms| self.transforms(q, s, transforms), errors);
         }
         Ok(pose_of(&self.run(Function::DisplacedPose, &[q, s, errors.as_flattened()])?))
     }

@@ -45,8 +45,8 @@ type Change = (String, String);
 type Restored<'a> = (&'a str, Option<&'a str>, Vec<Change>);
 
 impl Machine {
-    /// Creates a machine with changes. `same` is an interpreter of a spec that differs in the values
-    /// of parameters and inputs only, if there is one.
+    /// Creates a machine with changes. `same` is an interpreter of a spec that differs in the
+    /// values of parameters and inputs only, if there is one.
     fn new(
         py: Python<'_>,
         unchanged: abbe_study::Machine,

@@ -266,7 +266,7 @@ fn spread(number: u64) -> u64 {
     spread
 }
 
-/// Scatters the numbers of cells, by the multiplier of Fibonacci hashing: 2⁶⁴ over the golden ratio.
+/// Scatters the numbers of cells by Fibonacci hashing, with 2⁶⁴ over the golden ratio.
 fn hash(cell: u64) -> usize {
     (cell.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize
 }

@@ -3,6 +3,8 @@
 //! Generated code never calls it; it verifies generated code.
 
 use crate::{Component, Description, Orientation, Pose, Scalar};
+#[cfg(feature = "std")]
+use crate::{Error, Quantity, checks};
 
 /// Returns `A_1 A_2 … A_n · T`, the tool pose in `F_0`. `transforms` holds `A_1 … A_n` and `T`.
 pub fn chain(transforms: &[Pose]) -> Pose {
@@ -40,6 +42,30 @@ pub fn tool_pose(description: &Description, transforms: &[Pose], errors: &[[f64;
         frame = description.parent(at);
     }
     pose
+}
+
+/// Returns the exact pose of the tool point of a machine without loops with given errors, six per
+/// frame: equation (6). `transforms` fills in the nominal ones.
+///
+/// # Errors
+///
+/// Returns the errors of `transforms`, [`Error::Count`] for another number of frames, and
+/// [`Error::NotFinite`] if the pose is not finite.
+#[cfg(feature = "std")]
+pub fn open_pose(
+    description: &Description,
+    transforms: impl FnOnce(&mut [Pose]) -> Result<(), Error>,
+    errors: &[[f64; 6]],
+) -> Result<Pose, Error> {
+    let (expected, found) = (description.frames.len(), errors.len());
+    if expected != found {
+        return Err(Error::Count { quantity: Quantity::Errors, expected, found });
+    }
+    let mut nominal = std::vec![Pose::IDENTITY; expected + 1];
+    transforms(&mut nominal)?;
+    let pose = tool_pose(description, &nominal, errors);
+    checks::finite(Quantity::Pose, pose.0.as_flattened())?;
+    Ok(pose)
 }
 
 /// Returns `E_i`: translation `(e_x, e_y, e_z)` and rotation `R = R_y(e_s) R_z(e_r) R_x(e_p)`.

@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use crate::{Class, Description, Error, Manipulator, Pose, Quantity, checks, tool_pose};
+use crate::{Class, Description, Error, Manipulator, Pose, Quantity};
 
 /// Returns the exact pose of the tool point with the errors of every source times its magnitude,
 /// equation (6).
@@ -34,26 +34,6 @@ pub fn drawn_pose<M: Manipulator + ?Sized>(
         errors[effect.frame][effect.component.index()] += value * magnitudes[effect.source];
     }
     manipulator.displaced_pose(q, s, &errors)
-}
-
-/// Returns the exact pose of the tool point of a machine without loops with given errors, six per
-/// frame: equation (6). Errors as for [`Manipulator::displaced_pose`].
-pub fn open_pose<M: Manipulator + ?Sized>(
-    manipulator: &M,
-    q: &[f64],
-    s: &[f64],
-    errors: &[[f64; 6]],
-) -> Result<Pose, Error> {
-    let description = manipulator.description();
-    let (expected, found) = (description.frames.len(), errors.len());
-    if expected != found {
-        return Err(Error::Count { quantity: Quantity::Errors, expected, found });
-    }
-    let mut transforms = vec![Pose::IDENTITY; expected + 1];
-    manipulator.transforms(q, s, &mut transforms)?;
-    let pose = tool_pose(description, &transforms, errors);
-    checks::finite(Quantity::Pose, pose.0.as_flattened())?;
-    Ok(pose)
 }
 
 /// Returns the magnitudes that select the repeatable sources: 1 for each repeatable source, 0 for

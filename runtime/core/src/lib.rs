@@ -51,6 +51,8 @@ extern crate self as abbe_core;
 #[cfg(test)]
 mod by_hand;
 
+#[cfg(feature = "std")]
+pub use chain::open_pose;
 pub use chain::{
     chain, deviation, displacement, euler_margin, located, real_pose, rotation_vector, tool_pose,
 };
@@ -62,7 +64,7 @@ pub use description::{
 };
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]
-pub use drawn_pose::{drawn_pose, open_pose, repeatable_magnitudes};
+pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
 pub use error::{Error, MINIMUM_MARGIN, Quantity};
 pub use function::Function;
 pub use lookup_table::LookupTable;

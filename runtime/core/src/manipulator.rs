@@ -76,7 +76,7 @@ pub trait Manipulator: Sync {
     /// The default evaluates the tree of frames, for manipulators without loops.
     #[cfg(feature = "std")]
     fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
-        open_pose(self, q, s, errors)
+        open_pose(self.description(), |transforms| self.transforms(q, s, transforms), errors)
     }
 
     /// Computes the passive variables, in the order of the frames that declare them, for which all
