@@ -4,7 +4,7 @@
 //! | folder | contents |
 //! |---|---|
 //! | `workspace` | [`Workspace`]: configurations by index, as grids and samples of joints, a presented volume, a box, a list |
-//! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool; [`obstacle()`] explains a remaining error |
+//! | `reach` | [`inverse()`] brings the tool to a target, [`InverseKinematics`] finds all solutions, [`compensated()`] the real tool; [`obstacle()`] explains a remaining error |
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and visits every [`Row`] in order; nothing is stored |
 //! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), of all together ([`Combined`]), and the admissible sizes for a tolerance ([`Admissible`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
@@ -69,7 +69,9 @@ pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
 use reach::Inverse;
-pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
+pub use reach::{
+    InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
+};
 pub use sweep::{BLOCK, Row, Unevaluated, in_order, in_order_until, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Residual, Statement,

@@ -254,6 +254,20 @@ class Machine:
         >>> bool(abs(ur5.pose(q) - ur5.pose([0.1, -1, 1, 0.2, 0.3, 0])).max() < 1e-6)
         True
         """
+    def inverses(self, target: ArrayLike, q0: _Joints | None = None) -> _Array:
+        """(m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
+        F_0, those nearest to `q0` first.
+
+        `target`, `q0`: as for `inverse`, but `target` is a pose. Revolute joints have the full turn
+        nearest to `q0`. Arms with a spherical wrist or three parallel axes, and gantries with three
+        revolute joints, are solved in closed form; of others, solutions may be missing. Raises
+        ValueError, with the reason, if there is none.
+
+        >>> import abbe
+        >>> ur5 = abbe.load("ur5")
+        >>> ur5.inverses(ur5.pose([0.1, -1, 1, 0.2, 0.3, 0])).shape
+        (8, 6)
+        """
     def compensate(
         self, q: _Joints, *, tolerance: _Length | None = None, progress: _Progress | None = None, **inputs: _Input
     ) -> Commands:

@@ -1,6 +1,6 @@
 //! Inverse kinematics, and commands that compensate the errors of the machine.
 
-use abbe::analysis::{Target, inverse};
+use abbe::analysis::{InverseKinematics, Target, inverse};
 use abbe::{Function, Pose};
 use abbe_study::{compensate, mistake};
 use numpy::PyUntypedArrayMethods;
@@ -42,6 +42,36 @@ pub(crate) fn restore(q: Py<PyAny>, left: Py<PyAny>, reason: Py<PyAny>) -> Comma
     Commands { q, left, reason }
 }
 
+/// Returns the target that an array describes: a pose or a tool point.
+fn target_of(target: &Bound<'_, PyAny>) -> PyResult<Target> {
+    let array = numbers(target, "target", None)?;
+    let values = array.as_slice()?;
+    if !values.iter().all(|value| value.is_finite()) {
+        return Err(PyValueError::new_err("`target` has a number that is not finite"));
+    }
+    match *array.shape() {
+        [4, 4] => Ok(Target::Pose(pose(values)?)),
+        [3] => Ok(Target::Point([values[0], values[1], values[2]])),
+        ref shape => {
+            let message =
+                format!("`target` has shape {}: give a pose (4, 4) or a tool point (3,)", tuple(shape));
+            Err(PyValueError::new_err(message))
+        }
+    }
+}
+
+impl Machine {
+    /// Returns the joints at which a search begins: `q0`, or home.
+    fn start(&self, py: Python<'_>, q0: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
+        let Some(q0) = q0 else { return Ok(self.home()) };
+        let array = numbers(q0, "q0", Some(self.variable_names.bind(py)))?;
+        if array.shape() != [self.home().len()] {
+            return Err(PyValueError::new_err(format!("`q0` has shape {}", tuple(array.shape()))));
+        }
+        Ok(array.as_slice()?.to_vec())
+    }
+}
+
 #[pymethods]
 impl Machine {
     /// (nq,): joints, within their limits, at which the ideal tool reaches `target` in F_0.
@@ -61,35 +91,41 @@ impl Machine {
         target: &Bound<'py, PyAny>,
         q0: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let array = numbers(target, "target", None)?;
-        let values = array.as_slice()?;
-        if !values.iter().all(|value| value.is_finite()) {
-            return Err(PyValueError::new_err("`target` has a number that is not finite"));
-        }
-        let target = match *array.shape() {
-            [4, 4] => Target::Pose(pose(values)?),
-            [3] => Target::Point([values[0], values[1], values[2]]),
-            ref shape => {
-                let message =
-                    format!("`target` has shape {}: give a pose (4, 4) or a tool point (3,)", tuple(shape));
-                return Err(PyValueError::new_err(message));
-            }
-        };
-        let start = match q0 {
-            None => self.home(),
-            Some(q0) => {
-                let array = numbers(q0, "q0", Some(self.variable_names.bind(py)))?;
-                if array.shape() != [self.home().len()] {
-                    return Err(PyValueError::new_err(format!("`q0` has shape {}", tuple(array.shape()))));
-                }
-                array.as_slice()?.to_vec()
-            }
-        };
+        let (target, start) = (target_of(target)?, self.start(py, q0)?);
         let all: Vec<usize> = (0..start.len()).collect();
         let find = || inverse(&self.interpreter, &self.parameters, &start, &all, &target);
         let found =
             guarded(|| Ok(py.detach(find)))?.map_err(|reason| PyValueError::new_err(reason.to_string()))?;
         filled(py, &[found.len()], &found)
+    }
+
+    /// (m, nq): all joints, within their limits, at which the ideal tool has the pose `target` in
+    /// F_0, those nearest to `q0` first.
+    ///
+    /// `target`, `q0`: as for `inverse`, but `target` is a pose. Revolute joints have the full turn
+    /// nearest to `q0`. Arms with a spherical wrist or three parallel axes, and gantries with three
+    /// revolute joints, are solved in closed form; of others, solutions may be missing. Raises
+    /// ValueError, with the reason, if there is none.
+    ///
+    /// >>> import abbe
+    /// >>> ur5 = abbe.load("ur5")
+    /// >>> ur5.inverses(ur5.pose([0.1, -1, 1, 0.2, 0.3, 0])).shape
+    /// (8, 6)
+    #[pyo3(signature = (target, q0=None))]
+    fn inverses<'py>(
+        &self,
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        q0: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let Target::Pose(pose) = target_of(target)? else {
+            return Err(PyValueError::new_err("`target` has shape (3,): give a pose (4, 4)"));
+        };
+        let start = self.start(py, q0)?;
+        let find = || InverseKinematics::new(&self.interpreter, &self.parameters)?.solve(&start, &pose);
+        let found =
+            guarded(|| Ok(py.detach(find)))?.map_err(|reason| PyValueError::new_err(reason.to_string()))?;
+        filled(py, &[found.len(), start.len()], &found.concat())
     }
 
     /// Computes joint commands at which the real tool has the ideal pose of `q`. Returns Commands.

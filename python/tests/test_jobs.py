@@ -110,6 +110,19 @@ def test_from_measurements_to_corrected_commands(tmp_path):
     assert plan.rows == 20 and plan.report(tmp_path / "plan") == ["plan.csv"]
 
 
+def test_inverses_are_all_joints_of_a_pose():
+    ur5 = abbe.load("ur5")
+    q = np.array([0.3, -1.2, 1.1, 0.4, 0.8, 0.1])
+    found = ur5.inverses(ur5.pose(q), q)
+    assert found.shape == (8, 6) and np.allclose(found[0], q, atol=1e-9)
+    assert np.allclose(ur5.pose(found), ur5.pose(q), atol=1e-6)
+    assert len({tuple(np.round(each, 6)) for each in found}) == 8
+    with pytest.raises(ValueError, match="give a pose"):
+        ur5.inverses([500.0, 0, 0])
+    with pytest.raises(ValueError, match="out of reach"):
+        ur5.inverses(np.array([[1, 0, 0, 5000], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
+
+
 def test_commands():
     q = ur5.inverse(ur5.pose([0.3, -1.2, 1.1, 0.4, 0.8, 0.1]), [0.2, -1.1, 1, 0.3, 0.7, 0])
     assert np.allclose(ur5.pose(q), ur5.pose([0.3, -1.2, 1.1, 0.4, 0.8, 0.1]), atol=1e-6)

@@ -2,11 +2,13 @@
 
 mod bounded;
 mod bounds;
+mod closed_form;
 mod compensate;
 mod curvature;
 mod descents;
 mod extent;
 mod inverse;
+mod inverses;
 mod joint_chain;
 mod lane_chain;
 mod obstacle;
@@ -22,6 +24,7 @@ mod tests;
 pub use compensate::compensated;
 pub(crate) use inverse::Inverse;
 pub use inverse::inverse;
+pub use inverses::InverseKinematics;
 pub use obstacle::{Missing, Obstacle, mobility, obstacle};
 pub use reach_error::ReachError;
 pub use target::Target;

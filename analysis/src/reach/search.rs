@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use nalgebra::{DMatrix, DVector, SVD};
 
 use super::target_search::{
-    Descent, DescentEnd, ITERATIONS, Problem, REACHED, ROUNDING, Reachability, STAGNATION, TargetSearch,
+    Descent, DescentEnd, ITERATIONS, Problem, REACHED, ROUNDING, Reachability, STAGNATION, TargetSearch, from,
 };
 use super::{ReachError, Target};
 use abbe_core::{Error, Pose, Quantity, VariableKind, deviation};
@@ -41,8 +41,12 @@ impl Search<'_> {
 
     /// Returns the result of the first descent, if it reaches the target.
     pub(super) fn nearby(&self) -> Option<Vec<f64>> {
-        let (_, descent) = TargetSearch::new(self.problem, 0);
-        let ended = self.descend(&descent).ok()?;
+        self.from(0)
+    }
+
+    /// Returns the result of the descent from a start, if it reaches the target.
+    pub(super) fn from(&self, start: usize) -> Option<Vec<f64>> {
+        let ended = self.descend(&from(self.problem, start, true)).ok()?;
         (ended.norm <= REACHED).then_some(ended.q)
     }
 

@@ -12,7 +12,7 @@ pub(super) const REACHED: f64 = 1e-10;
 /// Residual below which only rounding errors remain.
 pub(super) const ROUNDING: f64 = 1e-14;
 /// Distance beyond a limit that still counts as at the limit, relative to the range.
-const AT_LIMIT: f64 = 1e-9;
+pub(super) const AT_LIMIT: f64 = 1e-9;
 /// Relative decrease below which a step makes no progress.
 pub(super) const STAGNATION: f64 = 1e-9;
 /// Largest number of steps of a descent.
@@ -295,7 +295,8 @@ impl TargetSearch {
     }
 }
 
-fn from(problem: &Problem<'_>, start: usize, bounded: bool) -> Descent {
+/// Returns the descent from a start, within limits or without.
+pub(super) fn from(problem: &Problem<'_>, start: usize, bounded: bool) -> Descent {
     Descent { q: problem.starts[start].clone(), bounded, patience: patience(start) }
 }
 

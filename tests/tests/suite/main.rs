@@ -32,6 +32,7 @@ mod imported;
 mod imported_tables;
 mod input_uncertainty;
 mod interpreter;
+mod inverses;
 mod json_reference;
 mod laws;
 mod long_chains;

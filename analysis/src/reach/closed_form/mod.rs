@@ -1,0 +1,112 @@
+//! Inverse kinematics in closed form, all branches, of chains of six lower pairs.
+//!
+//! | structure | file |
+//! |---|---|
+//! | three revolute joints, then three whose axes intersect | `arm`, `wrist` |
+//! | three parallel axes between the first joint and the last two, whose axes intersect | `parallel` |
+//! | three slides and three revolute joints, in any order | `gantry` |
+//!
+//! A chain that has one of the first two from the tool to the base is solved backwards. The
+//! structure is found in the numbers of the chain, the product of exponentials of its axes at zero.
+//! `angles` has the subproblems, `line` the axes.
+
+mod angles;
+mod arm;
+mod gantry;
+mod line;
+mod parallel;
+mod wrist;
+
+use abbe_core::{Pose, VariableKind};
+use nalgebra::Vector3;
+
+use self::arm::Arm;
+use self::gantry::Gantry;
+use self::line::{Line, TOLERANCE, axes, common_point, matrix, vector};
+use self::parallel::Parallel;
+use self::wrist::Wrist;
+use super::joint_chain::JointChain;
+
+/// Closed form of a chain. Lengths are in arm lengths.
+#[derive(Clone, Debug)]
+pub(super) struct ClosedForm {
+    structure: Structure,
+    /// Pose of the tool point with all joints at zero, inverted.
+    from_tool: Pose,
+    /// The chain goes from the tool to the base.
+    is_reversed: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Structure {
+    Wrist { arm: Arm, wrist: Wrist, centre: Vector3<f64> },
+    Parallel(Parallel),
+    Gantry(Gantry),
+}
+
+impl ClosedForm {
+    /// Finds the structure of a chain. Returns `None` if it has none of those with a closed form.
+    pub(super) fn new(chain: &JointChain) -> Option<Self> {
+        Self::forwards(chain).or_else(|| {
+            let form = Self::forwards(&chain.reversed())?;
+            Some(Self { is_reversed: true, ..form })
+        })
+    }
+
+    fn forwards(chain: &JointChain) -> Option<Self> {
+        let (axes, tool) = axes(chain);
+        let axes: &[Line; 6] = axes.as_slice().try_into().ok()?;
+        let is_slide = |joint: &super::joint_chain::Joint| joint.kind == VariableKind::Prismatic;
+        let structure = match chain.joints.iter().filter(|joint| is_slide(joint)).count() {
+            0 => wrist(axes).or_else(|| Some(Structure::Parallel(Parallel::new(axes)?)))?,
+            3 => Structure::Gantry(Gantry::new(chain, axes)?),
+            _ => return None,
+        };
+        Some(Self { structure, from_tool: tool.inverse(), is_reversed: false })
+    }
+
+    /// Returns all solutions for a pose of the tool point, without limits. Where a joint is free to
+    /// move, it stays at zero.
+    pub(super) fn solve(&self, target: &Pose) -> Vec<[f64; 6]> {
+        let inverse;
+        let target = if self.is_reversed {
+            inverse = target.inverse();
+            &inverse
+        } else {
+            target
+        };
+        // exp(S_1 q_1) … exp(S_6 q_6)
+        let motion = target.then(&self.from_tool);
+        let rotation = matrix(&motion);
+        let mut found = Vec::with_capacity(8);
+        match &self.structure {
+            Structure::Wrist { arm, wrist, centre } => {
+                let moved = vector(motion.apply((*centre).into()));
+                for [q1, q2, q3] in arm.solve(moved) {
+                    let rest = arm.rotation([q1, q2, q3]).transpose() * rotation;
+                    let ends = wrist.solve(&rest).into_iter();
+                    found.extend(ends.map(|[q4, q5, q6]| [q1, q2, q3, q4, q5, q6]));
+                }
+            }
+            Structure::Parallel(parallel) => parallel.solve(&motion, &rotation, &mut found),
+            Structure::Gantry(gantry) => gantry.solve(target, &rotation, &mut found),
+        }
+        if self.is_reversed {
+            for q in &mut found {
+                q.reverse();
+                *q = q.map(|value| -value);
+            }
+        }
+        found
+    }
+}
+
+/// Returns the structure of an arm with a wrist whose three axes intersect.
+fn wrist(axes: &[Line; 6]) -> Option<Structure> {
+    let centre = common_point(&axes[3], &axes[4])?;
+    if axes[5].distance(centre) > TOLERANCE {
+        return None;
+    }
+    let wrist = Wrist::new([axes[3].along, axes[4].along, axes[5].along])?;
+    Some(Structure::Wrist { arm: Arm::new([axes[0], axes[1], axes[2]], centre)?, wrist, centre })
+}

@@ -1,0 +1,154 @@
+//! All solutions of inverse kinematics: in closed form where the structure of the chain permits,
+//! otherwise by many searches.
+
+use core::f64::consts::TAU;
+
+use nalgebra::{Matrix6, Vector6};
+
+use super::closed_form::ClosedForm;
+use super::inverse::inverse;
+use super::joint_chain::{JointChain, scaled};
+use super::search::Search;
+use super::target_search::{AT_LIMIT, Problem, REACHED, ROUNDING};
+use super::{ReachError, Target};
+use crate::sampling;
+use abbe_core::{Manipulator, Pose, VariableKind, deviation};
+
+/// Largest difference of two solutions that count as one, in rad and arm lengths.
+const SAME: f64 = 1e-6;
+/// Largest number of Newton's steps that improve a solution.
+const STEPS: usize = 4;
+
+/// Inverse kinematics of a manipulator with all of its solutions.
+///
+/// Chains of six lower pairs have a closed form if they consist of an arm of three revolute joints
+/// and a wrist whose three axes intersect; of three parallel axes between the first joint and the
+/// last two, whose axes intersect; of one of these from the tool to the base; or of three slides
+/// and three revolute joints. The structure is found in the numbers of the chain, and every
+/// solution is improved and verified by the manipulator itself.
+pub struct InverseKinematics<'a> {
+    problem: Problem<'a>,
+    form: Option<ClosedForm>,
+}
+
+impl<'a> InverseKinematics<'a> {
+    /// Prepares a manipulator with given parameters. Errors as for [`inverse()`].
+    pub fn new(manipulator: &'a dyn Manipulator, s: &[f64]) -> Result<Self, ReachError> {
+        let home = sampling::home(manipulator.description());
+        let all: Vec<usize> = (0..home.len()).collect();
+        let problem = Problem::new(manipulator, s, &home, &all)?;
+        let form = JointChain::new(&problem).and_then(|chain| ClosedForm::new(&chain));
+        Ok(Self { problem, form })
+    }
+
+    /// Returns `true` if the solutions are found in closed form: then none is missing.
+    pub fn is_closed_form(&self) -> bool {
+        self.form.is_some()
+    }
+
+    /// Returns all solutions within the limits that bring the tool point to a pose, the one nearest
+    /// to `start` first; revolute joints have the full turn nearest to `start`.
+    ///
+    /// Where a joint is free to move, as the first and the last one of a straight wrist, there is
+    /// one solution for it. Without a closed form the solutions are those of searches from 33
+    /// starts, and some may be missing; of an arm with more than six joints, it is one.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`inverse()`] if there is no solution.
+    pub fn solve(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
+        let Problem { manipulator, ref s, ref free, .. } = self.problem;
+        let one = || inverse(manipulator, s, start, free, &Target::Pose(*target));
+        if start.len() != free.len() || free.len() > 6 || !Target::Pose(*target).is_finite() {
+            return one().map(|q| vec![q]);
+        }
+        let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
+        let candidates = match &self.form {
+            Some(form) => self.closed(form, target),
+            None => self.searched(start, target)?,
+        };
+        for candidate in candidates {
+            let Some(q) = self.polished(candidate, target).and_then(|q| self.within_limits(q, start)) else {
+                continue;
+            };
+            let size = |a: &[f64]| {
+                (0..a.len()).map(|i| ((a[i] - q[i]) / self.problem.unit(i)).powi(2)).sum::<f64>().sqrt()
+            };
+            if found.iter().all(|(_, other)| size(other) > SAME) {
+                found.push((size(start), q));
+            }
+        }
+        if found.is_empty() {
+            return one().map(|q| vec![q]);
+        }
+        found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        Ok(found.into_iter().map(|(_, q)| q).collect())
+    }
+
+    fn closed(&self, form: &ClosedForm, target: &Pose) -> Vec<Vec<f64>> {
+        let in_units = |q: [f64; 6]| (0..6).map(|i| q[i] * self.problem.unit(i)).collect();
+        form.solve(&scaled(target, self.problem.arm)).into_iter().map(in_units).collect()
+    }
+
+    fn searched(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
+        let Problem { manipulator, ref s, ref free, .. } = self.problem;
+        let mut problem = Problem::new(manipulator, s, start, free)?;
+        problem.spread();
+        let search = Search { problem: &problem, target: &Target::Pose(*target) };
+        Ok((0..problem.starts.len()).filter_map(|start| search.from(start)).collect())
+    }
+
+    /// Improves a solution by Newton's steps. Returns `None` if it does not reach the target.
+    fn polished(&self, mut q: Vec<f64>, target: &Pose) -> Option<Vec<f64>> {
+        let Problem { manipulator, ref s, arm, .. } = self.problem;
+        let orientation = manipulator.description().orientation;
+        let mut columns = vec![[0.0; 6]; q.len()];
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for _ in 0..=STEPS {
+            let Ok(pose) = manipulator.joint_jacobian(&q, s, &mut columns) else { break };
+            let scale = |i: usize| if i < 3 { 1.0 / arm } else { 1.0 };
+            let difference = deviation(orientation, &pose, target);
+            let residual = Vector6::from_fn(|i, _| difference[i] * scale(i));
+            let norm = residual.norm();
+            let is_nearer = best.as_ref().is_none_or(|(least, _)| norm < *least);
+            if !is_nearer {
+                break;
+            }
+            best = Some((norm, q.clone()));
+            if norm <= ROUNDING || q.len() != 6 {
+                break;
+            }
+            let jacobian = Matrix6::from_fn(|i, j| columns[j][i] * scale(i) * self.problem.unit(j));
+            // Damped, so that the step remains small where the matrix is singular.
+            let square = jacobian * jacobian.transpose() + Matrix6::identity() * (norm * norm);
+            let Some(part) = square.lu().solve(&residual) else { break };
+            let step = jacobian.transpose() * part;
+            q.iter_mut().enumerate().for_each(|(i, q)| *q += step[i] * self.problem.unit(i));
+        }
+        best.filter(|(norm, _)| *norm <= REACHED).map(|(_, q)| q)
+    }
+
+    /// Brings revolute joints near to `start` by full turns. Returns `None` if a joint is outside
+    /// its limits in every turn.
+    fn within_limits(&self, mut q: Vec<f64>, start: &[f64]) -> Option<Vec<f64>> {
+        let variables = &self.problem.description().variables;
+        for ((q, variable), start) in q.iter_mut().zip(variables.iter()).zip(start) {
+            let [lower, upper] = variable.limits;
+            let slack = if (upper - lower).is_finite() { AT_LIMIT * (upper - lower) } else { 0.0 };
+            if variable.kind == VariableKind::Revolute {
+                *q -= TAU * ((*q - start) / TAU).round();
+                while *q < lower - slack && *q + TAU <= upper + slack {
+                    *q += TAU;
+                }
+                while *q > upper + slack && *q - TAU >= lower - slack {
+                    *q -= TAU;
+                }
+            }
+            if *q < lower - slack || *q > upper + slack {
+                return None;
+            }
+            *q = q.clamp(lower, upper);
+        }
+        Some(q)
+    }
+}

@@ -1,0 +1,210 @@
+//! Inverse kinematics with all solutions: they reach the pose, and none is missing.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use abbe::analysis::sampling::{halton, nominal_parameters};
+use abbe::analysis::{InverseKinematics, Target, inverse};
+use abbe::{Manipulator, Orientation, Pose, VariableKind, deviation};
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_tests::sample_size;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+fn shipped(name: &str) -> &'static dyn Manipulator {
+    SHIPPED.iter().find(|shipped| shipped.name == name).unwrap().compiled
+}
+
+/// Returns a configuration within the limits, or within half a turn without them.
+fn sample(robot: &dyn Manipulator, index: usize) -> Vec<f64> {
+    let variables = robot.description().variables.iter().enumerate();
+    let value = |(i, variable): (usize, &abbe::Variable)| {
+        let [lower, upper] = variable.limits.map(|limit| limit.clamp(-3.1, f64::INFINITY));
+        let upper = if upper.is_finite() { upper } else { 3.1 };
+        lower + (upper - lower) * halton(index + 1, i)
+    };
+    variables.map(value).collect()
+}
+
+/// Returns the largest difference of two configurations, up to full turns.
+fn distance(robot: &dyn Manipulator, a: &[f64], b: &[f64]) -> f64 {
+    let variables = robot.description().variables.iter();
+    let one = |((a, b), variable): ((&f64, &f64), &abbe::Variable)| match variable.kind {
+        VariableKind::Revolute => (a - b - TAU * ((a - b) / TAU).round()).abs(),
+        VariableKind::Prismatic => (a - b).abs(),
+    };
+    a.iter().zip(b).zip(variables).map(one).fold(0.0, f64::max)
+}
+
+/// Checks the solutions for the pose of a configuration, and returns their number: they are within
+/// the limits and reach the pose, and the configuration is one of them.
+fn check(robot: &dyn Manipulator, kinematics: &InverseKinematics<'_>, q: &[f64], tolerance: f64) -> usize {
+    let description = robot.description();
+    let s = nominal_parameters(description);
+    let target = robot.pose(q, &s).unwrap();
+    let found = kinematics.solve(q, &target).unwrap_or_else(|error| panic!("{q:?}: {error}"));
+    for one in &found {
+        let difference = deviation(Orientation::RotationVector, &robot.pose(one, &s).unwrap(), &target);
+        let scale = 1.0 + target.position().iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        assert!(difference.iter().all(|x| x.abs() < 1e-9 * scale), "{q:?}: {one:?} misses by {difference:?}");
+        for (value, variable) in one.iter().zip(description.variables.iter()) {
+            assert!((variable.limits[0]..=variable.limits[1]).contains(value), "{q:?}: {one:?}");
+        }
+    }
+    let nearest = found.iter().map(|one| distance(robot, one, q)).fold(f64::INFINITY, f64::min);
+    assert!(nearest < tolerance, "{q:?} is not one of {found:?}");
+    for (i, one) in found.iter().enumerate() {
+        assert!(found[..i].iter().all(|other| distance(robot, one, other) > 1e-7), "{one:?} twice");
+    }
+    found.len()
+}
+
+#[test]
+fn shipped_robots_have_all_their_solutions() {
+    for (name, most, average) in [("puma560", 8, 2.0), ("ur5", 8, 4.0), ("pps", 2, 1.0)] {
+        let robot = shipped(name);
+        let kinematics = InverseKinematics::new(robot, &nominal_parameters(robot.description())).unwrap();
+        assert!(kinematics.is_closed_form(), "{name}");
+        let count = sample_size(20_000).max(500);
+        let counts: Vec<usize> =
+            (0..count).map(|index| check(robot, &kinematics, &sample(robot, index), 1e-6)).collect();
+        let mean = counts.iter().sum::<usize>() as f64 / count as f64;
+        println!("{name}: {mean} solutions on average, {:?} at most", counts.iter().max());
+        assert!(counts.iter().all(|count| *count <= most) && mean >= average, "{name}: {mean}");
+    }
+}
+
+/// Solutions that searches find from many starts are among those of the closed form.
+#[test]
+fn searches_find_no_others() {
+    for name in ["puma560", "ur5"] {
+        let robot = shipped(name);
+        let description = robot.description();
+        let s = nominal_parameters(description);
+        let kinematics = InverseKinematics::new(robot, &s).unwrap();
+        let all: Vec<usize> = (0..6).collect();
+        for index in 0..sample_size(500).max(20) {
+            let target = robot.pose(&sample(robot, index), &s).unwrap();
+            let found = kinematics.solve(&[0.0; 6], &target).unwrap();
+            for start in 0..10 {
+                let start = sample(robot, 1000 + 10 * index + start);
+                let other = inverse(robot, &s, &start, &all, &Target::Pose(target)).unwrap();
+                let nearest = found.iter().map(|one| distance(robot, one, &other)).fold(9.0, f64::min);
+                assert!(nearest < 1e-6, "{name} {index}: {other:?} is not one of {found:?}");
+            }
+        }
+    }
+}
+
+/// At singular poses the solutions reach the pose.
+#[test]
+fn singular_poses_are_reached() {
+    use std::f64::consts::FRAC_PI_2;
+    for (name, q) in [
+        // Straight wrist, stretched arm, wrist above the first axis.
+        ("puma560", [0.3, 0.9, -0.4, 0.2, 0.0, 0.1]),
+        ("puma560", [0.3, FRAC_PI_2, -FRAC_PI_2, 0.2, 0.0, 0.1]),
+        ("ur5", [0.3, -0.9, 0.0, 0.2, 0.7, 0.1]),
+        ("ur5", [0.3, -0.9, 0.8, 0.2, 0.0, 0.1]),
+        ("ur5", [0.0; 6]),
+        ("pps", [100.0, 50.0, 20.0, 0.0, 0.0, 0.0]),
+    ] {
+        let robot = shipped(name);
+        let s = nominal_parameters(robot.description());
+        let kinematics = InverseKinematics::new(robot, &s).unwrap();
+        check(robot, &kinematics, &q, f64::INFINITY);
+    }
+}
+
+#[test]
+fn unreachable_poses_are_refused_with_the_reason_of_the_search() {
+    let robot = shipped("ur5");
+    let s = nominal_parameters(robot.description());
+    let kinematics = InverseKinematics::new(robot, &s).unwrap();
+    let mut target = Pose::IDENTITY;
+    target.0[3] = [3000.0, 0.0, 0.0];
+    let all: Vec<usize> = (0..6).collect();
+    let expected = inverse(robot, &s, &[0.0; 6], &all, &Target::Pose(target));
+    assert_eq!(kinematics.solve(&[0.0; 6], &target), expected.map(|q| vec![q]));
+}
+
+/// Structure of a random robot.
+#[derive(Clone, Copy, Debug)]
+enum Structure {
+    Wrist,
+    WristAtBase,
+    Parallel,
+    ParallelBackwards,
+    Gantry,
+}
+
+/// Writes a random robot of a structure. All offsets and angles are random where the structure
+/// leaves them free; some of those of arms are zero or right angles, as of real robots.
+fn random_robot(structure: Structure, seed: u64) -> String {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut text = "[manipulator]\nname = \"robot\"\nlength = \"m\"\n".to_owned();
+    let mut number = || random.random_range(-1.0..1.0_f64);
+    let is_regular = seed.is_multiple_of(3);
+    for i in 0..6 {
+        let [x, y, z, a, b] = core::array::from_fn(|_| number());
+        let angle = if is_regular { (a * 2.0).round() * TAU / 4.0 } else { 3.0 * a };
+        let apart = format!(
+            "Tx({x:.3}) Ty({y:.3}) Tz({z:.3}) Rx({angle:?}) Ry({:?})",
+            if is_regular { 0.0 } else { b }
+        );
+        let tilted = format!("Rx({:?}) Rz({b:?})", 0.5 + a.abs());
+        let shifted = format!("Tx({:.3}) Ty({y:.3}) Tz({z:.3})", x + x.signum() * 0.2);
+        let behind = match (structure, i) {
+            (Structure::Wrist, 3 | 4) | (Structure::WristAtBase, 0 | 1) => tilted,
+            (Structure::Parallel, 1 | 2) => shifted,
+            (Structure::Parallel, 0 | 3) => format!("{shifted} {tilted}"),
+            (Structure::Parallel, 4) => tilted,
+            (Structure::ParallelBackwards, 2 | 3) => shifted,
+            (Structure::ParallelBackwards, 1 | 4) => format!("{shifted} {tilted}"),
+            (Structure::ParallelBackwards, 0) => tilted,
+            (Structure::Gantry, _) => format!("{shifted} {tilted}"),
+            _ => apart,
+        };
+        let is_slide = matches!(structure, Structure::Gantry) && i % 2 == (seed % 2) as usize;
+        let (kind, motion) = if is_slide { ("prismatic", "Tz") } else { ("revolute", "Rz") };
+        let _ = write!(
+            text,
+            "[[frame]]\nname = \"f{i}\"\nvariable = {{ name = \"q{i}\", kind = \"{kind}\", limits = [-3.2, 3.2] }}\n\
+             transform = \"{motion}(q{i}) {behind}\"\n"
+        );
+    }
+    text
+}
+
+#[test]
+fn random_robots_have_all_their_solutions() {
+    let structures = [
+        Structure::Wrist,
+        Structure::WristAtBase,
+        Structure::Parallel,
+        Structure::ParallelBackwards,
+        Structure::Gantry,
+    ];
+    for structure in structures {
+        let (mut most, mut closed) = (0, 0);
+        let robots = sample_size(40).max(6);
+        for seed in 0..robots as u64 {
+            let text = random_robot(structure, seed);
+            let spec = Spec::parse("robot.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            let robot = Interpreter::new(spec);
+            let kinematics = InverseKinematics::new(&robot, &[]).unwrap();
+            closed += usize::from(kinematics.is_closed_form());
+            if !kinematics.is_closed_form() {
+                println!("{structure:?} {seed}");
+                continue;
+            }
+            for index in 0..50 {
+                most = most.max(check(&robot, &kinematics, &sample(&robot, index), 1e-5));
+            }
+        }
+        println!("{structure:?}: {closed} of {robots}, {most} solutions at most");
+        assert!(closed * 10 >= robots * 9, "{structure:?}: {closed} of {robots}");
+    }
+}
