@@ -21,8 +21,9 @@ const STEPS: usize = 4;
 
 /// Inverse kinematics of a manipulator with all of its solutions.
 ///
-/// Chains of six lower pairs have a closed form if they consist of an arm of three revolute joints
-/// and a wrist whose three axes intersect; of three parallel axes between the first joint and the
+/// Chains of six lower pairs have a closed form if they consist of an arm and a wrist whose three
+/// axes intersect, where the arm has three revolute joints, or two whose axes intersect or are
+/// parallel and a slide; of three parallel axes between the first joint and the
 /// last two, whose axes intersect; of one of these from the tool to the base; or of three slides
 /// and three revolute joints. The structure is found in the numbers of the chain, and every
 /// solution is improved and verified by the manipulator itself.

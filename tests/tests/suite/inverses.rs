@@ -63,7 +63,8 @@ fn check(robot: &dyn Manipulator, kinematics: &InverseKinematics<'_>, q: &[f64],
 
 #[test]
 fn shipped_robots_have_all_their_solutions() {
-    for (name, most, average) in [("puma560", 8, 2.0), ("ur5", 8, 4.0), ("pps", 2, 1.0)] {
+    for (name, most, average) in [("puma560", 8, 2.0), ("ur5", 8, 4.0), ("stanford", 8, 2.0), ("pps", 2, 1.0)]
+    {
         let robot = shipped(name);
         let kinematics = InverseKinematics::new(robot, &nominal_parameters(robot.description())).unwrap();
         assert!(kinematics.is_closed_form(), "{name}");
@@ -79,7 +80,7 @@ fn shipped_robots_have_all_their_solutions() {
 /// Solutions that searches find from many starts are among those of the closed form.
 #[test]
 fn searches_find_no_others() {
-    for name in ["puma560", "ur5"] {
+    for name in ["puma560", "ur5", "stanford"] {
         let robot = shipped(name);
         let description = robot.description();
         let s = nominal_parameters(description);
@@ -135,6 +136,7 @@ fn unreachable_poses_are_refused_with_the_reason_of_the_search() {
 enum Structure {
     Wrist,
     WristAtBase,
+    Slide,
     Parallel,
     ParallelBackwards,
     Gantry,
@@ -157,8 +159,9 @@ fn random_robot(structure: Structure, seed: u64) -> String {
         let tilted = format!("Rx({:?}) Rz({b:?})", 0.5 + a.abs());
         let shifted = format!("Tx({:.3}) Ty({y:.3}) Tz({z:.3})", x + x.signum() * 0.2);
         let behind = match (structure, i) {
-            (Structure::Wrist, 3 | 4) | (Structure::WristAtBase, 0 | 1) => tilted,
-            (Structure::Parallel, 1 | 2) => shifted,
+            (Structure::Wrist | Structure::Slide, 3 | 4) | (Structure::WristAtBase, 0 | 1) => tilted,
+            (Structure::Slide, 0) if seed.is_multiple_of(2) => tilted,
+            (Structure::Parallel, 1 | 2) | (Structure::Slide, 0) => shifted,
             (Structure::Parallel, 0 | 3) => format!("{shifted} {tilted}"),
             (Structure::Parallel, 4) => tilted,
             (Structure::ParallelBackwards, 2 | 3) => shifted,
@@ -167,7 +170,11 @@ fn random_robot(structure: Structure, seed: u64) -> String {
             (Structure::Gantry, _) => format!("{shifted} {tilted}"),
             _ => apart,
         };
-        let is_slide = matches!(structure, Structure::Gantry) && i % 2 == (seed % 2) as usize;
+        let is_slide = match structure {
+            Structure::Gantry => i % 2 == (seed % 2) as usize,
+            Structure::Slide => i == 2,
+            _ => false,
+        };
         let (kind, motion) = if is_slide { ("prismatic", "Tz") } else { ("revolute", "Rz") };
         let _ = write!(
             text,
@@ -183,6 +190,7 @@ fn random_robots_have_all_their_solutions() {
     let structures = [
         Structure::Wrist,
         Structure::WristAtBase,
+        Structure::Slide,
         Structure::Parallel,
         Structure::ParallelBackwards,
         Structure::Gantry,

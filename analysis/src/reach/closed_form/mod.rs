@@ -3,10 +3,11 @@
 //! | structure | file |
 //! |---|---|
 //! | three revolute joints, then three whose axes intersect | `arm`, `wrist` |
+//! | the same with a slide as third joint, behind axes that intersect or are parallel | `polar`, `wrist` |
 //! | three parallel axes between the first joint and the last two, whose axes intersect | `parallel` |
 //! | three slides and three revolute joints, in any order | `gantry` |
 //!
-//! A chain that has one of the first two from the tool to the base is solved backwards. The
+//! A chain that has one of the first three from the tool to the base is solved backwards. The
 //! structure is found in the numbers of the chain, the product of exponentials of its axes at zero.
 //! `angles` has the subproblems, `line` the axes.
 
@@ -15,6 +16,7 @@ mod arm;
 mod gantry;
 mod line;
 mod parallel;
+mod polar;
 mod wrist;
 
 use abbe_core::{Pose, VariableKind};
@@ -24,6 +26,7 @@ use self::arm::Arm;
 use self::gantry::Gantry;
 use self::line::{Line, TOLERANCE, axes, common_point, matrix, vector};
 use self::parallel::Parallel;
+use self::polar::Polar;
 use self::wrist::Wrist;
 use super::joint_chain::JointChain;
 
@@ -39,9 +42,16 @@ pub(super) struct ClosedForm {
 
 #[derive(Clone, Debug)]
 enum Structure {
-    Wrist { arm: Arm, wrist: Wrist, centre: Vector3<f64> },
+    Wrist { arm: Positioner, wrist: Wrist, centre: Vector3<f64> },
     Parallel(Parallel),
     Gantry(Gantry),
+}
+
+/// First three joints, which bring the center of the wrist to its place.
+#[derive(Clone, Debug)]
+enum Positioner {
+    Arm(Arm),
+    Polar(Polar),
 }
 
 impl ClosedForm {
@@ -56,10 +66,15 @@ impl ClosedForm {
     fn forwards(chain: &JointChain) -> Option<Self> {
         let (axes, tool) = axes(chain);
         let axes: &[Line; 6] = axes.as_slice().try_into().ok()?;
-        let is_slide = |joint: &super::joint_chain::Joint| joint.kind == VariableKind::Prismatic;
-        let structure = match chain.joints.iter().filter(|joint| is_slide(joint)).count() {
-            0 => wrist(axes).or_else(|| Some(Structure::Parallel(Parallel::new(axes)?)))?,
-            3 => Structure::Gantry(Gantry::new(chain, axes)?),
+        let slides: Vec<usize> =
+            (0..6).filter(|i| chain.joints[*i].kind == VariableKind::Prismatic).collect();
+        let structure = match slides[..] {
+            [] => {
+                let arm = |axes, centre| Arm::new(axes, centre).map(Positioner::Arm);
+                wrist(axes, arm).or_else(|| Some(Structure::Parallel(Parallel::new(axes)?)))?
+            }
+            [2] => wrist(axes, |axes, centre| Polar::new(axes, centre).map(Positioner::Polar))?,
+            [_, _, _] => Structure::Gantry(Gantry::new(chain, axes)?),
             _ => return None,
         };
         Some(Self { structure, from_tool: tool.inverse(), is_reversed: false })
@@ -82,8 +97,16 @@ impl ClosedForm {
         match &self.structure {
             Structure::Wrist { arm, wrist, centre } => {
                 let moved = vector(motion.apply((*centre).into()));
-                for [q1, q2, q3] in arm.solve(moved) {
-                    let rest = arm.rotation([q1, q2, q3]).transpose() * rotation;
+                let sets = match arm {
+                    Positioner::Arm(arm) => arm.solve(moved),
+                    Positioner::Polar(polar) => polar.solve(moved),
+                };
+                for [q1, q2, q3] in sets {
+                    let turned = match arm {
+                        Positioner::Arm(arm) => arm.rotation([q1, q2, q3]),
+                        Positioner::Polar(polar) => polar.rotation([q1, q2, q3]),
+                    };
+                    let rest = turned.transpose() * rotation;
                     let ends = wrist.solve(&rest).into_iter();
                     found.extend(ends.map(|[q4, q5, q6]| [q1, q2, q3, q4, q5, q6]));
                 }
@@ -101,12 +124,17 @@ impl ClosedForm {
     }
 }
 
-/// Returns the structure of an arm with a wrist whose three axes intersect.
-fn wrist(axes: &[Line; 6]) -> Option<Structure> {
-    let centre = common_point(&axes[3], &axes[4])?;
-    if axes[5].distance(centre) > TOLERANCE {
+/// Returns the structure of an arm with a wrist whose three axes intersect. `arm` makes it from its
+/// axes and the center of the wrist.
+fn wrist(
+    axes: &[Line; 6],
+    arm: impl FnOnce([Line; 3], Vector3<f64>) -> Option<Positioner>,
+) -> Option<Structure> {
+    let [first, second, third, fourth, fifth, sixth] = *axes;
+    let centre = common_point(&fourth, &fifth)?;
+    if sixth.distance(centre) > TOLERANCE {
         return None;
     }
-    let wrist = Wrist::new([axes[3].along, axes[4].along, axes[5].along])?;
-    Some(Structure::Wrist { arm: Arm::new([axes[0], axes[1], axes[2]], centre)?, wrist, centre })
+    let wrist = Wrist::new([fourth.along, fifth.along, sixth.along])?;
+    Some(Structure::Wrist { arm: arm([first, second, third], centre)?, wrist, centre })
 }
