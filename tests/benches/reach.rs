@@ -1,13 +1,17 @@
 //! Inverse kinematics for boxes of tool points: in reach, out of reach, and mixed. Points that are
-//! reached, stopped by limits and out of reach are measured separately.
+//! reached, stopped by limits and out of reach are measured separately. Then all solutions for poses
+//! within the limits.
 //!
 //! `cargo bench -p abbe-tests --bench reach`
 
 use std::time::Duration;
 
 use abbe::Manipulator;
-use abbe::analysis::{BLOCK, BaseBox, ReachError, ToolOrientation, Workspace, base_box, sampling::grid};
-use abbe_manipulators::{general6r::General6r, iiwa::Iiwa, pps::Pps, puma560::Puma560, ur5::Ur5};
+use abbe::analysis::sampling::{arm_length, grid, home, joint_sample, nominal_parameters};
+use abbe::analysis::{BLOCK, BaseBox, InverseKinematics, ReachError, ToolOrientation, Workspace, base_box};
+use abbe_manipulators::{
+    general6r::General6r, iiwa::Iiwa, pps::Pps, puma560::Puma560, stanford::Stanford, ur5::Ur5,
+};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Number of points along each side.
@@ -76,6 +80,25 @@ fn reach(criterion: &mut Criterion) {
     group.finish();
 }
 
+fn solutions(criterion: &mut Criterion) {
+    let robots: [&dyn Manipulator; 4] = [&Puma560, &Ur5, &Stanford, &Pps];
+    let mut group = criterion.benchmark_group("all solutions");
+    for robot in robots {
+        let description = robot.description();
+        let (home, s) = (home(description), nominal_parameters(description));
+        let arm = arm_length(robot, &s).expect("finite");
+        let all: Vec<usize> = (0..home.len()).collect();
+        let pose = |index| robot.pose(&joint_sample(description, arm, &all, index), &s).expect("finite");
+        let poses: Vec<_> = (0..256).map(pose).collect();
+        let kinematics = InverseKinematics::new(robot, &s).expect("its own parameters");
+        group.throughput(Throughput::Elements(poses.len() as u64));
+        let solve =
+            || poses.iter().map(|pose| kinematics.solve(&home, pose).map_or(0, |q| q.len())).sum::<usize>();
+        group.bench_function(&*description.name, |bencher| bencher.iter(solve));
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
@@ -83,6 +106,6 @@ criterion_group! {
         .warm_up_time(Duration::from_millis(100))
         .measurement_time(Duration::from_millis(500))
         .without_plots();
-    targets = reach
+    targets = reach, solutions
 }
 criterion_main!(benches);

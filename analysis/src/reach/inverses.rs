@@ -9,13 +9,15 @@ use super::closed_form::ClosedForm;
 use super::inverse::inverse;
 use super::joint_chain::{JointChain, scaled};
 use super::search::Search;
-use super::target_search::{AT_LIMIT, Problem, REACHED, ROUNDING};
+use super::target_search::{AT_LIMIT, Problem, REACHED};
 use super::{ReachError, Target};
 use crate::sampling;
 use abbe_core::{Manipulator, Pose, VariableKind, deviation};
 
 /// Largest difference of two solutions that count as one, in rad and arm lengths.
 const SAME: f64 = 1e-6;
+/// Residual that needs no improvement, in arm lengths and rad.
+const PRECISE: f64 = 1e-12;
 /// Largest number of Newton's steps that improve a solution.
 const STEPS: usize = 4;
 
@@ -63,15 +65,15 @@ impl<'a> InverseKinematics<'a> {
         if start.len() != free.len() || free.len() > 6 || !Target::Pose(*target).is_finite() {
             return one().map(|q| vec![q]);
         }
-        let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
+        let mut found: Vec<(f64, Vec<f64>)> = Vec::with_capacity(8);
+        let mut columns = vec![[0.0; 6]; free.len()];
         let candidates = match &self.form {
             Some(form) => self.closed(form, target),
             None => self.searched(start, target)?,
         };
         for candidate in candidates {
-            let Some(q) = self.polished(candidate, target).and_then(|q| self.within_limits(q, start)) else {
-                continue;
-            };
+            let polished = self.polished(candidate, target, &mut columns);
+            let Some(q) = polished.and_then(|q| self.within_limits(q, start)) else { continue };
             let size = |a: &[f64]| {
                 (0..a.len()).map(|i| ((a[i] - q[i]) / self.problem.unit(i)).powi(2)).sum::<f64>().sqrt()
             };
@@ -100,23 +102,27 @@ impl<'a> InverseKinematics<'a> {
     }
 
     /// Improves a solution by Newton's steps. Returns `None` if it does not reach the target.
-    fn polished(&self, mut q: Vec<f64>, target: &Pose) -> Option<Vec<f64>> {
+    /// `columns` is a buffer for the joint Jacobian.
+    fn polished(&self, mut q: Vec<f64>, target: &Pose, columns: &mut [[f64; 6]]) -> Option<Vec<f64>> {
         let Problem { manipulator, ref s, arm, .. } = self.problem;
         let orientation = manipulator.description().orientation;
-        let mut columns = vec![[0.0; 6]; q.len()];
-        let mut best: Option<(f64, Vec<f64>)> = None;
+        let scale = |i: usize| if i < 3 { 1.0 / arm } else { 1.0 };
+        let (mut best, mut least) = (Vec::new(), f64::INFINITY);
         for _ in 0..=STEPS {
-            let Ok(pose) = manipulator.joint_jacobian(&q, s, &mut columns) else { break };
-            let scale = |i: usize| if i < 3 { 1.0 / arm } else { 1.0 };
+            let Ok(pose) = manipulator.joint_jacobian(&q, s, columns) else { break };
             let difference = deviation(orientation, &pose, target);
             let residual = Vector6::from_fn(|i, _| difference[i] * scale(i));
             let norm = residual.norm();
-            let is_nearer = best.as_ref().is_none_or(|(least, _)| norm < *least);
-            if !is_nearer {
+            if norm <= PRECISE {
+                return Some(q);
+            }
+            if norm.is_nan() || norm >= least {
                 break;
             }
-            best = Some((norm, q.clone()));
-            if norm <= ROUNDING || q.len() != 6 {
+            best.clone_from(&q);
+            least = norm;
+            // Searches of fewer joints have ended where they could.
+            if q.len() != 6 {
                 break;
             }
             let jacobian = Matrix6::from_fn(|i, j| columns[j][i] * scale(i) * self.problem.unit(j));
@@ -126,7 +132,7 @@ impl<'a> InverseKinematics<'a> {
             let step = jacobian.transpose() * part;
             q.iter_mut().enumerate().for_each(|(i, q)| *q += step[i] * self.problem.unit(i));
         }
-        best.filter(|(norm, _)| *norm <= REACHED).map(|(_, q)| q)
+        (least <= REACHED).then_some(best)
     }
 
     /// Brings revolute joints near to `start` by full turns. Returns `None` if a joint is outside

@@ -99,6 +99,18 @@ fn searches_find_no_others() {
     }
 }
 
+/// Without a closed form, the solutions are those of searches.
+#[test]
+fn other_arms_are_searched() {
+    for (name, least) in [("general6r", 2), ("scara", 1), ("iiwa", 1)] {
+        let robot = shipped(name);
+        let kinematics = InverseKinematics::new(robot, &nominal_parameters(robot.description())).unwrap();
+        assert!(!kinematics.is_closed_form(), "{name}");
+        let found = (0..5).map(|index| check(robot, &kinematics, &sample(robot, index), 1e-5)).max();
+        assert!(found.unwrap() >= least, "{name}: {found:?}");
+    }
+}
+
 /// At singular poses the solutions reach the pose.
 #[test]
 fn singular_poses_are_reached() {
