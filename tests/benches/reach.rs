@@ -1,6 +1,6 @@
 //! Inverse kinematics for boxes of tool points: in reach, out of reach, and mixed. Points that are
-//! reached, stopped by limits and out of reach are measured separately. Then all solutions for poses
-//! within the limits.
+//! reached, stopped by limits and out of reach are measured separately. Then all solutions for
+//! poses within the limits.
 //!
 //! `cargo bench -p abbe-tests --bench reach`
 
