@@ -12,12 +12,14 @@ use super::search::Search;
 use super::target_search::{AT_LIMIT, Problem, REACHED};
 use super::{ReachError, Target};
 use crate::sampling;
-use abbe_core::{Manipulator, Pose, VariableKind, deviation};
+use abbe_core::{Error, Manipulator, Pose, Quantity, Variable, VariableKind, deviation};
 
 /// Largest difference of two solutions that count as one, in rad and arm lengths.
 const SAME: f64 = 1e-6;
 /// Residual that needs no improvement, in arm lengths and rad.
 const PRECISE: f64 = 1e-12;
+/// Largest value of a start, in rad or in the length unit: its sine has ten digits.
+const FARTHEST: f64 = 1e6;
 /// Largest number of Newton's steps that improve a solution.
 const STEPS: usize = 4;
 
@@ -28,7 +30,11 @@ const STEPS: usize = 4;
 /// parallel and a slide; of three parallel axes between the first joint and the
 /// last two, whose axes intersect; of one of these from the tool to the base; or of three slides
 /// and three revolute joints. The structure is found in the numbers of the chain, and every
-/// solution is improved and verified by the manipulator itself.
+/// solution is verified, and where needed improved, by the manipulator itself. Errors of a
+/// calibration, which tilt and shift axes, leave no such structure.
+///
+/// Lengths are in the manipulator's unit, angles in rad; poses are those of the tool point in
+/// `F_0`.
 pub struct InverseKinematics<'a> {
     problem: Problem<'a>,
     form: Option<ClosedForm>,
@@ -44,31 +50,44 @@ impl<'a> InverseKinematics<'a> {
         Ok(Self { problem, form })
     }
 
-    /// Returns `true` if the solutions are found in closed form: then none is missing.
+    /// Returns `true` if the solutions are found in closed form. Then none is missing, except where
+    /// a joint is free to move: see [`solve`](Self::solve).
     pub fn is_closed_form(&self) -> bool {
         self.form.is_some()
     }
 
     /// Returns all solutions within the limits that bring the tool point to a pose, the one nearest
-    /// to `start` first; revolute joints have the full turn nearest to `start`.
+    /// to `start` first; revolute joints have the full turn nearest to `start` of those within the
+    /// limits.
     ///
-    /// Where a joint is free to move, as the first and the last one of a straight wrist, there is
-    /// one solution for it. Without a closed form the solutions are those of searches from 33
-    /// starts, and some may be missing; of an arm with more than six joints, it is one.
+    /// Where a joint is free to move, as the first and the last one of a straight wrist, it stays
+    /// as in `start`: one of infinitely many solutions. Without a closed form the solutions are
+    /// those of searches from 33 starts, and some may be missing; of an arm with more than six
+    /// joints, it is one.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`inverse()`] if there is no solution.
+    /// Returns the errors of [`inverse()`] if there is no solution, and [`Error::NotFinite`] if
+    /// `start` is not finite.
     pub fn solve(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
         let Problem { manipulator, ref s, ref free, .. } = self.problem;
         let one = || inverse(manipulator, s, start, free, &Target::Pose(*target));
+        if let Some(index) = start.iter().position(|value| !value.is_finite()) {
+            return Err(Error::NotFinite { quantity: Quantity::Variables, index }.into());
+        }
         if start.len() != free.len() || free.len() > 6 || !Target::Pose(*target).is_finite() {
             return one().map(|q| vec![q]);
         }
+        // Joints that are free to move stay there.
+        let variables = self.problem.description().variables.iter();
+        let nearest = |(value, variable): (&f64, &Variable)| {
+            value.clamp(-FARTHEST, FARTHEST).clamp(variable.limits[0], variable.limits[1])
+        };
+        let start: &[f64] = &start.iter().zip(variables).map(nearest).collect::<Vec<_>>();
         let mut found: Vec<(f64, Vec<f64>)> = Vec::with_capacity(8);
         let mut columns = vec![[0.0; 6]; free.len()];
         let candidates = match &self.form {
-            Some(form) => self.closed(form, target),
+            Some(form) => self.closed(form, start, target),
             None => self.searched(start, target)?,
         };
         for candidate in candidates {
@@ -88,9 +107,10 @@ impl<'a> InverseKinematics<'a> {
         Ok(found.into_iter().map(|(_, q)| q).collect())
     }
 
-    fn closed(&self, form: &ClosedForm, target: &Pose) -> Vec<Vec<f64>> {
+    fn closed(&self, form: &ClosedForm, start: &[f64], target: &Pose) -> Vec<Vec<f64>> {
+        let start = core::array::from_fn(|i| start[i] / self.problem.unit(i));
         let in_units = |q: [f64; 6]| (0..6).map(|i| q[i] * self.problem.unit(i)).collect();
-        form.solve(&scaled(target, self.problem.arm)).into_iter().map(in_units).collect()
+        form.solve(&scaled(target, self.problem.arm), start).into_iter().map(in_units).collect()
     }
 
     fn searched(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
@@ -143,13 +163,9 @@ impl<'a> InverseKinematics<'a> {
             let [lower, upper] = variable.limits;
             let slack = if (upper - lower).is_finite() { AT_LIMIT * (upper - lower) } else { 0.0 };
             if variable.kind == VariableKind::Revolute {
-                *q -= TAU * ((*q - start) / TAU).round();
-                while *q < lower - slack && *q + TAU <= upper + slack {
-                    *q += TAU;
-                }
-                while *q > upper + slack && *q - TAU >= lower - slack {
-                    *q -= TAU;
-                }
+                let fewest = ((lower - slack - *q) / TAU).ceil();
+                let most = ((upper + slack - *q) / TAU).floor();
+                *q += TAU * ((start - *q) / TAU).round().max(fewest).min(most);
             }
             if *q < lower - slack || *q > upper + slack {
                 return None;

@@ -74,13 +74,13 @@ fn halves(question: &AnalysisRequest) -> [Part; 2] {
 fn content(part: &Part) -> Value {
     let text = String::from_utf8(part.to_bytes()).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!((lines.len(), lines[0]), (3, "abbe part 3"));
+    assert_eq!((lines.len(), lines[0]), (3, "abbe part 4"));
     serde_json::from_str(lines[1]).unwrap()
 }
 
 /// Reads a file with this content and a correct checksum.
 fn read(content: &Value) -> Result<Part, Diagnostics> {
-    let text = format!("abbe part 3\n{content}\n");
+    let text = format!("abbe part 4\n{content}\n");
     let file = format!("{text}{}\n", hash::text(&text));
     Part::from_bytes("a.part", file.as_bytes())
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use abbe::analysis::sampling::{halton, nominal_parameters};
 use abbe::analysis::{InverseKinematics, Target, inverse};
-use abbe::{Manipulator, Orientation, Pose, VariableKind, deviation};
+use abbe::{Error, Manipulator, Orientation, Pose, Quantity, VariableKind, deviation};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
@@ -128,6 +128,54 @@ fn singular_poses_are_reached() {
         let s = nominal_parameters(robot.description());
         let kinematics = InverseKinematics::new(robot, &s).unwrap();
         check(robot, &kinematics, &q, f64::INFINITY);
+    }
+}
+
+/// A joint that is free to move stays where it is.
+#[test]
+fn free_joints_stay() {
+    for (name, q, free) in [
+        ("puma560", [0.3, 0.9, -0.4, 0.7, 0.0, 0.1], 3),
+        ("stanford", [0.3, 0.9, 0.6, 0.7, 0.0, 0.1], 3),
+        ("ur5", [0.3, -0.9, 0.8, 0.2, 0.0, 0.1], 5),
+    ] {
+        let robot = shipped(name);
+        let s = nominal_parameters(robot.description());
+        let kinematics = InverseKinematics::new(robot, &s).unwrap();
+        let found = kinematics.solve(&q, &robot.pose(&q, &s).unwrap()).unwrap();
+        assert!(distance(robot, &found[0], &q) < 1e-6, "{name}: {:?} for {q:?}", found[0]);
+        assert!((found[0][free] - q[free]).abs() < 1e-6);
+    }
+}
+
+/// Numbers beyond all sizes end in an error or a pose that is reached.
+#[test]
+fn huge_numbers_end() {
+    let skew = Interpreter::new(Spec::parse("robot.toml", &random_robot(Structure::Wrist, 1)).unwrap());
+    for robot in [shipped("puma560"), shipped("ur5"), shipped("stanford"), shipped("pps"), &skew] {
+        let s = nominal_parameters(robot.description());
+        let kinematics = InverseKinematics::new(robot, &s).unwrap();
+        let home = abbe::analysis::sampling::home(robot.description());
+        let pose = robot.pose(&home, &s).unwrap();
+        for size in [1e9, 1e80, 1e160, 1e300] {
+            let mut target = pose;
+            target.0[3] = [size, -size, size];
+            assert!(kinematics.solve(&home, &target).is_err(), "{size}");
+            let start = vec![size; 6];
+            for q in kinematics.solve(&start, &pose).unwrap() {
+                let difference = deviation(Orientation::RotationVector, &robot.pose(&q, &s).unwrap(), &pose);
+                assert!(difference.iter().all(|x| x.abs() < 1e-6), "{q:?}: {difference:?}");
+            }
+        }
+        for wrong in [f64::NAN, f64::INFINITY] {
+            let mut start = home.clone();
+            start[2] = wrong;
+            let expected = Error::NotFinite { quantity: Quantity::Variables, index: 2 };
+            assert_eq!(kinematics.solve(&start, &pose), Err(expected.into()));
+            let mut target = pose;
+            target.0[3][1] = wrong;
+            assert!(kinematics.solve(&home, &target).is_err());
+        }
     }
 }
 

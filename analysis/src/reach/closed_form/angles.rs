@@ -17,24 +17,26 @@ pub(super) fn angle(along: Vector3<f64>, from: Vector3<f64>, to: Vector3<f64>) -
 }
 
 /// Returns the angles about `along` for which `normal · turned = height`, at most two. If any angle
-/// does, returns zero.
+/// does, returns `free`.
 pub(super) fn angles_to_plane(
     along: Vector3<f64>,
     from: Vector3<f64>,
     normal: Vector3<f64>,
     height: f64,
+    free: f64,
 ) -> impl Iterator<Item = f64> {
     let fixed = normal.dot(&along) * along.dot(&from);
     let cosine = normal.dot(&from) - fixed;
     let sine = normal.dot(&along.cross(&from));
-    linear([fixed - height, cosine, sine])
+    linear([fixed - height, cosine, sine], free)
 }
 
-/// Returns the solutions of `k + c cos θ + s sin θ = 0`, at most two. If every θ is one, returns 0.
-pub(super) fn linear([k, c, s]: [f64; 3]) -> impl Iterator<Item = f64> {
+/// Returns the solutions of `k + c cos θ + s sin θ = 0`, at most two. If every θ is one, returns
+/// `free`.
+pub(super) fn linear([k, c, s]: [f64; 3], free: f64) -> impl Iterator<Item = f64> {
     let amplitude = c.hypot(s);
     let pair = if amplitude < NOTHING {
-        [(k.abs() < NOTHING).then_some(0.0), None]
+        [(k.abs() < NOTHING).then_some(free), None]
     } else {
         let cosine = -k / amplitude;
         let (middle, half) = (s.atan2(c), cosine.clamp(-1.0, 1.0).acos());
@@ -94,13 +96,14 @@ impl Quadratic {
     }
 
     /// Returns the zeros, at most four: those of a quartic polynomial in tan(θ/2), which are
-    /// eigenvalues of its companion matrix.
-    pub(super) fn zeros(&self) -> Vec<f64> {
+    /// eigenvalues of its companion matrix. If every angle is one, returns `free`; if a coefficient
+    /// is not finite, none.
+    pub(super) fn zeros(&self, free: f64) -> Vec<f64> {
         let [cc, cs, ss] = self.squares;
         let size =
             [self.constant, self.cosine, self.sine, cc, cs, ss].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        if cs.abs().max((cc - ss).abs()) < NOTHING * size {
-            return linear([self.constant + ss, self.cosine, self.sine]).collect();
+        if cs.abs().max((cc - ss).abs()) <= NOTHING * size {
+            return linear([self.constant + ss, self.cosine, self.sine], free).collect();
         }
         // The leading coefficient is the value at π: not zero everywhere.
         let largest = |a: &f64, b: &f64| {
@@ -118,6 +121,10 @@ impl Quadratic {
             0.0, 1.0, 0.0, 0.0,
             0.0, 0.0, 1.0, 0.0,
         );
+        // Without this, the iteration would not end.
+        if !companion.iter().all(|entry| entry.is_finite()) {
+            return Vec::new();
+        }
         let roots = companion.complex_eigenvalues();
         // Double roots are accurate to half of the digits.
         let real = roots.iter().filter(|root| root.im.abs() <= 1e-6 * (1.0 + root.re.abs()));
@@ -156,7 +163,7 @@ mod tests {
             };
             let mut quadratic = Quadratic::default();
             quadratic.add(1.0 + number(4), factor(a, b), factor(c, d));
-            let zeros = quadratic.zeros();
+            let zeros = quadratic.zeros(0.0);
             for expected in [a, b, c, d] {
                 let near = zeros.iter().map(|zero| ((zero - expected) / 2.0).sin().abs()).fold(1.0, f64::min);
                 assert!(near < 1e-6, "{index}: {expected} of {zeros:?}");
@@ -173,7 +180,7 @@ mod tests {
             let to = turned(along, expected, from);
             let found = angle(along, from, to).unwrap();
             assert!(((found - expected) / 2.0).sin().abs() < 1e-12);
-            let found = angles_to_plane(along, from, normal, normal.dot(&to));
+            let found = angles_to_plane(along, from, normal, normal.dot(&to), 0.0);
             assert!(found.into_iter().any(|found| ((found - expected) / 2.0).sin().abs() < 1e-6));
         }
     }

@@ -67,13 +67,14 @@ impl Arm {
         turn(first, q1) * turn(second, q2) * turn(third, q3)
     }
 
-    /// Returns the angles, at most four sets, that bring the point to `to`.
+    /// Returns the angles, at most four sets, that bring the point to `to`. Joints that are
+    /// free to move stay at `free`.
     ///
     /// With u = R_3 u_0 from the second axis to the point and c from the first axis to the second, the
     /// first joint keeps `|c + R_2 u|²` and `h_1 · R_2 u`; the second keeps `|u|²` and `h_2 · u`.
     /// Both products of R_2 u are linear in the cosine and sine of q_3, and so are its coordinates
     /// across the second axis, whose squares must add up (Pieper's equation).
-    pub(super) fn solve(&self, to: Vector3<f64>) -> Vec<[f64; 3]> {
+    pub(super) fn solve(&self, to: Vector3<f64>, free: [f64; 3]) -> Vec<[f64; 3]> {
         let Self { axes: [first, second, _], between: c, fixed, across, beyond, square, along, .. } = *self;
         let (h1, h2) = (first.along, second.along);
         let height = h1.dot(&(to - second.at));
@@ -83,15 +84,15 @@ impl Arm {
         let thirds: Vec<f64> = match self.pair {
             Pair::Parallel => {
                 let cosine = h1.dot(&h2);
-                linear([along[0] * cosine - height, along[1] * cosine, along[2] * cosine]).collect()
+                linear([along[0] * cosine - height, along[1] * cosine, along[2] * cosine], free[2]).collect()
             }
-            Pair::Intersecting => linear(radial).collect(),
+            Pair::Intersecting => linear(radial, free[2]).collect(),
             Pair::Skew => {
                 let (x, y) = self.coordinates(radial, along, height);
                 let mut quadratic = Quadratic::default();
                 [x, y, along].into_iter().for_each(|form| quadratic.add(1.0, form, form));
                 quadratic.add(-1.0, square, [1.0, 0.0, 0.0]);
-                quadratic.zeros()
+                quadratic.zeros(free[2])
             }
         };
         let mut found = Vec::with_capacity(4);
@@ -101,17 +102,17 @@ impl Arm {
             let u = fixed + across * cosine + beyond * s;
             let mut finish = |q2: f64| {
                 let reached = c + turned(h2, q2, u);
-                let q1 = angle(h1, reached, to - first.at).unwrap_or(0.0);
+                let q1 = angle(h1, reached, to - first.at).unwrap_or(free[0]);
                 found.push([q1, q2, q3]);
             };
             match self.pair {
-                Pair::Parallel => angles_to_plane(h2, u, c, value(radial)).for_each(&mut finish),
-                Pair::Intersecting => angles_to_plane(h2, u, h1, height).for_each(&mut finish),
+                Pair::Parallel => angles_to_plane(h2, u, c, value(radial), free[1]).for_each(&mut finish),
+                Pair::Intersecting => angles_to_plane(h2, u, h1, height, free[1]).for_each(&mut finish),
                 Pair::Skew => {
                     let (x, y) = self.coordinates(radial, along, height);
                     let x_axis = c.normalize();
                     let image = x_axis * value(x) + h2.cross(&x_axis) * value(y);
-                    finish(angle(h2, u, image).unwrap_or(0.0));
+                    finish(angle(h2, u, image).unwrap_or(free[1]));
                 }
             }
         }

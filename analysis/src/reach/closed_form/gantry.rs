@@ -24,9 +24,18 @@ impl Gantry {
         Some(Self { chain: chain.clone(), axes: *axes, wrist })
     }
 
-    /// Adds the solutions for a pose of the tool point, at most two.
-    pub(super) fn solve(&self, target: &Pose, rotation: &Matrix3<f64>, found: &mut Vec<[f64; 6]>) {
-        for angles in self.wrist.solve(rotation) {
+    /// Adds the solutions for a pose of the tool point, at most two. A revolute joint that is
+    /// free to move stays at `free`.
+    pub(super) fn solve(
+        &self,
+        target: &Pose,
+        rotation: &Matrix3<f64>,
+        free: [f64; 6],
+        found: &mut Vec<[f64; 6]>,
+    ) {
+        let is_turning = |i: &usize| self.chain.joints[*i].kind == VariableKind::Revolute;
+        let first = (0..6).find(is_turning).map_or(0.0, |i| free[i]);
+        for angles in self.wrist.solve(rotation, first) {
             let mut angles = angles.into_iter();
             let mut q = [0.0; 6];
             let mut slides = Vec::with_capacity(3);

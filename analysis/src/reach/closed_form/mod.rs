@@ -80,15 +80,12 @@ impl ClosedForm {
         Some(Self { structure, from_tool: tool.inverse(), is_reversed: false })
     }
 
-    /// Returns all solutions for a pose of the tool point, without limits. Where a joint is free to
-    /// move, it stays at zero.
-    pub(super) fn solve(&self, target: &Pose) -> Vec<[f64; 6]> {
-        let inverse;
-        let target = if self.is_reversed {
-            inverse = target.inverse();
-            &inverse
-        } else {
-            target
+    /// Returns all solutions for a pose of the tool point, without limits. Joints that are free to
+    /// move there stay as in `start`.
+    pub(super) fn solve(&self, target: &Pose, start: [f64; 6]) -> Vec<[f64; 6]> {
+        let (target, start) = match self.is_reversed {
+            true => (&target.inverse(), backwards(start)),
+            false => (target, start),
         };
         // exp(S_1 q_1) … exp(S_6 q_6)
         let motion = target.then(&self.from_tool);
@@ -97,9 +94,10 @@ impl ClosedForm {
         match &self.structure {
             Structure::Wrist { arm, wrist, centre } => {
                 let moved = vector(motion.apply((*centre).into()));
+                let first = [start[0], start[1], start[2]];
                 let sets = match arm {
-                    Positioner::Arm(arm) => arm.solve(moved),
-                    Positioner::Polar(polar) => polar.solve(moved),
+                    Positioner::Arm(arm) => arm.solve(moved, first),
+                    Positioner::Polar(polar) => polar.solve(moved, first),
                 };
                 for [q1, q2, q3] in sets {
                     let turned = match arm {
@@ -107,21 +105,23 @@ impl ClosedForm {
                         Positioner::Polar(polar) => polar.rotation([q1, q2, q3]),
                     };
                     let rest = turned.transpose() * rotation;
-                    let ends = wrist.solve(&rest).into_iter();
+                    let ends = wrist.solve(&rest, start[3]).into_iter();
                     found.extend(ends.map(|[q4, q5, q6]| [q1, q2, q3, q4, q5, q6]));
                 }
             }
-            Structure::Parallel(parallel) => parallel.solve(&motion, &rotation, &mut found),
-            Structure::Gantry(gantry) => gantry.solve(target, &rotation, &mut found),
+            Structure::Parallel(parallel) => parallel.solve(&motion, &rotation, start, &mut found),
+            Structure::Gantry(gantry) => gantry.solve(target, &rotation, start, &mut found),
         }
         if self.is_reversed {
-            for q in &mut found {
-                q.reverse();
-                *q = q.map(|value| -value);
-            }
+            found.iter_mut().for_each(|q| *q = backwards(*q));
         }
         found
     }
+}
+
+/// Returns the joints of the chain from the tool to the base.
+fn backwards([a, b, c, d, e, f]: [f64; 6]) -> [f64; 6] {
+    [-f, -e, -d, -c, -b, -a]
 }
 
 /// Returns the structure of an arm with a wrist whose three axes intersect. `arm` makes it from its

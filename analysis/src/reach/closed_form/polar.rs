@@ -39,8 +39,9 @@ impl Polar {
     }
 
     /// Returns the joints, at most four sets, that bring the point to `to`. The slide gives the
-    /// height along parallel axes, or the distance from the point where they intersect.
-    pub(super) fn solve(&self, to: Vector3<f64>) -> Vec<[f64; 3]> {
+    /// height along parallel axes, or the distance from the point where they intersect. Revolute
+    /// joints that are free to move stay at `free`.
+    pub(super) fn solve(&self, to: Vector3<f64>, free: [f64; 3]) -> Vec<[f64; 3]> {
         let Self { axes: [first, second], slide, between: c, is_parallel, start } = *self;
         let (h1, h2) = (first.along, second.along);
         let height = h1.dot(&(to - second.at));
@@ -59,13 +60,13 @@ impl Polar {
         for d in travels.into_iter().flatten() {
             let u = start + slide * d;
             let mut finish = |q2: f64| {
-                let q1 = angle(h1, c + turned(h2, q2, u), to - first.at).unwrap_or(0.0);
+                let q1 = angle(h1, c + turned(h2, q2, u), to - first.at).unwrap_or(free[0]);
                 found.push([q1, q2, d]);
             };
             if is_parallel {
-                angles_to_plane(h2, u, c, (reach - u.norm_squared()) / 2.0).for_each(&mut finish);
+                angles_to_plane(h2, u, c, (reach - u.norm_squared()) / 2.0, free[1]).for_each(&mut finish);
             } else {
-                angles_to_plane(h2, u, h1, height).for_each(&mut finish);
+                angles_to_plane(h2, u, h1, height, free[1]).for_each(&mut finish);
             }
         }
         found

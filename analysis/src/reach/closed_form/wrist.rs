@@ -17,13 +17,13 @@ impl Wrist {
     }
 
     /// Returns the angles, at most two sets, whose rotations give `rotation`. Where the first and
-    /// the last axis are parallel, the first angle is zero.
-    pub(super) fn solve(&self, rotation: &Matrix3<f64>) -> Vec<[f64; 3]> {
+    /// the last axis are parallel, the first angle is `free`.
+    pub(super) fn solve(&self, rotation: &Matrix3<f64>, free: f64) -> Vec<[f64; 3]> {
         let Self([first, second, third]) = *self;
         let image = rotation * third;
-        let middle = angles_to_plane(second, third, first, first.dot(&image));
+        let middle = angles_to_plane(second, third, first, first.dot(&image), 0.0);
         let both = middle.map(|q2| {
-            let q1 = angle(first, turned(second, q2, third), image).unwrap_or(0.0);
+            let q1 = angle(first, turned(second, q2, third), image).unwrap_or(free);
             let rest = (turn(first, q1) * turn(second, q2)).transpose() * rotation;
             let unit = across(third);
             [q1, q2, angle(third, unit, rest * unit).unwrap_or(0.0)]

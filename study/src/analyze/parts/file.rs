@@ -10,7 +10,7 @@ use crate::{hash, mistake};
 
 /// Prefix of each part file, followed by the format version.
 const BEGINNING: &str = "abbe part ";
-const VERSION: &str = "3";
+const VERSION: &str = "4";
 /// Length of the checksum line at the end, newline included.
 const CHECKSUM: usize = 65;
 /// Largest file that is read, in bytes.
