@@ -173,7 +173,7 @@ fn what_does_not_belong_together_is_refused() {
         damaged(&changed, &["damaged"]);
     }
     // CBOR, the format of version 0.1.
-    damaged(b"abbe part 1\n\xa1\x61a\x01\xff\xfe", &["the format 1", "reads 3", "one version of abbe"]);
+    damaged(b"abbe part 1\n\xa1\x61a\x01\xff\xfe", &["the format 1", "reads 4", "one version of abbe"]);
     damaged(&[&bytes[..12], b"\xff\xfe", &bytes[14..]].concat(), &["damaged"]);
     damaged(b"q1,q2\n0,0\n", &["not a part of an analysis", "--shard I/N"]);
     damaged(b"", &["not a part of an analysis"]);
