@@ -221,6 +221,26 @@ impl Manipulator for Interpreter {
         }
         Ok(())
     }
+
+    fn inverse(
+        &self,
+        q: &[f64],
+        s: &[f64],
+        target: &Pose,
+        solutions: &mut [f64],
+        found: &mut [f64],
+    ) -> Result<(), Error> {
+        let (rows, joints) = (self.description.solutions, self.description.variables.len());
+        count(Quantity::Solutions, rows * joints, solutions.len())?;
+        count(Quantity::Solutions, rows, found.len())?;
+        if rows > 0 {
+            let values = self.run(Function::Inverse, &[q, s, target.0.as_flattened()])?;
+            let (first, last) = values.split_at(rows * joints);
+            solutions.copy_from_slice(first);
+            found.copy_from_slice(last);
+        }
+        Ok(())
+    }
 }
 
 impl Batches for Interpreter {

@@ -296,6 +296,7 @@ impl<'r> Packer<'r> {
             Operand::Symbol(Symbol::Input(i)) => argument(&["u"], i),
             Operand::Symbol(Symbol::Error(i)) => argument(&["errors", "variances"], i),
             Operand::Symbol(Symbol::Magnitude(i)) => argument(&["magnitudes"], i),
+            Operand::Symbol(Symbol::Target(i)) => argument(&["target"], i),
             Operand::Symbol(Symbol::Passive(i) | Symbol::Local(i)) => locals[i],
             Operand::Constant(value) => {
                 let place = self.constants.places.get(&value.to_bits());

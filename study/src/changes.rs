@@ -176,6 +176,7 @@ impl Changes {
                 | Symbol::Passive(_)
                 | Symbol::Error(_)
                 | Symbol::Magnitude(_)
+                | Symbol::Target(_)
                 | Symbol::Local(_) => {}
             }
         }

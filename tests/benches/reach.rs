@@ -4,11 +4,13 @@
 //!
 //! `cargo bench -p abbe-tests --bench reach`
 
+use std::hint::black_box;
 use std::time::Duration;
 
-use abbe::Manipulator;
 use abbe::analysis::sampling::{arm_length, grid, home, joint_sample, nominal_parameters};
 use abbe::analysis::{BLOCK, BaseBox, InverseKinematics, ReachError, ToolOrientation, Workspace, base_box};
+use abbe::lanes::{Evaluate, InstructionSet, Inverse, Tiles};
+use abbe::{Function, Manipulator};
 use abbe_manipulators::{
     general6r::General6r, iiwa::Iiwa, pps::Pps, puma560::Puma560, stanford::Stanford, ur5::Ur5,
 };
@@ -80,22 +82,50 @@ fn reach(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Measures all solutions for poses within the limits: by `InverseKinematics`, by the generated
+/// function, and by the same in lanes.
 fn solutions(criterion: &mut Criterion) {
-    let robots: [&dyn Manipulator; 4] = [&Puma560, &Ur5, &Stanford, &Pps];
+    solutions_of(criterion, &Puma560);
+    solutions_of(criterion, &Ur5);
+    solutions_of(criterion, &Stanford);
+    solutions_of(criterion, &Pps);
+}
+
+fn solutions_of(criterion: &mut Criterion, robot: &impl Evaluate<Inverse>) {
     let mut group = criterion.benchmark_group("all solutions");
-    for robot in robots {
-        let description = robot.description();
-        let (home, s) = (home(description), nominal_parameters(description));
-        let arm = arm_length(robot, &s).expect("finite");
-        let all: Vec<usize> = (0..home.len()).collect();
-        let pose = |index| robot.pose(&joint_sample(description, arm, &all, index), &s).expect("finite");
-        let poses: Vec<_> = (0..256).map(pose).collect();
-        let kinematics = InverseKinematics::new(robot, &s).expect("its own parameters");
-        group.throughput(Throughput::Elements(poses.len() as u64));
-        let solve =
-            || poses.iter().map(|pose| kinematics.solve(&home, pose).map_or(0, |q| q.len())).sum::<usize>();
-        group.bench_function(&*description.name, |bencher| bencher.iter(solve));
+    let description = robot.description();
+    let (home, s) = (home(description), nominal_parameters(description));
+    let arm = arm_length(robot, &s).expect("finite");
+    let all: Vec<usize> = (0..home.len()).collect();
+    let pose = |index| robot.pose(&joint_sample(description, arm, &all, index), &s).expect("finite");
+    let poses: Vec<_> = (0..256).map(pose).collect();
+    let kinematics = InverseKinematics::new(robot, &s).expect("its own parameters");
+    group.throughput(Throughput::Elements(poses.len() as u64));
+    let solve =
+        || poses.iter().map(|pose| kinematics.solve(&home, pose).map_or(0, |q| q.len())).sum::<usize>();
+    group.bench_function(&*description.name, |bencher| bencher.iter(solve));
+    let mut solutions = vec![0.0; description.solutions * home.len()];
+    let mut found = vec![0.0; description.solutions];
+    group.bench_function(format!("{}, generated", description.name), |bencher| {
+        bencher.iter(|| {
+            poses.iter().for_each(|pose| {
+                robot.inverse(&home, &s, pose, &mut solutions, &mut found).expect("finite");
+                black_box((&mut solutions, &mut found));
+            });
+        });
+    });
+    let set = InstructionSet::best();
+    let signature = Function::Inverse.signature();
+    let mut arguments = Tiles::new(set, signature.arguments_len(description), poses.len());
+    for (i, pose) in poses.iter().enumerate() {
+        let given = home.iter().chain(&s).chain(pose.0.as_flattened());
+        given.enumerate().for_each(|(row, value)| arguments.set_value(row, i, *value));
     }
+    arguments.pad();
+    let mut results = Tiles::new(set, signature.results_len(description), poses.len());
+    group.bench_function(format!("{}, in lanes", description.name), |bencher| {
+        bencher.iter(|| abbe::lanes::run(robot, Inverse, &arguments, &mut results).expect("its rows"));
+    });
     group.finish();
 }
 

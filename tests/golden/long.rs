@@ -409,6 +409,7 @@ pub mod long {
             Effect::new(1, 30, Component::Roll),
             Effect::new(2, 20, Component::Roll),
         ]),
+        solutions: 0,
     };
 
     /// Structural parameters `s`, which can be set at run time.

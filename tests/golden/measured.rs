@@ -122,6 +122,7 @@ pub mod measured {
             Effect::new(2, 1, Component::Z),
             Effect::new(2, 1, Component::Pitch),
         ]),
+        solutions: 0,
     };
 
     /// Structural parameters `s`, which can be set at run time.

@@ -55,8 +55,10 @@
 /// | `real_pose` | 306 mul, 192 add, 7 div, 8 sincos |
 /// | `drawn_pose` | 317 mul, 197 add, 7 div, 9 sincos |
 /// | `compensator_step` | 327 mul, 201 add, 7 div, 11 sincos, 4 neg |
+/// | `inverse` | 62 mul, 119 add, 2 div, 3 sincos, 3 sqrt, 69 other, 6 neg |
 #[allow(dead_code)]
 #[allow(non_snake_case)]
+#[allow(clippy::approx_constant)]
 pub mod pps {
     use ::abbe::{
         Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit, List,
@@ -79,6 +81,8 @@ pub mod pps {
     pub const SOURCES: usize = 7;
     /// Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.
     pub const DISTINCT: usize = 9;
+    /// Largest number of solutions of inverse kinematics.
+    pub const SOLUTIONS: usize = 2;
 
     /// Description of the manipulator: names, units, limits, sources.
     pub static DESCRIPTION: Description = Description {
@@ -231,6 +235,7 @@ pub mod pps {
             Effect::new(6, 5, Component::Roll),
             Effect::new(6, 5, Component::Pitch),
         ]),
+        solutions: SOLUTIONS,
     };
 
     /// Structural parameters `s`, which can be set at run time.
@@ -342,7 +347,7 @@ pub mod pps {
 
     ::abbe::checked_functions! {
         /// NPTC patient positioning system, as a [`Manipulator`](::abbe::Manipulator).
-        Pps
+        Pps inverse
     }
 
     /// Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values
@@ -350,7 +355,9 @@ pub mod pps {
     ///
     /// Functions with Euler angles return `cos ρ`; where it is 0, rows 4–6 are not finite.
     pub mod raw {
-        use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
+        use super::{
+            DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOLUTIONS, SOURCES, VARIABLES,
+        };
         use ::abbe::{ErrorColumns, Scalar};
 
         /// Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.
@@ -2037,6 +2044,160 @@ pub mod pps {
             let t10 = s4 * lever5_y;
             let t11 = -(c4 * lever5_y);
             columns[4] = [t11, t5, t10, s4, zero, c4];
+        }
+
+        /// All joint variables that bring the tool point to a pose. They are in the turns nearest
+        /// to `q` that the limits permit, and a joint that is free to move there stays as in `q`.
+        #[inline(always)]
+        pub fn inverse<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            target: &[[T; 3]; 4],
+            solutions: &mut [[T; VARIABLES]; SOLUTIONS],
+            found: &mut [T; SOLUTIONS],
+        ) {
+            let [_, _, _, q4, q5, q6] = *q;
+            let [
+                y_offset,
+                z_offset,
+                roll_offset,
+                couch_offset,
+                x,
+                y,
+                z,
+                _,
+                _,
+                _,
+                _,
+                _,
+                _,
+            ] = *s;
+            let [
+                [t_11, t_21, t_31],
+                [t_12, t_22, t_32],
+                [_, _, _],
+                [t_x, t_y, t_z],
+            ] = *target;
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
+            let t1 = y_offset + roll_offset;
+            let t2 = t_31.mul_add(t_31, t_11 * t_11);
+            let t3 = t2 + T::constant(1e-12);
+            let t4 = T::constant(0.0).max(t2).sqrt();
+            let t5 = t_31.mul_add(t4, s4 * T::constant(1e-30));
+            let t6 = c4.mul_sub(T::constant(1e-30), t_11 * t4);
+            let t7 = T::constant(1.0) / t5.mul_add(t5, t6 * t6).sqrt();
+            let t8 = t5 * t7;
+            let t9 = t6 * t7;
+            let t10 = s6.mul_add(T::constant(1e-30), t_32.mul_add(t9, t_12 * t8));
+            let t11 = t_22.mul_add(t4, t_21 * t_12.mul_sub(t9, t_32 * t8));
+            let t12 = c6.mul_sub(T::constant(1e-30), t11);
+            let t13 = T::constant(1.0) / t10.mul_add(t10, t12 * t12).sqrt();
+            let t14 = t10 * t13;
+            let t15 = t12 * t13;
+            let t16 = y + (couch_offset + t1) - t1;
+            let t17 = z_offset + z - z_offset;
+            let t18 = t15.mul_sub(t16, t14 * t17);
+            let t19 = t15.mul_add(t17, t14 * t16);
+            let t20 = t1 + t18 - t1;
+            let t21 = x * t4;
+            let t22 = x * t_21;
+            let t23 = t_21.mul_add(t20, t21);
+            let t24 = z_offset + (z_offset + t19 - z_offset) - z_offset;
+            let t25 = t_x - t8.mul_sub(t24, t9 * t23);
+            let t26 = y_offset + (t1 + t4.neg_mul_add(t20, t22) - y_offset);
+            let t27 = t_y - t26;
+            let t28 = t_z - (z_offset + t9.mul_add(t24, t8 * t23));
+            let t29 = t1 - t18 - t1;
+            let t30 = t_21.neg_mul_add(t29, t21);
+            let t31 = z_offset + (z_offset - t19 - z_offset) - z_offset;
+            let t32 = t_x + t9.mul_add(t30, t8 * t31);
+            let t33 = t_y - (y_offset + (t1 + t4.mul_add(t29, t22) - y_offset));
+            let t34 = t_z - (z_offset + t8.mul_sub(t30, t9 * t31));
+            let t35 = T::constant(0.0).max(t25);
+            let t36 = T::constant(2256.0).min(t35);
+            let t37 = T::constant(0.0).max(t27);
+            let t38 = T::constant(560.0).min(t37);
+            let t39 = T::constant(0.0).max(t28);
+            let t40 = T::constant(1473.0).min(t39);
+            let t41 = c4.mul_sub(t8, s4 * t9).atan2(s4.mul_add(t8, c4 * t9));
+            let t42 = q4 + t41;
+            let t43 = (-(t42 + T::constant(1.5707963299364893))).side();
+            let t44 = t43 - (t42 - T::constant(1.5707963299364893)).side();
+            let t45 = t44.mul_add(T::constant(::core::f64::consts::PI), t42);
+            let t46 = T::constant(-::core::f64::consts::FRAC_PI_2).max(t45);
+            let t47 = T::constant(::core::f64::consts::FRAC_PI_2).min(t46);
+            let t48 = s5 * t_21;
+            let t49 = c5 * t4;
+            let t50 = c5 * t_21;
+            let t51 = s5 * t4;
+            let t52 = q5 + (t50 + t51).atan2(t48 - t49);
+            let t53 = (-(t52 + T::constant(0.05235987766454964))).side();
+            let t54 = t53 - (t52 - T::constant(0.05235987766454964)).side();
+            let t55 = t54.mul_add(T::constant(::core::f64::consts::PI), t52);
+            let t56 = T::constant(-0.05235987755982988).max(t55);
+            let t57 = T::constant(0.05235987755982988).min(t56);
+            let t58 = c6.mul_sub(t14, s6 * t15).atan2(s6.mul_add(t14, c6 * t15));
+            let t59 = q6 + t58;
+            let t60 = (-(T::constant(0.05235987766454964) + t59)).side();
+            let t61 = t60 - (t59 - T::constant(0.05235987766454964)).side();
+            let t62 = t61.mul_add(T::constant(::core::f64::consts::PI), t59);
+            let t63 = T::constant(-0.05235987755982988).max(t62);
+            let t64 = T::constant(0.05235987755982988).min(t63);
+            solutions[0] = [t36, t38, t40, t47, t57, t64];
+            let t65 = t3.min(t25 + T::constant(2.256e-6));
+            let t66 = (T::constant(2256.000002256) - t35).min(t65);
+            let t67 = (t27 + T::constant(5.6e-7)).min(t66);
+            let t68 = (T::constant(560.00000056) - t37).min(t67);
+            let t69 = (t28 + T::constant(1.4730000000000001e-6)).min(t68);
+            let t70 = (T::constant(1473.000001473) - t39).min(t69);
+            let t71 = (T::constant(1.5707963299364893) + t45).min(t70);
+            let t72 = (T::constant(1.5707963299364893) - t46).min(t71);
+            let t73 = (T::constant(0.05235987766454964) + t55).min(t72);
+            let t74 = (T::constant(0.05235987766454964) - t56).min(t73);
+            let t75 = (T::constant(0.05235987766454964) + t62).min(t74);
+            let t76 = (T::constant(0.05235987766454964) - t63).min(t75).side();
+            let t77 = t76.mul_add(T::constant(0.5), T::constant(0.5));
+            let t78 = T::constant(0.0).max(t32);
+            let t79 = T::constant(2256.0).min(t78);
+            let t80 = T::constant(0.0).max(t33);
+            let t81 = T::constant(560.0).min(t80);
+            let t82 = T::constant(0.0).max(t34);
+            let t83 = T::constant(1473.0).min(t82);
+            let t84 = T::constant(::core::f64::consts::PI);
+            let t85 = q4 + t41.side().neg_mul_add(t84, t41);
+            let t86 = (-(T::constant(1.5707963299364893) + t85)).side();
+            let t87 = t86 - (t85 - T::constant(1.5707963299364893)).side();
+            let t88 = t87.mul_add(T::constant(::core::f64::consts::PI), t85);
+            let t89 = T::constant(-::core::f64::consts::FRAC_PI_2).max(t88);
+            let t90 = T::constant(::core::f64::consts::FRAC_PI_2).min(t89);
+            let t91 = q5 + (t50 - t51).atan2(t48 + t49);
+            let t92 = (-(T::constant(0.05235987766454964) + t91)).side();
+            let t93 = t92 - (t91 - T::constant(0.05235987766454964)).side();
+            let t94 = t93.mul_add(T::constant(::core::f64::consts::PI), t91);
+            let t95 = T::constant(-0.05235987755982988).max(t94);
+            let t96 = T::constant(0.05235987755982988).min(t95);
+            let t97 = T::constant(::core::f64::consts::PI);
+            let t98 = q6 + t58.side().neg_mul_add(t97, t58);
+            let t99 = (-(T::constant(0.05235987766454964) + t98)).side();
+            let t100 = t99 - (t98 - T::constant(0.05235987766454964)).side();
+            let t101 = t100.mul_add(T::constant(::core::f64::consts::PI), t98);
+            let t102 = T::constant(-0.05235987755982988).max(t101);
+            let t103 = T::constant(0.05235987755982988).min(t102);
+            solutions[1] = [t79, t81, t83, t90, t96, t103];
+            let t104 = t3.min(t32 + T::constant(2.256e-6));
+            let t105 = (T::constant(2256.000002256) - t78).min(t104);
+            let t106 = (t33 + T::constant(5.6e-7)).min(t105);
+            let t107 = (T::constant(560.00000056) - t80).min(t106);
+            let t108 = (t34 + T::constant(1.4730000000000001e-6)).min(t107);
+            let t109 = (T::constant(1473.000001473) - t82).min(t108);
+            let t110 = (T::constant(1.5707963299364893) + t88).min(t109);
+            let t111 = (T::constant(1.5707963299364893) - t89).min(t110);
+            let t112 = (T::constant(0.05235987766454964) + t94).min(t111);
+            let t113 = (T::constant(0.05235987766454964) - t95).min(t112);
+            let t114 = (T::constant(0.05235987766454964) + t101).min(t113);
+            let t115 = (T::constant(0.05235987766454964) - t102).min(t114).side();
+            let t116 = t115.mul_add(T::constant(0.5), T::constant(0.5));
+            *found = [t77, t116];
         }
     }
 }

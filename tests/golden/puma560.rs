@@ -49,7 +49,9 @@
 /// | `real_pose` | 52 mul, 24 add, 6 sincos, 5 neg |
 /// | `drawn_pose` | 58 mul, 30 add, 6 sincos, 5 neg |
 /// | `compensator_step` | 56 mul, 26 add, 6 sincos, 13 neg |
+/// | `inverse` | 366 mul, 445 add, 9 div, 6 sincos, 15 sqrt, 263 other, 39 neg |
 #[allow(dead_code)]
+#[allow(clippy::approx_constant)]
 pub mod puma560 {
     use ::abbe::{
         Class, Component, Description, Distribution, Effect, Frame, LengthUnit, List, Orientation,
@@ -72,6 +74,8 @@ pub mod puma560 {
     pub const SOURCES: usize = 6;
     /// Number of distinct vectors in a frame's six columns of `J_e`, neither zero nor repeated.
     pub const DISTINCT: usize = 6;
+    /// Largest number of solutions of inverse kinematics.
+    pub const SOLUTIONS: usize = 8;
 
     /// Description of the manipulator: names, units, limits, sources.
     pub static DESCRIPTION: Description = Description {
@@ -175,6 +179,7 @@ pub mod puma560 {
             Effect::new(4, 4, Component::Spin),
             Effect::new(5, 5, Component::Roll),
         ]),
+        solutions: SOLUTIONS,
     };
 
     /// Structural parameters `s`, which can be set at run time.
@@ -219,13 +224,15 @@ pub mod puma560 {
 
     ::abbe::checked_functions! {
         /// Unimation PUMA 560, as a [`Manipulator`](::abbe::Manipulator).
-        Puma560
+        Puma560 inverse
     }
 
     /// Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values
     /// propagate.
     pub mod raw {
-        use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
+        use super::{
+            DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOLUTIONS, SOURCES, VARIABLES,
+        };
         use ::abbe::{ErrorColumns, Scalar};
 
         /// Local transforms `A_1 … A_n` and the tool `T`: columns x, y, z axis and position.
@@ -1133,6 +1140,531 @@ pub mod puma560 {
             let t10 = -(c1 * lever2_z);
             let t11 = -(s1 * lever2_z);
             columns[2] = [t10, t11, t7, s1, r1_23, zero];
+        }
+
+        /// All joint variables that bring the tool point to a pose. They are in the turns nearest
+        /// to `q` that the limits permit, and a joint that is free to move there stays as in `q`.
+        #[inline(always)]
+        pub fn inverse<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            target: &[[T; 3]; 4],
+            solutions: &mut [[T; VARIABLES]; SOLUTIONS],
+            found: &mut [T; SOLUTIONS],
+        ) {
+            let [q1, q2, q3, q4, q5, q6] = *q;
+            let [
+                [t_11, t_21, t_31],
+                [_, _, _],
+                [t_13, t_23, t_33],
+                [t_x, t_y, t_z],
+            ] = *target;
+            let z3 = T::constant(0.15005);
+            let a2_z4 = T::constant(0.4318);
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
+                T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
+            let t1 = s1.mul_add(T::constant(4.521e-16), t_y);
+            let t2 = c1.mul_add(T::constant(4.521e-16), t_x);
+            let t3 = t1.mul_add(t1, t2 * t2);
+            let t4 = t3 - T::constant(0.022515002499999996);
+            let t5 = t3.mul_add(T::constant(1e-12), t4);
+            let t6 = T::constant(0.0).max(t4).sqrt();
+            let t7 = T::constant(1.0) / t3;
+            let t8 = z3 * t1;
+            let t9 = z3 * t2;
+            let t10 = t1 * t6;
+            let t11 = t2 * t6;
+            let t12 = t7 * (t9 + t10);
+            let t13 = t7 * (t11 - t8);
+            let t14 = t7 * (t10 - t9);
+            let t15 = t7 * (t8 + t11);
+            let t16 = t_x.mul_add(t13, t_y * t12);
+            let t17 = t_z * t_z;
+            let t18 = T::constant(0.37331457) - t16.mul_add(t16, t17);
+            let t19 = T::constant(0.5) * t18;
+            let t20 = t19.neg_mul_add(t19, T::constant(0.0348408995890292));
+            let t21 = T::constant(0.0).max(t20).sqrt();
+            let t22 = T::constant(0.008765539999999994) * t19;
+            let t23 = T::constant(0.18645124000000002) * t19;
+            let t24 = T::constant(0.008765539999999994) * t21;
+            let t25 = T::constant(0.18645124000000002) * t21;
+            let t26 = T::constant(28.701899543227718) * (t23 + t24);
+            let t27 = T::constant(28.701899543227718) * (t25 - t22);
+            let t28 = T::constant(28.701899543227718) * (t23 - t24);
+            let t29 = T::constant(28.701899543227718) * (t22 + t25);
+            let t30 = t27.mul_add(a2_z4, T::constant(0.020299999999999985) * t26);
+            let t31 = t27.mul_sub(T::constant(0.020299999999999985), a2_z4 * t26);
+            let t32 = a2_z4 + t31;
+            let t33 = s2 * T::constant(2.0439440999999997e-31);
+            let t34 = c2 * T::constant(2.0439440999999997e-31);
+            let t35 = t_z.mul_sub(t32, t16 * t30) + t33;
+            let t36 = t_z.mul_add(t30, t16 * t32) + t34;
+            let t37 = T::constant(1.0) / t35.mul_add(t35, t36 * t36).sqrt();
+            let t38 = t35 * t37;
+            let t39 = t36 * t37;
+            let t40 = t28.mul_sub(T::constant(0.020299999999999985), a2_z4 * t29);
+            let t41 = t29.mul_add(T::constant(0.020299999999999985), a2_z4 * t28);
+            let t42 = a2_z4 - t41;
+            let t43 = t33 + t_z.mul_sub(t42, t16 * t40);
+            let t44 = t34 + t_z.mul_add(t40, t16 * t42);
+            let t45 = T::constant(1.0) / t43.mul_add(t43, t44 * t44).sqrt();
+            let t46 = t43 * t45;
+            let t47 = t44 * t45;
+            let t48 = t_x.mul_add(t15, t_y * t14);
+            let t49 = T::constant(0.37331457) - t48.mul_add(t48, t17);
+            let t50 = T::constant(0.5) * t49;
+            let t51 = t50.neg_mul_add(t50, T::constant(0.0348408995890292));
+            let t52 = T::constant(0.0).max(t51).sqrt();
+            let t53 = T::constant(0.008765539999999994) * t50;
+            let t54 = T::constant(0.18645124000000002) * t50;
+            let t55 = T::constant(0.008765539999999994) * t52;
+            let t56 = T::constant(0.18645124000000002) * t52;
+            let t57 = T::constant(28.701899543227718) * (t54 + t55);
+            let t58 = T::constant(28.701899543227718) * (t56 - t53);
+            let t59 = T::constant(28.701899543227718) * (t54 - t55);
+            let t60 = T::constant(28.701899543227718) * (t53 + t56);
+            let t61 = t58.mul_add(a2_z4, T::constant(0.020299999999999985) * t57);
+            let t62 = t58.mul_sub(T::constant(0.020299999999999985), a2_z4 * t57);
+            let t63 = a2_z4 + t62;
+            let t64 = t33 + t48.mul_add(t61, t_z * t63);
+            let t65 = t34 + t_z.mul_sub(t61, t48 * t63);
+            let t66 = T::constant(1.0) / t64.mul_add(t64, t65 * t65).sqrt();
+            let t67 = t64 * t66;
+            let t68 = t65 * t66;
+            let t69 = t59.mul_sub(T::constant(0.020299999999999985), a2_z4 * t60);
+            let t70 = t60.mul_add(T::constant(0.020299999999999985), a2_z4 * t59);
+            let t71 = a2_z4 - t70;
+            let t72 = t33 + t48.mul_add(t69, t_z * t71);
+            let t73 = t34 + t_z.mul_sub(t69, t48 * t71);
+            let t74 = T::constant(1.0) / t72.mul_add(t72, t73 * t73).sqrt();
+            let t75 = t72 * t74;
+            let t76 = t73 * t74;
+            let t77 = t_13.mul_add(t13, t_23 * t12);
+            let t78 = t_23.mul_sub(t13, t_13 * t12);
+            let t79 = t39.mul_add(t77, t_33 * t38);
+            let t80 = t_33.mul_sub(t39, t38 * t77);
+            let t81 = t27.mul_add(t79, t26 * t80);
+            let t82 = t27.mul_sub(t80, t26 * t79);
+            let t83 = t_11.mul_add(t13, t_21 * t12);
+            let t84 = t_21.mul_sub(t13, t_11 * t12);
+            let t85 = t39.mul_add(t83, t_31 * t38);
+            let t86 = t_31.mul_sub(t39, t38 * t83);
+            let t87 = t27.mul_add(t85, t26 * t86);
+            let t88 = t78 * t78;
+            let t89 = t81.mul_add(t81, t88);
+            let t90 = T::constant(0.0).max(t89).sqrt();
+            let t91 = s4 * T::constant(1e-30);
+            let t92 = c4 * T::constant(1e-30);
+            let t93 = t78.neg_mul_add(t90, t91);
+            let t94 = t81.neg_mul_add(t90, t92);
+            let t95 = T::constant(1.0) / t93.mul_add(t93, t94 * t94).sqrt();
+            let t96 = t93 * t95;
+            let t97 = t94 * t95;
+            let t98 = t27.mul_sub(t86, t26 * t85) * t90;
+            let t99 = s6 * T::constant(1e-30);
+            let t100 = c6 * T::constant(1e-30);
+            let t101 = t84.mul_sub(t97, t87 * t96) + t99;
+            let t102 = t82.mul_add(t87.mul_add(t97, t84 * t96), t98) + t100;
+            let t103 = t47.mul_add(t77, t_33 * t46);
+            let t104 = t_33.mul_sub(t47, t46 * t77);
+            let t105 = t28.mul_sub(t104, t29 * t103);
+            let t106 = t29.mul_add(t104, t28 * t103);
+            let t107 = t47.mul_add(t83, t_31 * t46);
+            let t108 = t_31.mul_sub(t47, t46 * t83);
+            let t109 = t28.mul_sub(t108, t29 * t107);
+            let t110 = t105.mul_add(t105, t88);
+            let t111 = T::constant(0.0).max(t110).sqrt();
+            let t112 = t78.neg_mul_add(t111, t91);
+            let t113 = t105.neg_mul_add(t111, t92);
+            let t114 = T::constant(1.0) / t112.mul_add(t112, t113 * t113).sqrt();
+            let t115 = t112 * t114;
+            let t116 = t113 * t114;
+            let t117 = t29.mul_add(t108, t28 * t107) * t111;
+            let t118 = t99 + t84.mul_sub(t116, t109 * t115);
+            let t119 = t100 - t106.mul_add(t109.mul_add(t116, t84 * t115), t117);
+            let t120 = t_13.mul_add(t15, t_23 * t14);
+            let t121 = t_13.mul_sub(t14, t_23 * t15);
+            let t122 = t_33.mul_sub(t67, t68 * t120);
+            let t123 = t_33.mul_add(t68, t67 * t120);
+            let t124 = t58.mul_add(t122, t57 * t123);
+            let t125 = t58.mul_sub(t123, t57 * t122);
+            let t126 = t_11.mul_add(t15, t_21 * t14);
+            let t127 = t_11.mul_sub(t14, t_21 * t15);
+            let t128 = t_31.mul_sub(t67, t68 * t126);
+            let t129 = t_31.mul_add(t68, t67 * t126);
+            let t130 = t58.mul_add(t128, t57 * t129);
+            let t131 = t121 * t121;
+            let t132 = t124.mul_add(t124, t131);
+            let t133 = T::constant(0.0).max(t132).sqrt();
+            let t134 = t121.neg_mul_add(t133, t91);
+            let t135 = t124.neg_mul_add(t133, t92);
+            let t136 = T::constant(1.0) / t134.mul_add(t134, t135 * t135).sqrt();
+            let t137 = t134 * t136;
+            let t138 = t135 * t136;
+            let t139 = t58.mul_sub(t129, t57 * t128) * t133;
+            let t140 = t99 + t127.mul_sub(t138, t130 * t137);
+            let t141 = t100 + t125.mul_add(t130.mul_add(t138, t127 * t137), t139);
+            let t142 = t_33.mul_sub(t75, t76 * t120);
+            let t143 = t_33.mul_add(t76, t75 * t120);
+            let t144 = t59.mul_sub(t143, t60 * t142);
+            let t145 = t60.mul_add(t143, t59 * t142);
+            let t146 = t_31.mul_sub(t75, t76 * t126);
+            let t147 = t_31.mul_add(t76, t75 * t126);
+            let t148 = t59.mul_sub(t147, t60 * t146);
+            let t149 = t144.mul_add(t144, t131);
+            let t150 = T::constant(0.0).max(t149).sqrt();
+            let t151 = t121.neg_mul_add(t150, t91);
+            let t152 = t144.neg_mul_add(t150, t92);
+            let t153 = T::constant(1.0) / t151.mul_add(t151, t152 * t152).sqrt();
+            let t154 = t151 * t153;
+            let t155 = t152 * t153;
+            let t156 = t60.mul_add(t147, t59 * t146) * t150;
+            let t157 = t99 + t127.mul_sub(t155, t148 * t154);
+            let t158 = t100 - t145.mul_add(t148.mul_add(t155, t127 * t154), t156);
+            let t159 = c1.mul_sub(t12, s1 * t13).atan2(s1.mul_add(t12, c1 * t13));
+            let t160 = q1 + t159;
+            let t161 = (-(t160 + T::constant(2.792526808775981))).side();
+            let t162 = t161 - (t160 - T::constant(2.792526808775981)).side();
+            let t163 = t162.mul_add(T::constant(::core::f64::consts::PI), t160);
+            let t164 = T::constant(2.792526808775981) + t163;
+            let t165 = T::constant(-2.792526803190927).max(t163);
+            let t166 = T::constant(2.792526808775981) - t165;
+            let t167 = T::constant(2.792526803190927).min(t165);
+            let t168 = c2.mul_sub(t38, s2 * t39).atan2(s2.mul_add(t38, c2 * t39));
+            let t169 = q2 + t168;
+            let t170 = (-(t169 + T::constant(0.7853981681098373))).side();
+            let t171 = t170 - (t169 - T::constant(3.9269908216996305)).side();
+            let t172 = t171.mul_add(T::constant(::core::f64::consts::PI), t169);
+            let t173 = T::constant(-::core::f64::consts::FRAC_PI_4).max(t172);
+            let t174 = T::constant(3.9269908169872414).min(t173);
+            let t175 = c3.mul_sub(t26, s3 * t27).atan2(s3.mul_add(t26, c3 * t27));
+            let t176 = q3 + t175;
+            let t177 = (-(T::constant(3.9269908216996305) + t176)).side();
+            let t178 = t177 - (t176 - T::constant(0.7853981681098373)).side();
+            let t179 = t178.mul_add(T::constant(::core::f64::consts::PI), t176);
+            let t180 = T::constant(-3.9269908169872414).max(t179);
+            let t181 = T::constant(::core::f64::consts::FRAC_PI_4).min(t180);
+            let t182 = c4.mul_sub(t96, s4 * t97).atan2(s4.mul_add(t96, c4 * t97));
+            let t183 = q4 + t182;
+            let t184 = (-(t183 + T::constant(1.9198621820806845))).side();
+            let t185 = t184 - (t183 - T::constant(2.967059733277282)).side();
+            let t186 = t185.mul_add(T::constant(::core::f64::consts::PI), t183);
+            let t187 = T::constant(-1.9198621771937625).max(t186);
+            let t188 = T::constant(2.96705972839036).min(t187);
+            let t189 = s5 * t90;
+            let t190 = c5 * t82;
+            let t191 = c5 * t90;
+            let t192 = s5 * t82;
+            let t193 = q5 + (t191 - t192).atan2(t189 + t190);
+            let t194 = (-(t193 + T::constant(1.745329255484988))).side();
+            let t195 = t194 - (t193 - T::constant(1.745329255484988)).side();
+            let t196 = t195.mul_add(T::constant(::core::f64::consts::PI), t193);
+            let t197 = T::constant(-1.7453292519943295).max(t196);
+            let t198 = T::constant(1.7453292519943295).min(t197);
+            let t199 = s6.mul_add(t101, c6 * t102);
+            let t200 = c6.mul_sub(t101, s6 * t102).atan2(t199);
+            let t201 = q6 + t200;
+            let t202 = (-(t201 + T::constant(4.642575819590068))).side();
+            let t203 = t202 - (t201 - T::constant(4.642575819590068)).side();
+            let t204 = t203.mul_add(T::constant(::core::f64::consts::PI), t201);
+            let t205 = T::constant(-4.642575810304916).max(t204);
+            let t206 = T::constant(4.642575810304916).min(t205);
+            solutions[0] = [t167, t174, t181, t188, t198, t206];
+            let t207 = t5.min(t20 + T::constant(3.48408995890292e-14));
+            let t208 = t166.min(t164.min((T::constant(1e-12) + t89).min(t207)));
+            let t209 = (T::constant(0.7853981681098373) + t172).min(t208);
+            let t210 = (T::constant(3.9269908216996305) - t173).min(t209);
+            let t211 = (T::constant(3.9269908216996305) + t179).min(t210);
+            let t212 = (T::constant(0.7853981681098373) - t180).min(t211);
+            let t213 = (T::constant(1.9198621820806845) + t186).min(t212);
+            let t214 = (T::constant(2.967059733277282) - t187).min(t213);
+            let t215 = (T::constant(1.745329255484988) + t196).min(t214);
+            let t216 = (T::constant(1.745329255484988) - t197).min(t215);
+            let t217 = (T::constant(4.642575819590068) + t204).min(t216);
+            let t218 = (T::constant(4.642575819590068) - t205).min(t217).side();
+            let t219 = t218.mul_add(T::constant(0.5), T::constant(0.5));
+            let t220 = T::constant(::core::f64::consts::PI);
+            let t221 = q4 + t182.side().neg_mul_add(t220, t182);
+            let t222 = (-(T::constant(1.9198621820806845) + t221)).side();
+            let t223 = t222 - (t221 - T::constant(2.967059733277282)).side();
+            let t224 = t223.mul_add(T::constant(::core::f64::consts::PI), t221);
+            let t225 = T::constant(-1.9198621771937625).max(t224);
+            let t226 = T::constant(2.96705972839036).min(t225);
+            let t227 = q5 + (-(t191 + t192)).atan2(t190 - t189);
+            let t228 = (-(T::constant(1.745329255484988) + t227)).side();
+            let t229 = t228 - (t227 - T::constant(1.745329255484988)).side();
+            let t230 = t229.mul_add(T::constant(::core::f64::consts::PI), t227);
+            let t231 = T::constant(-1.7453292519943295).max(t230);
+            let t232 = T::constant(1.7453292519943295).min(t231);
+            let t233 = T::constant(::core::f64::consts::PI);
+            let t234 = q6 + t200.side().neg_mul_add(t233, t200);
+            let t235 = (-(T::constant(4.642575819590068) + t234)).side();
+            let t236 = t235 - (t234 - T::constant(4.642575819590068)).side();
+            let t237 = t236.mul_add(T::constant(::core::f64::consts::PI), t234);
+            let t238 = T::constant(-4.642575810304916).max(t237);
+            let t239 = T::constant(4.642575810304916).min(t238);
+            solutions[1] = [t167, t174, t181, t226, t232, t239];
+            let t240 = t212.min(T::constant(1.9198621820806845) + t224);
+            let t241 = (T::constant(2.967059733277282) - t225).min(t240);
+            let t242 = (T::constant(1.745329255484988) + t230).min(t241);
+            let t243 = (T::constant(1.745329255484988) - t231).min(t242);
+            let t244 = (T::constant(4.642575819590068) + t237).min(t243);
+            let t245 = (T::constant(4.642575819590068) - t238).min(t244).side();
+            let t246 = t245.mul_add(T::constant(0.5), T::constant(0.5));
+            let t247 = c2.mul_sub(t46, s2 * t47).atan2(s2.mul_add(t46, c2 * t47));
+            let t248 = q2 + t247;
+            let t249 = (-(T::constant(0.7853981681098373) + t248)).side();
+            let t250 = t249 - (t248 - T::constant(3.9269908216996305)).side();
+            let t251 = t250.mul_add(T::constant(::core::f64::consts::PI), t248);
+            let t252 = T::constant(-::core::f64::consts::FRAC_PI_4).max(t251);
+            let t253 = T::constant(3.9269908169872414).min(t252);
+            let t254 = c3.mul_add(t28, s3 * t29).atan2(s3.mul_sub(t28, c3 * t29));
+            let t255 = q3 + t254;
+            let t256 = (-(T::constant(3.9269908216996305) + t255)).side();
+            let t257 = t256 - (t255 - T::constant(0.7853981681098373)).side();
+            let t258 = t257.mul_add(T::constant(::core::f64::consts::PI), t255);
+            let t259 = T::constant(-3.9269908169872414).max(t258);
+            let t260 = T::constant(::core::f64::consts::FRAC_PI_4).min(t259);
+            let t261 = s4.mul_add(t115, c4 * t116);
+            let t262 = c4.mul_sub(t115, s4 * t116).atan2(t261);
+            let t263 = q4 + t262;
+            let t264 = (-(T::constant(1.9198621820806845) + t263)).side();
+            let t265 = t264 - (t263 - T::constant(2.967059733277282)).side();
+            let t266 = t265.mul_add(T::constant(::core::f64::consts::PI), t263);
+            let t267 = T::constant(-1.9198621771937625).max(t266);
+            let t268 = T::constant(2.96705972839036).min(t267);
+            let t269 = s5 * t111;
+            let t270 = c5 * t106;
+            let t271 = c5 * t111;
+            let t272 = s5 * t106;
+            let t273 = q5 + (t271 + t272).atan2(t269 - t270);
+            let t274 = (-(T::constant(1.745329255484988) + t273)).side();
+            let t275 = t274 - (t273 - T::constant(1.745329255484988)).side();
+            let t276 = t275.mul_add(T::constant(::core::f64::consts::PI), t273);
+            let t277 = T::constant(-1.7453292519943295).max(t276);
+            let t278 = T::constant(1.7453292519943295).min(t277);
+            let t279 = s6.mul_add(t118, c6 * t119);
+            let t280 = c6.mul_sub(t118, s6 * t119).atan2(t279);
+            let t281 = q6 + t280;
+            let t282 = (-(T::constant(4.642575819590068) + t281)).side();
+            let t283 = t282 - (t281 - T::constant(4.642575819590068)).side();
+            let t284 = t283.mul_add(T::constant(::core::f64::consts::PI), t281);
+            let t285 = T::constant(-4.642575810304916).max(t284);
+            let t286 = T::constant(4.642575810304916).min(t285);
+            solutions[2] = [t167, t253, t260, t268, t278, t286];
+            let t287 = t166.min(t164.min((T::constant(1e-12) + t110).min(t207)));
+            let t288 = (T::constant(0.7853981681098373) + t251).min(t287);
+            let t289 = (T::constant(3.9269908216996305) - t252).min(t288);
+            let t290 = (T::constant(3.9269908216996305) + t258).min(t289);
+            let t291 = (T::constant(0.7853981681098373) - t259).min(t290);
+            let t292 = (T::constant(1.9198621820806845) + t266).min(t291);
+            let t293 = (T::constant(2.967059733277282) - t267).min(t292);
+            let t294 = (T::constant(1.745329255484988) + t276).min(t293);
+            let t295 = (T::constant(1.745329255484988) - t277).min(t294);
+            let t296 = (T::constant(4.642575819590068) + t284).min(t295);
+            let t297 = (T::constant(4.642575819590068) - t285).min(t296).side();
+            let t298 = t297.mul_add(T::constant(0.5), T::constant(0.5));
+            let t299 = T::constant(::core::f64::consts::PI);
+            let t300 = q4 + t262.side().neg_mul_add(t299, t262);
+            let t301 = (-(T::constant(1.9198621820806845) + t300)).side();
+            let t302 = t301 - (t300 - T::constant(2.967059733277282)).side();
+            let t303 = t302.mul_add(T::constant(::core::f64::consts::PI), t300);
+            let t304 = T::constant(-1.9198621771937625).max(t303);
+            let t305 = T::constant(2.96705972839036).min(t304);
+            let t306 = q5 + (t272 - t271).atan2(-(t269 + t270));
+            let t307 = (-(T::constant(1.745329255484988) + t306)).side();
+            let t308 = t307 - (t306 - T::constant(1.745329255484988)).side();
+            let t309 = t308.mul_add(T::constant(::core::f64::consts::PI), t306);
+            let t310 = T::constant(-1.7453292519943295).max(t309);
+            let t311 = T::constant(1.7453292519943295).min(t310);
+            let t312 = T::constant(::core::f64::consts::PI);
+            let t313 = q6 + t280.side().neg_mul_add(t312, t280);
+            let t314 = (-(T::constant(4.642575819590068) + t313)).side();
+            let t315 = t314 - (t313 - T::constant(4.642575819590068)).side();
+            let t316 = t315.mul_add(T::constant(::core::f64::consts::PI), t313);
+            let t317 = T::constant(-4.642575810304916).max(t316);
+            let t318 = T::constant(4.642575810304916).min(t317);
+            solutions[3] = [t167, t253, t260, t305, t311, t318];
+            let t319 = t291.min(T::constant(1.9198621820806845) + t303);
+            let t320 = (T::constant(2.967059733277282) - t304).min(t319);
+            let t321 = (T::constant(1.745329255484988) + t309).min(t320);
+            let t322 = (T::constant(1.745329255484988) - t310).min(t321);
+            let t323 = (T::constant(4.642575819590068) + t316).min(t322);
+            let t324 = (T::constant(4.642575819590068) - t317).min(t323).side();
+            let t325 = t324.mul_add(T::constant(0.5), T::constant(0.5));
+            let t326 = s1.mul_sub(t15, c1 * t14).atan2(-s1.mul_add(t14, c1 * t15));
+            let t327 = q1 + t326;
+            let t328 = (-(T::constant(2.792526808775981) + t327)).side();
+            let t329 = t328 - (t327 - T::constant(2.792526808775981)).side();
+            let t330 = t329.mul_add(T::constant(::core::f64::consts::PI), t327);
+            let t331 = T::constant(2.792526808775981) + t330;
+            let t332 = T::constant(-2.792526803190927).max(t330);
+            let t333 = T::constant(2.792526808775981) - t332;
+            let t334 = T::constant(2.792526803190927).min(t332);
+            let t335 = c2.mul_sub(t67, s2 * t68).atan2(s2.mul_add(t67, c2 * t68));
+            let t336 = q2 + t335;
+            let t337 = (-(T::constant(0.7853981681098373) + t336)).side();
+            let t338 = t337 - (t336 - T::constant(3.9269908216996305)).side();
+            let t339 = t338.mul_add(T::constant(::core::f64::consts::PI), t336);
+            let t340 = T::constant(-::core::f64::consts::FRAC_PI_4).max(t339);
+            let t341 = T::constant(3.9269908169872414).min(t340);
+            let t342 = c3.mul_sub(t57, s3 * t58).atan2(s3.mul_add(t57, c3 * t58));
+            let t343 = q3 + t342;
+            let t344 = (-(T::constant(3.9269908216996305) + t343)).side();
+            let t345 = t344 - (t343 - T::constant(0.7853981681098373)).side();
+            let t346 = t345.mul_add(T::constant(::core::f64::consts::PI), t343);
+            let t347 = T::constant(-3.9269908169872414).max(t346);
+            let t348 = T::constant(::core::f64::consts::FRAC_PI_4).min(t347);
+            let t349 = s4.mul_add(t137, c4 * t138);
+            let t350 = c4.mul_sub(t137, s4 * t138).atan2(t349);
+            let t351 = q4 + t350;
+            let t352 = (-(T::constant(1.9198621820806845) + t351)).side();
+            let t353 = t352 - (t351 - T::constant(2.967059733277282)).side();
+            let t354 = t353.mul_add(T::constant(::core::f64::consts::PI), t351);
+            let t355 = T::constant(-1.9198621771937625).max(t354);
+            let t356 = T::constant(2.96705972839036).min(t355);
+            let t357 = s5 * t133;
+            let t358 = c5 * t125;
+            let t359 = c5 * t133;
+            let t360 = s5 * t125;
+            let t361 = q5 + (t359 - t360).atan2(t357 + t358);
+            let t362 = (-(T::constant(1.745329255484988) + t361)).side();
+            let t363 = t362 - (t361 - T::constant(1.745329255484988)).side();
+            let t364 = t363.mul_add(T::constant(::core::f64::consts::PI), t361);
+            let t365 = T::constant(-1.7453292519943295).max(t364);
+            let t366 = T::constant(1.7453292519943295).min(t365);
+            let t367 = s6.mul_add(t140, c6 * t141);
+            let t368 = c6.mul_sub(t140, s6 * t141).atan2(t367);
+            let t369 = q6 + t368;
+            let t370 = (-(T::constant(4.642575819590068) + t369)).side();
+            let t371 = t370 - (t369 - T::constant(4.642575819590068)).side();
+            let t372 = t371.mul_add(T::constant(::core::f64::consts::PI), t369);
+            let t373 = T::constant(-4.642575810304916).max(t372);
+            let t374 = T::constant(4.642575810304916).min(t373);
+            solutions[4] = [t334, t341, t348, t356, t366, t374];
+            let t375 = t5.min(T::constant(3.48408995890292e-14) + t51);
+            let t376 = t333.min(t331.min((T::constant(1e-12) + t132).min(t375)));
+            let t377 = (T::constant(0.7853981681098373) + t339).min(t376);
+            let t378 = (T::constant(3.9269908216996305) - t340).min(t377);
+            let t379 = (T::constant(3.9269908216996305) + t346).min(t378);
+            let t380 = (T::constant(0.7853981681098373) - t347).min(t379);
+            let t381 = (T::constant(1.9198621820806845) + t354).min(t380);
+            let t382 = (T::constant(2.967059733277282) - t355).min(t381);
+            let t383 = (T::constant(1.745329255484988) + t364).min(t382);
+            let t384 = (T::constant(1.745329255484988) - t365).min(t383);
+            let t385 = (T::constant(4.642575819590068) + t372).min(t384);
+            let t386 = (T::constant(4.642575819590068) - t373).min(t385).side();
+            let t387 = t386.mul_add(T::constant(0.5), T::constant(0.5));
+            let t388 = T::constant(::core::f64::consts::PI);
+            let t389 = q4 + t350.side().neg_mul_add(t388, t350);
+            let t390 = (-(T::constant(1.9198621820806845) + t389)).side();
+            let t391 = t390 - (t389 - T::constant(2.967059733277282)).side();
+            let t392 = t391.mul_add(T::constant(::core::f64::consts::PI), t389);
+            let t393 = T::constant(-1.9198621771937625).max(t392);
+            let t394 = T::constant(2.96705972839036).min(t393);
+            let t395 = q5 + (-(t359 + t360)).atan2(t358 - t357);
+            let t396 = (-(T::constant(1.745329255484988) + t395)).side();
+            let t397 = t396 - (t395 - T::constant(1.745329255484988)).side();
+            let t398 = t397.mul_add(T::constant(::core::f64::consts::PI), t395);
+            let t399 = T::constant(-1.7453292519943295).max(t398);
+            let t400 = T::constant(1.7453292519943295).min(t399);
+            let t401 = T::constant(::core::f64::consts::PI);
+            let t402 = q6 + t368.side().neg_mul_add(t401, t368);
+            let t403 = (-(T::constant(4.642575819590068) + t402)).side();
+            let t404 = t403 - (t402 - T::constant(4.642575819590068)).side();
+            let t405 = t404.mul_add(T::constant(::core::f64::consts::PI), t402);
+            let t406 = T::constant(-4.642575810304916).max(t405);
+            let t407 = T::constant(4.642575810304916).min(t406);
+            solutions[5] = [t334, t341, t348, t394, t400, t407];
+            let t408 = t380.min(T::constant(1.9198621820806845) + t392);
+            let t409 = (T::constant(2.967059733277282) - t393).min(t408);
+            let t410 = (T::constant(1.745329255484988) + t398).min(t409);
+            let t411 = (T::constant(1.745329255484988) - t399).min(t410);
+            let t412 = (T::constant(4.642575819590068) + t405).min(t411);
+            let t413 = (T::constant(4.642575819590068) - t406).min(t412).side();
+            let t414 = t413.mul_add(T::constant(0.5), T::constant(0.5));
+            let t415 = c2.mul_sub(t75, s2 * t76).atan2(s2.mul_add(t75, c2 * t76));
+            let t416 = q2 + t415;
+            let t417 = (-(T::constant(0.7853981681098373) + t416)).side();
+            let t418 = t417 - (t416 - T::constant(3.9269908216996305)).side();
+            let t419 = t418.mul_add(T::constant(::core::f64::consts::PI), t416);
+            let t420 = T::constant(-::core::f64::consts::FRAC_PI_4).max(t419);
+            let t421 = T::constant(3.9269908169872414).min(t420);
+            let t422 = c3.mul_add(t59, s3 * t60).atan2(s3.mul_sub(t59, c3 * t60));
+            let t423 = q3 + t422;
+            let t424 = (-(T::constant(3.9269908216996305) + t423)).side();
+            let t425 = t424 - (t423 - T::constant(0.7853981681098373)).side();
+            let t426 = t425.mul_add(T::constant(::core::f64::consts::PI), t423);
+            let t427 = T::constant(-3.9269908169872414).max(t426);
+            let t428 = T::constant(::core::f64::consts::FRAC_PI_4).min(t427);
+            let t429 = s4.mul_add(t154, c4 * t155);
+            let t430 = c4.mul_sub(t154, s4 * t155).atan2(t429);
+            let t431 = q4 + t430;
+            let t432 = (-(T::constant(1.9198621820806845) + t431)).side();
+            let t433 = t432 - (t431 - T::constant(2.967059733277282)).side();
+            let t434 = t433.mul_add(T::constant(::core::f64::consts::PI), t431);
+            let t435 = T::constant(-1.9198621771937625).max(t434);
+            let t436 = T::constant(2.96705972839036).min(t435);
+            let t437 = s5 * t150;
+            let t438 = c5 * t145;
+            let t439 = c5 * t150;
+            let t440 = s5 * t145;
+            let t441 = q5 + (t439 + t440).atan2(t437 - t438);
+            let t442 = (-(T::constant(1.745329255484988) + t441)).side();
+            let t443 = t442 - (t441 - T::constant(1.745329255484988)).side();
+            let t444 = t443.mul_add(T::constant(::core::f64::consts::PI), t441);
+            let t445 = T::constant(-1.7453292519943295).max(t444);
+            let t446 = T::constant(1.7453292519943295).min(t445);
+            let t447 = s6.mul_add(t157, c6 * t158);
+            let t448 = c6.mul_sub(t157, s6 * t158).atan2(t447);
+            let t449 = q6 + t448;
+            let t450 = (-(T::constant(4.642575819590068) + t449)).side();
+            let t451 = t450 - (t449 - T::constant(4.642575819590068)).side();
+            let t452 = t451.mul_add(T::constant(::core::f64::consts::PI), t449);
+            let t453 = T::constant(-4.642575810304916).max(t452);
+            let t454 = T::constant(4.642575810304916).min(t453);
+            solutions[6] = [t334, t421, t428, t436, t446, t454];
+            let t455 = t333.min(t331.min((T::constant(1e-12) + t149).min(t375)));
+            let t456 = (T::constant(0.7853981681098373) + t419).min(t455);
+            let t457 = (T::constant(3.9269908216996305) - t420).min(t456);
+            let t458 = (T::constant(3.9269908216996305) + t426).min(t457);
+            let t459 = (T::constant(0.7853981681098373) - t427).min(t458);
+            let t460 = (T::constant(1.9198621820806845) + t434).min(t459);
+            let t461 = (T::constant(2.967059733277282) - t435).min(t460);
+            let t462 = (T::constant(1.745329255484988) + t444).min(t461);
+            let t463 = (T::constant(1.745329255484988) - t445).min(t462);
+            let t464 = (T::constant(4.642575819590068) + t452).min(t463);
+            let t465 = (T::constant(4.642575819590068) - t453).min(t464).side();
+            let t466 = t465.mul_add(T::constant(0.5), T::constant(0.5));
+            let t467 = T::constant(::core::f64::consts::PI);
+            let t468 = q4 + t430.side().neg_mul_add(t467, t430);
+            let t469 = (-(T::constant(1.9198621820806845) + t468)).side();
+            let t470 = t469 - (t468 - T::constant(2.967059733277282)).side();
+            let t471 = t470.mul_add(T::constant(::core::f64::consts::PI), t468);
+            let t472 = T::constant(-1.9198621771937625).max(t471);
+            let t473 = T::constant(2.96705972839036).min(t472);
+            let t474 = q5 + (t440 - t439).atan2(-(t437 + t438));
+            let t475 = (-(T::constant(1.745329255484988) + t474)).side();
+            let t476 = t475 - (t474 - T::constant(1.745329255484988)).side();
+            let t477 = t476.mul_add(T::constant(::core::f64::consts::PI), t474);
+            let t478 = T::constant(-1.7453292519943295).max(t477);
+            let t479 = T::constant(1.7453292519943295).min(t478);
+            let t480 = T::constant(::core::f64::consts::PI);
+            let t481 = q6 + t448.side().neg_mul_add(t480, t448);
+            let t482 = (-(T::constant(4.642575819590068) + t481)).side();
+            let t483 = t482 - (t481 - T::constant(4.642575819590068)).side();
+            let t484 = t483.mul_add(T::constant(::core::f64::consts::PI), t481);
+            let t485 = T::constant(-4.642575810304916).max(t484);
+            let t486 = T::constant(4.642575810304916).min(t485);
+            solutions[7] = [t334, t421, t428, t473, t479, t486];
+            let t487 = t459.min(T::constant(1.9198621820806845) + t471);
+            let t488 = (T::constant(2.967059733277282) - t472).min(t487);
+            let t489 = (T::constant(1.745329255484988) + t477).min(t488);
+            let t490 = (T::constant(1.745329255484988) - t478).min(t489);
+            let t491 = (T::constant(4.642575819590068) + t484).min(t490);
+            let t492 = (T::constant(4.642575819590068) - t485).min(t491).side();
+            let t493 = t492.mul_add(T::constant(0.5), T::constant(0.5));
+            *found = [t219, t246, t298, t325, t387, t414, t466, t493];
         }
     }
 }

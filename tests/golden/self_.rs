@@ -113,6 +113,7 @@ pub mod self_ {
             Effect::new(0, 1, Component::X),
             Effect::new(0, 1, Component::Pitch),
         ]),
+        solutions: 0,
     };
 
     /// Structural parameters `s`, which can be set at run time.

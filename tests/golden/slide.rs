@@ -66,6 +66,7 @@ pub mod slide {
         inputs: List::Constant(&[]),
         sources: List::Constant(&[]),
         effects: List::Constant(&[]),
+        solutions: 0,
     };
 
     /// Structural parameters `s`, which can be set at run time.

@@ -43,8 +43,8 @@ e_x = "1e-4 m/N*NaN*cos(new)"
 e_r = "-1e-3*atan2(function, class)*sqrt(Math)"
 "#;
 
-/// Returns configurations: q, s, u, errors, variances and magnitudes, and the cycle of corrected
-/// commands, of which every other one is bounded.
+/// Returns configurations: q, s, u, errors, variances and magnitudes, the cycle of corrected
+/// commands, of which every other one is bounded, and a pose to be reached.
 pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     let description = robot.description();
     let s = nominal_parameters(description);
@@ -64,9 +64,15 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
             .chain(small)
             .chain(magnitudes)
             .chain(cycle(description, index))
+            .chain(target(robot, &s, &joint_sample(description, arm, &moved, 3 * index + 1)))
             .collect()
     };
     (0..count).map(configuration).collect()
+}
+
+/// Returns the pose of other joint variables.
+fn target(robot: &dyn Manipulator, s: &[f64], q: &[f64]) -> Vec<f64> {
+    robot.pose(q, s).map_or_else(|_| Pose::IDENTITY.0.concat(), |pose| pose.0.concat())
 }
 
 /// Returns a configuration of the machine `linkage` at which its rod does not reach the plate.
@@ -116,6 +122,7 @@ fn cycle(description: &Description, index: usize) -> Vec<f64> {
 pub fn given_arrays() -> Vec<&'static Array> {
     let mut arrays: Vec<&Array> = Vec::new();
     let functions = Function::ALL.map(Function::signature).into_iter().chain([&COMPENSATED]);
+    let functions = functions.chain(Function::OF_INVERSE.map(Function::signature));
     for array in functions.flat_map(|signature| signature.arguments) {
         if !arrays.contains(&array) {
             arrays.push(array);

@@ -29,7 +29,8 @@ const STEPS: usize = 4;
 /// axes intersect, where the arm has three revolute joints, or two whose axes intersect or are
 /// parallel and a slide; of three parallel axes between the first joint and the
 /// last two, whose axes intersect; of one of these from the tool to the base; or of three slides
-/// and three revolute joints. The structure is found in the numbers of the chain, and every
+/// and three revolute joints. The function of the manipulator is used if it has one
+/// ([`Manipulator::inverse`]); otherwise the structure is found in the numbers of the chain. Every
 /// solution is verified, and where needed improved, by the manipulator itself. Errors of a
 /// calibration, which tilt and shift axes, leave no such structure.
 ///
@@ -37,7 +38,17 @@ const STEPS: usize = 4;
 /// `F_0`.
 pub struct InverseKinematics<'a> {
     problem: Problem<'a>,
-    form: Option<ClosedForm>,
+    form: Form,
+}
+
+/// Origin of the solutions.
+enum Form {
+    /// Function of the manipulator.
+    Generated,
+    /// Closed form found in the numbers of the chain.
+    Found(ClosedForm),
+    /// No closed form: searches.
+    None,
 }
 
 impl<'a> InverseKinematics<'a> {
@@ -46,14 +57,18 @@ impl<'a> InverseKinematics<'a> {
         let home = sampling::home(manipulator.description());
         let all: Vec<usize> = (0..home.len()).collect();
         let problem = Problem::new(manipulator, s, &home, &all)?;
-        let form = JointChain::new(&problem).and_then(|chain| ClosedForm::new(&chain));
+        let found = || JointChain::new(&problem).and_then(|chain| ClosedForm::new(&chain));
+        let form = match manipulator.description().solutions {
+            0 => found().map_or(Form::None, Form::Found),
+            _ => Form::Generated,
+        };
         Ok(Self { problem, form })
     }
 
     /// Returns `true` if the solutions are found in closed form. Then none is missing, except where
     /// a joint is free to move: see [`solve`](Self::solve).
     pub fn is_closed_form(&self) -> bool {
-        self.form.is_some()
+        !matches!(self.form, Form::None)
     }
 
     /// Returns all solutions within the limits that bring the tool point to a pose, the one nearest
@@ -87,17 +102,24 @@ impl<'a> InverseKinematics<'a> {
         let mut found: Vec<(f64, Vec<f64>)> = Vec::with_capacity(8);
         let mut columns = vec![[0.0; 6]; free.len()];
         let candidates = match &self.form {
-            Some(form) => self.closed(form, start, target),
-            None => self.searched(start, target)?,
+            Form::Generated => self.generated(start, target)?,
+            Form::Found(form) => self.closed(form, start, target),
+            Form::None => self.searched(start, target)?,
         };
         for candidate in candidates {
             let polished = self.polished(candidate, target, &mut columns);
             let Some(q) = polished.and_then(|q| self.within_limits(q, start)) else { continue };
-            let size = |a: &[f64]| {
-                (0..a.len()).map(|i| ((a[i] - q[i]) / self.problem.unit(i)).powi(2)).sum::<f64>().sqrt()
+            let way = |a: &[f64], i: usize| (a[i] - q[i]) / self.problem.unit(i);
+            let size = |way: &dyn Fn(usize) -> f64| (0..q.len()).map(|i| way(i).powi(2)).sum::<f64>().sqrt();
+            // Of two turns that are as near to the start one is a solution.
+            let apart = |other: &[f64]| {
+                size(&|i| match self.problem.description().variables[i].kind {
+                    VariableKind::Revolute => way(other, i) - TAU * (way(other, i) / TAU).round(),
+                    VariableKind::Prismatic => way(other, i),
+                })
             };
-            if found.iter().all(|(_, other)| size(other) > SAME) {
-                found.push((size(start), q));
+            if found.iter().all(|(_, other)| apart(other) > SAME) {
+                found.push((size(&|i| way(start, i)), q));
             }
         }
         if found.is_empty() {
@@ -105,6 +127,15 @@ impl<'a> InverseKinematics<'a> {
         }
         found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         Ok(found.into_iter().map(|(_, q)| q).collect())
+    }
+
+    fn generated(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
+        let Problem { manipulator, ref s, .. } = self.problem;
+        let count = manipulator.description().solutions;
+        let (mut solutions, mut found) = (vec![0.0; count * start.len()], vec![0.0; count]);
+        manipulator.inverse(start, s, target, &mut solutions, &mut found)?;
+        let rows = solutions.chunks_exact(start.len()).zip(found);
+        Ok(rows.filter(|(_, found)| *found > 0.5).map(|(row, _)| row.to_vec()).collect())
     }
 
     fn closed(&self, form: &ClosedForm, start: &[f64], target: &Pose) -> Vec<Vec<f64>> {
@@ -129,7 +160,7 @@ impl<'a> InverseKinematics<'a> {
         let scale = |i: usize| if i < 3 { 1.0 / arm } else { 1.0 };
         let (mut best, mut least) = (Vec::new(), f64::INFINITY);
         for _ in 0..=STEPS {
-            let Ok(pose) = manipulator.joint_jacobian(&q, s, columns) else { break };
+            let Ok(pose) = manipulator.pose(&q, s) else { break };
             let difference = deviation(orientation, &pose, target);
             let residual = Vector6::from_fn(|i, _| difference[i] * scale(i));
             let norm = residual.norm();
@@ -142,7 +173,7 @@ impl<'a> InverseKinematics<'a> {
             best.clone_from(&q);
             least = norm;
             // Searches of fewer joints have ended where they could.
-            if q.len() != 6 {
+            if q.len() != 6 || manipulator.joint_jacobian(&q, s, columns).is_err() {
                 break;
             }
             let jacobian = Matrix6::from_fn(|i, j| columns[j][i] * scale(i) * self.problem.unit(j));

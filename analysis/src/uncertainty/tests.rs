@@ -24,6 +24,7 @@ fn machine(sources: Vec<Source>) -> Description {
         inputs: List::Constant(&[]),
         sources: sources.into_iter().collect(),
         effects: List::Constant(&[]),
+        solutions: 0,
     }
 }
 

@@ -9,10 +9,10 @@
 //! adds every frame's errors: `displacement`, `covariance`, `by_source`, and the `magnitudes` to be
 //! maximized. `real` is the exact chain with errors and `remainder` its difference from first
 //! order. `joint_step` (by `minors`) cancels the errors to first order and `residual` is the error
-//! left after it. `dexterity` holds rows of `J_q` (`joint_columns`), `tool_compliance` the
-//! displacement per force. `equivalent_forms` and `moving` state alternative forms, from which a
-//! program takes the cheapest. `tree` builds the same quantities for frames that branch, and for
-//! loops. [`Model`] holds the results.
+//! left after it. `inverse` solves for the joints in closed form. `dexterity` holds rows of `J_q`
+//! (`joint_columns`), `tool_compliance` the displacement per force. `equivalent_forms` and `moving`
+//! state alternative forms, from which a program takes the cheapest. `tree` builds the same
+//! quantities for frames that branch, and for loops. [`Model`] holds the results.
 
 mod accumulate;
 mod by_source;
@@ -24,6 +24,7 @@ mod elastic;
 mod equivalent_forms;
 mod error_jacobian;
 mod frame_twist;
+mod inverse;
 mod joint_columns;
 mod joint_step;
 mod local;

@@ -24,21 +24,42 @@ impl Graph {
             made[node.index()] = match self.op(node) {
                 Op::Symbol(symbol) => other(symbol).unwrap_or(node),
                 op if op.operands().all(|operand| of(operand) == operand) => node,
-                Op::Constant(_) => node,
-                Op::Neg(a) => self.neg(of(a)),
-                Op::Add(a, b) => self.add(of(a), of(b)),
-                Op::Sub(a, b) => self.sub(of(a), of(b)),
-                Op::Mul(a, b) => self.mul(of(a), of(b)),
-                Op::Div(a, b) => self.div(of(a), of(b)),
-                // Exponents are constants.
-                Op::Pow(a, b) => self.power(of(a), self.value(b).unwrap_or(f64::NAN)),
-                Op::Atan2(a, b) => self.atan2(of(a), of(b)),
-                Op::Min(a, b) => self.min(of(a), of(b)),
-                Op::Max(a, b) => self.max(of(a), of(b)),
-                Op::Call(function, a) => self.call(function, of(a)),
-                Op::Lookup(lookup, a) => self.look_up(lookup, of(a)),
+                op => self.with_operands(op, of),
             };
         }
         nodes.iter().map(|node| made[node.index()]).collect()
+    }
+
+    /// Adds nodes of another graph with the same tables.
+    pub(crate) fn adopt(&mut self, other: &Self, nodes: &[Node]) -> Vec<Node> {
+        let mut made: Vec<Node> = other.nodes().collect();
+        for node in other.reached_from(nodes) {
+            let of = |operand: Node| made[operand.index()];
+            made[node.index()] = self.with_operands(other.op(node), of);
+        }
+        nodes.iter().map(|node| made[node.index()]).collect()
+    }
+
+    /// Returns an operation with other operands.
+    fn with_operands(&mut self, op: Op, of: impl Fn(Node) -> Node) -> Node {
+        match op {
+            Op::Constant(bits) => self.constant(f64::from_bits(bits)),
+            Op::Symbol(symbol) => self.symbol(symbol),
+            Op::Neg(a) => self.neg(of(a)),
+            Op::Add(a, b) => self.add(of(a), of(b)),
+            Op::Sub(a, b) => self.sub(of(a), of(b)),
+            Op::Mul(a, b) => self.mul(of(a), of(b)),
+            Op::Div(a, b) => self.div(of(a), of(b)),
+            // Exponents are constants.
+            Op::Pow(a, b) => {
+                let exponent = self.value(of(b)).unwrap_or(f64::NAN);
+                self.power(of(a), exponent)
+            }
+            Op::Atan2(a, b) => self.atan2(of(a), of(b)),
+            Op::Min(a, b) => self.min(of(a), of(b)),
+            Op::Max(a, b) => self.max(of(a), of(b)),
+            Op::Call(function, a) => self.call(function, of(a)),
+            Op::Lookup(lookup, a) => self.look_up(lookup, of(a)),
+        }
     }
 }

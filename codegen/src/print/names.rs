@@ -39,6 +39,7 @@ pub(super) struct Names<'s> {
     /// Six names per frame.
     errors: Vec<String>,
     magnitudes: Vec<String>,
+    target: Vec<String>,
     /// Names of the numbers that the body of a loop reads.
     locals: Vec<String>,
 }
@@ -62,7 +63,7 @@ impl<'s> Names<'s> {
         let taken = taken.chain(called.flatten()).chain(tables);
         let used = taken.map(|name| (identifiers.key)(&name)).collect();
         let (variables, parameters, inputs) = (vec![], vec![], vec![]);
-        let (errors, magnitudes, locals) = (vec![], vec![], vec![]);
+        let (errors, magnitudes, target, locals) = (vec![], vec![], vec![], vec![]);
         let mut names = Self {
             spec,
             used,
@@ -73,6 +74,7 @@ impl<'s> Names<'s> {
             inputs,
             errors,
             magnitudes,
+            target,
             locals,
         };
         names.variables = spec.variables.iter().map(|variable| names.free(&variable.name)).collect();
@@ -97,6 +99,16 @@ impl<'s> Names<'s> {
     /// Names the magnitudes of the sources, counted from 1: `m1`.
     pub(super) fn name_magnitudes(&mut self, count: usize) {
         self.magnitudes = (1..=count).map(|source| self.free(&format!("m{source}"))).collect();
+    }
+
+    /// Names the entries of the pose that is to be reached, by row and column: `t_13`, and `t_x` of
+    /// the position.
+    pub(super) fn name_target(&mut self) {
+        let entry = |i: usize| match i {
+            0..9 => format!("t_{}{}", i % 3 + 1, i / 3 + 1),
+            _ => format!("t_{}", ["x", "y", "z"][i - 9]),
+        };
+        self.target = (0..12).map(|i| self.free(&entry(i))).collect();
     }
 
     /// Clears the names of local symbols at the start of another block.
@@ -154,6 +166,7 @@ impl<'s> Names<'s> {
             // Named before the body is printed, in the functions that take errors.
             Symbol::Error(i) => &self.errors[i],
             Symbol::Magnitude(i) => &self.magnitudes[i],
+            Symbol::Target(i) => &self.target[i],
             Symbol::Passive(i) | Symbol::Local(i) => &self.locals[i],
         }
     }

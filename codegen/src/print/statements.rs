@@ -116,6 +116,10 @@ impl Writer<'_> {
                     self.names.name_magnitudes(argument.len(self.description));
                     Symbol::Magnitude
                 }
+                (Role::Argument, "target") => {
+                    self.names.name_target();
+                    Symbol::Target
+                }
                 (Role::Argument, "errors" | "variances") => {
                     if used.iter().any(|symbol| matches!(symbol, Symbol::Error(_))) {
                         self.names.name_errors(argument.name);
@@ -376,6 +380,7 @@ fn uses(routine: &Routine, symbols: &HashSet<Symbol>, description: &Description,
             Symbol::Input(_) => "u",
             Symbol::Error(_) => return matches!(routine.arrays[array].name, "errors" | "variances"),
             Symbol::Magnitude(_) => "magnitudes",
+            Symbol::Target(_) => "target",
             Symbol::Passive(_) | Symbol::Local(_) => return false,
         };
         name == routine.arrays[array].name

@@ -5,8 +5,13 @@ use abbe_spec::Spec;
 
 use crate::chain::lower_pairs;
 
-/// Returns the description of a spec with the effects of its enabled sources.
-pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>) -> Description {
+/// Returns the description of a spec with the effects of its enabled sources and the number of
+/// solutions of inverse kinematics.
+pub(super) fn description(
+    spec: &Spec,
+    effects: impl IntoIterator<Item = Effect>,
+    solutions: usize,
+) -> Description {
     let frames = spec.frames.iter().zip(lower_pairs(spec)).enumerate();
     let variables = spec.variables.iter();
     let parameters = spec.parameters.iter();
@@ -55,6 +60,7 @@ pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>
             })
             .collect(),
         effects: effects.into_iter().collect(),
+        solutions,
     }
 }
 

@@ -82,6 +82,14 @@ pub(super) fn alternatives(function: Function, model: &Model) -> Vec<Outputs> {
         // In terms of passive variables that `tree` finds.
         Function::Passive => plain(vec![model.loops.iter().flat_map(|tree| tree.passive.clone()).collect()]),
         Function::DisplacedPose => plain(model.loops.iter().map(|tree| pose(&tree.displaced.pose)).collect()),
+        Function::Inverse => model
+            .inverse
+            .iter()
+            .map(|inverse| Outputs {
+                results: vec![inverse.solutions.concat(), inverse.found.clone()],
+                margin: None,
+            })
+            .collect(),
         Function::CompensatorStep => plain(vec![pose(&model.real_pose), model.joint_twists.concat()]),
     }
 }

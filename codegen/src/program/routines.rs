@@ -47,7 +47,7 @@ impl Routines {
     }
 
     fn with(spec: &Spec, model: &Model, mut loops: Option<Loops<'_>>) -> Self {
-        let description = description(spec, model.effects.iter().map(EffectNode::effect));
+        let description = description(spec, model.effects.iter().map(EffectNode::effect), model.solutions());
         let mut list: Vec<Routine> = Vec::new();
         let mut selections = Selections::default();
         let mut known: Vec<(Function, Outputs)> = Vec::new();

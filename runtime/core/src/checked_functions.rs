@@ -6,7 +6,8 @@
 /// Defines the checked functions of a generated module, and the type that implements
 /// [`Manipulator`](crate::Manipulator) by its raw functions.
 ///
-/// A manipulator with loops is followed by the word `loops`. Generated code invokes it where
+/// A manipulator with loops is followed by the word `loops`, one with inverse kinematics in closed
+/// form by `inverse`. Generated code invokes it where
 /// `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`, `EFFECTS`, `SOURCES`, `DESCRIPTION`,
 /// `Parameters`, `Inputs` and `raw` are defined. The types of arrays fix their sizes. Numbers that
 /// are not finite, inputs outside their range and Euler singularities are [`Error`](crate::Error)s.
@@ -27,6 +28,8 @@ macro_rules! checked_functions {
             $crate::for_each_function!($crate::checked_arrays);
             $crate::checked_functions!(@inside $($with)?);
         }
+
+        $crate::checked_functions!(@lanes $name $($with)?);
 
         /// Returns the first cycle of a controller. In each later one,
         /// [`last`](::abbe::compensator::Cycle::last) is the correction that the one before
@@ -152,12 +155,43 @@ macro_rules! checked_functions {
     (@outside loops) => {
         $crate::for_each_function_of_loops!($crate::checked_function);
     };
+    (@outside inverse) => {
+        $crate::for_each_function_of_inverse!($crate::checked_function);
+    };
+    (@lanes $name:ident $(loops)?) => {};
+    (@lanes $name:ident inverse) => {
+        $crate::for_each_function_of_inverse!($crate::evaluate_functions, $name);
+    };
     (@inside) => {};
     (@inside loops) => {
         use super::PASSIVE;
         $crate::for_each_function_of_loops!($crate::checked_arrays);
     };
+    (@inside inverse) => {
+        use super::SOLUTIONS;
+        $crate::for_each_function_of_inverse!($crate::checked_arrays);
+    };
     (@methods) => {};
+    (@methods inverse) => {
+        fn inverse(
+            &self,
+            q: &[f64],
+            s: &[f64],
+            target: &$crate::Pose,
+            solutions: &mut [f64],
+            found: &mut [f64],
+        ) -> Result<(), $crate::Error> {
+            let (q, s) = $crate::checked_functions!(@arguments q, s);
+            $crate::checks::finite($crate::Quantity::Pose, target.0.as_flattened())?;
+            let solutions: &mut [f64; VARIABLES * SOLUTIONS] =
+                $crate::checks::result($crate::Quantity::Solutions, solutions)?;
+            let found = $crate::checks::result($crate::Quantity::Solutions, found)?;
+            let mut rows = [[0.0; VARIABLES]; SOLUTIONS];
+            checked::inverse(q, s, &target.0, &mut rows, found)?;
+            solutions.copy_from_slice(rows.as_flattened());
+            Ok(())
+        }
+    };
     (@methods loops) => {
         fn displaced_pose(
             &self,

@@ -85,4 +85,15 @@ impl<D: Delegate> Manipulator for D {
     fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
         self.original().passive(q, s, passive)
     }
+
+    fn inverse(
+        &self,
+        q: &[f64],
+        s: &[f64],
+        target: &Pose,
+        solutions: &mut [f64],
+        found: &mut [f64],
+    ) -> Result<(), Error> {
+        self.original().inverse(q, s, target, solutions, found)
+    }
 }

@@ -356,6 +356,8 @@ pub struct Description {
     pub sources: List<Source>,
     /// Effects of the sources, source by source.
     pub effects: List<Effect>,
+    /// Number of solutions that inverse kinematics in closed form has at most; 0 if there is none.
+    pub solutions: usize,
 }
 
 impl Description {

@@ -43,6 +43,8 @@ pub enum Quantity {
     Corrections,
     /// Weights of rotations that are to be reached.
     Rotations,
+    /// Solutions of inverse kinematics.
+    Solutions,
 }
 
 impl fmt::Display for Quantity {
@@ -64,6 +66,7 @@ impl fmt::Display for Quantity {
             Self::Displacement => "displacement entry",
             Self::Corrections => "correction",
             Self::Rotations => "rotation",
+            Self::Solutions => "solution",
         })
     }
 }

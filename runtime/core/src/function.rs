@@ -51,6 +51,12 @@ macro_rules! all {
     };
 }
 
+macro_rules! of_inverse {
+    (: $($entries:tt)+) => {
+        list!(OF_INVERSE, "Functions that only manipulators have whose inverse kinematics has a closed form.": $($entries)+);
+    };
+}
+
 macro_rules! of_loops {
     (: $($entries:tt)+) => {
         list!(OF_LOOPS, "Functions that only manipulators with loops have.": $($entries)+);
@@ -59,13 +65,16 @@ macro_rules! of_loops {
 
 crate::for_each_function!(all);
 crate::for_each_function_of_loops!(of_loops);
+crate::for_each_function_of_inverse!(of_inverse);
 
 impl Function {
     /// Iterates over the functions of a manipulator, in the order of generated code: those that
     /// others call come first.
     pub fn all(description: &crate::Description) -> impl Iterator<Item = Self> + use<> {
-        let has_loops = description.has_loops();
-        Self::OF_LOOPS.into_iter().filter(move |_| has_loops).chain(Self::ALL)
+        let (has_loops, has_inverse) = (description.has_loops(), description.solutions > 0);
+        let of_loops = Self::OF_LOOPS.into_iter().filter(move |_| has_loops);
+        let of_inverse = Self::OF_INVERSE.into_iter().filter(move |_| has_inverse);
+        of_loops.chain(Self::ALL).chain(of_inverse)
     }
 
     /// Returns the name in generated code.

@@ -90,4 +90,24 @@ pub trait Manipulator: Sync {
             found => Err(Error::Count { quantity: Quantity::Passive, expected: 0, found }),
         }
     }
+
+    /// Computes all joint variables that bring the tool point to a pose, in closed form: a row of
+    /// `solutions` per solution, in the turns nearest to `q` that the limits permit.
+    ///
+    /// Where `found` is 0, the row is no solution. A joint that is free to move there stays as in
+    /// `q`. The default is for manipulators without a closed form, whose description has no
+    /// solutions.
+    fn inverse(
+        &self,
+        _q: &[f64],
+        _s: &[f64],
+        _target: &Pose,
+        _solutions: &mut [f64],
+        found: &mut [f64],
+    ) -> Result<(), Error> {
+        match found.len() {
+            0 => Ok(()),
+            found => Err(Error::Count { quantity: Quantity::Solutions, expected: 0, found }),
+        }
+    }
 }

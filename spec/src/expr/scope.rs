@@ -23,6 +23,8 @@ pub enum Symbol {
     Error(usize),
     /// The magnitude that multiplies the errors of a source. Not in specs, but in the exact chain.
     Magnitude(usize),
+    /// An entry of the pose that inverse kinematics is to reach. Not in specs.
+    Target(usize),
     /// One of the numbers that the body of a loop reads. Not in specs.
     Local(usize),
 }

@@ -186,7 +186,7 @@ fn values(graph: &Graph, spec: &Spec, nodes: &[Node], nominal: bool) -> Vec<f64>
         Symbol::Input(i) if nominal => spec.inputs[i].value,
         Symbol::Input(i) => spec.inputs[i].range[1],
         Symbol::Passive(i) | Symbol::Local(i) => spec.passive[i].home,
-        Symbol::Error(_) | Symbol::Magnitude(_) => f64::NAN,
+        Symbol::Error(_) | Symbol::Magnitude(_) | Symbol::Target(_) => f64::NAN,
     })
 }
 

@@ -143,6 +143,6 @@ pub(super) fn value_at_home(symbol: Symbol, spec: &Spec) -> f64 {
         Symbol::Input(i) => spec.inputs[i].value,
         // Nodes read passive variables as local symbols.
         Symbol::Passive(i) | Symbol::Local(i) => spec.passive.get(i).map_or(0.0, |variable| variable.home),
-        Symbol::Magnitude(_) | Symbol::Error(_) => 0.0,
+        Symbol::Magnitude(_) | Symbol::Target(_) | Symbol::Error(_) => 0.0,
     }
 }

@@ -98,7 +98,8 @@ fn constant(graph: &Graph, spec: &Spec, velocity: [Node; 3], rotation: [Node; 3]
             | Symbol::Input(_)
             | Symbol::Error(_)
             | Symbol::Local(_)
-            | Symbol::Magnitude(_) => f64::NAN,
+            | Symbol::Magnitude(_)
+            | Symbol::Target(_) => f64::NAN,
         })
     };
     let first = at(0);

@@ -19,9 +19,11 @@ fn values(sample: usize) -> impl Fn(Symbol) -> f64 {
             Symbol::Variable(i) => spread(i, 0.1),
             Symbol::Parameter(i) => spread(i, 0.5) + 1.0,
             Symbol::Input(i) => spread(i, 0.9),
-            Symbol::Passive(i) | Symbol::Error(i) | Symbol::Magnitude(i) | Symbol::Local(i) => {
-                (i as f64 * 1.7 + sample as f64).sin().powi(2)
-            }
+            Symbol::Passive(i)
+            | Symbol::Error(i)
+            | Symbol::Magnitude(i)
+            | Symbol::Target(i)
+            | Symbol::Local(i) => (i as f64 * 1.7 + sample as f64).sin().powi(2),
         }
     }
 }

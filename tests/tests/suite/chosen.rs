@@ -21,6 +21,7 @@ fn values(sample: usize) -> impl Fn(Symbol) -> f64 + Copy {
             Symbol::Input(i) => spread(i, 0.9),
             Symbol::Error(i) => spread(i, 1.3),
             Symbol::Magnitude(i) => spread(i, 1.7),
+            Symbol::Target(i) => spread(i, 1.9),
             Symbol::Passive(_) | Symbol::Local(_) => f64::NAN,
         }
     }

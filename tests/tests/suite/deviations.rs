@@ -16,7 +16,11 @@ fn value(symbol: Symbol) -> f64 {
         Symbol::Variable(i) => spread(i, 0.1),
         Symbol::Parameter(i) => spread(i, 0.5) + 1.0,
         Symbol::Input(i) => spread(i, 0.9),
-        Symbol::Passive(_) | Symbol::Error(_) | Symbol::Local(_) | Symbol::Magnitude(_) => 0.0,
+        Symbol::Passive(_)
+        | Symbol::Error(_)
+        | Symbol::Local(_)
+        | Symbol::Magnitude(_)
+        | Symbol::Target(_) => 0.0,
     }
 }
 

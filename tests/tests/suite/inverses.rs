@@ -5,9 +5,10 @@ use std::fmt::Write;
 
 use abbe::analysis::sampling::{halton, nominal_parameters};
 use abbe::analysis::{InverseKinematics, Target, inverse};
-use abbe::{Error, Manipulator, Orientation, Pose, Quantity, VariableKind, deviation};
+use abbe::lanes::{Evaluate, InstructionSet, Inverse, Tiles};
+use abbe::{Error, Function, Manipulator, Orientation, Pose, Quantity, VariableKind, deviation};
 use abbe_interpreter::Interpreter;
-use abbe_manipulators::SHIPPED;
+use abbe_manipulators::{SHIPPED, pps, puma560, stanford, ur5};
 use abbe_spec::Spec;
 use abbe_tests::sample_size;
 use rand::{RngExt, SeedableRng};
@@ -97,6 +98,84 @@ fn searches_find_no_others() {
             }
         }
     }
+}
+
+/// Generated functions give the same solutions one by one, in lanes and interpreted; each reaches the
+/// pose without any improvement, and the configuration of the pose is one of them.
+#[test]
+fn generated_solutions_reach_their_poses() {
+    generated(&puma560::Puma560);
+    generated(&ur5::Ur5);
+    generated(&stanford::Stanford);
+    generated(&pps::Pps);
+}
+
+fn generated(robot: &(impl Evaluate<Inverse> + Manipulator)) {
+    let description = robot.description();
+    let name = &*description.name;
+    let spec = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap().spec;
+    let interpreter = Interpreter::new(Spec::parse(name, spec).unwrap());
+    let s = nominal_parameters(description);
+    let count = sample_size(100_000).max(300);
+    let signature = Function::Inverse.signature();
+    let set = InstructionSet::best();
+    let mut arguments = Tiles::new(set, signature.arguments_len(description), count);
+    let mut results = Tiles::new(set, signature.results_len(description), count);
+    let given = |index: usize| {
+        let q = sample(robot, index);
+        (sample(robot, 2 * index + 1), robot.pose(&q, &s).unwrap(), q)
+    };
+    for index in 0..count {
+        let (start, target, _) = given(index);
+        let numbers = start.iter().chain(&s).chain(target.0.as_flattened());
+        numbers.enumerate().for_each(|(row, value)| arguments.set_value(row, index, *value));
+    }
+    arguments.pad();
+    abbe::lanes::run(robot, Inverse, &arguments, &mut results).unwrap();
+    let rows = description.solutions;
+    let solve = |robot: &dyn Manipulator, start: &[f64], target: &Pose| {
+        let (mut solutions, mut found) = (vec![0.0; 6 * rows], vec![0.0; rows]);
+        robot.inverse(start, &s, target, &mut solutions, &mut found).unwrap();
+        [solutions, found].concat()
+    };
+    let mut worst = [0.0_f64; 2];
+    for index in 0..count {
+        let (start, target, q) = given(index);
+        let one = solve(robot, &start, &target);
+        let in_lanes: Vec<f64> = (0..7 * rows).map(|row| results.get(row, index)).collect();
+        let size = target.position().iter().fold(1.0, |a: f64, b| a.max(b.abs()));
+        for other in [in_lanes, solve(&interpreter, &start, &target)] {
+            assert_eq!(one[6 * rows..], other[6 * rows..], "{name} {index}");
+            let difference = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            worst[1] = worst[1].max(difference / size);
+        }
+        let mut nearest = f64::INFINITY;
+        for (row, found) in one[..6 * rows].chunks(6).zip(&one[6 * rows..]) {
+            assert!([0.0, 1.0].contains(found));
+            if *found == 0.0 {
+                continue;
+            }
+            let reached = robot.pose(row, &s).unwrap();
+            let difference = deviation(Orientation::RotationVector, &reached, &target);
+            let scale = |i: usize| if i < 3 { size } else { 1.0 };
+            worst[0] = (0..6).map(|i| difference[i].abs() / scale(i)).fold(worst[0], f64::max);
+            for ((value, start), variable) in row.iter().zip(&start).zip(description.variables.iter()) {
+                let [lower, upper] = variable.limits;
+                assert!((lower..=upper).contains(value), "{name} {index}: {row:?}");
+                let turn = TAU * (start - value).signum();
+                let is_nearest = (value - start).abs() <= TAU / 2.0 + 1e-9;
+                let is_revolute = variable.kind == VariableKind::Revolute;
+                assert!(!is_revolute || is_nearest || !(lower..=upper).contains(&(value + turn)));
+            }
+            nearest = nearest.min(distance(robot, row, &q));
+        }
+        assert!(nearest < 1e-6, "{name} {index}: {q:?} is not one of {one:?}");
+    }
+    println!(
+        "{name}: {count} poses missed by {:e} at most, {:e} between lanes and others",
+        worst[0], worst[1]
+    );
+    assert!(worst[0] < 1e-10 && worst[1] < 1e-6, "{name}: {worst:?}");
 }
 
 /// Without a closed form, the solutions are those of searches.

@@ -170,7 +170,7 @@ macro_rules! functions {
         fn generated(function: Function, given: &[Counted], results: &mut [Counted]) -> Option<()> {
             match function {
                 $(Function::$function => Evaluate::<lanes::$function>::evaluate(&Measured, given, results),)+
-                Function::Passive | Function::DisplacedPose => None,
+                Function::Passive | Function::DisplacedPose | Function::Inverse => None,
             }
         }
     };

@@ -76,7 +76,11 @@ fn values(sample: usize) -> impl Fn(Symbol) -> f64 {
             Symbol::Variable(i) => spread(i, 0.1),
             Symbol::Parameter(i) => spread(i, 0.5) + 1.0,
             Symbol::Input(i) => spread(i, 0.9),
-            Symbol::Passive(_) | Symbol::Error(_) | Symbol::Magnitude(_) | Symbol::Local(_) => 0.0,
+            Symbol::Passive(_)
+            | Symbol::Error(_)
+            | Symbol::Magnitude(_)
+            | Symbol::Target(_)
+            | Symbol::Local(_) => 0.0,
         }
     }
 }

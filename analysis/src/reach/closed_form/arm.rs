@@ -1,18 +1,17 @@
-//! Three revolute joints that bring a point to its place.
+//! Three revolute joints with skew axes that bring a point to its place.
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::angles::{Quadratic, angle, angles_to_plane, linear};
+use super::angles::{Quadratic, angle};
 use super::line::{Line, TOLERANCE, common_perpendicular, turn, turned};
 
-/// Axes of three revolute joints, and a point that they move. The points on the first two axes are
+/// Axes of three revolute joints, the first two skew, and a point that they move. The points on the first two axes are
 /// the feet of their common perpendicular.
 #[derive(Clone, Debug)]
 pub(super) struct Arm {
     axes: [Line; 3],
     /// Vector from the first axis to the second.
     between: Vector3<f64>,
-    pair: Pair,
     /// Vectors of u = fixed + across cos q_3 + beyond sin q_3, from the second axis to the point.
     fixed: Vector3<f64>,
     across: Vector3<f64>,
@@ -22,27 +21,15 @@ pub(super) struct Arm {
     along: [f64; 3],
 }
 
-/// Position of the first two axes to each other.
-#[derive(Clone, Copy, Debug)]
-enum Pair {
-    Parallel,
-    Intersecting,
-    Skew,
-}
-
 impl Arm {
-    /// Returns `None` if the arm cannot bring the point to any place around it: if the first two
-    /// axes are the same, if the third goes through the point, or if q_3 changes nothing that the
-    /// first two joints keep.
+    /// Returns `None` if the first two axes are not skew, or if the arm cannot bring the point to any
+    /// place around it: if q_3 changes nothing that the first two joints keep.
     pub(super) fn new([first, second, third]: [Line; 3], point: Vector3<f64>) -> Option<Self> {
         let [on_first, on_second] = common_perpendicular(&first, &second);
         let between = on_second - on_first;
-        let pair = match (first.is_parallel(&second), between.norm() < TOLERANCE) {
-            (true, true) => return None,
-            (true, false) => Pair::Parallel,
-            (false, true) => Pair::Intersecting,
-            (false, false) => Pair::Skew,
-        };
+        if first.is_parallel(&second) || between.norm() < TOLERANCE {
+            return None;
+        }
         let [first, second] = [(first, on_first), (second, on_second)].map(|(line, at)| Line { at, ..line });
         let across = third.offset(point);
         let beyond = third.along.cross(&across);
@@ -52,13 +39,9 @@ impl Arm {
         let square = [k + across.norm_squared(), 2.0 * cosine, 2.0 * sine];
         let along = product(second.along);
         let changes = |form: [f64; 3]| form[1].hypot(form[2]) > TOLERANCE;
-        let is_determined = match pair {
-            Pair::Parallel => changes(along),
-            Pair::Intersecting => changes(square),
-            Pair::Skew => changes(along) || changes(square),
-        };
         let axes = [first, second, third];
-        is_determined.then_some(Self { axes, between, pair, fixed, across, beyond, square, along })
+        let is_determined = changes(along) || changes(square);
+        is_determined.then_some(Self { axes, between, fixed, across, beyond, square, along })
     }
 
     /// Returns the rotation by these angles.
@@ -81,45 +64,24 @@ impl Arm {
         let reach = (to - first.at).norm_squared() - c.norm_squared();
         // c · R_2 u, as a linear form.
         let radial = [(reach - square[0]) / 2.0, -square[1] / 2.0, -square[2] / 2.0];
-        let thirds: Vec<f64> = match self.pair {
-            Pair::Parallel => {
-                let cosine = h1.dot(&h2);
-                linear([along[0] * cosine - height, along[1] * cosine, along[2] * cosine], free[2]).collect()
-            }
-            Pair::Intersecting => linear(radial, free[2]).collect(),
-            Pair::Skew => {
-                let (x, y) = self.coordinates(radial, along, height);
-                let mut quadratic = Quadratic::default();
-                [x, y, along].into_iter().for_each(|form| quadratic.add(1.0, form, form));
-                quadratic.add(-1.0, square, [1.0, 0.0, 0.0]);
-                quadratic.zeros(free[2])
-            }
-        };
-        let mut found = Vec::with_capacity(4);
-        for q3 in thirds {
+        let (x, y) = self.coordinates(radial, along, height);
+        let mut quadratic = Quadratic::default();
+        [x, y, along].into_iter().for_each(|form| quadratic.add(1.0, form, form));
+        quadratic.add(-1.0, square, [1.0, 0.0, 0.0]);
+        let x_axis = c.normalize();
+        let found = quadratic.zeros(free[2]).into_iter().map(|q3| {
             let (s, cosine) = q3.sin_cos();
             let value = |form: [f64; 3]| form[0] + form[1] * cosine + form[2] * s;
             let u = fixed + across * cosine + beyond * s;
-            let mut finish = |q2: f64| {
-                let reached = c + turned(h2, q2, u);
-                let q1 = angle(h1, reached, to - first.at).unwrap_or(free[0]);
-                found.push([q1, q2, q3]);
-            };
-            match self.pair {
-                Pair::Parallel => angles_to_plane(h2, u, c, value(radial), free[1]).for_each(&mut finish),
-                Pair::Intersecting => angles_to_plane(h2, u, h1, height, free[1]).for_each(&mut finish),
-                Pair::Skew => {
-                    let (x, y) = self.coordinates(radial, along, height);
-                    let x_axis = c.normalize();
-                    let image = x_axis * value(x) + h2.cross(&x_axis) * value(y);
-                    finish(angle(h2, u, image).unwrap_or(free[1]));
-                }
-            }
-        }
-        found
+            let image = x_axis * value(x) + h2.cross(&x_axis) * value(y);
+            let q2 = angle(h2, u, image).unwrap_or(free[1]);
+            let q1 = angle(h1, c + turned(h2, q2, u), to - first.at).unwrap_or(free[0]);
+            [q1, q2, q3]
+        });
+        found.collect()
     }
 
-    /// Returns the coordinates of `R_2 u` along c and along `h_2 × c`, for skew axes.
+    /// Returns the coordinates of `R_2 u` along c and along `h_2 × c`.
     fn coordinates(&self, radial: [f64; 3], along: [f64; 3], height: f64) -> ([f64; 3], [f64; 3]) {
         let [h1, h2] = [self.axes[0].along, self.axes[1].along];
         let length = self.between.norm();

@@ -29,11 +29,6 @@ impl Line {
     pub(super) fn is_parallel(&self, other: &Self) -> bool {
         self.along.cross(&other.along).norm() < TOLERANCE
     }
-
-    /// Returns a point turned about the line.
-    pub(super) fn turned(&self, angle: f64, point: Vector3<f64>) -> Vector3<f64> {
-        self.at + turned(self.along, angle, point - self.at)
-    }
 }
 
 /// Returns the axes of the joints and the pose of the tool point, with all joints at zero.

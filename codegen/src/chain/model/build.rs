@@ -13,6 +13,7 @@ use crate::chain::displacement::Displacement;
 use crate::chain::elastic::Loads;
 use crate::chain::equivalent_forms::EquivalentForms;
 use crate::chain::error_jacobian;
+use crate::chain::inverse::Inverse;
 use crate::chain::local_twist::local_twists;
 use crate::chain::moments::Moments;
 use crate::chain::moving;
@@ -137,6 +138,7 @@ impl Model {
             let symbols: Vec<Symbol> = (0..spec.parameters.len()).map(Symbol::Parameter).collect();
             forms.twists(g, spec, &symbols, &parameter_twists);
         }
+        let inverse = Inverse::new(g, spec);
         Self {
             graph,
             transforms,
@@ -159,6 +161,7 @@ impl Model {
             joint_twists,
             joint_local_twists,
             parameter_local_twists,
+            inverse,
             loops: None,
         }
     }

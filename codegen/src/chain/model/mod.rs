@@ -7,6 +7,7 @@ pub(super) mod names;
 
 use abbe_spec::Spec;
 
+use super::inverse::Inverse;
 use super::local_twist::LocalTwist;
 use super::sources::EffectNode;
 use super::tree::Loops;
@@ -71,9 +72,19 @@ pub struct Model {
     pub joint_local_twists: Vec<LocalTwist>,
     /// Twists of each transform per unit of the parameters. Only for a long chain.
     pub parameter_local_twists: Vec<LocalTwist>,
+    /// All solutions of inverse kinematics, if they have a closed form.
+    pub(crate) inverse: Option<Inverse>,
     /// Newton's steps that close the loops, and the exact poses with errors. Only for a tree of
     /// frames.
     pub(crate) loops: Option<Loops>,
+}
+
+impl Model {
+    /// Returns the number of solutions that inverse kinematics has at most; 0 without a closed
+    /// form.
+    pub fn solutions(&self) -> usize {
+        self.inverse.as_ref().map_or(0, |inverse| inverse.found.len())
+    }
 }
 
 /// Largest number of frames for which straight-line code is generated. Beyond it, straight-line

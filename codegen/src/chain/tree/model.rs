@@ -95,6 +95,7 @@ pub(crate) fn model(spec: &Spec) -> Model {
         joint_twists,
         joint_local_twists: Vec::new(),
         parameter_local_twists: Vec::new(),
+        inverse: None,
         loops: Some(loops),
         graph,
     }

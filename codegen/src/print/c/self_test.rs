@@ -183,12 +183,12 @@ fn sines(writer: &mut Writer, real: Real) {
 }
 
 /// Values of every argument, by name.
-type Given = [(&'static str, Vec<f64>); 6];
+type Given = [(&'static str, Vec<f64>); 7];
 
 /// Returns the first of a few configurations at which the most functions have finite values.
 fn where_most_has_a_value(spec: &Spec, model: &Model, functions: &[Function], real: Real) -> Given {
     let count = |given: &Given| functions.iter().filter(|f| values(given, model, **f).is_some()).count();
-    let tried = (0..16).map(|start| given(spec, start, real));
+    let tried = (0..16).map(|start| given(spec, model, start, real));
     let mut best: Option<(usize, Given)> = None;
     for given in tried {
         let found = count(&given);
@@ -199,7 +199,7 @@ fn where_most_has_a_value(spec: &Spec, model: &Model, functions: &[Function], re
             break;
         }
     }
-    best.map_or_else(|| given(spec, 0, real), |(_, given)| given)
+    best.map_or_else(|| given(spec, model, 0, real), |(_, given)| given)
 }
 
 /// Returns the results of a function, array by array. Returns `None` near a singularity of Euler
@@ -238,6 +238,7 @@ fn value_of(given: &Given, function: Function, symbol: Symbol) -> f64 {
         Symbol::Error(k) if function == Function::Covariance => given[4].1[k],
         Symbol::Error(k) => given[3].1[k],
         Symbol::Magnitude(k) => given[5].1[k],
+        Symbol::Target(k) => given[6].1[k],
         Symbol::Passive(_) | Symbol::Local(_) => f64::NAN,
     }
 }
@@ -342,7 +343,7 @@ fn upwards(bound: f64) -> f64 {
 }
 
 /// Returns values of every argument; each `start` gives different ones.
-fn given(spec: &Spec, start: usize, real: Real) -> Given {
+fn given(spec: &Spec, model: &Model, start: usize, real: Real) -> Given {
     let share = |k: usize| 0.1 + 0.8 * ((start + k + 1) as f64 * 0.618_033_988_749_894_9).fract();
     let between = |k: usize, [lower, upper]: [f64; 2], otherwise: f64| {
         let value = lower + share(k) * (upper - lower);
@@ -351,15 +352,30 @@ fn given(spec: &Spec, start: usize, real: Real) -> Given {
     let variables = spec.variables.iter().enumerate();
     let inputs = spec.inputs.iter().enumerate();
     let errors = 6 * spec.frames.len();
+    let q = |from: usize| -> Vec<f64> {
+        variables.clone().map(|(k, variable)| between(from + k, variable.limits, variable.home)).collect()
+    };
     let given: Given = [
-        ("q", variables.map(|(k, variable)| between(k, variable.limits, variable.home)).collect()),
+        ("q", q(0)),
         ("s", spec.parameters.iter().map(|parameter| parameter.value).collect()),
         ("u", inputs.map(|(k, input)| between(k, input.range, input.value)).collect()),
         ("errors", (0..errors).map(|k| 1e-3 * (share(k) - 0.5)).collect()),
         ("variances", (0..errors).map(|k| 1e-6 * share(k)).collect()),
         ("magnitudes", (0..spec.enabled_sources().count()).map(|k| 2.0 * share(k) - 1.0).collect()),
+        ("target", pose(spec, model, &q(9))),
     ];
     given.map(|(name, values)| (name, values.into_iter().map(|value| real.nearest(value)).collect()))
+}
+
+/// Returns the pose of a machine with inverse kinematics in closed form; nothing for others.
+fn pose(spec: &Spec, model: &Model, q: &[f64]) -> Vec<f64> {
+    let (arrays, _) = results(Function::Pose, model);
+    let nodes = if model.solutions() > 0 { arrays.concat() } else { Vec::new() };
+    model.graph.evaluate(&nodes, |symbol| match symbol {
+        Symbol::Variable(k) => q[k],
+        Symbol::Parameter(k) => spec.parameters[k].value,
+        _ => f64::NAN,
+    })
 }
 
 const SUMS_TO: &str = "\

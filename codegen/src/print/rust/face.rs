@@ -6,7 +6,7 @@ use abbe_core::{Class, LengthUnit, Orientation, VariableKind};
 use abbe_spec::{Spec, Variable};
 
 use super::literal::number;
-use crate::chain::{EffectNode, lower_pairs};
+use crate::chain::{Model, lower_pairs};
 use crate::print::layout::{Writer, array, call};
 use crate::print::text::escaped;
 
@@ -62,7 +62,8 @@ pub(super) fn type_name(name: &str) -> String {
 }
 
 /// Prints the counts, and [`DESCRIPTION`] with every name, unit and limit.
-pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNode]) {
+pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
+    let effects = &model.effects;
     let distinct = match spec.orientation {
         _ if !spec.is_serial() => VECTORS_OF_TREE,
         Orientation::RotationVector => 6,
@@ -70,6 +71,12 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     };
     let passive = spec.passive.len();
     let passive = (passive > 0).then_some(("PASSIVE", passive, "Number of passive variables."));
+    let solutions = model.solutions();
+    let solutions = (solutions > 0).then_some((
+        "SOLUTIONS",
+        solutions,
+        "Largest number of solutions of inverse kinematics.",
+    ));
     for (name, count, documentation) in [
         ("FRAMES", spec.frames.len(), "Number of frames n."),
         ("ERRORS", 6 * spec.frames.len(), "Number of generalized errors: 6n, the length of ε."),
@@ -86,6 +93,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     ]
     .into_iter()
     .chain(passive)
+    .chain(solutions)
     {
         writer.documentation(documentation);
         writer.lines(&format!("pub const {name}: usize = {count};"));
@@ -165,6 +173,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
         ("Effect::new", vec![effect.source.to_string(), effect.frame.to_string(), component])
     });
     list("effects", effects.collect());
+    writer.lines(&format!("solutions: {},", if model.solutions() > 0 { "SOLUTIONS" } else { "0" }));
     writer.close("};");
     writer.blank();
 }
@@ -264,11 +273,15 @@ fn structure(writer: &mut Writer, head: &str, values: &[String]) {
 
 /// Prints the macro call for the checked functions and the trait, which are the same for all
 /// manipulators.
-pub(super) fn checked(writer: &mut Writer, spec: &Spec) {
+pub(super) fn checked(writer: &mut Writer, spec: &Spec, model: &Model) {
     writer.open("::abbe::checked_functions!");
     let title = escaped(spec.title.trim_end_matches('.'));
     writer.documentation(&format!("{title}, as a [`Manipulator`](::abbe::Manipulator)."));
-    let with = if spec.passive.is_empty() { "" } else { " loops" };
+    let with = match (spec.passive.is_empty(), model.solutions()) {
+        (false, _) => " loops",
+        (true, 0) => "",
+        (true, _) => " inverse",
+    };
     writer.lines(&format!("{}{with}", type_name(&spec.name)));
     writer.close("}");
     writer.blank();

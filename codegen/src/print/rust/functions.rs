@@ -121,6 +121,7 @@ fn size(count: Count) -> String {
         Count::Inputs => "INPUTS",
         Count::Effects => "EFFECTS",
         Count::Sources => "SOURCES",
+        Count::Solutions => "SOLUTIONS",
     }
     .to_owned()
 }

@@ -27,9 +27,9 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     writer.open(&format!("pub mod {}", spec.name));
     writer.imports("::abbe", &used_types(spec, model));
     writer.blank();
-    face::description(&mut writer, spec, &model.effects);
+    face::description(&mut writer, spec, model);
     face::named_values(&mut writer, spec);
-    face::checked(&mut writer, spec);
+    face::checked(&mut writer, spec, model);
     writer.documentation(
         "Unchecked functions on plain arrays, generic over the scalar. Infinite and NaN values propagate.",
     );
@@ -43,7 +43,8 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
     let shares_columns = shares_columns(routines);
     writer.open("pub mod raw");
     let passive = (!spec.passive.is_empty()).then_some("PASSIVE");
-    let mut sizes: Vec<&str> = SIZES.into_iter().chain(passive).collect();
+    let solutions = (model.solutions() > 0).then_some("SOLUTIONS");
+    let mut sizes: Vec<&str> = SIZES.into_iter().chain(passive).chain(solutions).collect();
     sizes.sort_unstable();
     writer.imports("super", &sizes);
     writer.lines(if shares_columns { "use ::abbe::{ErrorColumns, Scalar};" } else { "use ::abbe::Scalar;" });

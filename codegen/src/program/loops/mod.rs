@@ -31,10 +31,12 @@ impl Loops<'_> {
     pub(super) fn stages(&mut self, function: Function, arrays: &mut Vec<Array>) -> Option<Vec<Stage>> {
         let mut draft = Draft::new(self, arrays);
         match function {
-            // The last two are functions of trees, which have no loops over their frames.
-            Function::Effects | Function::GeneralizedErrors | Function::Passive | Function::DisplacedPose => {
-                return None;
-            }
+            // The last three are no functions of long chains.
+            Function::Effects
+            | Function::GeneralizedErrors
+            | Function::Passive
+            | Function::DisplacedPose
+            | Function::Inverse => return None,
             Function::Transforms => draft.transforms(),
             Function::Pose => draft.pose(),
             Function::ErrorJacobian => draft.error_jacobian(false),

@@ -84,6 +84,7 @@ static DESCRIPTION: Description = Description {
         source("assembly", Class::Repeatable),
     ]),
     effects: List::Constant(&EFFECTS),
+    solutions: 0,
 };
 
 pub(super) fn translation(x: f64, y: f64, z: f64) -> Pose {

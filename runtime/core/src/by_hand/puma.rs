@@ -70,6 +70,7 @@ static DESCRIPTION: Description = Description {
     inputs: List::Constant(&[]),
     sources: List::Constant(&[]),
     effects: List::Constant(&[]),
+    solutions: 0,
 };
 
 impl Manipulator for Puma {

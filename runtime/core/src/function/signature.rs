@@ -62,6 +62,8 @@ pub enum Count {
     Effects,
     /// Enabled sources.
     Sources,
+    /// Solutions of inverse kinematics.
+    Solutions,
 }
 
 impl Signature {
@@ -110,6 +112,7 @@ impl Count {
             Self::Inputs => description.inputs.len(),
             Self::Effects => description.effects.len(),
             Self::Sources => description.sources.len(),
+            Self::Solutions => description.solutions,
         }
     }
 }

@@ -28,12 +28,31 @@ macro_rules! for_each_function_of_loops {
     };
 }
 
-/// Passes all functions to the macro `$then`, those of loops last.
+/// Passes the function of manipulators whose inverse kinematics has a closed form to the macro
+/// `$then`, after an optional identifier.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! for_each_function_of_inverse {
+    ($then:path $(, $passed_on:ident)?) => {
+        $crate::function_of_inverse_table!($then, ($($passed_on)?), {});
+    };
+}
+
+/// Passes all functions to the macro `$then`, those that not every manipulator has last.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! for_all_functions {
     ($then:path) => {
-        $crate::function_of_loops_table!($crate::function_table_before, { $then });
+        $crate::function_of_loops_table!($crate::function_of_inverse_before, { $then });
+    };
+}
+
+/// Passes the function of closed forms, then others, to what is to pass on all of them.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! function_of_inverse_before {
+    ({ $then:path } : $($others:tt)*) => {
+        $crate::function_of_inverse_table!($crate::function_table_before, ({ $then }), { $($others)* });
     };
 }
 
@@ -60,6 +79,25 @@ macro_rules! function_of_loops_table {
 
             DisplacedPose = displaced_pose(q, s, errors) -> (pose):
                 "Exact pose of the tool point in `F_0` with given errors of the frames, all loops closed.";
+        }
+    };
+}
+
+/// Entry of the function of manipulators whose inverse kinematics has a closed form, and others
+/// after it.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! function_of_inverse_table {
+    ($then:path, ($($passed_on:tt)*), { $($others:tt)* }) => {
+        $then! {
+            $($passed_on)*:
+
+            Inverse = inverse(q, s, target) -> (solutions, found):
+                "All joint variables that bring the tool point to a pose. They are in the turns nearest to `q` that the limits \
+                 permit, and a joint that is free to move there stays as in `q`.",
+                "A solution exists if its entry of `found` is 1; otherwise it is no solution.";
+
+            $($others)*
         }
     };
 }
@@ -194,6 +232,33 @@ macro_rules! function_array {
             [[f64; 3]; 4],
             "length unit",
             "Columns x, y, z axis and position in `F_0`."
+        )
+    };
+    (target: $($then:tt)+) => {
+        $($then)+!(
+            "target",
+            Pose,
+            [[f64; 3]; 4],
+            "length unit",
+            "Pose of the tool point: columns x, y, z axis and position in `F_0`."
+        )
+    };
+    (solutions: $($then:tt)+) => {
+        $($then)+!(
+            "solutions",
+            Solutions,
+            [[f64; VARIABLES]; SOLUTIONS],
+            "length unit, rad",
+            "Joint variables, one row per solution."
+        )
+    };
+    (found: $($then:tt)+) => {
+        $($then)+!(
+            "found",
+            Solutions,
+            [f64; SOLUTIONS],
+            "1",
+            "1 for a solution within the limits, 0 for a row that is none."
         )
     };
     (error_columns: $($then:tt)+) => {
@@ -412,6 +477,9 @@ macro_rules! count {
     };
     (SOURCES) => {
         $crate::function::Count::Sources
+    };
+    (SOLUTIONS) => {
+        $crate::function::Count::Solutions
     };
     ($exactly:literal) => {
         $crate::function::Count::Exactly($exactly)

@@ -31,7 +31,14 @@ macro_rules! types {
                 const FUNCTION: crate::Function = crate::Function::$function;
             }
         )+
+    };
+}
+crate::for_each_function!(types);
+crate::for_each_function_of_inverse!(types);
 
+macro_rules! batches {
+    (: $($function:ident = $name:ident $arguments:tt -> $results:tt $($oriented:ident)?:
+        $documentation:literal $(, $note:literal)?;)+) => {
         /// The functions of a manipulator in batches, selected at run time. A trait object of it
         /// compiles all functions. It is for tests; programs call [`run`](super::run) with the
         /// functions they need.
@@ -60,4 +67,4 @@ macro_rules! types {
         }
     };
 }
-crate::for_each_function!(types);
+crate::for_each_function!(batches);

@@ -67,8 +67,8 @@ struct Configuration<'a, M: ?Sized> {
 }
 
 impl<M: Manipulator + ?Sized> Configuration<'_, M> {
-    /// Returns the results of a function, the margin last. `third` is the third argument: u, ε, or
-    /// variances.
+    /// Returns the results of a function, the margin last. `third` is the third argument: u, ε,
+    /// variances, or a pose.
     fn values(&self, function: Function, third: &[f64], magnitudes: &[f64]) -> Result<Vec<f64>, Error> {
         let Self { manipulator, description, q, s } = *self;
         let mut values = match function {
@@ -107,6 +107,13 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
                 let errors: Vec<[f64; 6]> =
                     third.chunks_exact(6).map(|six| core::array::from_fn(|i| six[i])).collect();
                 flat(&[manipulator.displaced_pose(q, s, &errors)?])
+            }
+            Function::Inverse => {
+                let target = Pose(core::array::from_fn(|i| core::array::from_fn(|j| third[3 * i + j])));
+                let mut solutions = vec![0.0; description.solutions * q.len()];
+                let mut found = vec![0.0; description.solutions];
+                manipulator.inverse(q, s, &target, &mut solutions, &mut found)?;
+                [solutions, found].concat()
             }
             Function::CompensatorStep => {
                 let (pose, columns) = self.joint_jacobian()?;

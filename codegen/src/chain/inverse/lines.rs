@@ -1,0 +1,193 @@
+//! Axes of joints as lines in `F_0`, with all joints at zero.
+
+use abbe_core::VariableKind;
+use abbe_spec::expr::{Expression, Symbol};
+use abbe_spec::{Factor, Spec};
+
+use crate::chain::lower_pairs;
+use crate::chain::symbol_jacobian::{Steps, twist};
+use crate::chain::walk::apply_with;
+use crate::graph::{Frame, Graph, Node, Vector};
+
+/// Distance, relative to the size of the manipulator, and sine below which axes intersect or are
+/// parallel: angles of many specs have that many digits.
+const STRUCTURE: f64 = 1e-9;
+/// Largest relative difference of numbers that count as equal.
+const SAME: f64 = 1e-12;
+/// Number of sets of parameters at which a structure is verified.
+const PROBES: usize = 4;
+
+/// Axis of a joint: a unit vector, and a point on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    pub(super) kind: VariableKind,
+    pub(super) along: Vector,
+    pub(super) at: Vector,
+}
+
+/// Axes of a chain, and the pose of the tool point, with all joints at zero.
+#[derive(Clone, Debug)]
+pub(super) struct Lines {
+    pub(super) lines: Vec<Line>,
+    pub(super) tool: Frame,
+    pub(super) probes: Probes,
+}
+
+/// Values of the parameters at which nodes are compared: the nominal ones, and others around them.
+/// A structure must hold for all, as it does if the parameters have no influence on it.
+#[derive(Clone, Debug)]
+pub(super) struct Probes {
+    parameters: [Vec<f64>; PROBES],
+    /// Size of the manipulator, in its unit.
+    pub(super) size: f64,
+}
+
+impl Lines {
+    /// Returns `None` if the frames of a chain are not all lower pairs.
+    pub(super) fn new(g: &mut Graph, spec: &Spec) -> Option<Self> {
+        if !spec.is_serial() || !lower_pairs(spec).into_iter().all(|is_pair| is_pair) {
+            return None;
+        }
+        let nominal = spec.parameters.iter().map(|parameter| parameter.value);
+        let nominal: Vec<f64> = nominal.collect();
+        let around = |probe: usize| {
+            let change = |i: usize| 0.1 * ((1 + i + 7 * probe) as f64 * 0.618_033_988_749_894_9).fract();
+            let scale = |value: f64| if value == 0.0 { 1.0 } else { value };
+            let other = |(i, value): (usize, &f64)| value + scale(*value) * change(i);
+            if probe == 0 { nominal.clone() } else { nominal.iter().enumerate().map(other).collect() }
+        };
+        let mut probes = Probes { parameters: std::array::from_fn(around), size: 1.0 };
+        let mut lines: Vec<Option<Line>> = vec![None; spec.variables.len()];
+        let mut at = g.identity();
+        for frame in &spec.frames {
+            for factor in &frame.factors {
+                if let Some(own) = frame.variable
+                    && depends(factor, own)
+                {
+                    lines[own] = Some(line(g, &at, factor, own, spec.variables[own].kind));
+                }
+                at = at_zero(g, at, factor);
+            }
+        }
+        let tool = spec.tool.iter().fold(at, |at, factor| at_zero(g, at, factor));
+        let mut lines: Vec<Line> = lines.into_iter().collect::<Option<_>>()?;
+        let places = lines.iter().flat_map(|line| line.at).chain(tool.position);
+        let places: Vec<Node> = places.collect();
+        probes.size = probes.largest(g, &places).max(f64::MIN_POSITIVE);
+        for line in &mut lines {
+            line.along = line.along.map(|part| probes.cleaned(g, part, 1.0));
+            line.at = line.at.map(|part| probes.cleaned(g, part, probes.size));
+        }
+        let axes = tool.axes.map(|axis| axis.map(|part| probes.cleaned(g, part, 1.0)));
+        let position = tool.position.map(|part| probes.cleaned(g, part, probes.size));
+        Some(Self { lines, tool: Frame { axes, position }, probes })
+    }
+}
+
+/// Returns the axis of a factor behind a frame.
+fn line(g: &mut Graph, before: &Frame, factor: &Factor, own: usize, kind: VariableKind) -> Line {
+    let symbol = Symbol::Variable(own);
+    let (after, step) = apply_with(g, *before, factor, &|g, amount| g.lower(amount));
+    let place = if matches!(factor, Factor::Matrix(_)) { after.position } else { before.position };
+    let steps = Steps::new(g, vec![step]);
+    let [velocity, turn] = twist(g, &steps, symbol, place);
+    let along = if kind == VariableKind::Revolute { turn } else { velocity };
+    let offset = g.cross(turn, velocity);
+    let at = if kind == VariableKind::Revolute { g.add_vectors(place, offset) } else { before.position };
+    let zero = g.zero();
+    let nodes = [along, at].concat();
+    let nodes = g.substitute(&nodes, |given| (given == symbol).then_some(zero));
+    Line { kind, along: [nodes[0], nodes[1], nodes[2]], at: [nodes[3], nodes[4], nodes[5]] }
+}
+
+fn depends(factor: &Factor, own: usize) -> bool {
+    factor.expressions().iter().any(|amount| amount.symbols().any(|symbol| symbol == Symbol::Variable(own)))
+}
+
+/// Extends a pose by a factor with all joints at zero.
+fn at_zero(g: &mut Graph, at: Frame, factor: &Factor) -> Frame {
+    let lower = |g: &mut Graph, amount: &Expression| {
+        let (amount, zero) = (g.lower(amount), g.zero());
+        g.substitute(&[amount], |symbol| matches!(symbol, Symbol::Variable(_)).then_some(zero))[0]
+    };
+    apply_with(g, at, factor, &lower).0
+}
+
+impl Probes {
+    fn values(&self, g: &Graph, nodes: &[Node], probe: usize) -> Vec<f64> {
+        g.evaluate(nodes, |symbol| match symbol {
+            Symbol::Parameter(i) => self.parameters[probe][i],
+            // Nothing else may be asked for.
+            _ => f64::NAN,
+        })
+    }
+
+    fn largest(&self, g: &Graph, nodes: &[Node]) -> f64 {
+        self.values(g, nodes, 0).iter().fold(0.0, |largest, value| value.abs().max(largest))
+    }
+
+    /// Returns the value of a node that no joint moves, with nominal parameters.
+    pub(super) fn nominal(&self, g: &Graph, node: Node) -> f64 {
+        self.values(g, &[node], 0)[0]
+    }
+
+    /// Returns `true` if nodes of a size are 0 with any parameters.
+    pub(super) fn are_zero(&self, g: &Graph, nodes: &[Node], size: f64) -> bool {
+        let is_zero =
+            |probe| self.values(g, nodes, probe).iter().all(|value| value.abs() <= STRUCTURE * size);
+        (0..PROBES).all(is_zero)
+    }
+
+    /// Replaces a node that does not depend on parameters by its value, free of rounding errors
+    /// around 0 and ±1 of its size.
+    pub(super) fn cleaned(&self, g: &mut Graph, node: Node, size: f64) -> Node {
+        let values: Vec<f64> = (0..PROBES).map(|probe| self.values(g, &[node], probe)[0]).collect();
+        if values.iter().any(|value| (value - values[0]).abs() > SAME * size) {
+            return node;
+        }
+        let near = [0.0, size, -size].into_iter().find(|near| (near - values[0]).abs() < 1e-3 * SAME * size);
+        g.constant(near.unwrap_or(values[0]))
+    }
+
+    pub(super) fn cleaned_vector(&self, g: &mut Graph, v: Vector, size: f64) -> Vector {
+        v.map(|part| self.cleaned(g, part, size))
+    }
+
+    pub(super) fn are_parallel(&self, g: &mut Graph, a: &Line, b: &Line) -> bool {
+        let cross = g.cross(a.along, b.along);
+        self.are_zero(g, &cross, 1.0)
+    }
+
+    /// Returns the point where two lines intersect.
+    pub(super) fn common_point(&self, g: &mut Graph, a: &Line, b: &Line) -> Option<Vector> {
+        if self.are_parallel(g, a, b) {
+            return None;
+        }
+        let normal = g.cross(a.along, b.along);
+        let between = g.sub_vectors(b.at, a.at);
+        let apart = g.dot(normal, between);
+        if !self.are_zero(g, &[apart], self.size) {
+            return None;
+        }
+        let across = g.cross(between, b.along);
+        let (way, square) = (g.dot(across, normal), g.dot(normal, normal));
+        let way = g.div(way, square);
+        let offset = g.scale(way, a.along);
+        let point = g.add_vectors(a.at, offset);
+        Some(self.cleaned_vector(g, point, self.size))
+    }
+
+    /// Returns the vector from a line to a point, perpendicular to the line.
+    pub(super) fn offset(&self, g: &mut Graph, line: &Line, point: Vector) -> Vector {
+        let from = g.sub_vectors(point, line.at);
+        let flat = flat(g, line.along, from);
+        self.cleaned_vector(g, flat, self.size)
+    }
+}
+
+/// Returns the part of a vector perpendicular to a unit vector.
+pub(super) fn flat(g: &mut Graph, along: Vector, v: Vector) -> Vector {
+    let height = g.dot(along, v);
+    let parallel = g.scale(height, along);
+    g.sub_vectors(v, parallel)
+}

@@ -1,0 +1,87 @@
+//! Three parallel axes between the first joint and the last two, whose axes intersect.
+
+use abbe_core::VariableKind;
+
+use super::angles::{Angle, Root, are_square, tilts, towards};
+use super::arm::{back_to_height, plane};
+use super::lines::{Line, Lines};
+use super::motion::Motion;
+use super::partial::Partial;
+use super::wrist::across;
+use crate::graph::Graph;
+
+/// Returns the eight solutions for a motion from zero; `None` if the axes are others.
+///
+/// The parallel axes keep heights along them. That of the center of the last two axes gives q_1,
+/// that of the last axis q_5, and the direction of the parallel axes seen from the last link q_6.
+/// What remains is a plane arm of two links with a known last angle.
+pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle; 6]) -> Option<Vec<Partial>> {
+    let probes = &lines.probes;
+    let all: &[Line; 6] = lines.lines.as_slice().try_into().ok()?;
+    let [first, second, third, fourth, fifth, sixth] = *all;
+    let is_parallel = probes.are_parallel(g, &second, &third) && probes.are_parallel(g, &second, &fourth);
+    let others = probes.are_parallel(g, &first, &second) || probes.are_parallel(g, &fourth, &fifth);
+    let between = [(second, third), (third, fourth)].map(|(a, b)| probes.offset(g, &a, b.at));
+    let is_one = between.iter().any(|between| probes.are_zero(g, between, probes.size));
+    if all.iter().any(|line| line.kind == VariableKind::Prismatic) || !is_parallel || others || is_one {
+        return None;
+    }
+    let centre = probes.common_point(g, &fifth, &sixth)?;
+    let h = second.along;
+    let signs = [third, fourth].map(|line| {
+        let sign = g.dot(h, line.along);
+        probes.nominal(g, sign)
+    });
+    let place = motion.point(g, probes, centre);
+    let place = g.sub_vectors(place, first.at);
+    let kept = g.sub_vectors(centre, first.at);
+    let height = g.dot(h, kept);
+    let end = motion.turn(g, sixth.along);
+    let unit = across(g, probes, h);
+    let mut found = Vec::new();
+    for q1 in back_to_height(g, [first.along, h], place, height, free[0], probes.size) {
+        let back = q1.angle.signed(g, -1.0);
+        let image = back.turn(g, first.along, end);
+        let ahead = q1.angle.turn(g, first.along, h);
+        let seen = motion.turn_back(g, ahead);
+        let wrist = back.turn(g, first.along, place);
+        let wrist = g.add_vectors(wrist, first.at);
+        let ends = [h, fifth.along, sixth.along];
+        let mut first_6: Option<Angle> = None;
+        for q5 in tilts(g, ends, image, probes) {
+            let back_5 = q5.angle.signed(g, -1.0);
+            let back_6 = if let Some(angle) = first_6.filter(|_| are_square(g, ends, probes)) {
+                angle.opposite(g)
+            } else {
+                // R_6ᵀ R_5ᵀ h = Rᵀ R_1 h
+                let tilted = back_5.turn(g, fifth.along, h);
+                let last = free[5].signed(g, -1.0);
+                towards(g, sixth.along, tilted, seen, last, 1.0).normalized(g)
+            };
+            first_6 = Some(back_6);
+            let q6 = back_6.signed(g, -1.0);
+            let ends = back_5.turn(g, fifth.along, unit);
+            let ends = back_6.turn(g, sixth.along, ends);
+            let together = motion.turn(g, ends);
+            let together = back.turn(g, first.along, together);
+            let beyond = g.cross(h, unit);
+            let total = Angle { sine: g.dot(beyond, together), cosine: g.dot(unit, together) };
+            let total = total.normalized(g);
+            let lever = g.sub_vectors(centre, fourth.at);
+            let lever = total.turn(g, h, lever);
+            let to = g.sub_vectors(wrist, lever);
+            for [q2, q3] in plane(g, probes, [&second, &third], fourth.at, to, [free[1], free[2]]) {
+                let before = [q2.angle, q3.angle.signed(g, signs[0])];
+                let q4 = before.into_iter().fold(total, |sum, angle| {
+                    let back = angle.signed(g, -1.0);
+                    sum.plus(g, back)
+                });
+                let q4 = q4.signed(g, signs[1]);
+                let exists = q5.exists;
+                let [q4, q5, q6] = [q4, q5.angle, q6].map(|angle| Root { angle, exists });
+                found.push(Partial::new(vec![q1, q2, q3, q4, q5, q6]));
+            }
+        }
+    }
+    Some(found)
+}
