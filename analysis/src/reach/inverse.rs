@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::descents::Descents;
+use super::generated;
 use super::joint_chain::JointChain;
 use super::search::Search;
 use super::target_search::Problem;
@@ -12,7 +13,9 @@ use abbe_core::lanes::InstructionSet;
 /// Computes values of the variables in `free` that bring the tool to `target`, with the others
 /// fixed as in `start`.
 ///
-/// Returns all of `q`, within its limits. Redundant free variables are allowed: every step is the
+/// Returns all of `q`, within its limits. If all variables are free, and the manipulator has all
+/// solutions for a pose in closed form ([`Manipulator::inverse`]), it is the one nearest to `start`,
+/// with angles in rad and lengths in arm lengths. Otherwise it is found by a search. Redundant free variables are allowed: every step is the
 /// shortest one (angles in rad, lengths in arm lengths). The search begins at `start`. Unless the
 /// chain proves the target unreachable, it continues from 32 points spread within the limits. If
 /// all fail, it searches beyond the limits to name the variable that prevents reaching the target.
@@ -26,7 +29,8 @@ pub fn inverse(
     target: &Target,
 ) -> Result<Vec<f64>, ReachError> {
     let problem = Problem::new(manipulator, s, start, free)?;
-    if let Some(found) = (Search { problem: &problem, target }).nearby() {
+    let nearby = || (Search { problem: &problem, target }).nearby();
+    if let Some(found) = closed(&problem, target).or_else(nearby) {
         return Ok(found);
     }
     Inverse::from_problem(problem).solve_from(1, core::slice::from_ref(target)).remove(0)
@@ -69,10 +73,23 @@ impl<'a> Inverse<'a> {
         let Some((chain, bounds)) = chain.as_ref().filter(|_| targets.iter().all(Target::is_finite)) else {
             return targets.iter().map(|target| Search { problem, target }.solve()).collect();
         };
+        let mut found: Vec<_> = targets.iter().map(|target| closed(problem, target)).collect();
+        let open = targets.iter().zip(&found).filter(|(_, found)| found.is_none());
+        let targets: &[Target] = &open.map(|(target, _)| *target).collect::<Vec<_>>();
         let set = InstructionSet::best();
-        match targets.first() {
+        let mut searched = match targets.first() {
             Some(Target::Pose(_)) => set.run(Descents::<6> { problem, chain, targets, bounds, start }),
             _ => set.run(Descents::<3> { problem, chain, targets, bounds, start }),
         }
+        .into_iter();
+        found.iter_mut().filter_map(|found| found.take().map(Ok).or_else(|| searched.next())).collect()
+    }
+}
+
+/// Returns the solution nearest to the first start if there is a closed form.
+fn closed(problem: &Problem<'_>, target: &Target) -> Option<Vec<f64>> {
+    match target {
+        Target::Pose(pose) => generated::nearest(problem, pose),
+        Target::Point(_) => None,
     }
 }

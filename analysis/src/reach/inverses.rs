@@ -6,6 +6,7 @@ use core::f64::consts::TAU;
 use nalgebra::{Matrix6, Vector6};
 
 use super::closed_form::ClosedForm;
+use super::generated;
 use super::inverse::inverse;
 use super::joint_chain::{JointChain, scaled};
 use super::search::Search;
@@ -102,7 +103,7 @@ impl<'a> InverseKinematics<'a> {
         let mut found: Vec<(f64, Vec<f64>)> = Vec::with_capacity(8);
         let mut columns = vec![[0.0; 6]; free.len()];
         let candidates = match &self.form {
-            Form::Generated => self.generated(start, target)?,
+            Form::Generated => generated::solutions(&self.problem, start, target)?.unwrap_or_default(),
             Form::Found(form) => self.closed(form, start, target),
             Form::None => self.searched(start, target)?,
         };
@@ -129,15 +130,6 @@ impl<'a> InverseKinematics<'a> {
         Ok(found.into_iter().map(|(_, q)| q).collect())
     }
 
-    fn generated(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {
-        let Problem { manipulator, ref s, .. } = self.problem;
-        let count = manipulator.description().solutions;
-        let (mut solutions, mut found) = (vec![0.0; count * start.len()], vec![0.0; count]);
-        manipulator.inverse(start, s, target, &mut solutions, &mut found)?;
-        let rows = solutions.chunks_exact(start.len()).zip(found);
-        Ok(rows.filter(|(_, found)| *found > 0.5).map(|(row, _)| row.to_vec()).collect())
-    }
-
     fn closed(&self, form: &ClosedForm, start: &[f64], target: &Pose) -> Vec<Vec<f64>> {
         let start = core::array::from_fn(|i| start[i] / self.problem.unit(i));
         let in_units = |q: [f64; 6]| (0..6).map(|i| q[i] * self.problem.unit(i)).collect();
@@ -161,6 +153,12 @@ impl<'a> InverseKinematics<'a> {
         let (mut best, mut least) = (Vec::new(), f64::INFINITY);
         for _ in 0..=STEPS {
             let Ok(pose) = manipulator.pose(&q, s) else { break };
+            let entries = pose.0.as_flattened().iter().zip(target.0.as_flattened()).enumerate();
+            let square =
+                |(i, (a, b)): (usize, (&f64, &f64))| ((a - b) * if i < 9 { 1.0 } else { scale(0) }).powi(2);
+            if entries.map(square).sum::<f64>() <= PRECISE * PRECISE {
+                return Some(q);
+            }
             let difference = deviation(orientation, &pose, target);
             let residual = Vector6::from_fn(|i, _| difference[i] * scale(i));
             let norm = residual.norm();

@@ -7,6 +7,7 @@ mod compensate;
 mod curvature;
 mod descents;
 mod extent;
+mod generated;
 mod inverse;
 mod inverses;
 mod joint_chain;

@@ -233,6 +233,7 @@ fn counts(writer: &mut Writer, upper: &str, routines: &Routines) {
         ("INPUTS", Count::Inputs, "Number of inputs: the length of `u`."),
         ("SOURCES", Count::Sources, "Number of enabled sources."),
         ("EFFECTS", Count::Effects, "Number of errors that the sources cause."),
+        ("SOLUTIONS", Count::Solutions, "Largest number of solutions of inverse kinematics."),
     ];
     let arrays =
         || routines.signatures().flat_map(|signature| signature.arguments.iter().chain(signature.results));

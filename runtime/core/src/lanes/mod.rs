@@ -39,6 +39,7 @@
 //! | AVX2 and FMA | 4 | rounded once |
 //! | all others: SSE2, NEON | 2 | rounded twice, as in scalar code |
 
+mod arc_tangent;
 mod functions;
 mod instruction_set;
 mod one_by_one;

@@ -6,6 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use bytemuck::{Pod, Zeroable};
 
+use super::arc_tangent;
 use crate::lookup_table::ROUND;
 use crate::sin_cos::{self, Real};
 use crate::{LookupTable, Scalar};
@@ -191,6 +192,26 @@ impl<R: Register> Lanes<R> {
         (self.map(|a| Scalar::sin_cos(a).0), self.map(|a| Scalar::sin_cos(a).1))
     }
 
+    /// Returns the angle of the point (x, self), lane by lane.
+    #[cold]
+    #[inline(never)]
+    fn far_atan2(self, x: Self) -> Self {
+        self.zip(x, Scalar::atan2)
+    }
+
+    /// Returns the value with the sign of another one added to its own, which is positive.
+    #[inline(always)]
+    pub(super) fn with_sign_of(self, other: Self) -> Self {
+        Self(R::or(self.0, R::and(other.0, R::splat(-0.0))))
+    }
+
+    /// Returns the lanes that are not NaN.
+    #[inline(always)]
+    fn is_number(self) -> Mask<R> {
+        let [least, zero] = [f64::NEG_INFINITY, 0.0].map(R::splat);
+        Mask(R::or(R::more_than(self.0, least), R::more_than(zero, self.0)))
+    }
+
     /// Returns the smaller of two values, lane by lane. Returns `other` if either is NaN.
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
@@ -314,8 +335,13 @@ impl<R: Register> Scalar for Lanes<R> {
         self.map(Scalar::atan)
     }
 
+    #[inline(always)]
     fn atan2(self, x: Self) -> Self {
-        self.zip(x, Scalar::atan2)
+        let size = Lanes::max(self.abs(), x.abs());
+        // Nonzero bits mark lanes beyond the reach. A NaN lane yields NaN either way.
+        let [least, most] = arc_tangent::REACH.map(R::splat);
+        let far = R::or(R::xor(R::max(least, size.0), size.0), R::xor(R::min(most, size.0), size.0));
+        if Mask(far).any() { self.far_atan2(x) } else { arc_tangent::near(self, x) }
     }
 
     #[inline(always)]
@@ -343,17 +369,21 @@ impl<R: Register> Scalar for Lanes<R> {
 
     #[inline(always)]
     fn side(self) -> Self {
-        self.map(Scalar::side)
+        let (zero, one) = (Self::constant(0.0), Self::constant(1.0));
+        let side = zero.more_than(self).select(-one, one);
+        // NaN stays NaN.
+        let within = Lanes::max(-one, Lanes::min(one, self));
+        side + (within - within)
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.zip(other, Scalar::min)
+        self.is_number().select(Lanes::min(self, other), self)
     }
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.zip(other, Scalar::max)
+        self.is_number().select(Lanes::max(self, other), self)
     }
 
     fn powf(self, exponent: Self) -> Self {

@@ -1,6 +1,7 @@
 //! Every instruction of every register against the same with plain numbers, bit for bit.
 
-use super::{InstructionSet, Kernel, Register, Tiles};
+use super::{InstructionSet, Kernel, Lanes, Register, Tiles};
+use crate::Scalar;
 
 /// Returns triples of numbers of all kinds.
 fn numbers() -> Vec<[f64; 3]> {
@@ -86,6 +87,73 @@ fn registers_compute_what_numbers_do() {
     InstructionSet::all().for_each(|set| set.run(Check));
     // The register of other architectures.
     Check.run::<[f64; 2]>();
+}
+
+struct CheckFunctions;
+
+/// Function of two lanes, and the same of plain numbers.
+type Binary<R> = (&'static str, fn(Lanes<R>, Lanes<R>) -> Lanes<R>, fn(f64, f64) -> f64);
+
+impl Kernel for CheckFunctions {
+    type Output = ();
+
+    fn run<R: Register>(self) {
+        let functions: [Binary<R>; 4] = [
+            ("min", Scalar::min, Scalar::min),
+            ("max", Scalar::max, Scalar::max),
+            ("side", |a, _| a.side(), |a, _| a.side()),
+            ("atan2", Scalar::atan2, Scalar::atan2),
+        ];
+        let all = &numbers();
+        for first in 0..all.len() - R::WIDTH {
+            let [a, b] = [0, 1].map(|k| Lanes::<R>::from_fn(|lane| all[first + lane][k]));
+            for (name, of_lanes, of_numbers) in functions {
+                for (lane, found) in of_lanes(a, b).to_slice().iter().enumerate() {
+                    let [a, b, _] = all[first + lane];
+                    let expected = of_numbers(a, b);
+                    let is_near = name == "atan2" && (found - expected).abs() <= 4e-16 * expected.abs();
+                    assert!(is_near || same(*found, expected), "{name} {a} {b}: {found}, not {expected}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn functions_of_lanes_are_those_of_numbers() {
+    InstructionSet::all().for_each(|set| set.run(CheckFunctions));
+    CheckFunctions.run::<[f64; 2]>();
+}
+
+struct CheckAngles;
+
+impl Kernel for CheckAngles {
+    type Output = f64;
+
+    /// Returns the largest error of an angle in units of its last place.
+    fn run<R: Register>(self) -> f64 {
+        let mut worst: f64 = 0.0;
+        for index in 0..200_000 {
+            let number = |i: usize| 2.0 * crate::sampling::halton(index + 1, i) - 1.0;
+            let size = f64::powi(10.0, (8.0 * number(2)) as i32);
+            let (y, x) = (number(0) * size, number(1));
+            let (y, x) = if index % 3 == 0 { (y / size, x) } else { (y, x) };
+            let found = Scalar::atan2(Lanes::<R>::constant(y), Lanes::<R>::constant(x)).to_slice()[0];
+            let exact = y.atan2(x);
+            let place = f64::from_bits(exact.abs().to_bits() + 1) - exact.abs();
+            worst = worst.max((found - exact).abs() / place);
+        }
+        worst
+    }
+}
+
+/// Library functions are within one unit of the last place.
+#[test]
+fn angles_are_accurate() {
+    for set in InstructionSet::all() {
+        let worst = set.run(CheckAngles);
+        assert!(worst <= 3.0, "{}: {worst} units of the last place", set.name());
+    }
 }
 
 #[test]

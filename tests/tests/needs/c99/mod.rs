@@ -116,8 +116,8 @@ fn the_code_of_the_chapter_compiles() -> Result<(), Missing> {
     tool("cc", "")?;
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/in-a-controller.md");
     let page = fs::read_to_string(page).unwrap();
-    let (_, block) = page.split_once("```c\n").unwrap();
-    let (code, _) = block.split_once("```").unwrap();
+    let blocks = page.split("```c\n").skip(1).map(|block| block.split("```").next().unwrap());
+    let code: String = blocks.collect();
     let folder = tempfile::tempdir().unwrap();
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();
     let spec = Spec::parse("pps.toml", shipped.spec).unwrap();
