@@ -26,7 +26,7 @@
 //! #                 Variable::new("q2", VariableKind::Revolute, LIMITS, 0.0),
 //! #             ]),
 //! #             parameters: List::Constant(&[]), inputs: List::Constant(&[]), sources: List::Constant(&[]),
-//! #             effects: List::Constant(&[]),
+//! #             effects: List::Constant(&[]), solutions: 0,
 //! #         };
 //! #         &DESCRIPTION
 //! #     }

@@ -11,8 +11,7 @@
 //! #             orientation: Orientation::RotationVector, frames: List::Constant(&[Frame::new("slide", Some(0))]),
 //! #             variables: List::Constant(&[Variable::new("d", VariableKind::Prismatic, [0.0, 1.0], 0.5)]),
 //! #             parameters: List::Constant(&[]), inputs: List::Constant(&[]), sources: List::Constant(&[]),
-//! #             effects: List::Constant(&[]),
-//! #             solutions: 0,
+//! #             effects: List::Constant(&[]), solutions: 0,
 //! #         };
 //! #         &DESCRIPTION
 //! #     }
