@@ -1,7 +1,7 @@
 //! All solutions of inverse kinematics: in closed form where the structure of the chain permits,
 //! otherwise by many searches.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix6, Vector6};
 
@@ -15,7 +15,7 @@ use super::{ReachError, Target};
 use crate::sampling;
 use abbe_core::{Error, Manipulator, Pose, Quantity, Variable, VariableKind, deviation};
 
-/// Largest difference of two solutions that count as one, in rad and arm lengths.
+/// Largest difference of two solutions that count as one, in rad or arm lengths.
 const SAME: f64 = 1e-6;
 /// Residual that needs no improvement, in arm lengths and rad.
 const PRECISE: f64 = 1e-12;
@@ -95,11 +95,11 @@ impl<'a> InverseKinematics<'a> {
             return one().map(|q| vec![q]);
         }
         // Joints that are free to move stay there.
-        let variables = self.problem.description().variables.iter();
+        let variables = &self.problem.description().variables;
         let nearest = |(value, variable): (&f64, &Variable)| {
             value.clamp(-FARTHEST, FARTHEST).clamp(variable.limits[0], variable.limits[1])
         };
-        let start: &[f64] = &start.iter().zip(variables).map(nearest).collect::<Vec<_>>();
+        let start: &[f64] = &start.iter().zip(variables.iter()).map(nearest).collect::<Vec<_>>();
         let mut found: Vec<(f64, Vec<f64>)> = Vec::with_capacity(8);
         let mut columns = vec![[0.0; 6]; free.len()];
         let candidates = match &self.form {
@@ -111,16 +111,16 @@ impl<'a> InverseKinematics<'a> {
             let polished = self.polished(candidate, target, &mut columns);
             let Some(q) = polished.and_then(|q| self.within_limits(q, start)) else { continue };
             let way = |a: &[f64], i: usize| (a[i] - q[i]) / self.problem.unit(i);
-            let size = |way: &dyn Fn(usize) -> f64| (0..q.len()).map(|i| way(i).powi(2)).sum::<f64>().sqrt();
-            // Of two turns that are as near to the start one is a solution.
-            let apart = |other: &[f64]| {
-                size(&|i| match self.problem.description().variables[i].kind {
-                    VariableKind::Revolute => way(other, i) - TAU * (way(other, i) / TAU).round(),
-                    VariableKind::Prismatic => way(other, i),
+            let is_same = |other: &[f64]| {
+                (0..q.len()).all(|i| {
+                    let way = way(other, i);
+                    // Of two turns that are as near to the start one is a solution.
+                    let is_turn = way.abs() > PI && variables[i].kind == VariableKind::Revolute;
+                    (if is_turn { way.abs() - TAU } else { way }).abs() <= SAME
                 })
             };
-            if found.iter().all(|(_, other)| apart(other) > SAME) {
-                found.push((size(&|i| way(start, i)), q));
+            if !found.iter().any(|(_, other)| is_same(other)) {
+                found.push(((0..q.len()).map(|i| way(start, i).powi(2)).sum(), q));
             }
         }
         if found.is_empty() {
@@ -190,6 +190,10 @@ impl<'a> InverseKinematics<'a> {
         let variables = &self.problem.description().variables;
         for ((q, variable), start) in q.iter_mut().zip(variables.iter()).zip(start) {
             let [lower, upper] = variable.limits;
+            let is_near = variable.kind == VariableKind::Prismatic || (start - *q).abs() <= PI;
+            if is_near && (lower..=upper).contains(q) {
+                continue;
+            }
             let slack = if (upper - lower).is_finite() { AT_LIMIT * (upper - lower) } else { 0.0 };
             if variable.kind == VariableKind::Revolute {
                 let fewest = ((lower - slack - *q) / TAU).ceil();
