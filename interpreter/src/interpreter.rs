@@ -6,7 +6,7 @@ use abbe::analysis::Sweepable;
 use abbe::lanes::{self, Batches, Tiles};
 use abbe::{Description, Error, Function, Input, Manipulator, Parameter, Pose, Quantity, checks, open_pose};
 use abbe_codegen::chain::Model;
-use abbe_codegen::program::Routines;
+use abbe_codegen::program::{Routines, parameter_derivatives};
 use abbe_spec::Spec;
 
 use crate::lanes::{Batch, Block};
@@ -28,6 +28,8 @@ pub struct Interpreter {
 struct Code {
     routines: Routines,
     tapes: [OnceLock<Tape>; Function::COUNT],
+    /// Derivatives by the parameters; `None` if there are none.
+    derivatives: [OnceLock<Option<Tape>>; Function::COUNT],
 }
 
 impl Interpreter {
@@ -45,7 +47,11 @@ impl Interpreter {
     fn with(spec: Arc<Spec>, routines: impl Fn(&Spec, &Model) -> Routines) -> Self {
         let routines = routines(&spec, &Model::new(&spec));
         let description = Arc::new(routines.description.clone());
-        let code = Code { routines, tapes: [const { OnceLock::new() }; Function::COUNT] };
+        let code = Code {
+            routines,
+            tapes: [const { OnceLock::new() }; Function::COUNT],
+            derivatives: [const { OnceLock::new() }; Function::COUNT],
+        };
         Self { spec, description, code: Arc::new(code) }
     }
 
@@ -106,6 +112,32 @@ impl Interpreter {
         let values = self.unchecked(function, arguments)?;
         self.check(function, &values)?;
         Ok(values)
+    }
+
+    /// Returns the derivatives of the results of a function by the structural parameters: for each
+    /// parameter one after the other, all results in their order, without the margin. Returns
+    /// `None` for frames that branch. The first call differentiates the function, which takes some
+    /// milliseconds.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`run`](Self::run), and [`Error::NotFinite`] if a derivative is not
+    /// finite.
+    pub fn parameter_derivatives(
+        &self,
+        function: Function,
+        arguments: &[&[f64]],
+    ) -> Result<Option<Vec<f64>>, Error> {
+        // With its checks.
+        self.run(function, arguments)?;
+        let tape = self.code.derivatives[function as usize].get_or_init(|| {
+            let routine = parameter_derivatives(&self.spec, function)?;
+            Some(Tape::of(&self.code.routines, &routine))
+        });
+        let Some(tape) = tape else { return Ok(None) };
+        let values = evaluated(tape, arguments.iter().copied().flatten());
+        checks::finite(Quantity::Results, &values)?;
+        Ok(Some(values))
     }
 
     /// Returns the exact pose of the tool point with the errors of the repeatable sources.

@@ -185,6 +185,22 @@ class Machine:
         Rows as for `error_jacobian`. Columns: one per structural parameter in the order of
         `parameters`, per coherent unit.
         """
+    def parameter_derivatives(
+        self, q: _Joints, of: Literal["predict", "error_jacobian"] = "predict", **inputs: _Input
+    ) -> _Array:
+        """(…, ns, 6) or (…, ns, 6, 6n): derivatives of ΔX or of J_e by the structural parameters, in
+        the order of `parameters`.
+
+        `of`: "predict" for ΔX by the repeatable sources, or "error_jacobian"; units are those of
+        that function per coherent unit of the parameter. The derivatives are exact; the first call
+        takes some milliseconds to find them. `inputs`: as for `generalized_errors`. Machines whose
+        frames branch raise ValueError.
+
+        >>> import abbe
+        >>> pps = abbe.load("pps")
+        >>> pps.parameter_derivatives(pps.home).shape == (len(pps.parameters), 6)
+        True
+        """
     def passive(self, q: _Joints, *, out: _Array | None = None) -> _Array:
         """(…, np): values of the passive variables for which all loops close, reached continuously
         from home, in the length unit and rad.

@@ -20,6 +20,13 @@ pub(crate) struct Argument<'a> {
     pub(crate) each: bool,
 }
 
+impl<'a> Argument<'a> {
+    /// Returns the set of `length` values of a configuration.
+    pub(crate) fn at(&self, index: usize, length: usize) -> &'a [f64] {
+        if self.each { &self.values[length * index..][..length] } else { self.values }
+    }
+}
+
 /// Configuration that cannot be evaluated.
 pub(crate) struct RejectedConfiguration {
     /// Index in the batch; none for a single configuration.

@@ -16,6 +16,7 @@ mod batch;
 mod bound;
 mod check;
 mod commands;
+mod derivatives;
 mod doctor;
 mod evaluated;
 mod exchange;

@@ -79,6 +79,22 @@ def test_the_jacobian_is_the_derivative_of_the_pose():
         assert np.allclose(machine.joint_jacobian(q)[:, :3, joint], slope, atol=1e-8), name
 
 
+def test_derivatives_by_parameters():
+    arm = abbe.load(text=ARM)
+    q = np.array([[300.0, 0.5], [200.0, -0.3]])
+    # ΔX is linear in the length of the arm.
+    slope = arm.parameter_derivatives(q, payload=5)
+    longer = arm.with_parameters(reach=451.0).predict(q, payload=5) - arm.predict(q, payload=5)
+    assert slope.shape == (2, 1, 6) and np.allclose(slope[:, 0], longer, atol=1e-12) and np.any(slope)
+    jacobian = arm.parameter_derivatives(q[0], "error_jacobian")
+    expected = arm.with_parameters(reach=451.0).error_jacobian(q[0]) - arm.error_jacobian(q[0])
+    assert jacobian.shape == (1, 6, 12) and np.allclose(jacobian[0], expected, atol=1e-10) and np.any(jacobian)
+    with pytest.raises(ValueError, match='give "predict" or "error_jacobian"'):
+        arm.parameter_derivatives(q, "pose")
+    with pytest.raises(ValueError, match="branch"):
+        abbe.load("palletizer").parameter_derivatives(abbe.load("palletizer").home)
+
+
 def test_products_of_the_jacobian():
     machine = abbe.load("general6r")
     q, errors = samples(machine, 50), np.random.default_rng(1).normal(size=(50, 36)) * 1e-3

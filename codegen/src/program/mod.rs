@@ -4,12 +4,13 @@
 //! `outputs` gives the nodes of each function. A [`Routine`] computes one function: usually with
 //! one program, for long chains with several programs in loops (`loops`). [`Routines`] holds all
 //! functions of a manipulator. `select` chooses, among equal nodes, those that take the fewest
-//! operations together; `write` converts them to steps. `bounds` proves that results are finite,
+//! operations together; `write` converts them to steps. `derivatives` differentiates a function by the parameters. `bounds` proves that results are finite,
 //! `checked` tells which numbers a function has to check at run time.
 
 mod bounds;
 mod checked;
 mod count;
+mod derivatives;
 mod description;
 mod fuse;
 mod loops;
@@ -26,6 +27,7 @@ mod write;
 
 pub use checked::Checks;
 pub use count::Operations;
+pub use derivatives::parameter_derivatives;
 pub use outputs::{locals, results, straight_line};
 pub use rounding::Rounded;
 pub use routine::{Array, ArrayRows, Block, Repeated, Role, Routine, Row, Stage, Sums, Table};

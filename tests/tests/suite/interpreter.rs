@@ -109,3 +109,66 @@ fn new_values_equal_a_new_interpreter() {
         }
     }
 }
+
+/// Derivatives by the parameters are those of central differences.
+#[test]
+fn parameters_have_derivatives() {
+    let mut compared = 0;
+    for shipped in SHIPPED {
+        let robot = Interpreter::new(Spec::parse(shipped.name, shipped.spec).unwrap());
+        let description = robot.description();
+        let (count, arm) =
+            (description.parameters.len(), arm_length(&robot, &nominal_parameters(description)).unwrap());
+        for given in configurations(&robot, 3) {
+            let (q, rest) = given.split_at(description.variables.len());
+            let (s, rest) = rest.split_at(count);
+            let u = &rest[..description.inputs.len()];
+            for function in [
+                Function::ErrorJacobian,
+                Function::PredictedDisplacement,
+                Function::SourceDisplacements,
+                Function::RealPose,
+            ] {
+                let at = |s: &[f64]| -> Option<Vec<f64>> {
+                    let arguments = [q, s, u];
+                    robot.run(function, &arguments[..function.signature().arguments.len()]).ok()
+                };
+                let Some(values) = at(s) else { continue };
+                let arguments = [q, s, u];
+                let arguments = &arguments[..function.signature().arguments.len()];
+                let Some(found) = robot.parameter_derivatives(function, arguments).unwrap() else {
+                    assert!(!description.is_chain(), "{}", shipped.name);
+                    continue;
+                };
+                let has_margin = function.signature().has_margin(description.orientation);
+                let results = values.len() - usize::from(has_margin);
+                assert_eq!(found.len(), count * results);
+                for parameter in 0..count {
+                    let unit = if s[parameter] == 0.0 { arm } else { s[parameter].abs() };
+                    let step = 1e-4 * unit;
+                    let ends = [-step, step].map(|step| {
+                        let mut s = s.to_vec();
+                        s[parameter] += step;
+                        at(&s)
+                    });
+                    let [Some(before), Some(after)] = ends else { continue };
+                    let largest = values.iter().fold(0.0, |a: f64, b| a.max(b.abs())) / unit;
+                    for (i, found) in found[parameter * results..][..results].iter().enumerate() {
+                        let expected = (after[i] - before[i]) / (2.0 * step);
+                        let difference = (found - expected).abs();
+                        let name = &description.parameters[parameter].name;
+                        assert!(
+                            difference <= 1e-6 * largest.max(expected.abs()),
+                            "{} {} by {name}, {i}: {found} and {expected}",
+                            shipped.name,
+                            function.name()
+                        );
+                        compared += usize::from(*found != 0.0);
+                    }
+                }
+            }
+        }
+    }
+    println!("{compared} derivatives that are not 0");
+    assert!(compared > 1000, "{compared}");
+}

@@ -60,6 +60,6 @@ pub(super) fn near<R: Register>(y: Lanes<R>, x: Lanes<R>) -> Lanes<R> {
         high.more_than(wide).select(number(FRAC_PI_2) - (angle - number(2.0 * FRAC_PI_4_REST)), angle);
     let angle = zero.more_than(x).select(number(PI) - (angle - number(4.0 * FRAC_PI_4_REST)), angle);
     // NaN stays NaN, also of the coordinate that a minimum drops.
-    let angle = angle + ((x - x) + (y - y));
+    let angle = angle + (x + y) * zero;
     angle.with_sign_of(y)
 }

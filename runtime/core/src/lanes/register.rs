@@ -373,7 +373,7 @@ impl<R: Register> Scalar for Lanes<R> {
         let side = zero.more_than(self).select(-one, one);
         // NaN stays NaN.
         let within = Lanes::max(-one, Lanes::min(one, self));
-        side + (within - within)
+        side + within * zero
     }
 
     #[inline(always)]
