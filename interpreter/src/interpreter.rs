@@ -132,7 +132,7 @@ impl Interpreter {
         self.run(function, arguments)?;
         let tape = self.code.derivatives[function as usize].get_or_init(|| {
             let routine = parameter_derivatives(&self.spec, function)?;
-            Some(Tape::of(&self.code.routines, &routine))
+            Some(Tape::of_routine(&self.code.routines, &routine))
         });
         let Some(tape) = tape else { return Ok(None) };
         let values = evaluated(tape, arguments.iter().copied().flatten());

@@ -13,11 +13,11 @@ use crate::tape::{Part, Tape, Turn};
 impl Tape {
     /// Packs a function. Arguments and results are concatenated, and the margin is last.
     pub(crate) fn new(routines: &Routines, function: Function) -> Self {
-        Self::of(routines, routines.function(function))
+        Self::of_routine(routines, routines.function(function))
     }
 
     /// Packs a routine, which may call those of `routines`.
-    pub(crate) fn of(routines: &Routines, routine: &Routine) -> Self {
+    pub(crate) fn of_routine(routines: &Routines, routine: &Routine) -> Self {
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
         let arguments = given.map(|array| array.len(&routines.description)).sum();
         let mut constants = Constants::default();

@@ -14,13 +14,13 @@ use abbe_core::lanes::InstructionSet;
 /// fixed as in `start`.
 ///
 /// Returns all of `q`, within its limits. If all variables are free, and the manipulator has all
-/// solutions for a pose in closed form ([`Manipulator::inverse`]), it is the one nearest to `start`,
-/// with angles in rad and lengths in arm lengths. Otherwise it is found by a search. Redundant free variables are allowed: every step is the
-/// shortest one (angles in rad, lengths in arm lengths). The search begins at `start`. Unless the
-/// chain proves the target unreachable, it continues from 32 points spread within the limits. If
-/// all fail, it searches beyond the limits to name the variable that prevents reaching the target.
-/// It compares up to four such solutions, the first one started from the best point within the
-/// limits.
+/// solutions for a pose in closed form ([`Manipulator::inverse`]), it is the one nearest to
+/// `start`, with angles in rad and lengths in arm lengths. Otherwise it is found by a search.
+/// Redundant free variables are allowed: every step is the shortest one (angles in rad, lengths in
+/// arm lengths). The search begins at `start`. Unless the chain proves the target unreachable, it
+/// continues from 32 points spread within the limits. If all fail, it searches beyond the limits to
+/// name the variable that prevents reaching the target. It compares up to four such solutions, the
+/// first one started from the best point within the limits.
 pub fn inverse(
     manipulator: &dyn Manipulator,
     s: &[f64],

@@ -47,7 +47,7 @@ enum Form {
     /// Function of the manipulator.
     Generated,
     /// Closed form found in the numbers of the chain.
-    Found(ClosedForm),
+    Found(Box<ClosedForm>),
     /// No closed form: searches.
     None,
 }
@@ -60,7 +60,7 @@ impl<'a> InverseKinematics<'a> {
         let problem = Problem::new(manipulator, s, &home, &all)?;
         let found = || JointChain::new(&problem).and_then(|chain| ClosedForm::new(&chain));
         let form = match manipulator.description().solutions {
-            0 => found().map_or(Form::None, Form::Found),
+            0 => found().map_or(Form::None, |form| Form::Found(Box::new(form))),
             _ => Form::Generated,
         };
         Ok(Self { problem, form })

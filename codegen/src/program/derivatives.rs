@@ -10,8 +10,9 @@ use super::outputs::results;
 use super::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage};
 use crate::chain::Model;
 
-/// Returns a routine that takes the arguments of a function of a chain and fills one array: for each
-/// parameter, the derivatives of all results, in their order. Returns `None` for frames that branch.
+/// Returns a routine that takes the arguments of a function of a chain and fills one array: for
+/// each parameter, the derivatives of all results, in their order. Returns `None` for frames that
+/// branch.
 pub fn parameter_derivatives(spec: &Spec, function: Function) -> Option<Routine> {
     let model = Model::new(spec);
     if model.loops.is_some() {

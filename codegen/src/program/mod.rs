@@ -4,8 +4,9 @@
 //! `outputs` gives the nodes of each function. A [`Routine`] computes one function: usually with
 //! one program, for long chains with several programs in loops (`loops`). [`Routines`] holds all
 //! functions of a manipulator. `select` chooses, among equal nodes, those that take the fewest
-//! operations together; `write` converts them to steps. `derivatives` differentiates a function by the parameters. `bounds` proves that results are finite,
-//! `checked` tells which numbers a function has to check at run time.
+//! operations together; `write` converts them to steps. `derivatives` differentiates a function by
+//! the parameters. `bounds` proves that results are finite, `checked` tells which numbers a
+//! function has to check at run time.
 
 mod bounds;
 mod checked;

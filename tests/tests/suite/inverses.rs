@@ -100,8 +100,8 @@ fn searches_find_no_others() {
     }
 }
 
-/// Generated functions give the same solutions one by one, in lanes and interpreted; each reaches the
-/// pose without any improvement, and the configuration of the pose is one of them.
+/// Generated functions give the same solutions one by one, in lanes and interpreted; each reaches
+/// the pose without any improvement, and the configuration of the pose is one of them.
 #[test]
 fn generated_solutions_reach_their_poses() {
     generated(&puma560::Puma560);
@@ -110,7 +110,7 @@ fn generated_solutions_reach_their_poses() {
     generated(&pps::Pps);
 }
 
-fn generated(robot: &(impl Evaluate<Inverse> + Manipulator)) {
+fn generated(robot: &impl Evaluate<Inverse>) {
     let description = robot.description();
     let name = &*description.name;
     let spec = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap().spec;

@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::angles::{Quadratic, angle};
 use super::line::{Line, TOLERANCE, common_perpendicular, turn, turned};
 
-/// Axes of three revolute joints, the first two skew, and a point that they move. The points on the first two axes are
-/// the feet of their common perpendicular.
+/// Axes of three revolute joints, the first two skew, and a point that they move. The points on the
+/// first two axes are the feet of their common perpendicular.
 #[derive(Clone, Debug)]
 pub(super) struct Arm {
     axes: [Line; 3],
@@ -22,8 +22,8 @@ pub(super) struct Arm {
 }
 
 impl Arm {
-    /// Returns `None` if the first two axes are not skew, or if the arm cannot bring the point to any
-    /// place around it: if q_3 changes nothing that the first two joints keep.
+    /// Returns `None` if the first two axes are not skew, or if the arm cannot bring the point to
+    /// any place around it: if q_3 changes nothing that the first two joints keep.
     pub(super) fn new([first, second, third]: [Line; 3], point: Vector3<f64>) -> Option<Self> {
         let [on_first, on_second] = common_perpendicular(&first, &second);
         let between = on_second - on_first;

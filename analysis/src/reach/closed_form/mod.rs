@@ -1,4 +1,4 @@
-//! Inverse kinematics in closed form of arms whose first three axes are skew, with a spherical wrist.
+//! Inverse kinematics in closed form of arms with skew axes and a spherical wrist.
 //!
 //! Arms with axes that intersect or are parallel, and gantries, have functions of their own
 //! ([`Manipulator::inverse`](abbe_core::Manipulator::inverse)); the quartic equation of this one

@@ -32,7 +32,9 @@ const COEFFICIENTS: [f64; 11] = [
 ];
 
 /// Returns the angle of the point (x, y), whose larger coordinate is within [`REACH`].
-#[inline(always)]
+// Without optimization, each copy of it in a long function would take room on the stack.
+#[cfg_attr(debug_assertions, inline(never))]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn near<R: Register>(y: Lanes<R>, x: Lanes<R>) -> Lanes<R> {
     let number = <Lanes<R> as Scalar>::constant;
     let zero = number(0.0);

@@ -48,6 +48,7 @@ mod portable;
 mod register;
 mod rows;
 mod run;
+mod scalar;
 mod sweepable;
 #[cfg(test)]
 mod tests;
