@@ -190,6 +190,35 @@ fn other_arms_are_searched() {
     }
 }
 
+/// No closed form is claimed for arms that cannot bring the wrist to all places around it.
+#[test]
+fn arms_without_room_have_no_closed_form() {
+    let frame = |i: usize, transform: &str| {
+        format!(
+            "[[frame]]\nname = \"f{i}\"\nvariable = {{ name = \"q{i}\", kind = \"revolute\", limits = [-3, 3] }}\n\
+             transform = \"Rz(q{i}) {transform}\"\n"
+        )
+    };
+    let tilt = "Rx(1.2) Rz(0.4)";
+    for transforms in [
+        // The first three axes intersect, too.
+        [tilt, tilt, "Tx(0.4) Tz(0.3)", tilt, tilt, "Tz(0.1)"],
+        // The first two axes are one.
+        ["Tz(0.3)", "Tx(0.4) Rx(1)", "Tx(0.4) Tz(0.3)", tilt, tilt, "Tz(0.1)"],
+        // The third axis goes through the wrist.
+        ["Tx(0.3)", "Tx(0.4) Rx(1)", "Tz(0.3)", tilt, tilt, "Tz(0.1)"],
+    ] {
+        let frames = transforms.iter().enumerate().map(|(i, transform)| frame(i, transform));
+        let text = format!("[manipulator]\nname = \"arm\"\nlength = \"m\"\n{}", frames.collect::<String>());
+        let robot =
+            Interpreter::new(Spec::parse("arm.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+        assert_eq!(robot.description().solutions, 0, "{transforms:?}");
+        let pose = robot.pose(&[0.1, 0.2, 0.3, 0.4, 0.5, 0.6], &[]).unwrap();
+        assert!(robot.inverse(&[0.0; 6], &[], &pose, &mut [], &mut []).is_ok());
+        assert!(robot.inverse(&[0.0; 6], &[], &pose, &mut [0.0; 48], &mut [0.0; 8]).is_err());
+    }
+}
+
 /// At singular poses the solutions reach the pose.
 #[test]
 fn singular_poses_are_reached() {

@@ -41,7 +41,7 @@ impl Arm<'_> {
             return Some(self.behind_parallel(g, to));
         }
         if let Some(centre) = probes.common_point(g, first, second) {
-            return Some(self.behind_intersecting(g, to, centre));
+            return self.behind_intersecting(g, to, centre);
         }
         let centre = probes.common_point(g, second, third)?;
         let away = g.sub_vectors(centre, first.at);
@@ -110,7 +110,8 @@ impl Arm<'_> {
     }
 
     /// The first two axes intersect: the third joint brings the point to its distance from there.
-    fn behind_intersecting(&self, g: &mut Graph, to: Vector, centre: Vector) -> Vec<Partial> {
+    /// Returns `None` if it changes no distance, because its axis goes through the same point.
+    fn behind_intersecting(&self, g: &mut Graph, to: Vector, centre: Vector) -> Option<Vec<Partial>> {
         let to = g.sub_vectors(to, centre);
         let reach = g.dot(to, to);
         let moved = self.moved_by_third(g, centre);
@@ -120,13 +121,16 @@ impl Arm<'_> {
         let k = g.add(ff, aa);
         let k = g.sub(k, reach);
         let [c, s] = [fa, fb].map(|product| g.add(product, product));
+        if self.probes.are_zero(g, &[c, s], self.size()) {
+            return None;
+        }
         let thirds = linear(g, [k, c, s], self.free[2], self.size());
         let mut found = Vec::new();
         for q3 in thirds {
             let u = moved.at(g, q3.angle);
             found.extend(self.turned_about_centre(g, u, to).map(|[q1, q2]| Partial::new(vec![q1, q2, q3])));
         }
-        found
+        Some(found)
     }
 
     /// Returns the angles of the first two joints, whose axes intersect, that turn `u` to `to`.
