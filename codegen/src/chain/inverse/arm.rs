@@ -63,17 +63,17 @@ impl Arm<'_> {
     fn flat(&self, g: &mut Graph, to: Vector) -> Vec<Partial> {
         let [first, second, third] = self.lines;
         let to = g.sub_vectors(to, first.at);
-        let kept = g.sub_vectors(self.point, first.at);
+        let kept = self.probes.between(g, self.point, first.at);
         let height = g.dot(second.along, kept);
+        let between = self.probes.between(g, first.at, second.at);
         let roots =
             back_to_height(g, [first.along, second.along], to, height, self.free[0], self.probes.size);
         let mut found = Vec::new();
         for root in roots {
             let back = root.angle.signed(g, -1.0).turn(g, first.along, to);
-            let back = g.add_vectors(back, first.at);
-            for [q2, q3] in
-                plane(g, self.probes, [&second, &third], self.point, back, [self.free[1], self.free[2]])
-            {
+            let reach = g.add_vectors(back, between);
+            let free = [self.free[1], self.free[2]];
+            for [q2, q3] in plane(g, self.probes, [&second, &third], self.point, reach, free) {
                 found.push(Partial::new(vec![root, q2, q3]));
             }
         }
@@ -319,23 +319,24 @@ fn bends(
     linear(g, [k, c, s], free, size)
 }
 
-/// Returns the angles of two joints with parallel axes that bring a point in their plane to `to`.
+/// Returns the angles of two joints with parallel axes that bring a point in their plane to `reach`
+/// from the first axis.
 pub(super) fn plane(
     g: &mut Graph,
     probes: &Probes,
     [first, second]: [&Line; 2],
     point: Vector,
-    to: Vector,
+    reach: Vector,
     free: [Angle; 2],
 ) -> [[Root; 2]; 2] {
     let along = first.along;
     let sign = g.dot(along, second.along);
     let sign = probes.nominal(g, sign);
-    let [lower, upper, reach] = [(second.at, first.at), (point, second.at), (to, first.at)].map(|(a, b)| {
-        let way = g.sub_vectors(a, b);
-        let way = flat(g, along, way);
-        if a == to { way } else { probes.cleaned_vector(g, way, probes.size) }
+    let [lower, upper] = [(second.at, first.at), (point, second.at)].map(|(a, b)| {
+        let way = probes.between(g, a, b);
+        flat(g, along, way)
     });
+    let reach = flat(g, along, reach);
     let size = probes.size * probes.size;
     let bend = free[1].signed(g, sign);
     bends(g, along, [lower, upper], reach, bend, size).map(|root| {

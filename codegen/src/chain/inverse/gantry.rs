@@ -28,7 +28,8 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
             roots[2] = Root { angle: roots[2].angle.normalized(g), ..roots[2] };
             let mut left = roots.into_iter().rev();
             let mut joints: Vec<Option<Root>> = vec![None; 6];
-            let mut point = lines.tool.position;
+            // The tool point, from a point on the axis.
+            let (mut arm, mut origin) = ([g.zero(); 3], lines.tool.position);
             let mut ways: Vec<Vector> = Vec::new();
             for (i, line) in lines.lines.iter().enumerate().rev() {
                 if line.kind == VariableKind::Prismatic {
@@ -36,12 +37,14 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
                     continue;
                 }
                 let root = left.next()?;
-                let arm = g.sub_vectors(point, line.at);
-                let arm = root.angle.turn(g, line.along, arm);
-                point = g.add_vectors(line.at, arm);
+                let between = lines.probes.between(g, origin, line.at);
+                let unturned = g.add_vectors(arm, between);
+                arm = root.angle.turn(g, line.along, unturned);
+                origin = line.at;
                 ways.iter_mut().for_each(|way| *way = root.angle.turn(g, line.along, *way));
                 joints[i] = Some(root);
             }
+            let point = g.add_vectors(origin, arm);
             let (travels, exists) = travels(g, lines, &ways, point, motion.target.position)?;
             let mut travels = travels.into_iter();
             let joints = joints.into_iter().map(|root| match root {

@@ -177,6 +177,12 @@ impl Probes {
         Some(self.cleaned_vector(g, point, self.size))
     }
 
+    /// Returns `a − b` of two points that no joint moves.
+    pub(super) fn between(&self, g: &mut Graph, a: Vector, b: Vector) -> Vector {
+        let way = g.sub_vectors(a, b);
+        self.cleaned_vector(g, way, self.size)
+    }
+
     /// Returns the vector from a line to a point, perpendicular to the line.
     pub(super) fn offset(&self, g: &mut Graph, line: &Line, point: Vector) -> Vector {
         let from = g.sub_vectors(point, line.at);

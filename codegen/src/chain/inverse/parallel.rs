@@ -34,7 +34,8 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
     });
     let place = motion.point(g, probes, centre);
     let place = g.sub_vectors(place, first.at);
-    let kept = g.sub_vectors(centre, first.at);
+    let kept = probes.between(g, centre, first.at);
+    let between = probes.between(g, first.at, second.at);
     let height = g.dot(h, kept);
     let end = motion.turn(g, sixth.along);
     let unit = across(g, probes, h);
@@ -45,7 +46,7 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
         let ahead = q1.angle.turn(g, first.along, h);
         let seen = motion.turn_back(g, ahead);
         let wrist = back.turn(g, first.along, place);
-        let wrist = g.add_vectors(wrist, first.at);
+        let wrist = g.add_vectors(wrist, between);
         let ends = [h, fifth.along, sixth.along];
         let mut first_6: Option<Angle> = None;
         for q5 in tilts(g, ends, image, probes) {
@@ -67,10 +68,10 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
             let beyond = g.cross(h, unit);
             let total = Angle { sine: g.dot(beyond, together), cosine: g.dot(unit, together) };
             let total = total.normalized(g);
-            let lever = g.sub_vectors(centre, fourth.at);
+            let lever = probes.between(g, centre, fourth.at);
             let lever = total.turn(g, h, lever);
-            let to = g.sub_vectors(wrist, lever);
-            for [q2, q3] in plane(g, probes, [&second, &third], fourth.at, to, [free[1], free[2]]) {
+            let reach = g.sub_vectors(wrist, lever);
+            for [q2, q3] in plane(g, probes, [&second, &third], fourth.at, reach, [free[1], free[2]]) {
                 let before = [q2.angle, q3.angle.signed(g, signs[0])];
                 let q4 = before.into_iter().fold(total, |sum, angle| {
                     let back = angle.signed(g, -1.0);
