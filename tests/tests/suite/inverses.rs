@@ -121,8 +121,13 @@ fn generated(robot: &impl Evaluate<Inverse>) {
     let set = InstructionSet::best();
     let mut arguments = Tiles::new(set, signature.arguments_len(description), count);
     let mut results = Tiles::new(set, signature.results_len(description), count);
+    // Every fourth wrist is nearly straight, with joints that hardly matter by themselves.
+    let is_straight = |index: usize| index.is_multiple_of(4) && name != "pps";
     let given = |index: usize| {
-        let q = sample(robot, index);
+        let mut q = sample(robot, index);
+        if is_straight(index) {
+            q[4] = 0.1_f64.powi((index / 4 % 16) as i32);
+        }
         (sample(robot, 2 * index + 1), robot.pose(&q, &s).unwrap(), q)
     };
     for index in 0..count {
@@ -145,6 +150,9 @@ fn generated(robot: &impl Evaluate<Inverse>) {
         let in_lanes: Vec<f64> = (0..7 * rows).map(|row| results.get(row, index)).collect();
         let size = target.position().iter().fold(1.0, |a: f64, b| a.max(b.abs()));
         for other in [in_lanes, solve(&interpreter, &start, &target)] {
+            if is_straight(index) {
+                continue;
+            }
             assert_eq!(one[6 * rows..], other[6 * rows..], "{name} {index}");
             let difference = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             worst[1] = worst[1].max(difference / size);
@@ -169,13 +177,14 @@ fn generated(robot: &impl Evaluate<Inverse>) {
             }
             nearest = nearest.min(distance(robot, row, &q));
         }
-        assert!(nearest < 1e-6, "{name} {index}: {q:?} is not one of {one:?}");
+        assert!(nearest < 1e-6 || is_straight(index), "{name} {index}: {q:?} is not one of {one:?}");
+        assert!(nearest.is_finite(), "{name} {index}: nothing found for {q:?}");
     }
     println!(
         "{name}: {count} poses missed by {:e} at most, {:e} between lanes and others",
         worst[0], worst[1]
     );
-    assert!(worst[0] < 1e-10 && worst[1] < 1e-6, "{name}: {worst:?}");
+    assert!(worst[0] < 2e-12 && worst[1] < 1e-6, "{name}: {worst:?}");
 }
 
 /// Without a closed form, the solutions are those of searches.
