@@ -95,8 +95,8 @@ pub trait Manipulator: Sync {
     /// `solutions` per solution, in the turns nearest to `q` that the limits permit.
     ///
     /// Where `found` is 0, the row is no solution. A joint that is free to move there stays as in
-    /// `q`. The default is for manipulators without a closed form, whose description has no
-    /// solutions.
+    /// `q`; within 10⁻⁹ rad of such a pose, but not at it, a solution may be missing. The default
+    /// is for manipulators without a closed form, whose description has no solutions.
     fn inverse(
         &self,
         _q: &[f64],

@@ -7,7 +7,7 @@ use crate::graph::{Graph, Node, Vector};
 const NOTHING: f64 = 1e-15;
 /// Relative size below which a vector has no direction: many rounding errors, so that the start is
 /// kept in spite of them.
-const NO_DIRECTION: f64 = 1e-12;
+const NO_DIRECTION: f64 = 1e-13;
 /// Share by which a cosine may exceed 1, as a rounding error.
 const ROUNDING: f64 = 1e-12;
 

@@ -36,7 +36,7 @@ use self::wrist::Wrist;
 use crate::graph::{Frame, Graph, Node, Op, Vector};
 
 /// Distance beyond a limit that still counts as at the limit, relative to the range.
-const AT_LIMIT: f64 = 1e-9;
+const AT_LIMIT: f64 = 1e-13;
 
 /// Inverse kinematics of a spec in closed form. The variables are the joints near which solutions
 /// are wanted.

@@ -2,7 +2,7 @@
 
 use abbe_core::VariableKind;
 
-use super::angles::{Angle, Root, are_square, tilts, towards};
+use super::angles::{Angle, Root, tilts, towards};
 use super::arm::{back_to_height, plane};
 use super::lines::{Line, Lines};
 use super::motion::Motion;
@@ -39,6 +39,7 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
     let height = g.dot(h, kept);
     let end = motion.turn(g, sixth.along);
     let unit = across(g, probes, h);
+    let lever = probes.between(g, centre, fourth.at);
     let mut found = Vec::new();
     for q1 in back_to_height(g, [first.along, h], place, height, free[0], probes.size) {
         let back = q1.angle.signed(g, -1.0);
@@ -47,19 +48,22 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
         let seen = motion.turn_back(g, ahead);
         let wrist = back.turn(g, first.along, place);
         let wrist = g.add_vectors(wrist, between);
-        let ends = [h, fifth.along, sixth.along];
-        let mut first_6: Option<Angle> = None;
-        for q5 in tilts(g, ends, image, probes) {
+        let goal = q1.angle.turn(g, first.along, wrist);
+        let goal = motion.turn_back(g, goal);
+        let fifths = tilts(g, [h, fifth.along, sixth.along], image, probes);
+        for (q5, keeps_start) in fifths.into_iter().zip([true, false]) {
             let back_5 = q5.angle.signed(g, -1.0);
-            let back_6 = if let Some(angle) = first_6.filter(|_| are_square(g, ends, probes)) {
-                angle.opposite(g)
+            // Where the sixth axis is parallel to the others, both q_5 are one, and q_6 is free:
+            // first as in the start, then so that the arm has to reach least.
+            let last = if keeps_start {
+                free[5].signed(g, -1.0)
             } else {
-                // R_6ᵀ R_5ᵀ h = Rᵀ R_1 h
-                let tilted = back_5.turn(g, fifth.along, h);
-                let last = free[5].signed(g, -1.0);
-                towards(g, sixth.along, tilted, seen, last, 1.0).normalized(g)
+                let lever = back_5.turn(g, fifth.along, lever);
+                towards(g, sixth.along, lever, goal, free[5], probes.size).normalized(g)
             };
-            first_6 = Some(back_6);
+            // R_6ᵀ R_5ᵀ h = Rᵀ R_1 h
+            let tilted = back_5.turn(g, fifth.along, h);
+            let back_6 = towards(g, sixth.along, tilted, seen, last, 1.0).normalized(g);
             let q6 = back_6.signed(g, -1.0);
             let ends = back_5.turn(g, fifth.along, unit);
             let ends = back_6.turn(g, sixth.along, ends);
@@ -68,7 +72,6 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
             let beyond = g.cross(h, unit);
             let total = Angle { sine: g.dot(beyond, together), cosine: g.dot(unit, together) };
             let total = total.normalized(g);
-            let lever = probes.between(g, centre, fourth.at);
             let lever = total.turn(g, h, lever);
             let reach = g.sub_vectors(wrist, lever);
             for [q2, q3] in plane(g, probes, [&second, &third], fourth.at, reach, [free[1], free[2]]) {
