@@ -9,9 +9,15 @@ impl Graph {
     pub fn evaluate(&self, nodes: &[Node], symbol: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let count = nodes.iter().map(|node| node.index() + 1).max().unwrap_or(0);
         let mut values: Vec<f64> = Vec::with_capacity(count);
-        for op in self.ops().take(count) {
+        self.extend_values(&mut values, count, symbol);
+        nodes.iter().map(|node| values[node.index()]).collect()
+    }
+
+    /// Appends the values of further nodes to those of the first ones, up to `count` of them.
+    pub(crate) fn extend_values(&self, values: &mut Vec<f64>, count: usize, symbol: impl Fn(Symbol) -> f64) {
+        for index in values.len()..count {
             let of = |node: Node| values[node.index()];
-            values.push(match op {
+            values.push(match self.op(Node(index as u32)) {
                 Op::Constant(bits) => f64::from_bits(bits),
                 Op::Symbol(s) => symbol(s),
                 Op::Neg(a) => -of(a),
@@ -29,6 +35,5 @@ impl Graph {
                 }
             });
         }
-        nodes.iter().map(|node| values[node.index()]).collect()
     }
 }

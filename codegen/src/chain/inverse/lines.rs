@@ -1,5 +1,7 @@
 //! Axes of joints as lines in `F_0`, with all joints at zero.
 
+use std::cell::RefCell;
+
 use abbe_core::VariableKind;
 use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::{Factor, Spec};
@@ -38,6 +40,8 @@ pub(super) struct Lines {
 #[derive(Clone, Debug)]
 pub(super) struct Probes {
     parameters: [Vec<f64>; PROBES],
+    /// Values of the first nodes of the graph, for each set.
+    values: RefCell<[Vec<f64>; PROBES]>,
     /// Size of the manipulator, in its unit.
     pub(super) size: f64,
 }
@@ -56,7 +60,8 @@ impl Lines {
             let other = |(i, value): (usize, &f64)| value + scale(*value) * change(i);
             if probe == 0 { nominal.clone() } else { nominal.iter().enumerate().map(other).collect() }
         };
-        let mut probes = Probes { parameters: std::array::from_fn(around), size: 1.0 };
+        let (parameters, values) = (std::array::from_fn(around), RefCell::default());
+        let mut probes = Probes { parameters, values, size: 1.0 };
         let mut lines: Vec<Option<Line>> = vec![None; spec.variables.len()];
         let mut at = g.identity();
         for frame in &spec.frames {
@@ -115,11 +120,14 @@ fn at_zero(g: &mut Graph, at: Frame, factor: &Factor) -> Frame {
 
 impl Probes {
     fn values(&self, g: &Graph, nodes: &[Node], probe: usize) -> Vec<f64> {
-        g.evaluate(nodes, |symbol| match symbol {
+        let values = &mut self.values.borrow_mut()[probe];
+        let count = nodes.iter().map(|node| node.index() + 1).max().unwrap_or(0);
+        g.extend_values(values, count, |symbol| match symbol {
             Symbol::Parameter(i) => self.parameters[probe][i],
             // Nothing else may be asked for.
             _ => f64::NAN,
-        })
+        });
+        nodes.iter().map(|node| values[node.index()]).collect()
     }
 
     fn largest(&self, g: &Graph, nodes: &[Node]) -> f64 {
