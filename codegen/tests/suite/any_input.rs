@@ -2,6 +2,7 @@
 
 use abbe_spec::Spec;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 const SPEC: &str = r#"
 [manipulator]
@@ -45,7 +46,9 @@ fn the_spec_is_right() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 500, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default()
+    })]
 
     #[test]
     fn any_text(text in "\\PC*") {

@@ -2,3 +2,4 @@
 
 mod any_input;
 mod graph_laws;
+mod readable_rust;

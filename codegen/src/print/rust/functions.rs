@@ -250,7 +250,9 @@ impl Printer<'_> {
     fn copy(&mut self, from: ArrayRows, to: usize) {
         let from_rows = self.place(from, 0);
         let line = match from.row {
-            Row::AllButFirst => format!("{}.copy_from_slice(&{from_rows});", self.routine.arrays[to].name),
+            Row::AllButFirst => {
+                format!("<[_]>::copy_from_slice({}, &{from_rows});", self.routine.arrays[to].name)
+            }
             _ => format!("{} = {from_rows};", self.place(ArrayRows::all(to), 0)),
         };
         self.writer.lines(&line);
@@ -359,7 +361,8 @@ impl Printer<'_> {
         let flattened = ".as_flattened_mut()".repeat(entries.shape.len() - 1);
         let terms = terms.name;
         self.writer.lines(&format!("let entries = {}{flattened};", entries.name));
-        self.writer.open(&format!("for (entry, constant) in entries.iter_mut().zip(&{name}_CONSTANTS)"));
+        self.writer
+            .open(&format!("for (entry, constant) in ::core::iter::zip(&mut *entries, &{name}_CONSTANTS)"));
         self.writer.lines("*entry = T::constant(*constant);");
         self.writer.close("}");
         self.writer.open(&format!("for &(entry, term, factor) in &{name}_FACTORS"));

@@ -34,6 +34,12 @@ impl Syntax for Rust<'_> {
             let text = format!("{}.{name}({})", of.at_least(Binding::Atom), arguments.join(", "));
             Expression::new(text, Binding::Atom)
         };
+        // Not `a.min(b)`: clippy asks for the receiver of every method call with one argument, and
+        // follows all bindings behind it, in exponential time for a long chain of them.
+        let associated = |function: &str, arguments: &[Expression]| {
+            let arguments: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
+            Expression::new(format!("{function}({})", arguments.join(", ")), Binding::Atom)
+        };
         // A constant factor comes second.
         let fused = |name: &str, a: Operand| match (a, operands) {
             (Operand::Constant(_), [a, b, c]) => method(name, b, &[a, c]),
@@ -50,16 +56,16 @@ impl Syntax for Rust<'_> {
             Action::MulAdd(a, ..) => fused("mul_add", a),
             Action::MulSub(a, ..) => fused("mul_sub", a),
             Action::NegMulAdd(a, ..) => fused("neg_mul_add", a),
-            Action::Pow(..) => method("powf", &operands[0], &[&operands[1]]),
-            Action::Atan2(..) => method("atan2", &operands[0], &[&operands[1]]),
-            Action::Min(..) => method("min", &operands[0], &[&operands[1]]),
-            Action::Max(..) => method("max", &operands[0], &[&operands[1]]),
+            Action::Pow(..) => associated("T::powf", operands),
+            Action::Atan2(..) => associated("T::atan2", operands),
+            Action::Min(..) => associated("T::min", operands),
+            Action::Max(..) => associated("T::max", operands),
             Action::Call(Function::Log, _) => method("ln", &operands[0], &[]),
             Action::Call(function, _) => method(function.name(), &operands[0], &[]),
             Action::Lookup(Lookup { table, order }, _) => {
                 let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
                 let text = match order {
-                    0 => format!("{name}.value({x})"),
+                    0 => format!("::abbe::LookupTable::value(&{name}, {x})"),
                     order => format!("{name}.derivative({order}, {x})"),
                 };
                 Expression::new(text, Binding::Atom)
