@@ -27,9 +27,9 @@ pub struct Limits {
 /// ```text
 /// ‖δ‖ ≤ Σ_i ‖d_i‖ + ‖θ_i‖ Σ_{k > i} ‖t_k‖        ‖θ‖ ≤ Σ_i ‖θ_i‖
 /// ```
-pub fn limits(graph: &mut Graph, apart: &Apart, moving: &[Moving], fixed: impl Fn(Symbol) -> f64) -> Limits {
+pub fn limits(graph: &mut Graph, apart: &Apart, moving: &[Moving], fixed: &dyn Fn(Symbol) -> f64) -> Limits {
     let mut size =
-        |magnitude: &Magnitude| largest(graph, magnitude, moving, &fixed, &EFFORT, &mut |_| true).certified;
+        |magnitude: &Magnitude| largest(graph, magnitude, moving, fixed, &EFFORT, &mut |_| true).certified;
     // Maximum distance of the tool point from each frame, last frame first.
     let mut reach = 0.0;
     let mut levers: Vec<f64> = Vec::with_capacity(apart.links.len());

@@ -23,7 +23,7 @@ pub fn largest(
     graph: &mut Graph,
     magnitude: &Magnitude,
     moving: &[Moving],
-    fixed: impl Fn(Symbol) -> f64,
+    fixed: &dyn Fn(Symbol) -> f64,
     effort: &Effort,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Bound {

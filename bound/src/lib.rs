@@ -29,7 +29,7 @@
 //! let node = graph.mul(x, rest);
 //! let size = Magnitude { node, squared: false, parts: Vec::new() };
 //! let x = Moving { symbol: Symbol::Variable(0), range: [0.0, 1.0], home: 0.0, start: 0.0 };
-//! let bound = largest(&mut graph, &size, &[x], |_| 0.0, &Effort::default(), &mut |_| true);
+//! let bound = largest(&mut graph, &size, &[x], &|_| 0.0, &Effort::default(), &mut |_| true);
 //! assert!(bound.complete && bound.found <= 0.25 && bound.certified >= 0.25);
 //! assert!(bound.certified <= 1.01 * bound.found);
 //! ```

@@ -67,7 +67,7 @@ pub fn singular_value(
     graph: &Graph,
     rows: &[Vec<Node>],
     moving: &[Moving],
-    fixed: impl Fn(Symbol) -> f64,
+    fixed: &dyn Fn(Symbol) -> f64,
     effort: &Effort,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Singular {

@@ -66,12 +66,12 @@ impl Domain {
         for (name, start) in names.iter_mut().zip(start.unwrap_or_default()) {
             name.start = *start;
         }
-        abbe_bound::largest(graph, magnitude, &names, still, effort, watch)
+        abbe_bound::largest(graph, magnitude, &names, &still, effort, watch)
     }
 
     /// Bounds the norms by the sum of their parts.
     pub(super) fn limits(&self, graph: &mut Graph, apart: &Apart) -> Limits {
-        abbe_bound::limits(graph, apart, &self.names(), |symbol| home(symbol, &self.spec))
+        abbe_bound::limits(graph, apart, &self.names(), &|symbol| home(symbol, &self.spec))
     }
 
     /// Returns true if the first node depends on fewer moving names than the second.

@@ -16,7 +16,7 @@ impl Domain {
         let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&self.spec)?;
         let mut least = |rows: &Vec<_>| {
             let still = |symbol| home(symbol, &self.spec);
-            let least = singular_value(Extreme::Least, &graph, rows, &self.names(), still, effort, watch);
+            let least = singular_value(Extreme::Least, &graph, rows, &self.names(), &still, effort, watch);
             self.least(&least)
         };
         Some(Dexterity { point: least(&point), pose: pose.as_ref().map(least) })
@@ -31,7 +31,7 @@ impl Domain {
     ) -> Option<LowerBound> {
         let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&self.spec)?;
         let still = |symbol| home(symbol, &self.spec);
-        let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), still, effort, watch);
+        let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), &still, effort, watch);
         let certified = (1.0 / largest.certified).next_down().max(0.0);
         Some(self.least(&Singular { certified, found: largest.found.map(f64::recip), ..largest }))
     }

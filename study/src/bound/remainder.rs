@@ -70,6 +70,6 @@ impl Domain {
         moving.push(Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 });
         let gap = requested.gap.max(REMAINDER_EFFORT.gap);
         let effort = Effort { gap, boxes: requested.boxes.min(REMAINDER_EFFORT.boxes), ..REMAINDER_EFFORT };
-        abbe_bound::largest(graph, magnitude, &moving, |symbol| home(symbol, &self.spec), &effort, watch)
+        abbe_bound::largest(graph, magnitude, &moving, &|symbol| home(symbol, &self.spec), &effort, watch)
     }
 }

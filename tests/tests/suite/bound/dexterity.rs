@@ -18,7 +18,7 @@ fn least(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<Vec<Singular>>
     let all = std::iter::once(point).chain(pose);
     let least = |rows: Vec<_>| {
         let still = |symbol| home(symbol, spec);
-        singular_value(Extreme::Least, &graph, &rows, box_, still, effort, &mut |_| true)
+        singular_value(Extreme::Least, &graph, &rows, box_, &still, effort, &mut |_| true)
     };
     Some(all.map(least).collect())
 }

@@ -54,7 +54,7 @@ fn bounded(
     box_: &[Moving],
     effort: &Effort,
 ) -> Bound {
-    largest(&mut magnitudes.graph, magnitude, box_, |symbol| home(symbol, spec), effort, &mut |_| true)
+    largest(&mut magnitudes.graph, magnitude, box_, &|symbol| home(symbol, spec), effort, &mut |_| true)
 }
 
 /// Returns the magnitudes of the repeatable sources, of the random ones, and of their sum.
@@ -145,7 +145,7 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
             .collect();
         // The bound from parts must hold too.
         let apart = magnitudes.apart.clone();
-        let limits = limits(&mut magnitudes.graph, &apart, &box_, |symbol| home(symbol, &spec));
+        let limits = limits(&mut magnitudes.graph, &apart, &box_, &|symbol| home(symbol, &spec));
         for k in 0..3 {
             let most = |row: usize| seen.iter().map(|sizes| sizes[k][row]).fold(0.0, f64::max);
             let slack = ROUNDING * (most(0) + 1e-6);
@@ -374,7 +374,7 @@ fn of_many_joints_the_parts_are_known() {
     let spec = Spec::parse("chain.toml", &text).unwrap();
     let mut magnitudes = Magnitudes::new(&spec);
     let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone(), magnitudes.repeatable[0].clone());
-    let limits = limits(&mut magnitudes.graph, &apart, &all, |symbol| home(symbol, &spec));
+    let limits = limits(&mut magnitudes.graph, &apart, &all, &|symbol| home(symbol, &spec));
     let effort = Effort { boxes: 100, at_most: limits.position[0], ..Effort::default() };
     let bound = bounded(&spec, &mut magnitudes, &norm, &all, &effort);
     assert_eq!(bound.certified, limits.position[0]);

@@ -14,7 +14,7 @@ fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Bound {
     let Remainder { mut graph, magnitude, share } = Remainder::new(spec);
     let share = Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 };
     let moving = [box_, &[share]].concat();
-    largest(&mut graph, &magnitude, &moving, |symbol| home(symbol, spec), effort, &mut |_| true)
+    largest(&mut graph, &magnitude, &moving, &|symbol| home(symbol, spec), effort, &mut |_| true)
 }
 
 /// Returns the distance of the tool point of the exact chain from that of `J_e ε` of the repeatable

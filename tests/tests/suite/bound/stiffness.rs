@@ -14,7 +14,7 @@ use super::{given, home, moving, part, place, robot, robots};
 fn largest(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<Singular> {
     let ToolCompliance { graph, rows } = ToolCompliance::new(spec)?;
     let still = |symbol| home(symbol, spec);
-    Some(singular_value(Extreme::Largest, &graph, &rows, box_, still, effort, &mut |_| true))
+    Some(singular_value(Extreme::Largest, &graph, &rows, box_, &still, effort, &mut |_| true))
 }
 
 /// Returns the robot under a force of 1 N along an axis of `F_0` at the tool point, or without a
