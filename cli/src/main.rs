@@ -45,6 +45,7 @@ use output::Outcome;
 
 fn main() -> ExitCode {
     interrupt::clean_up_on_signals();
+    abbe_study::set_version(env!("ABBE_VERSION"));
     let result = Arguments::try_parse().map_or_else(
         |usage| output::print_usage(&usage),
         |arguments| {

@@ -64,6 +64,11 @@ mod _abbe {
 
     #[pymodule_init]
     fn version(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("__version__", env!("CARGO_PKG_VERSION"))
+        // The commit is set by `build_backend.py`.
+        abbe_study::set_version(match option_env!("ABBE_COMMIT") {
+            Some(commit) => format!("{} ({commit})", env!("CARGO_PKG_VERSION")).leak(),
+            None => env!("CARGO_PKG_VERSION"),
+        });
+        module.add("__version__", abbe_study::version())
     }
 }

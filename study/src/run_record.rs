@@ -3,6 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use crate::data::{Calendar, parse_date};
+use crate::version;
 
 /// Key and title of each entry of a record, in the order of a page.
 const ENTRIES: [(&str, &str); 6] = [
@@ -19,7 +20,7 @@ const DATE: &str = "expected a date such as 2026-03-14, with a time behind it or
 
 /// Statements of the user about a run, and the options of its job.
 ///
-/// Serialized, it is the object of the stated entries.
+/// Serialized, it is the object of the stated entries, and of the version of abbe as `abbe`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunRecord {
     /// Key and text of each stated entry.
@@ -67,7 +68,8 @@ impl RunRecord {
 
 impl Serialize for RunRecord {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.entries.iter().map(|(key, text)| (key, text)))
+        let entries = self.entries.iter().map(|(key, text)| (*key, text.as_str()));
+        serializer.collect_map(entries.chain([("abbe", version())]))
     }
 }
 

@@ -167,6 +167,9 @@ fn a_record_is_in_each_view_of_a_report() {
             let cell = entry.replace('<', "&lt;").replace('>', "&gt;");
             assert!(html.contains(&format!("<th scope=\"row\">{title}</th><td>{cell}</td>")), "{key}");
         }
+        // Who signs it can trace it to its source.
+        assert_eq!(report["record"]["abbe"], env!("ABBE_VERSION"));
+        assert!(html.contains(concat!("<p>Written by abbe ", env!("ABBE_VERSION"), ". ")));
         assert_eq!(html.contains("<p>Signature</p>"), arguments.contains(&"--accept"), "{arguments:?}");
         let later = abbe(&[arguments, &["--date", "2026-11-22 08:30", "--json"]].concat());
         assert!(later.stdout.contains("\"date\":\"2026-11-22 08:30\""), "{}", later.stdout);

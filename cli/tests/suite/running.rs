@@ -96,7 +96,26 @@ fn alone_it_says_what_it_can_do() {
     for word in ["Usage: abbe", "analyze", "check", "generate", "jacobian", "list", "abbe analyze pps"] {
         assert!(text.contains(word), "{word}");
     }
-    assert_eq!(prints(&["--version"]), concat!("abbe ", env!("CARGO_PKG_VERSION"), "\n"));
+    assert_eq!(prints(&["--version"]), concat!("abbe ", env!("ABBE_VERSION"), "\n"));
+}
+
+/// What is built in a checkout names its commit; what is not, such as an unpacked archive, cannot.
+#[test]
+fn the_version_has_the_commit_of_the_checkout() {
+    let version = prints(&["--version"]);
+    let git = |arguments: &[&str]| {
+        let output = std::process::Command::new("git").args(arguments).output().ok()?;
+        let text = String::from_utf8(output.stdout).ok().filter(|_| output.status.success())?;
+        Some(text.trim().to_owned())
+    };
+    let commit = git(&["ls-files", "--error-unmatch", "build.rs"])
+        .and_then(|_| git(&["rev-parse", "--short=12", "HEAD"]))
+        .map(|commit| std::env::var("ABBE_COMMIT").unwrap_or(commit));
+    let beginning = format!("abbe {}", env!("CARGO_PKG_VERSION"));
+    match commit {
+        Some(commit) => assert!(version.starts_with(&format!("{beginning} ({commit}")), "{version}"),
+        None => assert!(version.starts_with(&beginning), "{version}"),
+    }
 }
 
 #[test]

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::RunRecord;
 use abbe_study::data::{Base, Layout, Map, Source};
 use abbe_study::number::{self, short};
+use abbe_study::{RunRecord, version};
 
 use super::table::{facts, ledger, row_header};
 use super::{escaped, section};
@@ -89,7 +89,7 @@ fn table<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>
     format!(
         "{}<p>Written by abbe {}. The same files and options give the same bytes.</p>\n",
         ledger("Input files of this report", &["input", "file", "SHA-256"], &[0, 1, 2], &body),
-        env!("CARGO_PKG_VERSION")
+        version()
     )
 }
 

@@ -66,7 +66,7 @@ pub struct Report {
     pub row_summary: RowSummary,
     /// Rows that cannot be used, in file order.
     pub unusable: Vec<Unusable>,
-    /// Stated date, persons and instruments; absent if nothing is stated.
+    /// Stated date, persons and instruments, and the version of abbe; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Summary of the data file.

@@ -16,6 +16,7 @@ use super::terms::{Basis, ErrorSite, Term};
 use super::undetermined::UndeterminedDirections;
 use crate::data::Data;
 use crate::number::digits;
+use crate::version;
 
 /// Identified model of a machine: constant errors, and terms with their magnitudes.
 #[derive(Clone, Debug, Default)]
@@ -155,7 +156,7 @@ impl FoundModel {
                 count => format!(" ({count} configurations)"),
             },
             printable_name(&data.file),
-            env!("CARGO_PKG_VERSION"),
+            version(),
             digits(left[0], 4),
             digits(left[1], 4),
         );

@@ -105,7 +105,7 @@ pub struct Report {
     pub rejected: Vec<u64>,
     /// Notes for the user.
     pub notes: Vec<String>,
-    /// Stated date, persons and instruments; absent if nothing is stated.
+    /// Stated date, persons and instruments, and the version of abbe; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Files of the data and of the test data.

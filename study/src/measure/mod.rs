@@ -84,7 +84,7 @@ pub struct Report {
     pub drift: Option<ResidualDrift>,
     /// Number of unusable rows.
     pub unusable: usize,
-    /// Stated date, persons and instruments; absent if nothing is stated.
+    /// Stated date, persons and instruments, and the version of abbe; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Length unit as a value.

@@ -45,7 +45,7 @@ pub struct Report {
     pub finding: Option<Finding>,
     /// Permitted displacement of the tool point, in the length unit; none if not given.
     pub tolerance: Option<f64>,
-    /// Stated date, persons and instruments; absent if nothing is stated.
+    /// Stated date, persons and instruments, and the version of abbe; absent if nothing is stated.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
     /// Measured minus predicted points of the first and the last check; none for instruments that

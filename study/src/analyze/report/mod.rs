@@ -120,7 +120,7 @@ pub struct Report {
     /// `None` if it is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_tool: Option<OtherTool>,
-    /// Stated date; absent if there is none.
+    /// Stated date, and the version of abbe; absent if there is no date.
     #[serde(skip_serializing_if = "RunRecord::is_empty")]
     pub record: RunRecord,
 
