@@ -61,8 +61,8 @@ pub(crate) fn clean_up_on_signals() {
 mod tests {
     use std::fs;
     use std::process::{Command, Stdio};
+    use std::sync::atomic::{AtomicUsize, Ordering};
     use std::thread;
-    use std::time::Duration;
 
     use super::*;
     use crate::output::Outputs;
@@ -72,8 +72,13 @@ mod tests {
 
     const STATUS: i32 = 143;
 
+    /// Number of files before the end.
+    const FILES: usize = 8;
+
     #[test]
     fn work_until_the_end() {
+        static WRITTEN: AtomicUsize = AtomicUsize::new(0);
+
         let Some(folder) = std::env::var_os(WORKING) else { return };
         for name in ["a", "b", "c", "d"] {
             let folder = std::path::PathBuf::from(&folder);
@@ -84,10 +89,13 @@ mod tests {
                     let _ = outputs.folder(&folder.join(name).join("inner"));
                     let file = outputs.file(&folder.join(format!("{name}.csv")));
                     let _ = file.and_then(|file| outputs.finish([file.fill("whole")?]));
+                    WRITTEN.fetch_add(1, Ordering::Relaxed);
                 }
             });
         }
-        thread::sleep(Duration::from_millis(30));
+        while WRITTEN.load(Ordering::Relaxed) < FILES {
+            thread::yield_now();
+        }
         end(STATUS);
     }
 

@@ -10,6 +10,7 @@ pub mod frame_loop;
 pub mod languages;
 pub mod mutants;
 pub mod needs;
+pub mod processes;
 pub mod structured_text;
 mod thorough;
 

@@ -5,9 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use libtest_mimic::{Arguments, Completion, Trial};
+
+use crate::processes::{SECOND, WATCHDOG, processor_time};
 
 /// Missing requirement: the reason why a test is ignored.
 pub struct Missing(pub String);
@@ -78,15 +80,16 @@ pub fn tool(program: &str, version: &str) -> Result<String, Missing> {
         .ok_or_else(|| Missing(format!("{program} {version}").trim().to_owned() + " is not installed"))
 }
 
-/// Runs a command and returns whether it succeeds. A command that has not ended after two minutes
-/// is killed: it is in a loop without end.
+/// Runs a command and returns whether it succeeds. A command that does not end within two minutes
+/// of processor time, or within [`WATCHDOG`], is killed: it is in a loop without end.
 ///
 /// # Panics
 ///
 /// If the command cannot be started.
 pub fn succeeds_in_time(command: &mut Command) -> bool {
     let mut run = command.spawn().expect("the command is there");
-    for _ in 0..12_000 {
+    let begun = Instant::now();
+    while begun.elapsed() < WATCHDOG && processor_time(run.id()).is_none_or(|time| time < 120 * SECOND) {
         if let Some(status) = run.try_wait().expect("it was started") {
             return status.success();
         }

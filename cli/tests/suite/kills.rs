@@ -2,18 +2,21 @@
 //! command can run again without `--force`. Only after `kill -9` may a set of files be partly old
 //! and partly new, and may temporary files remain.
 //!
-//! `ABBE_KILLS=1000` sets the number of kills.
+//! Kills are placed by events, not by time: after a part of the processor time, or while temporary
+//! files are there. `ABBE_KILLS=1000` sets the number of kills.
 
-#![cfg(unix)]
+#![cfg(target_os = "linux")]
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
+use abbe_tests::processes::{has_ended, processor_time, wait_for, watch_for};
 use abbe_tests::thorough;
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -22,8 +25,6 @@ use crate::workshop::{Workshop, contents};
 
 /// Default number of kills, and that of a thorough run.
 const KILLS: [usize; 2] = [18, 54];
-/// Limit of the total time.
-const TIME: Duration = Duration::from_secs(15);
 
 /// Commands in two forms whose output differs; `{}` is `d` or `t`, `[]` is 1 or 2.
 const COMMANDS: [&str; 9] = [
@@ -54,12 +55,22 @@ fn start(words: &[String]) -> Command {
     command
 }
 
-/// Workshop, the output files of both forms of a command, and its duration.
+/// Event at which a command is killed.
+#[derive(Clone, Copy, Debug)]
+enum Moment {
+    /// Processor time in hundredths of a second.
+    Worked(u64),
+    /// First temporary file, and a number of looks at the folder after it.
+    Writing(usize),
+}
+
+/// Workshop, the output files of both forms of a command, and its processor time in hundredths of a
+/// second.
 struct Victim {
     workshop: Workshop,
     line: &'static str,
     forms: [BTreeMap<PathBuf, Vec<u8>>; 2],
-    time: Duration,
+    time: u64,
 }
 
 impl Victim {
@@ -68,12 +79,13 @@ impl Victim {
         let spec = fs::read_to_string(workshop.at("s.toml")).unwrap();
         fs::write(workshop.at("d.spec.toml"), &spec).unwrap();
         fs::write(workshop.at("t.spec.toml"), spec.replace("450 mm", "460 mm")).unwrap();
-        let mut time = Duration::ZERO;
+        let mut time = 0;
         let forms = [1, 0].map(|form| {
-            let begin = Instant::now();
-            let status = start(&words(&workshop, line, form)).status().unwrap();
+            let mut child = start(&words(&workshop, line, form)).spawn().unwrap();
+            wait_for(&format!("the end of {line}"), || has_ended(child.id()));
+            time = processor_time(child.id()).unwrap();
+            let status = child.wait().unwrap();
             assert!(status.code().is_some_and(|code| code <= 1), "{line}: {status}");
-            time = begin.elapsed();
             contents(workshop.0.path())
         });
         let [second, first] = forms;
@@ -84,6 +96,19 @@ impl Victim {
     /// Returns the temporary files present, which `docs/output.md` allows to delete.
     fn temporary(&self) -> Vec<PathBuf> {
         contents(self.workshop.0.path()).into_keys().filter(|path| is_temporary(path)).collect()
+    }
+
+    /// Waits until a process comes to a moment, or to its end.
+    fn wait(&self, process: u32, moment: Moment) {
+        let mut looks = 0;
+        let mut has_come = || match moment {
+            Moment::Worked(time) => processor_time(process) >= Some(time),
+            Moment::Writing(more) => {
+                looks += usize::from(has_temporary(self.workshop.0.path()) || looks > 0);
+                looks > more
+            }
+        };
+        watch_for(&format!("{moment:?} of {}", self.line), || has_ended(process) || has_come());
     }
 
     /// Returns the form that wrote the differing files; none if they are from both.
@@ -97,6 +122,15 @@ impl Victim {
         assert!(now.keys().all(|path| is_temporary(path) || self.forms[0].contains_key(path)));
         (0..2).find(|form| self.forms[*form].iter().all(|(path, content)| now[path] == *content))
     }
+}
+
+/// Returns whether there is a temporary file in a folder or a folder in it. Either may vanish.
+fn has_temporary(folder: &Path) -> bool {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.into_iter().any(|entry| {
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        is_temporary(&entry.path()) || is_folder && has_temporary(&entry.path())
+    })
 }
 
 fn is_temporary(path: &Path) -> bool {
@@ -113,14 +147,15 @@ fn whoever_is_killed_leaves_whole_files_and_can_be_run_again() {
     let ignored = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = ignored.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
-    let signals: Vec<(&str, i32)> = [("KILL", 9), ("INT", 2), ("TERM", 15), ("HUP", 1)]
+    let signals: Vec<Signal> = [Signal::SIGKILL, Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP]
         .into_iter()
-        .filter(|(name, number)| *name != "HUP" || ignored & (1 << (number - 1)) == 0)
+        .filter(|signal| *signal != Signal::SIGHUP || ignored & (1 << (*signal as i32 - 1)) == 0)
         .collect();
     let (mut kills, mut killed, mut mixed, mut left) = (0, 0, 0, 0);
-    let begin = Instant::now();
-    for i in 0..asked.unwrap_or(KILLS[usize::from(thorough())]) {
-        if asked.is_none() && begin.elapsed() > TIME {
+    let count = asked.unwrap_or(KILLS[usize::from(thorough())]);
+    // Goes on as long as every command ends before its signal.
+    for i in 0..100 * count {
+        if i >= count && killed > 0 {
             break;
         }
         kills += 1;
@@ -128,19 +163,19 @@ fn whoever_is_killed_leaves_whole_files_and_can_be_run_again() {
             println!("{kills} kills, {killed} before the end, {left} left something, {mixed} sets in halves");
         }
         let victim = &victims[i % victims.len()];
-        let (name, number) = signals[random.random_range(0..signals.len())];
+        let signal = signals[random.random_range(0..signals.len())];
+        let (name, number) = (signal.as_str(), signal as i32);
         let before = victim.form();
         let next = before.map_or(0, |form| 1 - form);
         let mut child = start(&words(&victim.workshop, victim.line, next)).spawn().unwrap();
         // Most kills hit the end of the run, where files are written.
-        let share = if random.random_bool(0.7) {
-            random.random_range(0.6..1.1)
+        let moment = if random.random_bool(0.7) {
+            Moment::Writing(random.random_range(0..40))
         } else {
-            random.random_range(0.0..0.6)
+            Moment::Worked(random.random_range(0..=victim.time))
         };
-        std::thread::sleep(victim.time.mul_f64(share));
-        let pid = child.id().to_string();
-        let _ = Command::new("kill").args([&format!("-{name}"), &pid]).stderr(Stdio::null()).status();
+        victim.wait(child.id(), moment);
+        kill(Pid::from_raw(child.id().try_into().unwrap()), signal).unwrap();
         let status = child.wait().unwrap();
         let ended = match number {
             9 => status.signal() == Some(9),

@@ -4,20 +4,15 @@
 //! Seeded. `ABBE_ABUSE=20000` sets the number of inputs; statistics are printed with `--nocapture`.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File};
-use std::os::unix::process::ExitStatusExt;
+use std::fs;
 use std::path::PathBuf;
 use std::process::Stdio;
-use std::time::{Duration, Instant};
 
 use abbe_tests::abuse::{Choices, damaged, damaged_table};
 use abbe_tests::thorough;
 
-use crate::running::{Run, command, prints};
+use crate::running::{Run, ends, prints};
 use crate::workshop::{FILES, WRITING, Workshop, contents};
-
-/// Limit of the duration of a run, for an unoptimized build on a busy computer.
-const LONGEST: Duration = Duration::from_secs(300);
 
 /// Commands that only print, with their inputs.
 const PRINTING: [(&str, &[&str]); 8] = [
@@ -80,25 +75,8 @@ fn many(thoroughly: u64) -> u64 {
 }
 
 /// Runs the command in the workshop. Fails the test if it does not end.
-fn run(workshop: &Workshop, words: &[String]) -> (Run, Duration) {
-    let heard = ["stdout", "stderr"].map(|_| tempfile::NamedTempFile::new().unwrap());
-    let [out, err] = heard.each_ref().map(|file| File::create(file.path()).unwrap());
-    let begun = Instant::now();
-    let mut child = command(words).current_dir(workshop.0.path()).stdout(out).stderr(err).spawn().unwrap();
-    let status = loop {
-        if let Some(status) = child.try_wait().unwrap() {
-            break status;
-        }
-        if begun.elapsed() > LONGEST {
-            child.kill().unwrap();
-            panic!("{words:?} does not end");
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    };
-    let taken = begun.elapsed();
-    assert_eq!(status.signal(), None, "{words:?}");
-    let [stdout, stderr] = heard.map(|file| String::from_utf8(fs::read(file.path()).unwrap()).expect("text"));
-    (Run { status: status.code().unwrap(), stdout, stderr }, taken)
+fn run(workshop: &Workshop, words: &[String]) -> (Run, u64) {
+    ends(words, Some(workshop.0.path()))
 }
 
 /// Checks that a refusal has a place, a help line and no results, and that the exit status matches.
@@ -138,18 +116,19 @@ fn not_finite(text: &str) -> Option<&str> {
 struct Figures {
     answered: usize,
     refused: usize,
-    slowest: Duration,
+    /// Longest processor time, in hundredths of a second.
+    slowest: u64,
 }
 
 impl Figures {
-    fn add(&mut self, run: &Run, taken: Duration) {
+    fn add(&mut self, run: &Run, taken: u64) {
         *(if run.status == 2 { &mut self.refused } else { &mut self.answered }) += 1;
         self.slowest = self.slowest.max(taken);
     }
 
     fn print(&self, what: &str) {
         let Self { answered, refused, slowest } = self;
-        eprintln!("{what}: {answered} answered, {refused} refused, slowest {slowest:.1?}");
+        eprintln!("{what}: {answered} answered, {refused} refused, slowest {slowest} hundredths of a second");
     }
 }
 

@@ -4,6 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use abbe_tests::processes::{SECOND, has_ended, processor_time, wait_for};
+
 use super::running::{abbe, command, prints, shipped, write};
 
 /// One study for each enumeration of configurations: random and even samples, a grid with inputs,
@@ -216,10 +218,12 @@ fn a_lost_part_is_made_again() {
     let options = ["analyze", "puma560", "--no-figures", "--shard", "1/1", "--out"];
     let arguments = [&options[..], &[file.to_str().unwrap(), "--study", study.to_str().unwrap()]].concat();
     let mut lost = command(&arguments).spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(300));
-    assert!(lost.try_wait().unwrap().is_none(), "it takes longer than that");
+    let process = lost.id();
+    wait_for("work of the part", || {
+        has_ended(process) || processor_time(process).is_none_or(|time| time >= SECOND / 2)
+    });
     lost.kill().unwrap();
-    lost.wait().unwrap();
+    assert!(lost.wait().unwrap().code().is_none(), "killed before its end");
     assert!(!file.exists());
     let few = fs::read_to_string(&study).unwrap().replace("50_000_000", "5000");
     fs::write(&study, few).unwrap();

@@ -7,17 +7,15 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
+use abbe_tests::processes::{WATCHDOG, has_ended, processor_time, wait_for};
 use nix::pty::{Winsize, openpty};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 
 use crate::running::command;
 use crate::workshop::Workshop;
-
-/// Limit of the time until the first progress line.
-const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Number of rows of a long run.
 const ROWS: usize = 400_000;
@@ -102,16 +100,15 @@ fn what_takes_long_says_how_long_to_a_terminal_alone() {
     for line in LONG.into_iter().chain(UNCOUNTED) {
         let size = Winsize { ws_row: 24, ws_col: 100, ws_xpixel: 0, ws_ypixel: 0 };
         let terminal = openpty(&size, None).unwrap();
-        let begun = Instant::now();
-        let watched = start(&workshop, line, terminal.slave.into());
+        // The first to start has had at least as much time at every moment.
         let mut piped = start(&workshop, line, Stdio::piped());
+        let watched = start(&workshop, line, terminal.slave.into());
         let pipe = piped.stderr.take().unwrap();
         let pieces = heard(File::from(terminal.master));
-        let mut text = String::new();
+        let (mut text, begun) = (String::new(), Instant::now());
         let found = loop {
-            let left = PATIENCE.saturating_sub(begun.elapsed());
-            let piece = pieces.recv_timeout(left).unwrap_or_else(|_| panic!("{line} tells nothing: {text}"));
-            text += &String::from_utf8_lossy(&piece);
+            let piece = pieces.recv_timeout(WATCHDOG.saturating_sub(begun.elapsed()));
+            text += &String::from_utf8_lossy(&piece.unwrap_or_else(|_| panic!("{line} shows only {text:?}")));
             let at_work = text.contains("running for ") && text.contains("s, Ctrl-C stops");
             if let Some(found) = progress_counts(&text) {
                 break found;
@@ -119,10 +116,12 @@ fn what_takes_long_says_how_long_to_a_terminal_alone() {
                 break (0, 2);
             }
         };
+        let worked = processor_time(watched.id());
         assert!(found.0 < found.1 && found.1 > 1, "{line}: {found:?}");
         assert_eq!(interrupted(watched), Some(130), "{line}");
-        // Waits as long again, in which the second would have written.
-        thread::sleep(begun.elapsed());
+        // Waits until the other has done the work after which this one wrote.
+        let is_as_far = || has_ended(piped.id()) || processor_time(piped.id()) >= worked;
+        wait_for(&format!("as much work of {line} in a pipe"), is_as_far);
         assert!([Some(0), Some(130)].contains(&interrupted(piped)), "{line}");
         let mut text = String::new();
         { pipe }.read_to_string(&mut text).unwrap();

@@ -1,10 +1,12 @@
 //! Runs the binary.
 
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use abbe_tests::processes::{SECOND, processor_time, wait_for};
 use serde_json::Value;
+use tempfile::NamedTempFile;
 
 /// Output and exit status of a run.
 #[derive(Debug, PartialEq)]
@@ -28,6 +30,35 @@ pub(crate) fn abbe<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Run {
         Run { status: status.code().expect("no signal ends it"), stdout: text(stdout), stderr: text(stderr) };
     assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
     run
+}
+
+/// Limit of the processor time of a run, for an unoptimized build.
+const LONGEST: u64 = 60 * SECOND;
+
+/// Runs the command, which must end by itself and within a minute of processor time. Returns also
+/// its processor time in hundredths of a second, if the system reports it.
+pub(crate) fn ends<S: AsRef<std::ffi::OsStr>>(arguments: &[S], folder: Option<&Path>) -> (Run, u64) {
+    let mut command = command(arguments);
+    if let Some(folder) = folder {
+        command.current_dir(folder);
+    }
+    let shown = format!("{command:?}");
+    let heard = ["stdout", "stderr"].map(|_| NamedTempFile::new().unwrap());
+    let [out, err] = heard.each_ref().map(|file| File::create(file.path()).unwrap());
+    let mut child = command.stdout(out).stderr(err).spawn().expect("the binary starts");
+    let (mut status, mut worked) = (None, 0);
+    wait_for(&format!("the end of {shown}"), || {
+        worked = processor_time(child.id()).unwrap_or(worked);
+        status = child.try_wait().unwrap();
+        if status.is_none() && worked > LONGEST {
+            child.kill().unwrap();
+            panic!("{shown} does not end");
+        }
+        status.is_some()
+    });
+    let status = status.and_then(|status| status.code()).unwrap_or_else(|| panic!("a signal ends {shown}"));
+    let [stdout, stderr] = heard.map(|file| String::from_utf8(fs::read(file.path()).unwrap()).expect("text"));
+    (Run { status, stdout, stderr }, worked)
 }
 
 /// Returns the stdout of a successful run.

@@ -192,7 +192,8 @@ fn a_large_study_streams() {
 #[test]
 fn an_interruption_leaves_no_half_written_file() {
     use std::process::Command;
-    use std::time::{Duration, Instant};
+
+    use abbe_tests::processes::{has_ended, wait_for};
 
     let folder = tempdir().unwrap();
     let text = "[study]\ntitle = \"Endless\"\n[workspace.random]\nsamples = 1e9";
@@ -200,7 +201,6 @@ fn an_interruption_leaves_no_half_written_file() {
     let out = folder.path().join("out");
     let arguments = ["analyze", "pps", "--study", path.to_str().unwrap(), "--out", out.to_str().unwrap()];
     let mut child = command(&arguments).spawn().unwrap();
-    let begun = Instant::now();
     // The file under construction has no name, but the process has it open.
     let open = format!("/proc/{}/fd", child.id());
     let is_written = || {
@@ -208,10 +208,7 @@ fn an_interruption_leaves_no_half_written_file() {
         let ours = files.filter(|file| fs::read_link(file.path()).is_ok_and(|path| path.starts_with(&out)));
         ours.filter_map(|file| fs::metadata(file.path()).ok()).any(|file| file.len() > 0)
     };
-    while !is_written() {
-        assert!(begun.elapsed() < Duration::from_secs(60), "nothing is written");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    wait_for("an open file with rows", || is_written() || has_ended(child.id()));
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(!out.exists());

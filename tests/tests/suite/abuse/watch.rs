@@ -7,14 +7,12 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_tests::processes::WATCHDOG;
 use abbe_tests::thorough;
 
-/// Time limit of an input: in unoptimized tests, on busy computers.
+/// Limit of the processor time of this process for an input, per processor: in unoptimized tests,
+/// with other tests at the same time. Unlike time, it does not depend on other processes.
 const LONGEST: Duration = Duration::from_secs(30);
-
-/// Factor of the time limit for more than the usual number of inputs, which may run at low
-/// priority.
-const PATIENT: u32 = 40;
 
 /// Processor time above which an input is reported.
 const LONG: Duration = Duration::from_secs(5);
@@ -77,8 +75,8 @@ impl Figures {
 }
 
 /// Runs one input. Returns whether it succeeded, and its processor time, or wall time if that is
-/// unknown. A panic, and a diagnostic without a location or a help, fail the test; exceeding the
-/// time limit aborts it.
+/// unknown. A panic, and a diagnostic without a location or a help, fail the test; more than
+/// [`LONGEST`] or [`WATCHDOG`] aborts it.
 pub(crate) fn watched(
     kind: &str,
     seed: u64,
@@ -89,10 +87,13 @@ pub(crate) fn watched(
     let (begun, worked_before, said) = (Instant::now(), worked(), format!("{kind} {seed}"));
     let kept = input.to_owned();
     let watching = thread::spawn(move || {
-        let longest = LONGEST * if asked().is_some() { PATIENT } else { 1 };
-        if watch.recv_timeout(longest) == Err(RecvTimeoutError::Timeout) {
-            eprintln!("{said} does not end:\n{kept}");
-            exit(1);
+        let longest = LONGEST * thread::available_parallelism().map_or(1, |count| count.get() as u32);
+        while watch.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
+            let taken = worked().zip(worked_before).map(|(after, before)| after - before);
+            if taken.is_some_and(|taken| taken > longest) || begun.elapsed() > WATCHDOG {
+                eprintln!("{said} does not end:\n{kept}");
+                exit(1);
+            }
         }
     });
     let result = catch_unwind(AssertUnwindSafe(run));

@@ -10,6 +10,7 @@ mod page;
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use abbe::identify::INSTRUMENTS;
 use abbe_spec::diagnostic::Diagnostics;
@@ -41,16 +42,16 @@ fn pages() -> Vec<(Page, Vec<&'static Keys>, Reader)> {
             Ok(())
         }),
         (Page::read("study.md"), all(&[study_file::TABLES, workspace::TABLES]), |path, text| {
-            Study::read(Document::new(path.to_string_lossy(), text), &cell())?;
+            Study::read(Document::new(path.to_string_lossy(), text), &CELL)?;
             Ok(())
         }),
         (Page::read("map.md"), all(&[data::TABLES]), |_, text| {
-            Map::parse("example", text, &cell())?;
+            Map::parse("example", text, &CELL)?;
             Ok(())
         }),
         (Page::read("plan.md"), all(&[plan::TABLES]), |path, text| {
             std::fs::write(path, text).unwrap();
-            Sets::find(path, &cell())?;
+            Sets::find(path, &CELL)?;
             Ok(())
         }),
     ]
@@ -60,12 +61,12 @@ fn all(tables: &[&'static [Keys]]) -> Vec<&'static Keys> {
     tables.iter().copied().flatten().collect()
 }
 
-/// Returns the manipulator of `spec.md`, on which all other pages are based.
-fn cell() -> Spec {
+/// Manipulator of `spec.md`, on which all other pages are based.
+static CELL: LazyLock<Spec> = LazyLock::new(|| {
     let page = Page::read("spec.md");
     let (name, text) = page.files()[0];
     Spec::parse(name, text).unwrap()
-}
+});
 
 /// Writes the files of a page to a folder, so that they can refer to each other.
 fn written(page: &Page) -> TempDir {
@@ -307,7 +308,7 @@ fn every_example_runs() {
         let machine = Machine::of_spec(Spec::read(folder.path().join(name)).unwrap(), name);
         assert!(Check { machine }.run(&mut ()).unwrap().passed(), "{name}: a law does not hold");
     }
-    let machine = Machine::of_spec(cell(), "cell.toml");
+    let machine = Machine::of_spec(CELL.clone(), "cell.toml");
     let page = Page::read("study.md");
     let folder = written(&page);
     for (name, _) in page.files().into_iter().filter(|(name, _)| name.ends_with(".toml")) {
