@@ -182,26 +182,30 @@ mod tests {
         }
     }
 
-    /// Checks that blocks are consumed while others are computed.
+    /// Checks that blocks are consumed while others are computed: the other thread computes a block
+    /// only after the eighth before it is consumed. In waves of 16, all blocks of a wave would be
+    /// consumed after all 16 are computed, and it would wait forever.
     #[test]
     fn blocks_are_taken_as_soon_as_they_are_made() {
         use std::sync::atomic::{AtomicUsize, Ordering};
+        use std::thread;
+        use std::time::{Duration, Instant};
 
-        let made = AtomicUsize::new(0);
-        let mut ahead = Vec::new();
+        let taken = AtomicUsize::new(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
         pool.install(|| {
+            let (consumer, begun) = (thread::current().id(), Instant::now());
             let make = |i: usize| {
-                std::thread::sleep(std::time::Duration::from_millis(2));
-                made.fetch_add(1, Ordering::SeqCst);
+                while thread::current().id() != consumer && taken.load(Ordering::SeqCst) + 8 <= i {
+                    assert!(begun.elapsed() < Duration::from_secs(600), "block {i} waits forever");
+                    thread::yield_now();
+                }
                 Ok::<usize, ()>(i)
             };
-            in_order(40, make, |i| ahead.push(made.load(Ordering::SeqCst) - i))
+            in_order(40, make, |i| assert_eq!(taken.fetch_add(1, Ordering::SeqCst), i))
         })
         .unwrap();
-        assert_eq!(ahead.len(), 40);
-        // In waves of 16, all blocks of a wave would be consumed after all 16 are computed.
-        assert!(ahead.iter().filter(|made| **made < 8).count() > 20, "{ahead:?}");
+        assert_eq!(taken.into_inner(), 40);
     }
 
     #[test]

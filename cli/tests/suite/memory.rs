@@ -5,9 +5,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Stdio;
-use std::time::Duration;
+use std::process::{Command, Stdio};
 
+use abbe_tests::thorough;
+use nix::sys::resource::{UsageWho, getrusage};
 use tempfile::tempdir;
 
 use crate::running::{UR5_MAP, command, prints, shipped, write};
@@ -15,28 +16,41 @@ use crate::running::{UR5_MAP, command, prints, shipped, write};
 /// Rows of the two files.
 const ROWS: [usize; 2] = [5_000, 45_000];
 
-/// Returns the peak memory of a command in bytes, polled until shortly before its end.
+/// Environment variable with the words of a command, one a line, whose peak memory is measured.
+const MEASURED: &str = "ABBE_TEST_MEASURED";
+
+/// Runs a command in a process that has no other children, so that the system reports its peak
+/// memory, and prints it in kilobytes.
+#[test]
+fn one_command_is_measured() {
+    let Ok(words) = std::env::var(MEASURED) else { return };
+    let words: Vec<&str> = words.lines().collect();
+    let status = command(&words).stdout(Stdio::null()).stderr(Stdio::null()).status().unwrap();
+    assert!(status.code().is_some_and(|code| code < 2), "{words:?}: {status}");
+    let [own, peak] =
+        [UsageWho::RUSAGE_SELF, UsageWho::RUSAGE_CHILDREN].map(|who| getrusage(who).unwrap().max_rss());
+    // The memory of this process counts until it is replaced by the command.
+    assert!(peak > own, "{words:?}: {peak} kB, not more than {own} kB of this process");
+    println!("\npeak {peak} kB");
+}
+
+/// Returns the peak memory of a command in bytes.
 fn peak(words: &[&str]) -> f64 {
-    let mut child = command(words).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    let status = format!("/proc/{}/status", child.id());
-    let mut most = 0.0_f64;
-    loop {
-        let text = fs::read_to_string(&status).unwrap_or_default();
-        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let kilobytes = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok());
-        most = most.max(1024.0 * kilobytes.unwrap_or_default());
-        if let Some(status) = child.try_wait().unwrap() {
-            assert!(status.code().is_some_and(|code| code < 2), "{words:?}: {status}");
-            return most;
-        }
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    let mut measured = Command::new(std::env::current_exe().unwrap());
+    measured.args(["memory::one_command_is_measured", "--exact", "--nocapture"]);
+    let output = measured.env(MEASURED, words.join("\n")).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let peak = text.lines().find_map(|line| line.strip_prefix("peak ")?.strip_suffix(" kB"));
+    let peak = peak.unwrap_or_else(|| panic!("{text}\n{}", String::from_utf8_lossy(&output.stderr)));
+    1024.0 * peak.parse::<f64>().unwrap()
 }
 
 /// Returns the bytes per additional row.
 fn bytes_per_row(words: impl Fn(usize) -> Vec<String>) -> f64 {
     let [few, many] = ROWS.map(|rows| {
-        let words = words(rows);
+        let mut words = words(rows);
+        // With more threads, what is stored depends on their lead over the writer.
+        words.extend(["--threads".to_owned(), "1".to_owned()]);
         peak(&words.iter().map(String::as_str).collect::<Vec<_>>())
     });
     (many - few) / (ROWS[1] - ROWS[0]) as f64
@@ -64,8 +78,8 @@ fn visited_again(folder: &Path, rows: usize) -> String {
     write(folder, &format!("again-{rows}.csv"), &checks).to_str().unwrap().to_owned()
 }
 
-/// The limits hold for a million rows, too, where freed memory is reused. About 2 MB, or 50 bytes
-/// per row, vary with the lead of the threads over the writer.
+/// The limits hold for a million rows, too, where freed memory is reused. An ordinary run has a
+/// command that stores nothing and one that stores its rows.
 #[test]
 fn rows_are_small() {
     let folder = tempdir().unwrap();
@@ -80,34 +94,34 @@ fn rows_are_small() {
         prints(&["simulate", spec, "--map", map, "--samples", &count, "--out", &file]);
     }
     let own = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>();
-    let on = |command: &str, more: &[&str]| {
-        bytes_per_row(
-            |rows| own(&[&[command, spec, &data(folder.path(), rows), "--map", map], more].concat()),
-        )
+    let on = |command: &str, rows, more: &[&str]| {
+        own(&[&[command, spec, &data(folder.path(), rows), "--map", map], more].concat())
     };
-    let samples = bytes_per_row(|rows| {
+    let samples = |rows: usize| {
         own(&["simulate", spec, "--map", map, "--samples", &rows.to_string(), "--out", out, "--force"])
-    });
+    };
     let days = UR5_MAP.replace("[data]\n", "[data]\ntime = \"day\"\n");
     let days = write(folder.path(), "days.toml", &days).to_str().unwrap().to_owned();
-    let checked =
-        bytes_per_row(|rows| own(&["monitor", spec, &visited_again(folder.path(), rows), "--map", &days]));
-    let judged = bytes_per_row(|rows| {
-        let file = data(folder.path(), rows);
-        own(&["identify", spec, &file, "--map", map, "--test", &file])
-    });
-    let found = [
+    let monitored = |rows| own(&["monitor", spec, &visited_again(folder.path(), rows), "--map", &days]);
+    let tested = |rows| on("identify", rows, &["--test", &data(folder.path(), rows)]);
+    let written = ["--out", out, "--force"];
+    let commands: [(&str, &dyn Fn(usize) -> Vec<String>, f64); 8] = [
         // Nothing is stored: a row that were would need more than 100.
-        ("simulate --samples", samples, 60.0),
-        ("simulate", on("simulate", &["--out", out, "--force"]), 180.0),
-        ("compensate", on("compensate", &["--out", out, "--force"]), 260.0),
-        ("measure", on("measure", &[]), 270.0),
-        ("identify", on("identify", &[]), 240.0),
-        ("identify --robust", on("identify", &["--robust", "tukey"]), 280.0),
-        ("identify --test", judged, 390.0),
-        ("monitor", checked, 270.0),
+        ("simulate --samples", &samples, 60.0),
+        ("measure", &|rows| on("measure", rows, &[]), 270.0),
+        ("simulate", &|rows| on("simulate", rows, &written), 180.0),
+        ("compensate", &|rows| on("compensate", rows, &written), 260.0),
+        ("identify", &|rows| on("identify", rows, &[]), 240.0),
+        ("identify --robust", &|rows| on("identify", rows, &["--robust", "tukey"]), 280.0),
+        ("identify --test", &tested, 390.0),
+        ("monitor", &monitored, 270.0),
     ];
-    for (name, bytes, _) in found {
+    let found = commands
+        .into_iter()
+        .take(if thorough() { 8 } else { 2 })
+        .map(|(name, words, most)| (name, bytes_per_row(words), most))
+        .collect::<Vec<_>>();
+    for (name, bytes, _) in &found {
         println!("{name}: {bytes:.0} bytes a row");
     }
     for (name, bytes, most) in found {

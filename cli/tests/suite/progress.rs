@@ -10,6 +10,7 @@ use std::thread;
 use std::time::Instant;
 
 use abbe_tests::processes::{WATCHDOG, has_ended, processor_time, wait_for};
+use abbe_tests::thorough;
 use nix::pty::{Winsize, openpty};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
@@ -17,18 +18,19 @@ use nix::unistd::Pid;
 use crate::running::command;
 use crate::workshop::Workshop;
 
-/// Number of rows of a long run.
-const ROWS: usize = 400_000;
+/// Number of rows of `long.csv` and of `some.csv`.
+const ROWS: [usize; 2] = [400_000, 30_000];
 
-/// Runs that take minutes; the test ends them after the first progress line.
+/// Long runs; the test ends them after the first progress line. An ordinary run has the first two.
 const LONG: [&str; 4] = [
     "analyze s.toml --study slow.toml",
+    "identify s.toml some.csv --map m.toml --terms auto",
     "plan s.toml --map m.toml --optimal 2000 --candidates 50000",
     "compensate s.toml long.csv --map m.toml",
-    "identify s.toml long.csv --map m.toml --terms auto",
 ];
 
-/// Runs with long parts that have no count; they show the elapsed time.
+/// Runs with long parts that have no count; they show the elapsed time. An ordinary run has the
+/// first.
 const UNCOUNTED: [&str; 3] = [
     "check long.toml",
     "measure s.toml long.csv --map m.toml",
@@ -48,8 +50,12 @@ fn workshop() -> Workshop {
         let z = d1 + 200.0 + 0.02 * sin + 0.01 * turns(3.0).1 + 1e-7 * d1 * d1;
         format!("{d1},{degrees},{x},{y},{z}\n")
     };
-    let rows: String = (0..ROWS).map(row).collect();
-    fs::write(workshop.at("long.csv"), format!("d1,q2 (deg),x,y,z\n{rows}")).unwrap();
+    for (name, count) in ["long.csv", "some.csv"].into_iter().zip(ROWS) {
+        if name == "some.csv" || thorough() {
+            let rows: String = (0..count).map(row).collect();
+            fs::write(workshop.at(name), format!("d1,q2 (deg),x,y,z\n{rows}")).unwrap();
+        }
+    }
     fs::write(workshop.at("long.toml"), abbe_tests::chains::revolute_chain(1500)).unwrap();
     let slow = "[study]\ntitle = \"Slow\"\n[workspace.joints]\nsamples = 100000000\n";
     fs::write(workshop.at("slow.toml"), slow).unwrap();
@@ -97,7 +103,8 @@ fn start(workshop: &Workshop, line: &str, stderr: Stdio) -> Child {
 #[test]
 fn what_takes_long_says_how_long_to_a_terminal_alone() {
     let workshop = workshop();
-    for line in LONG.into_iter().chain(UNCOUNTED) {
+    let [counted, uncounted] = if thorough() { [LONG.len(), UNCOUNTED.len()] } else { [2, 1] };
+    for line in LONG.into_iter().take(counted).chain(UNCOUNTED.into_iter().take(uncounted)) {
         let size = Winsize { ws_row: 24, ws_col: 100, ws_xpixel: 0, ws_ypixel: 0 };
         let terminal = openpty(&size, None).unwrap();
         // The first to start has had at least as much time at every moment.

@@ -7,7 +7,7 @@ use abbe_study::simulate::{Places, Simulate};
 use super::round_trips::{
     Method, STATION, assert_close, identified_machine_and_map, identify, job, left, measured, one, pose, real,
 };
-use super::thorough::sample_size;
+use crate::thorough::sample_size;
 
 /// Stations with their names.
 fn stations() -> String {

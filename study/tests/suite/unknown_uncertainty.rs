@@ -10,6 +10,7 @@ use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
 
 use super::simulated_ur5::{ERRORS, joints, ur5, ur5_with};
+use crate::thorough::sample_size;
 
 fn real() -> Machine {
     ur5_with(ERRORS)
@@ -215,7 +216,7 @@ fn residuals_are_judged_as_in_an_identification() {
             sockets(sigma),
         ]
     };
-    let count = crate::thorough::sample_size(200).min(40) as u64;
+    let count = sample_size(200).min(40) as u64;
     for (right, (half, unknown)) in
         maps("\"0.05 mm\"").iter().zip(maps("\"0.025 mm\"").iter().zip(&maps("\"unknown\"")))
     {

@@ -7,6 +7,8 @@ use abbe_study::analyze::figures::FigureData;
 use abbe_study::analyze::{Analyze, Report, ToleranceVerdict, Verdict, uncertainty_contributions};
 use abbe_study::{Machine, Study};
 
+use crate::thorough::thorough;
+
 /// Analyzes a slide with a repeatable error of 0.1 mm along x and four random errors of a size and
 /// distribution in the same direction.
 fn report(distribution: &str, size: &str, tolerance: &str) -> Report {
@@ -307,7 +309,8 @@ fn the_least_likely_configuration_is_found() {
         ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut elsewhere = 0;
-    for seed in 8..18 {
+    // An ordinary run has one arm, whose two configurations differ.
+    for seed in if thorough() { 8..18 } else { 16..17 } {
         let n = |i: u64| 2.0 * number(seed, i) - 1.0;
         let mut text = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n".to_owned();
         for i in 0..3 {

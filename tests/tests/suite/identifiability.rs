@@ -10,6 +10,7 @@ use abbe_manipulators::{SHIPPED, pps::Pps, puma560::Puma560};
 use abbe_spec::Spec;
 use abbe_tests::abuse::{Choices, plain_spec};
 use abbe_tests::chains::{coupled_joints, general_chain, revolute_chain};
+use abbe_tests::{sample_size, thorough};
 
 /// Measurements of pose and point, without and with a base frame.
 const WAYS: [(Measurement, bool); 4] = [
@@ -136,7 +137,8 @@ fn parts_of_a_chain_have_the_rank_of_the_whole() {
 #[test]
 fn parts_of_random_chains_have_the_rank_of_the_whole() {
     let mut judged = 0;
-    for seed in 0..150 {
+    let count = sample_size(150) as u64;
+    for seed in 0..count {
         let text = plain_spec(&mut Choices::seeded(seed));
         let Ok(spec) = Spec::parse("random.toml", &text) else { continue };
         let (expected, gap) = ranks_of_the_stack(&spec);
@@ -147,15 +149,15 @@ fn parts_of_random_chains_have_the_rank_of_the_whole() {
             judged += 1;
         }
     }
-    assert!(judged > 50, "{judged} random chains were clear");
+    assert!(judged > count / 3, "{judged} of {count} random chains were clear");
 }
 
 /// Checks `4R + 2P + 6` with poses and a base frame, and its consequences, for long chains.
 #[test]
 fn long_chains_have_the_rank_of_theory() {
-    for (text, revolute, prismatic) in
-        [(general_chain(300), 150, 150), (revolute_chain(300), 300, 0), (general_chain(1001), 501, 500)]
-    {
+    let chains =
+        [(general_chain(300), 150, 150), (revolute_chain(300), 300, 0), (general_chain(1001), 501, 500)];
+    for (text, revolute, prismatic) in chains.into_iter().take(if thorough() { 3 } else { 2 }) {
         let spec = Spec::parse("chain.toml", &text).unwrap();
         let (found, gap) = ranks_in_parts(&spec);
         let all = 4 * revolute + 2 * prismatic + 6;

@@ -292,7 +292,7 @@ fn counts_of_the_paper() {
         (free, "24 of the 42 errors of frames and base)"),
     ] {
         let map = write(folder.path(), "map.toml", &map);
-        let text = full(&["plan", "pps", "--map", path(&map), "--optimal", "60"]);
+        let text = full(&["plan", "pps", "--map", path(&map), "--optimal", "60", "--candidates", "80"]);
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(text.contains(expected), "{expected}\n{text}");
     }

@@ -15,6 +15,7 @@ use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
 
 use super::simulated_ur5::{joints, ur5, ur5_with};
+use crate::thorough::sample_size;
 
 /// Errors of the simulated UR5 by name, in mm and rad.
 const TRUTH: [(&str, f64); 6] =
@@ -274,7 +275,7 @@ fn a_distance_is_as_uncertain_as_stated() {
         let all = z_scores(&report);
         all.iter().find(|(name, _)| name == "e_x2").unwrap().1
     };
-    let z: Vec<f64> = (0..super::thorough::sample_size(60)).map(z).collect();
+    let z: Vec<f64> = (0..sample_size(60)).map(z).collect();
     let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
     println!("{} machines: mean square {square:.2}", z.len());
     let spread = 4.0 * (2.0 / z.len() as f64).sqrt();

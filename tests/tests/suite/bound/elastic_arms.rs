@@ -7,7 +7,7 @@ use abbe_bound::Effort;
 use abbe_codegen::chain::Magnitudes;
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
-use abbe_tests::thorough;
+use abbe_tests::{sample_size, thorough};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -74,7 +74,7 @@ fn is_certified_closely(name: &str, spec: &Spec, [few, many]: [(usize, f64); 2])
     let attained = size(&bound.at);
     assert!((attained / bound.found - 1.0).abs() < 1e-9, "{name}: {attained} at {:?}", bound.at);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(3);
-    for _ in 0..20_000 {
+    for _ in 0..sample_size(20_000) {
         let at = place(&all, &mut random);
         let drawn = size(&at);
         assert!(drawn <= bound.certified * (1.0 + ROUNDING), "{name}: {drawn} at {at:?}");

@@ -5,6 +5,7 @@ use abbe_bound::{Effort, Extreme, Moving, Singular, singular_value};
 use abbe_codegen::chain::ToolCompliance;
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_tests::thorough;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -70,7 +71,7 @@ fn nothing_gives_way_more_than_is_certified() {
         let spec = Spec::parse("robot.toml", &text).unwrap();
         let robots = [None, Some(0), Some(1), Some(2)].map(|axis| loaded(&text, axis));
         let all = moving(&spec);
-        for _ in 0..given("ABBE_BOXES", 4) {
+        for _ in 0..given("ABBE_BOXES", if thorough() { 4 } else { 2 }) {
             let box_ = part(&all, &mut random);
             let effort = Effort { gap: 0.02, boxes: 2000, ..Effort::default() };
             let largest = largest(&spec, &box_, &effort).unwrap();

@@ -25,6 +25,7 @@ use abbe_study::plan::{Choice, Plan, Sets};
 use abbe_study::schema::FileKind;
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Machine, Study, data, plan, study_file, workspace};
+use abbe_tests::thorough;
 use example::{Use, uses};
 use page::Page;
 use tempfile::TempDir;
@@ -239,7 +240,7 @@ fn every_instrument_has_its_row() {
 }
 
 /// Checks that the schema of a file accepts every example, and every change of one that the reader
-/// accepts.
+/// accepts. An ordinary run has every seventh change: of 13 changes of a key, each comes up.
 #[test]
 fn the_schema_accepts_what_the_reader_accepts() {
     let kinds = [FileKind::Spec, FileKind::Study, FileKind::Map, FileKind::Plan];
@@ -257,7 +258,8 @@ fn the_schema_accepts_what_the_reader_accepts() {
         "{}",
         "{ value = 1 }",
     ];
-    let (mut problems, mut accepted, mut rejected) = (Vec::new(), 0, 0);
+    let every = if thorough() { 1 } else { 7 };
+    let (mut problems, mut accepted, mut rejected, mut changes) = (Vec::new(), 0, 0, 0);
     for ((page, _, read), kind) in pages().into_iter().zip(kinds) {
         let (folder, validator) = (written(&page), Validator::new(kind));
         let mut compare = |name: &str, change: &str, text: &str| match (
@@ -277,13 +279,19 @@ fn the_schema_accepts_what_the_reader_accepts() {
                     .filter_map(|value| Some((format!("{} = {value}", key.key), key.replaced(text, value)?)))
                     .chain(key.removed(text).map(|text| (format!("without {}", key.key), text)))
                 {
-                    compare(name, &change, &text);
+                    changes += 1;
+                    if changes % every == 0 {
+                        compare(name, &change, &text);
+                    }
                 }
             }
         }
     }
     nothing(&problems);
-    assert!(accepted > 500 && rejected > 1000, "{accepted} changes are accepted, {rejected} rejected");
+    assert!(
+        accepted > 500 / every && rejected > 1000 / every,
+        "{accepted} changes are accepted, {rejected} rejected"
+    );
 }
 
 #[test]
