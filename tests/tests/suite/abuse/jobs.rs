@@ -21,7 +21,7 @@ use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Machine, Notes, Study};
 
 /// Number of steps after which a job is stopped, in the way an interruption stops it.
-const STEPS: usize = 200;
+const STEPS: usize = 2000;
 
 /// Notes that stop a job after [`STEPS`].
 #[derive(Default)]
@@ -30,12 +30,6 @@ struct Impatient(AtomicUsize);
 impl Notes for Impatient {
     fn stop(&self) -> bool {
         self.0.fetch_add(1, Ordering::Relaxed) > STEPS
-    }
-}
-
-impl Drop for Impatient {
-    fn drop(&mut self) {
-        eprintln!("STEPS {:?}", self.0);
     }
 }
 
