@@ -26,7 +26,7 @@ fn the_json_is_as_documented() {
             let (found, certified) = (number(&largest["found"]), number(&largest["certified"]));
             assert!(found <= certified && certified <= 1.01 * found + 1e-9, "{kind} {error}: {largest}");
             let at: Vec<&String> = largest["at"].as_object().unwrap().keys().collect();
-            assert_eq!(at, ["temperature_rise", "x", "y", "z"]);
+            assert_eq!(at, ["x", "y", "z", "temperature_rise"]);
         }
     }
 }

@@ -1,31 +1,14 @@
 //! The documents show the output of the command: every `$ abbe …` in `docs/` is run, and the lines
 //! below it must appear in its output in that order. The pictures of a chapter are files that its
-//! commands write. `UPDATE_EXPECT=1` writes lines and pictures anew: look at the diff. An ordinary
-//! run leaves out the chapters that take longest; a thorough run, and `UPDATE_EXPECT=1`, have all.
+//! commands write. `UPDATE_EXPECT=1` writes lines and pictures anew: look at the diff.
 
 use std::fs::{self, OpenOptions};
 use std::io::Write as _;
 use std::path::Path;
 
-use abbe_tests::thorough;
 use expect_test::expect_file;
 
 use super::running::command;
-
-/// Chapters with long commands: about six sevenths of the time of all.
-const LONG: [&str; 11] = [
-    "at-most.md",
-    "camera.md",
-    "choosing-an-arm.md",
-    "closed-loops.md",
-    "dial-indicator.md",
-    "five-axis.md",
-    "from-measurements-to-a-spec.md",
-    "live-page.md",
-    "output.md",
-    "scale.md",
-    "tutorial-measurements.md",
-];
 
 /// Returns the fenced blocks of a document: language and text.
 pub(crate) fn blocks(text: &str) -> Vec<(&str, &str)> {
@@ -38,9 +21,7 @@ fn what_they_show_is_what_is_printed() {
     let pages = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")).unwrap();
     let pages =
         pages.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "md"));
-    let all = thorough() || std::env::var_os("UPDATE_EXPECT").is_some();
     let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md");
-    let pages = pages.filter(|page| all || !LONG.iter().any(|long| page.ends_with(long)));
     for page in pages.chain([readme]) {
         // Each chapter has its own files.
         let folder = tempfile::tempdir().unwrap();
@@ -76,8 +57,7 @@ fn what_they_show_is_what_is_printed() {
             pictures += 1;
         }
     }
-    assert!(run >= if all { 100 } else { 40 }, "{run} commands");
-    assert!(pictures >= usize::from(all), "{pictures} pictures");
+    assert!(run >= 100 && pictures >= 1, "{run} commands, {pictures} pictures");
 }
 
 /// The counts in the chapter are those of the plan file.
