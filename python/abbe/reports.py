@@ -161,7 +161,7 @@ class AnalyzeReport(Report):
     """Uncertainty of the tool point if it is no point at which the errors of the spec were fitted; None if it is one."""
 
     record: Named[str] | None
-    """Stated date; absent if there is none."""
+    """Stated date, and the version of abbe; absent if there is no date."""
 
 
 class ApproachResult(Fields):
@@ -1432,7 +1432,7 @@ class IdentifyReport(Report):
     """Notes for the user."""
 
     record: Named[str] | None
-    """Stated date, persons and instruments; absent if nothing is stated."""
+    """Stated date, persons and instruments, and the version of abbe; absent if nothing is stated."""
 
 
 class ImportReport(Report):
@@ -2034,7 +2034,7 @@ class MeasureReport(Report):
     """Number of unusable rows."""
 
     record: Named[str] | None
-    """Stated date, persons and instruments; absent if nothing is stated."""
+    """Stated date, persons and instruments, and the version of abbe; absent if nothing is stated."""
 
 
 class MonitorFinding(Fields):
@@ -2144,7 +2144,7 @@ class MonitorReport(Report):
     """Permitted displacement of the tool point, in the length unit; none if not given."""
 
     record: Named[str] | None
-    """Stated date, persons and instruments; absent if nothing is stated."""
+    """Stated date, persons and instruments, and the version of abbe; absent if nothing is stated."""
 
 
 class MonteCarloErrors(Fields):

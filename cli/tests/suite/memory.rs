@@ -35,6 +35,9 @@ fn one_command_is_measured() {
     println!("\npeak {peak} kB");
 }
 
+/// Words of a command for a number of rows.
+type Words<'w> = &'w dyn Fn(usize) -> Vec<String>;
+
 /// Returns the peak memory of a command in bytes.
 fn peak(words: &[&str]) -> f64 {
     let mut measured = Command::new(std::env::current_exe().unwrap());
@@ -106,7 +109,7 @@ fn rows_are_small() {
     let monitored = |rows| own(&["monitor", spec, &visited_again(folder.path(), rows), "--map", &days]);
     let tested = |rows| on("identify", rows, &["--test", &data(folder.path(), rows)]);
     let written = ["--out", out, "--force"];
-    let commands: [(&str, &dyn Fn(usize) -> Vec<String>, f64); 8] = [
+    let commands: [(&str, Words<'_>, f64); 8] = [
         // Nothing is stored: a row that were would need more than 100.
         ("simulate --samples", &samples, 60.0),
         ("measure", &|rows| on("measure", rows, &[]), 270.0),

@@ -130,7 +130,7 @@ fn alone_it_says_what_it_can_do() {
     assert_eq!(prints(&["--version"]), concat!("abbe ", env!("ABBE_VERSION"), "\n"));
 }
 
-/// What is built in a checkout names its commit; what is not, such as an unpacked archive, cannot.
+/// A build in a checkout names its commit; a build of an unpacked archive cannot.
 #[test]
 fn the_version_has_the_commit_of_the_checkout() {
     let version = prints(&["--version"]);
