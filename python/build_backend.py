@@ -14,7 +14,7 @@ __all__ = ["build_sdist", "build_wheel", "get_requires_for_build_sdist", "get_re
 
 PACKAGE = Path(__file__).resolve().parent
 # The package is compiled from all crates; tests and documents do not change it.
-OTHERS = [":(exclude)../*.md", ":(exclude)../*/tests", ":(exclude)../benches", ":(exclude)../docs", ":(exclude)../tests"]
+OTHERS = [":(exclude)../.ci", ":(exclude)../*.md", ":(exclude)../*/tests", ":(exclude)../benches", ":(exclude)../docs", ":(exclude)../tests"]
 
 
 def _git(*arguments):
