@@ -48,13 +48,17 @@ fn checked_out() -> Option<String> {
     let own = git(&["ls-files", "--error-unmatch", "build.rs"]).is_some();
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).filter(|_| own)?;
     let branch = git(&["rev-parse", "--symbolic-full-name", "HEAD"])?;
-    for name in ["HEAD", branch.as_str(), "packed-refs"] {
+    // The log changes with every commit, also where the branch has no file of its own yet.
+    for name in ["HEAD", "logs/HEAD", branch.as_str(), "packed-refs"] {
         let path = git(&["rev-parse", "--git-path", name])?;
         if Path::new(&path).exists() {
             println!("cargo::rerun-if-changed={path}");
         }
     }
     for source in SOURCES {
+        if Path::new(source).is_file() {
+            println!("cargo::rerun-if-changed={source}");
+        }
         let entries = Path::new(source).read_dir().into_iter().flatten().flatten();
         for path in entries.map(|entry| entry.path()).filter(|path| !path.ends_with("tests")) {
             println!("cargo::rerun-if-changed={}", path.display());
