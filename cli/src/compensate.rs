@@ -3,10 +3,10 @@
 use std::io;
 use std::path::Path;
 
+use abbe_metrology::compensate::{Compensate, Report, check_poses};
+use abbe_metrology::data::{Csv, Data, Map};
 use abbe_report::{Provenance, text};
 use abbe_spec::Spec;
-use abbe_study::compensate::{Compensate, Report, check_poses};
-use abbe_study::data::{Csv, Data, Map};
 use abbe_study::explore::Explore;
 
 use crate::arguments;

@@ -1,12 +1,12 @@
 //! `abbe doctor`: finds the conventions of rows of joints and poses.
 
+use abbe_metrology::data::Source;
+use abbe_metrology::doctor::Doctor;
 use abbe_report::text;
 use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
 use abbe_study::Notes;
-use abbe_study::data::Source;
-use abbe_study::doctor::Doctor;
 
 use crate::arguments;
 use crate::console::Console;

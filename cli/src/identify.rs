@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use abbe::VariableKind;
+use abbe_metrology::Acceptance;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Harmonics, Identify, Report, Settings};
 use abbe_report::Provenance;
 use abbe_report::text::{self, Detail, wrapped};
 use abbe_spec::Spec;
-use abbe_study::Acceptance;
-use abbe_study::data::{Data, Map};
 use abbe_study::explore::Explore;
-use abbe_study::identify::{Harmonics, Identify, Report, Settings};
 
 use crate::arguments;
 use crate::console::Console;

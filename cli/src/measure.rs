@@ -1,10 +1,10 @@
 //! `abbe measure`: evaluates measurements of a machine.
 
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::measure::{Measure, Report};
 use abbe_report::{Provenance, text};
 use abbe_spec::Spec;
-use abbe_study::data::{Data, Map};
 use abbe_study::explore::Explore;
-use abbe_study::measure::{Measure, Report};
 
 use crate::arguments;
 use crate::console::Console;

@@ -1,9 +1,9 @@
 //! `abbe monitor`: control charts of repeated checks of a machine.
 
+use abbe_metrology::data::Map;
+use abbe_metrology::monitor::{Checks, Monitor, Settings};
 use abbe_report::{Provenance, text};
-use abbe_study::data::Map;
 use abbe_study::explore::Explore;
-use abbe_study::monitor::{Checks, Monitor, Settings};
 
 use crate::arguments;
 use crate::console::Console;

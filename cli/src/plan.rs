@@ -1,9 +1,9 @@
 //! `abbe plan`: plans measurements, and predicts the uncertainty of the errors that they identify.
 
+use abbe_metrology::data::Map;
+use abbe_metrology::plan::options::COUNT;
+use abbe_metrology::plan::{Choice, Plan, Sets};
 use abbe_report::text;
-use abbe_study::data::Map;
-use abbe_study::plan::options::COUNT;
-use abbe_study::plan::{Choice, Plan, Sets};
 
 use crate::arguments;
 use crate::console::Console;

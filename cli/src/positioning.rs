@@ -1,7 +1,7 @@
 //! `abbe positioning`: evaluates runs of an axis by ISO 230-2, or of body diagonals by ISO 230-6.
 
+use abbe_metrology::positioning;
 use abbe_report::text;
-use abbe_study::positioning;
 
 use crate::arguments::Positioning;
 use crate::console::Console;

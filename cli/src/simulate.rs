@@ -3,8 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use abbe_study::data::{Csv, Data, Map};
-use abbe_study::simulate::{Places, Simulate};
+use abbe_metrology::data::{Csv, Data, Map};
+use abbe_metrology::simulate::{Places, Simulate};
 
 use crate::arguments;
 use crate::console::Console;

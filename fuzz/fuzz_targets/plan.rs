@@ -6,7 +6,7 @@ mod told;
 use std::sync::LazyLock;
 
 use abbe_study::Machine;
-use abbe_study::plan::Sets;
+use abbe_metrology::plan::Sets;
 use libfuzzer_sys::fuzz_target;
 
 static MACHINE: LazyLock<Machine> = LazyLock::new(|| Machine::find("machine3").expect("it is shipped"));

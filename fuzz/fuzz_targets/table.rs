@@ -5,9 +5,10 @@ mod told;
 
 use std::sync::LazyLock;
 
-use abbe_study::data::{Data, Map};
-use abbe_study::measure::Measure;
-use abbe_study::{Acceptance, Machine};
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::measure::Measure;
+use abbe_metrology::Acceptance;
+use abbe_study::Machine;
 use libfuzzer_sys::fuzz_target;
 
 static MACHINE: LazyLock<Machine> = LazyLock::new(|| Machine::find("scara").expect("it is shipped"));

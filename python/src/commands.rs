@@ -2,7 +2,8 @@
 
 use abbe::analysis::{InverseKinematics, Target, inverse};
 use abbe::{Function, Pose};
-use abbe_study::{compensate, mistake};
+use abbe_metrology::compensate;
+use abbe_study::mistake;
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

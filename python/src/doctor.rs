@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use abbe_metrology::doctor::Doctor;
 use abbe_report::text;
-use abbe_study::doctor::Doctor;
 use pyo3::prelude::*;
 
 use crate::failure::{guarded, spec_error};

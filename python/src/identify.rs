@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
+use abbe_metrology::data::Data;
+use abbe_metrology::identify::options::{FOLDS, LOSSES, TERMS};
+use abbe_metrology::identify::{Family, Identify, Prior, Settings};
 use abbe_report::{Provenance, text};
-use abbe_study::data::Data;
 use abbe_study::explore::Explore;
-use abbe_study::identify::options::{FOLDS, LOSSES, TERMS};
-use abbe_study::identify::{Family, Identify, Prior, Settings};
 use abbe_study::options::share;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use abbe_metrology::data::Data;
+use abbe_metrology::measure::Measure;
 use abbe_report::{Provenance, text};
-use abbe_study::data::Data;
 use abbe_study::explore::Explore;
-use abbe_study::measure::Measure;
 use pyo3::prelude::*;
 
 use crate::job::run;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use abbe_metrology::data::{Cells, Columns, Data, Map, Source};
 use abbe_study::Notes;
-use abbe_study::data::{Cells, Columns, Data, Map, Source};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple};

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use abbe_metrology::monitor::options::FALSE_ALARM;
+use abbe_metrology::monitor::{Checks, Monitor, Settings};
 use abbe_report::{Provenance, text};
 use abbe_study::explore::Explore;
-use abbe_study::monitor::options::FALSE_ALARM;
-use abbe_study::monitor::{Checks, Monitor, Settings};
 use pyo3::prelude::*;
 
 use crate::job::run;

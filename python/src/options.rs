@@ -5,14 +5,15 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::Duration;
 
+use abbe_metrology::Acceptance;
+use abbe_metrology::data::Map;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
-use abbe_study::data::Map;
+use abbe_study::Study;
 use abbe_study::options::Choices;
-use abbe_study::{Acceptance, Study};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;

@@ -4,10 +4,10 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use abbe_metrology::plan::options::{CANDIDATES, COUNT, CRITERIA};
+use abbe_metrology::plan::{Choice, Plan, Sets};
 use abbe_report::text;
 use abbe_study::Study;
-use abbe_study::plan::options::{CANDIDATES, COUNT, CRITERIA};
-use abbe_study::plan::{Choice, Plan, Sets};
 use pyo3::prelude::*;
 
 use crate::job::run;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use abbe_metrology::positioning::Positioning;
 use abbe_report::text;
-use abbe_study::positioning::Positioning;
 use pyo3::prelude::*;
 
 use crate::job::run;

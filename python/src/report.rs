@@ -6,10 +6,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use abbe_metrology::data;
 use abbe_report::Picture;
 use abbe_report::text::Detail;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::data;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

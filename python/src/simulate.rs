@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use abbe_study::data::Data;
-use abbe_study::simulate::options::{OUTLIERS, SAMPLES};
-use abbe_study::simulate::{Places, Simulate};
+use abbe_metrology::data::Data;
+use abbe_metrology::simulate::options::{OUTLIERS, SAMPLES};
+use abbe_metrology::simulate::{Places, Simulate};
 use pyo3::prelude::*;
 
 use crate::job::run;

@@ -25,17 +25,17 @@ const SAME_POINT: f64 = 1e-5;
 const STEP: f64 = 1e-5;
 
 /// Independent errors of a calibration.
-pub(crate) struct CalibrationErrors {
+pub struct CalibrationErrors {
     /// Identified quantities; one of them can occur twice.
-    pub(crate) of: Vec<Identified>,
+    pub of: Vec<Identified>,
     /// Independent normal errors: each has a standard deviation for every quantity.
-    pub(crate) parts: Vec<Vec<f64>>,
+    pub parts: Vec<Vec<f64>>,
 }
 
 impl CalibrationErrors {
     /// Returns the errors at points that were measured, from the covariance alone; or at any other
     /// points of the tool.
-    pub(crate) fn new(spec: &Spec, is_measured: bool) -> Self {
+    pub fn new(spec: &Spec, is_measured: bool) -> Self {
         let (found, hidden) = (&spec.covariance, &spec.undetermined);
         let mut of = found.of.clone();
         let mut parts = independent_parts(&found.rows);
@@ -50,24 +50,24 @@ impl CalibrationErrors {
 }
 
 /// Predicts the errors of a point of the tool from those of a calibration.
-pub(crate) struct Prediction<'a> {
+pub struct Prediction<'a> {
     model: Model<'a>,
     scratch: Scratch,
     errors: &'a CalibrationErrors,
 }
 
 /// Errors of a point at one configuration.
-pub(crate) struct PredictedErrors {
+pub struct PredictedErrors {
     /// Pose of the tool in `F_0`.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
     /// Displacement of the point by each part of the calibration's errors, in the length unit.
-    pub(crate) displacements: Vec<[f64; 3]>,
+    pub displacements: Vec<[f64; 3]>,
 }
 
 impl<'a> Prediction<'a> {
     /// Creates the prediction for a point in the frame of the tool; returns `None` if the spec
     /// states no covariance.
-    pub(crate) fn new(
+    pub fn new(
         spec: &'a Spec,
         manipulator: &'a dyn Manipulator,
         errors: &'a CalibrationErrors,
@@ -92,17 +92,14 @@ impl<'a> Prediction<'a> {
 
     /// Returns the standard deviation of the point (√trace of its covariance) at each configuration
     /// that can be evaluated.
-    pub(crate) fn deviations(
-        &mut self,
-        configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>,
-    ) -> Vec<f64> {
+    pub fn deviations(&mut self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
         let predicted = configurations.filter_map(|(q, u)| self.errors_at(q, u).ok());
         predicted.map(|errors| errors.standard_deviation()).collect()
     }
 
     /// Returns `M l` for each part l, where M is the Jacobian of the point with respect to the
     /// identified quantities.
-    pub(crate) fn errors_at(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<PredictedErrors, Failure> {
+    pub fn errors_at(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<PredictedErrors, Failure> {
         let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
         let zero = vec![0.0; self.model.unknowns.len()];
         let (pose, of_unknowns) = self.model.tool(&mut self.scratch, &row, &zero)?;
@@ -144,7 +141,7 @@ impl PredictedErrors {
 }
 
 /// Returns the pose of the tool in the last frame, from the nominal parameters.
-pub(crate) fn tool_in_last_frame(manipulator: &dyn Manipulator) -> Result<Pose, Error> {
+pub fn tool_in_last_frame(manipulator: &dyn Manipulator) -> Result<Pose, Error> {
     let description = manipulator.description();
     let home: Vec<f64> = description.variables.iter().map(|variable| variable.home).collect();
     let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
@@ -154,7 +151,7 @@ pub(crate) fn tool_in_last_frame(manipulator: &dyn Manipulator) -> Result<Pose, 
 
 /// Returns whether the measurements of an identified machine determine the errors of points of the
 /// last frame. Those of a spec that states nothing undetermined do.
-pub(crate) fn is_measured(spec: &Spec, manipulator: &dyn Manipulator, points: &[[f64; 3]]) -> bool {
+pub fn is_measured(spec: &Spec, manipulator: &dyn Manipulator, points: &[[f64; 3]]) -> bool {
     let parameters = sampling::nominal_parameters(manipulator.description());
     let same = |arm: f64| points.iter().all(|point| spec.undetermined.has_point(*point, SAME_POINT * arm));
     spec.undetermined.of.is_empty() || sampling::arm_length(manipulator, &parameters).is_ok_and(same)
@@ -163,7 +160,7 @@ pub(crate) fn is_measured(spec: &Spec, manipulator: &dyn Manipulator, points: &[
 /// Returns the uncertainty of a calibration as independent normal sources: their covariance is the
 /// spec's `[covariance]`, and with a tool point that was not measured they include its
 /// `[undetermined]`. There are none without a covariance.
-pub(crate) fn calibration_errors(spec: &Spec, is_measured: bool) -> Vec<Source> {
+pub fn calibration_errors(spec: &Spec, is_measured: bool) -> Vec<Source> {
     if spec.covariance.of.is_empty() {
         return Vec::new();
     }
@@ -180,19 +177,19 @@ pub(crate) fn calibration_errors(spec: &Spec, is_measured: bool) -> Vec<Source> 
 }
 
 /// Returns true for the sources that [`calibration_errors`] returns. No source of a file is one.
-pub(crate) fn is_calibration_error(source: &Source) -> bool {
+pub fn is_calibration_error(source: &Source) -> bool {
     source.propagated.iter().any(|(uncertain, _)| matches!(uncertain, Uncertain::Identified(_)))
 }
 
 /// Returns the index, among the enabled sources, of the first that [`calibration_errors`] added;
 /// they are the last ones. Returns `None` if there are none.
-pub(crate) fn first_part(spec: &Spec) -> Option<usize> {
+pub fn first_part(spec: &Spec) -> Option<usize> {
     spec.enabled_sources().position(is_calibration_error)
 }
 
 /// Returns the spec with the first part of the calibration named as all of it, for reports in which
 /// it stands for all.
-pub(crate) fn named_as_one(spec: &Arc<Spec>) -> Arc<Spec> {
+pub fn named_as_one(spec: &Arc<Spec>) -> Arc<Spec> {
     let mut named = spec.clone();
     if let Some(first) = spec.sources.iter().position(is_calibration_error) {
         CALIBRATION.clone_into(&mut Arc::make_mut(&mut named).sources[first].name);
@@ -201,7 +198,7 @@ pub(crate) fn named_as_one(spec: &Arc<Spec>) -> Arc<Spec> {
 }
 
 /// Returns true if the covariance contains the magnitude of a source.
-pub(crate) fn has_magnitude(spec: &Spec, source: usize) -> bool {
+pub fn has_magnitude(spec: &Spec, source: usize) -> bool {
     spec.covariance.of.contains(&Identified::Magnitude(source))
 }
 

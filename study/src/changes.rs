@@ -75,13 +75,13 @@ impl Changes {
 
     /// Returns the changes of a command line or of Python as they were written, each with the name
     /// of its option.
-    pub(crate) fn stated(&self) -> &[(&'static str, String)] {
+    pub fn stated(&self) -> &[(&'static str, String)] {
         &self.stated
     }
 
     /// Returns the changes as options, in the order in which they are applied. Numbers have all
     /// their digits.
-    pub(crate) fn options(&self, spec: &Spec) -> Vec<(&'static str, String)> {
+    pub fn options(&self, spec: &Spec) -> Vec<(&'static str, String)> {
         let source = |index: usize| spec.sources[index].name.clone();
         let values = self.values.iter().map(|(symbol, value)| {
             let unit = match *symbol {

@@ -42,7 +42,7 @@ pub struct ToolPointDeviation {
 /// Counts the configurations outside the ranges on which the errors of a spec were fitted, and
 /// warns of them with their uncertainty. `what` names the configurations, in the plural: `rows`.
 /// Returns `None` if there are none. `is_measured` is true if the tool is the fitted one.
-pub(crate) fn warn_of_extrapolation<'r>(
+pub fn warn_of_extrapolation<'r>(
     spec: &Spec,
     manipulator: &dyn Manipulator,
     is_measured: bool,
@@ -90,7 +90,7 @@ impl ToolPointDeviation {
     /// Returns the deviations within the fitted ranges and at configurations outside of them;
     /// `None` if there are none or the spec states no covariance. `is_measured` is true if the
     /// tool is the fitted one.
-    pub(crate) fn new(
+    pub fn new(
         spec: &Spec,
         manipulator: &dyn Manipulator,
         is_measured: bool,

@@ -1,4 +1,5 @@
-//! Jobs on a manipulator: every command of `abbe`, without its arguments and its text output.
+//! Jobs on a manipulator as its spec describes it, without arguments and text output. Those on
+//! measurements are in `abbe-metrology`.
 //!
 //! A **job** is a struct that holds its options and inputs, owned and plain, and has one function,
 //!
@@ -9,10 +10,10 @@
 //! All jobs follow the same rules, so that the command, the Python module and tests call them
 //! alike:
 //!
-//! - **One folder per job**, named after the command: `check/`, `jacobian/`, `analyze/`, `measure/`
-//!   … The job has the command's name; its first field is the [`Machine`]. Its report is one struct
-//!   that derives `Serialize` and owns its data. Serialized, it is the output of `--json`. Fields
-//!   that only text or pages need are marked `#[serde(skip)]`.
+//! - **One folder per job**, named after the command: `check/`, `jacobian/`, `analyze/` … The job
+//!   has the command's name; its first field is the [`Machine`]. Its report is one struct that
+//!   derives `Serialize` and owns its data. Serialized, it is the output of `--json`. Fields that
+//!   only text or pages need are marked `#[serde(skip)]`.
 //! - **Invalid input returns `Diagnostics`**, with the file or option and the place.
 //!   [`mistake::with_help`] creates one without a place, [`mistake::not_evaluated`] one for a
 //!   configuration without a finite result.
@@ -42,61 +43,48 @@
 //!
 //! [`Machine`] is a spec with its name, and with its generated code if it is shipped. [`Changes`]
 //! are the changes of one run. [`study_file`] holds study files, [`workspace`] the configurations
-//! that they describe, and [`data`] measurements.
+//! that they describe.
 
 pub mod analyze;
 pub mod bound;
 pub mod check;
-pub mod compensate;
-pub mod doctor;
 pub mod explore;
 pub mod export;
 pub mod generate;
-pub mod identify;
 pub mod import;
 pub mod jacobian;
 pub mod list;
-pub mod measure;
-pub mod monitor;
-pub mod plan;
-pub mod positioning;
-pub mod simulate;
 
-pub mod data;
+pub mod date;
 pub mod hash;
 pub mod number;
 pub mod options;
-pub mod schema;
 pub mod study_file;
 pub mod template;
 pub mod workspace;
 
-mod acceptance;
 mod archive;
-mod calibration;
+pub mod calibration;
 mod changed_text;
 mod changes;
-mod extrapolation;
+pub mod extrapolation;
 mod finite;
-mod interpretations;
 mod iso230;
-mod lines;
+pub mod lines;
 mod listing;
 mod loop_units;
 mod machine;
-mod named;
-mod other_tool;
+pub mod named;
+pub mod other_tool;
 mod reads;
 mod release;
 mod residuals;
 mod run_record;
-mod sizes;
 mod table_paths;
 
 pub use abbe_spec::mistake;
-use abbe_spec::notes;
+pub use abbe_spec::notes;
 pub use abbe_spec::notes::Notes;
-pub use acceptance::{Acceptance, AcceptanceVerdict, LimitCheck};
 pub use changed_text::changed_text;
 pub use changes::{Changes, find_symbol};
 pub use extrapolation::{Extrapolation, ToolPointDeviation};

@@ -21,16 +21,17 @@ struct Window {
 
 /// Counts lines. The positions of the CSV reader are at the end of the preceding record, before its
 /// line end, empty lines and comments.
-pub(crate) struct Lines(Rc<RefCell<Window>>);
+pub struct Lines(Rc<RefCell<Window>>);
 
 /// Reader that keeps what is read until its lines are counted.
-pub(crate) struct RecordedReader<R> {
+pub struct RecordedReader<R> {
     inner: R,
     window: Rc<RefCell<Window>>,
 }
 
 impl<R: Read> RecordedReader<R> {
-    pub(crate) fn new(inner: R) -> (Self, Lines) {
+    /// Wraps a reader, and returns the counter of its lines.
+    pub fn new(inner: R) -> (Self, Lines) {
         let window = Rc::new(RefCell::new(Window { line: 1, ..Window::default() }));
         (Self { inner, window: Rc::clone(&window) }, Lines(window))
     }
@@ -52,7 +53,7 @@ impl<R: Read> Read for RecordedReader<R> {
 impl Lines {
     /// Returns the line number of the next record after a byte offset, and discards everything
     /// before it.
-    pub(crate) fn record_line(&mut self, byte: u64) -> u64 {
+    pub fn record_line(&mut self, byte: u64) -> u64 {
         let mut window = self.0.borrow_mut();
         let mut start = byte.saturating_sub(window.start) as usize;
         loop {

@@ -123,7 +123,7 @@ impl Machine {
     }
 
     /// Returns true if the spec has the covariance of a calibration.
-    pub(crate) fn is_calibrated(&self) -> bool {
+    pub fn is_calibrated(&self) -> bool {
         !self.spec.covariance.of.is_empty()
     }
 
@@ -144,7 +144,7 @@ impl Machine {
     }
 
     /// Returns the names of the parameters of the tool that changes set.
-    pub(crate) fn set_tool_parameters(&self) -> Vec<&str> {
+    pub fn set_tool_parameters(&self) -> Vec<&str> {
         let symbols = self.spec.tool.iter().flat_map(Factor::expressions).flat_map(Expression::symbols);
         let of_tool = symbols.collect::<Vec<_>>();
         let set = self.set_parameters.iter().filter(|i| of_tool.contains(&Symbol::Parameter(**i)));
@@ -152,7 +152,7 @@ impl Machine {
     }
 
     /// Returns the changes, followed by other options of a run, for its record.
-    pub(crate) fn options_with(
+    pub fn options_with(
         &self,
         others: impl IntoIterator<Item = (&'static str, String)>,
     ) -> Vec<(&'static str, String)> {
@@ -161,7 +161,7 @@ impl Machine {
     }
 
     /// Returns the machine with all tables held at their ends.
-    pub(crate) fn with_held_tables(&self) -> Self {
+    pub fn with_held_tables(&self) -> Self {
         Self { spec: Arc::new(self.spec.with_held_tables()), ..self.clone() }
     }
 
@@ -175,13 +175,13 @@ impl Machine {
     }
 
     /// Returns whether changes are applied to the spec.
-    pub(crate) fn is_changed(&self) -> bool {
+    pub fn is_changed(&self) -> bool {
         self.changed
     }
 
     /// Fails unless the frames are a chain. `refused` says what is not done for other machines,
     /// `instead` what to do.
-    pub(crate) fn require_chain(&self, refused: &str, instead: &str) -> Result<(), Diagnostics> {
+    pub fn require_chain(&self, refused: &str, instead: &str) -> Result<(), Diagnostics> {
         let structure = match self.spec.is_serial() {
             true => return Ok(()),
             false if self.spec.loops.is_empty() => "branches",

@@ -7,7 +7,7 @@ use abbe_spec::document::Document;
 use abbe_spec::value::find_name;
 
 /// Returns true if an argument is a path: the file exists, or the text looks like one.
-pub(crate) fn is_path(argument: &Path) -> bool {
+pub fn is_path(argument: &Path) -> bool {
     let name = argument.to_string_lossy();
     name.contains(std::path::is_separator)
         || name.ends_with(".toml")
@@ -16,7 +16,7 @@ pub(crate) fn is_path(argument: &Path) -> bool {
 
 /// Reads a file, or the shipped document with that name. `folder` is the folder of the shipped
 /// documents, `what` their kind in messages.
-pub(crate) fn document(
+pub fn document(
     option: &str,
     argument: &Path,
     shipped: &[(&str, &str)],
@@ -37,7 +37,7 @@ pub(crate) fn document(
 }
 
 /// Returns the diagnostic for an argument that names neither, with the nearest names.
-pub(crate) fn unknown(option: &str, argument: &str, names: &[&str], what: &str) -> Diagnostics {
+pub fn unknown(option: &str, argument: &str, names: &[&str], what: &str) -> Diagnostics {
     let mut document = Document::new(option, argument);
     find_name(&mut document, 0..argument.len(), argument, names, what);
     let Document { path, text, found, .. } = document;

@@ -36,7 +36,7 @@ pub struct OtherTool {
 
 /// Warns if the points, in the frame of the tool, were not measured when the errors of a spec were
 /// fitted. Returns `None` if they were. `what` names the configurations, in the plural: `rows`.
-pub(crate) fn warn_of_other_tool<'r>(
+pub fn warn_of_other_tool<'r>(
     spec: &Spec,
     manipulator: &dyn Manipulator,
     points: &[[f64; 3]],

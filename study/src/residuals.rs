@@ -41,12 +41,12 @@ pub struct Residual {
 
 impl Residual {
     /// Creates the residual of a row without errors.
-    pub(crate) fn new(row: &Observation, q: &[f64], point: [f64; 3], after: [f64; 3]) -> Self {
+    pub fn new(row: &Observation, q: &[f64], point: [f64; 3], after: [f64; 3]) -> Self {
         Self { line: row.line, q: q.to_vec(), u: row.u.to_vec(), point, before: None, after }
     }
 
     /// Converts from the frame of an instrument, in which `F_0` has the pose `station`.
-    pub(crate) fn in_f0(self, station: &Pose) -> Self {
+    pub fn in_f0(self, station: &Pose) -> Self {
         let to_base = station.inverse();
         Self {
             point: to_base.apply(self.point),
@@ -59,7 +59,7 @@ impl Residual {
 
 impl Residuals {
     /// Chooses rows evenly. Returns `None` without rows.
-    pub(crate) fn new<'r, R>(
+    pub fn new<'r, R>(
         before: Option<&str>,
         after: &str,
         rows: &'r [R],

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::data::{Calendar, parse_date};
+use crate::date::{Calendar, parse_date};
 use crate::version;
 
 /// Key and title of each entry of a record, in the order of a page.
@@ -36,7 +36,7 @@ impl RunRecord {
     }
 
     /// States an entry of `[record]`; an empty text states nothing.
-    pub(crate) fn state(&mut self, key: &str, text: String) {
+    pub fn state(&mut self, key: &str, text: String) {
         let known = ENTRIES.iter().find(|(known, _)| *known == key);
         if let Some((key, _)) = known.filter(|_| !text.is_empty()) {
             self.entries.retain(|(stated, _)| stated != key);
@@ -53,7 +53,7 @@ impl RunRecord {
     }
 
     /// Adds the options of a job.
-    pub(crate) fn with_options(&self, options: Vec<(&'static str, String)>) -> Self {
+    pub fn with_options(&self, options: Vec<(&'static str, String)>) -> Self {
         Self { options, ..self.clone() }
     }
 

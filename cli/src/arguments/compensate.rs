@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use abbe_study::compensate::options::TOLERANCE;
+use abbe_metrology::compensate::options::TOLERANCE;
 use clap::{Args, ValueHint};
 
 use super::shared::{Page, Running, Showing, Subject, Writing};

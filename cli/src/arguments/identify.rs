@@ -2,8 +2,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use abbe::identify::Loss;
-use abbe_study::identify::options::{FOLDS, LOSSES, TERMS};
-use abbe_study::identify::{Family, Prior};
+use abbe_metrology::identify::options::{FOLDS, LOSSES, TERMS};
+use abbe_metrology::identify::{Family, Prior};
 use clap::Args;
 
 use super::shared::{Measured, Page, Running, Showing, Subject, Writing};

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use abbe_study::monitor::options::FALSE_ALARM;
+use abbe_metrology::monitor::options::FALSE_ALARM;
 use clap::{Args, ValueHint};
 
 use super::shared::{Page, Running, Showing, Subject, Writing};

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use abbe::identify::Criterion;
-use abbe_study::plan::options::{CANDIDATES, COUNT, CRITERIA, CRITERION};
+use abbe_metrology::plan::options::{CANDIDATES, COUNT, CRITERIA, CRITERION};
 use clap::Args;
 
 use super::shared::{Running, Showing, Subject, Writing};

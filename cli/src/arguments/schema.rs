@@ -1,4 +1,4 @@
-use abbe_study::schema::FileKind;
+use abbe_metrology::schema::FileKind;
 use clap::Args;
 
 use super::values::named;

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use abbe_study::simulate::options::{OUTLIERS, SAMPLES};
+use abbe_metrology::simulate::options::{OUTLIERS, SAMPLES};
 use clap::{Args, ValueHint};
 
 use super::shared::{Running, Subject, Writing};

@@ -1,7 +1,7 @@
 //! Figures of monitoring: control charts over time.
 
-use abbe_study::data::Calendar;
-use abbe_study::monitor::{Chart, Finding, Report};
+use abbe_metrology::monitor::{Chart, Finding, Report};
+use abbe_study::date::Calendar;
 
 use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_margin};
 

@@ -1,8 +1,8 @@
 //! Figures of compensation: position errors of the tool point before and after.
 
 use abbe::VariableKind;
+use abbe_metrology::compensate::{Report, Row};
 use abbe_spec::Spec;
-use abbe_study::compensate::{Report, Row};
 use abbe_study::study_file::Over;
 
 use super::histogram::{NamedValues, panel};

@@ -1,7 +1,7 @@
 //! Figures of a measurement: error cloud and histograms, as in Figures 13 and 14 of the paper.
 
+use abbe_metrology::measure::Report;
 use abbe_spec::Spec;
-use abbe_study::measure::Report;
 
 use super::cloud::views;
 use super::figure_range::FigureRange;

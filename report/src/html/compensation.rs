@@ -1,9 +1,9 @@
 //! Page of a compensation: position errors before and after.
 
 use abbe::Description;
+use abbe_metrology::compensate::{NormStatistics, Report};
+use abbe_metrology::data::Map;
 use abbe_spec::Spec;
-use abbe_study::compensate::{NormStatistics, Report};
-use abbe_study::data::Map;
 use abbe_study::explore;
 use abbe_study::number::{self, visible};
 

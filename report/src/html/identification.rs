@@ -1,13 +1,13 @@
 //! Page of an identification: the errors of the machine, their uncertainties and the residuals.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
-use abbe_study::AcceptanceVerdict;
-use abbe_study::data::Map;
-use abbe_study::explore;
-use abbe_study::identify::{
+use abbe_metrology::AcceptanceVerdict;
+use abbe_metrology::data::Map;
+use abbe_metrology::identify::{
     Indistinguishable, JointProfiles, Kind, Parameter, Report, Sizes, WeaklyDetermined,
 };
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
+use abbe_study::explore;
 use abbe_study::number::{self, digits, fixed};
 
 use super::figure::figures;

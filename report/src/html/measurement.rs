@@ -1,9 +1,9 @@
 //! Page of a measurement: statistics of its errors, and figures.
 
+use abbe_metrology::data::Map;
+use abbe_metrology::measure::{Report, Size};
 use abbe_spec::Spec;
-use abbe_study::data::Map;
 use abbe_study::explore;
-use abbe_study::measure::{Report, Size};
 use abbe_study::number::{digits, fixed};
 
 use super::figure::figures;

@@ -1,9 +1,9 @@
 //! Page of a monitored machine: its charts over time, and changes.
 
+use abbe_metrology::data::Map;
+use abbe_metrology::monitor::{Chart, Report};
 use abbe_spec::Spec;
-use abbe_study::data::Map;
 use abbe_study::explore;
-use abbe_study::monitor::{Chart, Report};
 use abbe_study::number::{fixed, percent};
 
 use super::figure::figures;

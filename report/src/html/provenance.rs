@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use abbe_metrology::data::{Base, Layout, Map, Source};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::data::{Base, Layout, Map, Source};
 use abbe_study::number::{self, short};
 use abbe_study::{RunRecord, version};
 

@@ -71,7 +71,7 @@ impl Axis {
         match scale {
             Scale::Names(names) => names.join(", "),
             Scale::Dates => {
-                let [from, to] = range.map(|day| abbe_study::data::Calendar::Dates.show(day));
+                let [from, to] = range.map(|day| abbe_study::date::Calendar::Dates.show(day));
                 format!("{name} from {from} to {to}").trim_start().to_owned()
             }
             Scale::Linear | Scale::Logarithmic => {

@@ -1,6 +1,6 @@
 //! Tick positions of an axis.
 
-use abbe_study::data::Calendar;
+use abbe_study::date::Calendar;
 use abbe_study::number;
 
 use crate::scene::{Axis, Scale};

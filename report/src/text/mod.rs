@@ -11,12 +11,11 @@ mod list;
 mod table;
 
 use abbe::Description;
+use abbe_metrology::data::Map;
+use abbe_metrology::{compensate, doctor, identify, measure, monitor, plan, positioning};
 use abbe_spec::Spec;
 use abbe_study::RunRecord;
-use abbe_study::data::Map;
-use abbe_study::{
-    analyze, bound, check, compensate, doctor, export, identify, measure, monitor, plan, positioning,
-};
+use abbe_study::{analyze, bound, check, export};
 
 pub use answer::next;
 pub(crate) use full::analysis::explained as draws_explained;

@@ -8,7 +8,7 @@ use super::choices::ORIENTATIONS;
 const NUMBER: Value = Number("number");
 const VARIABLES: Value = List("names of variables", None, &Text("name"));
 /// Values of an axis of a grid.
-pub(crate) const AXIS: Value =
+pub const AXIS: Value =
     Either("values, as in a grid", &[List("numbers", None, &NUMBER), Table("[workspace.grid.NAME]")]);
 
 abbe_spec::tables! {

@@ -17,7 +17,7 @@ mod span;
 pub use axis::Candidates;
 pub use constant::{constant, count, positive_length, whole};
 pub use forms::read_region;
-pub(crate) use keys::AXIS;
+pub use keys::AXIS;
 pub use keys::{TABLES, rules};
 pub use path::Path;
 pub use region::{Form, Region, has_range};

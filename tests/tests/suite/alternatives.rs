@@ -1,10 +1,11 @@
 //! Errors that the data cannot distinguish are named together.
 
+use abbe_metrology::Acceptance;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Identify, JointError, Prior, Report, Settings};
+use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::Spec;
-use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Identify, JointError, Prior, Report, Settings};
-use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Machine};
+use abbe_study::Machine;
 use abbe_tests::sample_size;
 
 /// An arm with a spherical wrist; the tool point is on the axis of q6, 206 mm from the wrist.

@@ -9,12 +9,12 @@
 use std::path::{Path, PathBuf};
 
 use abbe::LengthUnit;
+use abbe_metrology::data::Map;
+use abbe_metrology::plan::Sets;
 use abbe_spec::DhConvention;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
-use abbe_study::data::Map;
 use abbe_study::import::{Format, Import, Units};
-use abbe_study::plan::Sets;
 use abbe_study::{Machine, Study};
 use expect_test::expect_file;
 

@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 
 use abbe::identify::Loss;
 use abbe::{Pose, displacement};
+use abbe_metrology::Acceptance;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Identify, Kind, Prior, Report, Settings};
+use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::Spec;
-use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Identify, Kind, Prior, Report, Settings};
-use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Machine};
+use abbe_study::Machine;
 use abbe_tests::thorough;
 use rayon::prelude::*;
 

@@ -8,12 +8,13 @@ use abbe::analysis::{
 use abbe::identify::{Criterion, Loss};
 use abbe::{Class, Manipulator, drawn_pose};
 use abbe_interpreter::Interpreter;
+use abbe_metrology::Acceptance;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Identify, Prior, Settings};
+use abbe_metrology::plan::{Choice, Plan};
+use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::{Cause, Spec};
-use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Identify, Prior, Settings};
-use abbe_study::plan::{Choice, Plan};
-use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Machine, Study};
+use abbe_study::{Machine, Study};
 
 use abbe_tests::thorough;
 use rand::{Rng, RngExt, SeedableRng};

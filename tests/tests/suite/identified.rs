@@ -3,11 +3,12 @@
 
 use std::time::Duration;
 
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Family, Harmonics, Identify, Prior, Report, Settings};
+use abbe_metrology::simulate::{Places, Simulate};
+use abbe_metrology::{Acceptance, measure};
 use abbe_spec::Spec;
-use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Family, Harmonics, Identify, Prior, Report, Settings};
-use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Machine, measure};
+use abbe_study::Machine;
 
 const POINT: &str = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
 

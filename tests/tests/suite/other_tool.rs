@@ -3,11 +3,12 @@
 use abbe::analysis::sampling::{draw, stream};
 use abbe::{Distribution, Manipulator};
 use abbe_interpreter::Interpreter;
+use abbe_metrology::Acceptance;
+use abbe_metrology::data::Data;
+use abbe_metrology::measure::Measure;
+use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::Spec;
-use abbe_study::data::Data;
-use abbe_study::measure::Measure;
-use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Machine};
+use abbe_study::Machine;
 use abbe_tests::sample_size;
 use rand::RngExt;
 

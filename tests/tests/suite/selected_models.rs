@@ -1,11 +1,12 @@
 //! Selected models of simulated arms whose errors no family has in full: gears with many periods
 //! per turn, beside compliances and constant errors.
 
+use abbe_metrology::Acceptance;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Family, Identify, Report, Settings};
+use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::Spec;
-use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Family, Identify, Report, Settings};
-use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Machine};
+use abbe_study::Machine;
 use abbe_tests::sample_size;
 
 const LOADS: &str = "[[load]]\nname = \"arm\"\nmass = \"8 kg\"\nframe = \"elbow\"\npoint = [100, 0, 50]\n\n\

@@ -1,7 +1,7 @@
 //! The answer of a compensation: how many commands are corrected, and the error before and after.
 
 use abbe::{Class, Description};
-use abbe_study::compensate::{Report, RowSummary};
+use abbe_metrology::compensate::{Report, RowSummary};
 use abbe_study::number::{self, counted, length};
 
 use super::{Answer, aligned, error_unit};

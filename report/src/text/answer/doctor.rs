@@ -1,6 +1,6 @@
 //! The answer of the doctor: the convention that fits, and the alternatives.
 
-use abbe_study::doctor::{Finding, Report};
+use abbe_metrology::doctor::{Finding, Report};
 use abbe_study::number::digits;
 
 use super::{Answer, first};

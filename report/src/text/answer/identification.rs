@@ -1,7 +1,9 @@
 //! The answer of an identification: accuracy on held-out rows, most significant errors, and gaps.
 
+use abbe_metrology::identify::{
+    JointError, Kind, Parameter, Report, ResidualDrift, Sizes, TestExtrapolation,
+};
 use abbe_spec::Spec;
-use abbe_study::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes, TestExtrapolation};
 use abbe_study::number::{counted, digits, fixed};
 
 use super::full::identification::residuals;

@@ -1,7 +1,7 @@
 //! The answer of a measurement: acceptance, accuracy, repeatability, and the explained share.
 
+use abbe_metrology::measure::Report;
 use abbe_spec::Spec;
-use abbe_study::measure::Report;
 use abbe_study::number::{counted, digits, fixed, percent};
 
 use super::full::measurement::agreement;

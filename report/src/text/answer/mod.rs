@@ -14,7 +14,7 @@ mod monitoring;
 mod plan;
 mod positioning;
 
-use abbe_study::data::Summary;
+use abbe_metrology::data::Summary;
 use abbe_study::number::{digits, error_unit, unbroken};
 use abbe_study::{Extrapolation, OtherTool};
 

@@ -1,7 +1,7 @@
 //! The answer of a monitor: alarm or not, what changed, and the charts nearest to their limits.
 
+use abbe_metrology::monitor::{Chart, Report};
 use abbe_spec::Spec;
-use abbe_study::monitor::{Chart, Report};
 use abbe_study::number::{digits, percent};
 
 use super::full::monitoring::findings;

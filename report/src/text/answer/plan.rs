@@ -1,9 +1,9 @@
 //! The answer of a plan: what the measurements will determine, and how well.
 
+use abbe_metrology::data::Map;
+use abbe_metrology::plan::Report;
 use abbe_spec::Spec;
-use abbe_study::data::Map;
 use abbe_study::number::digits;
-use abbe_study::plan::Report;
 
 use super::{Answer, aligned, error_unit, first};
 

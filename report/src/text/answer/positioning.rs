@@ -1,9 +1,9 @@
 //! The answer of a positioning test: the characteristics of ISO 230-2 or ISO 230-6.
 
-use abbe_study::number::digits;
-use abbe_study::positioning::{
+use abbe_metrology::positioning::{
     Bidirectional, Characteristic, PositionResult, PositioningLine, Report, Unidirectional,
 };
+use abbe_study::number::digits;
 
 use super::{Answer, aligned};
 

@@ -2,7 +2,7 @@
 
 use abbe::{Class, Description, VariableKind};
 
-use abbe_study::compensate::{NormStatistics, Report, RowSummary};
+use abbe_metrology::compensate::{NormStatistics, Report, RowSummary};
 use abbe_study::number::{NO_BREAK, counted, error_decimals, fixed, length, short, visible};
 
 use super::{Table, wrapped};

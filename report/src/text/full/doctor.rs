@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use abbe_study::doctor::{Finding, Report};
+use abbe_metrology::doctor::{Finding, Report};
 use abbe_study::number::digits;
 
 /// So many readings that cannot be told apart are printed.

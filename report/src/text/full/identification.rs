@@ -1,10 +1,10 @@
 //! Every error that was found, what acts alike, and how well each is known: `--full`.
 
-use abbe_spec::expr::Symbol;
-use abbe_spec::{Fitted, Spec};
-use abbe_study::identify::{
+use abbe_metrology::identify::{
     Gain, JointProfiles, Kind, Parameter, Report, Sizes, TestExtrapolation, WeaklyDetermined, shown_lines,
 };
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Fitted, Spec};
 use abbe_study::number::{self, counted, digits, fixed, percent};
 
 use super::{Table, indistinguishable, wrapped};

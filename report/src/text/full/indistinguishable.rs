@@ -1,6 +1,6 @@
 //! Unknowns that cannot be distinguished, with the reason.
 
-use abbe_study::identify::Indistinguishable;
+use abbe_metrology::identify::Indistinguishable;
 
 use super::Table;
 

@@ -1,9 +1,9 @@
 //! Full text of a plan.
 
+use abbe_metrology::data::Map;
+use abbe_metrology::plan::{Input, Report, UndeterminedError};
 use abbe_spec::Spec;
-use abbe_study::data::Map;
 use abbe_study::number::{digits, quantity};
-use abbe_study::plan::{Input, Report, UndeterminedError};
 
 use super::{indistinguishable, wrapped};
 

@@ -1,7 +1,7 @@
 //! Every position of a positioning test, as text.
 
+use abbe_metrology::positioning::{PositioningLine, Report};
 use abbe_study::number::digits;
-use abbe_study::positioning::{PositioningLine, Report};
 
 use super::Table;
 

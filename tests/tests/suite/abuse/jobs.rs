@@ -8,16 +8,16 @@ use abbe::identify::{Criterion, Loss};
 use abbe::{Manipulator, real_pose};
 use abbe_codegen::print::{Language, Real};
 use abbe_interpreter::Interpreter;
+use abbe_metrology::compensate::Compensate;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Family, Identify, Prior, Settings};
+use abbe_metrology::measure::Measure;
+use abbe_metrology::plan::{Choice, Plan, Sets};
+use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
-use abbe_study::compensate::Compensate;
-use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Family, Identify, Prior, Settings};
 use abbe_study::jacobian::Jacobian;
-use abbe_study::measure::Measure;
-use abbe_study::plan::{Choice, Plan, Sets};
-use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Machine, Notes, Study};
 
 /// Number of steps after which a job is stopped, in the way an interruption stops it.

@@ -14,10 +14,10 @@ mod watch;
 use std::path::Path;
 
 use abbe_interpreter::Interpreter;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::plan::Sets;
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
-use abbe_study::data::{Data, Map};
-use abbe_study::plan::Sets;
 use abbe_study::{Machine, Study};
 use abbe_tests::abuse::{Choices, damaged, damaged_table, spec};
 use tempfile::tempdir;

@@ -26,8 +26,13 @@ pub(crate) const CRATES: &[(&str, &str, &[&str])] = &[
             "abbe-spec",
         ],
     ),
-    ("report", "abbe-report", &["abbe", "abbe-spec", "abbe-study"]),
-    ("cli", "abbe-cli", &["abbe", "abbe-bound", "abbe-report", "abbe-spec", "abbe-study"]),
+    (
+        "metrology",
+        "abbe-metrology",
+        &["abbe", "abbe-codegen", "abbe-interpreter", "abbe-manipulators", "abbe-spec", "abbe-study"],
+    ),
+    ("report", "abbe-report", &["abbe", "abbe-metrology", "abbe-spec", "abbe-study"]),
+    ("cli", "abbe-cli", &["abbe", "abbe-bound", "abbe-metrology", "abbe-report", "abbe-spec", "abbe-study"]),
     (
         "python",
         "abbe-python",
@@ -36,6 +41,7 @@ pub(crate) const CRATES: &[(&str, &str, &[&str])] = &[
             "abbe-bound",
             "abbe-interpreter",
             "abbe-manipulators",
+            "abbe-metrology",
             "abbe-report",
             "abbe-spec",
             "abbe-study",

@@ -6,9 +6,9 @@ use std::fmt::Write;
 use abbe::analysis::sampling;
 use abbe::{Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
+use abbe_metrology::doctor::{Change, Interpretation, PoseFormat};
 use abbe_spec::Spec;
 use abbe_study::Machine;
-use abbe_study::doctor::{Change, Interpretation, PoseFormat};
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 const ROWS: usize = 10;

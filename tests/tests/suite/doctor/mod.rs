@@ -8,11 +8,11 @@ mod case;
 use std::f64::consts::PI;
 use std::path::Path;
 
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::doctor::{Change, Doctor, Interpretation, Report};
+use abbe_metrology::measure::Measure;
 use abbe_spec::Spec;
 use abbe_study::Machine;
-use abbe_study::data::{Data, Map};
-use abbe_study::doctor::{Change, Doctor, Interpretation, Report};
-use abbe_study::measure::Measure;
 
 use case::Mistake::*;
 use case::{ALL, Case, Mistake, Random, case, is_layout, text};

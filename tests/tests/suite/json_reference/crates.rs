@@ -1,7 +1,7 @@
 //! Crates whose types are in reports.
 
 /// Folder of each crate, and the name of its modules here.
-pub(super) const FOLDERS: [(&str, &str); 8] = [
+pub(super) const FOLDERS: [(&str, &str); 9] = [
     ("runtime/core", "core"),
     ("analysis", "analysis"),
     ("bound", "bound"),
@@ -10,6 +10,7 @@ pub(super) const FOLDERS: [(&str, &str); 8] = [
     ("codegen", "codegen"),
     ("exchange", "exchange"),
     ("study", "study"),
+    ("metrology", "metrology"),
 ];
 
 /// Returns the crates whose types a path can name that begins with this crate.
@@ -24,6 +25,7 @@ pub(super) fn declare(first: &str) -> &'static [&'static str] {
         "abbe_codegen" => &["codegen"],
         "abbe_exchange" => &["exchange"],
         "abbe_study" => &["study"],
+        "abbe_metrology" => &["metrology"],
         _ => &[],
     }
 }

@@ -17,11 +17,11 @@ mod unit;
 use std::path::Path;
 
 use abbe_codegen::print::Language;
+use abbe_metrology::identify::options::{LOSSES, TERMS};
+use abbe_metrology::plan::options::CRITERIA;
 use abbe_study::export::Format;
 use abbe_study::generate::Generate;
-use abbe_study::identify::options::{LOSSES, TERMS};
 use abbe_study::options::CONVENTIONS;
-use abbe_study::plan::options::CRITERIA;
 use expect_test::expect_file;
 use serde_json::Value;
 

@@ -13,6 +13,11 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use abbe::identify::INSTRUMENTS;
+use abbe_metrology::data::Map;
+use abbe_metrology::plan::{Choice, Plan, Sets};
+use abbe_metrology::schema::FileKind;
+use abbe_metrology::simulate::{Places, Simulate};
+use abbe_metrology::{data, plan};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::{FUNCTION_NAMES, UNIT_NAMES};
@@ -20,11 +25,7 @@ use abbe_spec::keys::Keys;
 use abbe_spec::{Spec, TABLES};
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
-use abbe_study::data::Map;
-use abbe_study::plan::{Choice, Plan, Sets};
-use abbe_study::schema::FileKind;
-use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Machine, Study, data, plan, study_file, workspace};
+use abbe_study::{Machine, Study, study_file, workspace};
 use abbe_tests::thorough;
 use example::{Use, uses};
 use page::Page;
@@ -233,7 +234,7 @@ fn every_instrument_has_its_row() {
         let known: Vec<&str> = known.flat_map(|table| table.names()).collect();
         let unknown = kind.keys.iter().filter(|key| !known.contains(key));
         problems.extend(
-            unknown.map(|key| format!("study/src/data/keys.rs has no key `{key}` of `{}`", kind.name)),
+            unknown.map(|key| format!("metrology/src/data/keys.rs has no key `{key}` of `{}`", kind.name)),
         );
     }
     nothing(&problems);

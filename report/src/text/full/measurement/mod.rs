@@ -2,8 +2,8 @@
 
 mod sentences;
 
+use abbe_metrology::measure::{InstrumentErrors, Report, Size};
 use abbe_spec::Spec;
-use abbe_study::measure::{InstrumentErrors, Report, Size};
 use abbe_study::number::{digits, fixed};
 
 use super::{Table, wrapped};

@@ -1,6 +1,6 @@
 //! Repeatability and prediction in words.
 
-use abbe_study::measure::{InstrumentErrors, MeanAndMax, Report};
+use abbe_metrology::measure::{InstrumentErrors, MeanAndMax, Report};
 use abbe_study::number::{fixed, percent};
 
 use crate::text::full::identification::residual_verdict;

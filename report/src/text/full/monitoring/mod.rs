@@ -2,8 +2,8 @@
 
 mod sentences;
 
+use abbe_metrology::monitor::{Chart, Report};
 use abbe_spec::Spec;
-use abbe_study::monitor::{Chart, Report};
 use abbe_study::number::{fixed, percent};
 
 use super::{Table, wrapped};

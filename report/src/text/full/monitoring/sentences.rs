@@ -1,6 +1,6 @@
 //! Sentences on alarms and charts.
 
-use abbe_study::monitor::{Finding, Report};
+use abbe_metrology::monitor::{Finding, Report};
 use abbe_study::number::{digits, fixed, trimmed};
 
 /// States the checks, the charts and their false-alarm rate.

@@ -1,0 +1,122 @@
+//! CSV files: a heading, and records with line numbers, read on demand.
+
+use std::io::{self, Cursor, Read};
+use std::path::Path;
+use std::sync::Arc;
+
+use abbe_spec::bounded::{Bounded, Unfit, not_text};
+use abbe_spec::cell::meant;
+use abbe_spec::diagnostic::Diagnostics;
+
+use super::above::{above_heading, stated_separator};
+use super::dialect::Dialect;
+use super::record::Record;
+use abbe_study::lines::{Lines, RecordedReader};
+use abbe_study::mistake;
+
+const WANTED: &str = "give a CSV file with a heading in its first line";
+
+/// Largest size of a file, in bytes.
+const LARGEST_FILE: u64 = 4 << 30;
+
+/// Number of bytes examined for the dialect.
+const HEAD: u64 = 1 << 18;
+
+/// Largest number of columns.
+const MOST_COLUMNS: usize = 10_000;
+
+/// Largest number of rows.
+pub(super) const MOST_ROWS: usize = 2_000_000;
+
+/// A CSV file with a heading.
+pub(super) struct File {
+    file: String,
+    reader: csv::Reader<RecordedReader<io::Chain<Cursor<Vec<u8>>, Bounded>>>,
+    lines: Lines,
+    pub(super) dialect: Dialect,
+    pub(super) heading: Arc<[String]>,
+}
+
+impl File {
+    /// Opens a file and reads its heading.
+    pub(super) fn open(file: &Path) -> Result<Self, Diagnostics> {
+        let name = file.display().to_string();
+        let fail = |error: io::Error| unfit(&name, &Unfit::from_error(&error, WANTED));
+        let mut input = Bounded::open(file, LARGEST_FILE).map_err(fail)?;
+        let mut head = Vec::new();
+        input.by_ref().take(HEAD).read_to_end(&mut head).map_err(fail)?;
+        if let Some(found) = not_text(&head).or_else(|| other_text(&head)) {
+            return Err(unfit(&name, &found));
+        }
+        let stated = stated_separator(&mut head);
+        let dialect = Dialect::detect(&head, stated);
+        if let Some(found) = above_heading(&head, dialect) {
+            return Err(unfit(&name, &found));
+        }
+        let (watched, lines) = RecordedReader::new(Cursor::new(head).chain(input));
+        let mut reader = dialect.reader(watched);
+        let heading = reader.headers().map_err(|error| unreadable(&name, &error))?;
+        let heading: Arc<[String]> = heading.iter().map(|name| meant(name).to_owned()).collect();
+        if heading.len() > MOST_COLUMNS {
+            let message = format!("this file has {} columns; the maximum is {MOST_COLUMNS}", heading.len());
+            return Err(mistake::with_help(
+                name,
+                message,
+                "leave out the columns that the map does not name",
+            ));
+        }
+        Ok(Self { file: name, reader, lines, dialect, heading })
+    }
+
+    /// Returns the records below the heading.
+    pub(super) fn records(self) -> impl Iterator<Item = Result<Record, Diagnostics>> {
+        let Self { file, reader, mut lines, dialect, heading } = self;
+        reader.into_records().enumerate().map(move |(row, record)| {
+            let fields = record.map_err(|error| unreadable(&file, &error))?;
+            let line = fields.position().map_or(0, |position| lines.record_line(position.byte()));
+            if row == MOST_ROWS {
+                let message = format!("this file has more than the maximum of {MOST_ROWS} rows");
+                let help = "split it, or keep every second row";
+                return Err(mistake::with_help(&file, message, help));
+            }
+            Ok(Record::written(line, Arc::clone(&heading), dialect, fields))
+        })
+    }
+}
+
+/// Recognizes a text that is not a table by its first line.
+fn other_text(head: &[u8]) -> Option<Unfit> {
+    if head.contains(&0) {
+        return Some(Unfit::new("this is not a text file: it contains null bytes", WANTED));
+    }
+    let text = String::from_utf8_lossy(head);
+    let mut lines = text.lines().map(str::trim);
+    let line = lines.find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let (what, help) = if line.starts_with('[') && line.ends_with(']') {
+        ("TOML", "data are a CSV file; the spec is the argument before it, and a map follows `--map`")
+    } else if line.starts_with('<') {
+        ("XML", WANTED)
+    } else if line.starts_with('{') || line == "[" {
+        ("JSON", WANTED)
+    } else {
+        return None;
+    };
+    Some(Unfit::new(format!("this file is not a table; it seems to be {what}"), help))
+}
+
+fn unreadable(file: &str, error: &csv::Error) -> Diagnostics {
+    let found = match error.kind() {
+        csv::ErrorKind::Io(error) => Unfit::from_error(error, WANTED),
+        csv::ErrorKind::Utf8 { pos, .. } => {
+            let line = pos.as_ref().map_or(1, csv::Position::line);
+            let message = format!("this file has a byte near line {line} that is not UTF-8 text");
+            Unfit::new(message, "save it as UTF-8, or write names without accents")
+        }
+        _ => Unfit::new(format!("cannot read this file: {error}"), WANTED),
+    };
+    unfit(file, &found)
+}
+
+fn unfit(file: &str, Unfit { message, help }: &Unfit) -> Diagnostics {
+    mistake::with_help(file, message, help)
+}

@@ -1,0 +1,61 @@
+//! Measurements: a CSV file or columns in memory, and a map (TOML) with the meaning of the columns.
+//!
+//! `docs/reference/map.md` describes all keys.
+
+mod above;
+mod cells;
+mod choices;
+mod column;
+mod completed;
+mod configurations;
+mod dated;
+mod dialect;
+mod file;
+mod from_rows;
+mod instrument;
+mod keys;
+mod layout;
+mod map;
+mod missing;
+mod raw_table;
+mod read;
+mod read_camera;
+mod read_channels;
+mod read_distances;
+mod read_instruments;
+mod read_places;
+mod read_values;
+mod record;
+mod rotation;
+mod rows;
+mod runs;
+mod source;
+mod station;
+mod table;
+mod target_frame;
+mod turn;
+
+pub use abbe_spec::csv_writer::{Csv, Heading};
+pub use cells::Cells;
+pub(crate) use choices::UNKNOWN;
+pub use column::{Channel, Column, Scale};
+pub use dated::Dated;
+pub use from_rows::FromRows;
+pub(crate) use from_rows::{change_with_reference, in_order, set_input, with_references};
+pub use instrument::{Instrument, Instruments};
+pub use keys::{TABLES, required_keys, rules};
+pub use map::{Base, Layout, Map, Target};
+pub(crate) use raw_table::{RawTable, raw_table};
+pub use rows::{Data, Summary, Unusable};
+pub(crate) use runs::runs;
+pub use runs::{Runs, TargetRuns};
+pub use source::{Columns, Source};
+pub use station::{Placement, StatedPlacement, StatedStation, Stations};
+pub use table::Table;
+pub use target_frame::TargetFrame;
+pub(crate) use turn::EULER_ORDERS;
+pub use turn::{Order, Turn};
+
+pub(crate) use rotation::{
+    Rotation, from_euler, from_quaternion, from_rotation_vector, is_rotation, quaternion, to_numbers,
+};

@@ -1,0 +1,299 @@
+//! Reader of a map.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use abbe::identify::{Uncertainty, register};
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
+
+use super::choices::{BASES, QUATERNION_ORDERS};
+use super::column::Column;
+use super::configurations::resolution;
+use super::keys;
+use super::map::{Base, Layout, Map, Target};
+use super::read_channels::{inputs, joints};
+use super::read_distances::distances;
+use super::read_instruments::{instruments, target_position};
+use super::read_places::{found_places, placement, stations};
+use super::read_values::{column, columns, constant, deviation, initial_deviation, unit};
+use super::target_frame::TargetFrame;
+use super::turn::{EULER_ORDERS, Turn};
+use crate::acceptance::{Acceptance, FIGURE_NAMES};
+use abbe_study::{RunRecord, check_date, named};
+
+impl Map {
+    /// Reads the map in a file, or the shipped map of that name.
+    pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
+        let document = named::document("--map", argument, abbe_manipulators::MAPS, "maps", "shipped map")?;
+        Self::from_document(document, spec)
+    }
+
+    /// Parses the text of a map; diagnostics name `path`.
+    pub fn parse(path: &str, text: &str, spec: &Spec) -> Result<Self, Diagnostics> {
+        Self::from_document(Document::new(path, text), spec)
+    }
+
+    fn from_document(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
+        let text = Arc::clone(&document.text);
+        let tables = document.tables(&text);
+        let map = tables.and_then(|tables| read_map(&Section::root(&tables), &mut document, spec));
+        merge_duplicates(&mut document);
+        document.finish(map)
+    }
+}
+
+/// Merges diagnostics with equal messages into the first one, which lists the other lines.
+fn merge_duplicates(document: &mut Document) {
+    let line = |mistake: &Diagnostic| {
+        let start = mistake.span.as_ref().map_or(0, |span| span.start.min(document.text.len()));
+        document.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
+    };
+    let mut kept: Vec<(Diagnostic, Vec<String>)> = Vec::new();
+    for mistake in std::mem::take(&mut document.found) {
+        let same =
+            kept.iter_mut().find(|(first, _)| first.message == mistake.message && first.help == mistake.help);
+        match same {
+            Some((_, others)) => others.push(line(&mistake).to_string()),
+            None => kept.push((mistake, Vec::new())),
+        }
+    }
+    document.found = kept
+        .into_iter()
+        .map(|(mut first, others)| {
+            if !others.is_empty() {
+                let more = format!(
+                    "same error in line{} {}",
+                    if others.len() == 1 { "" } else { "s" },
+                    others.join(", ")
+                );
+                first.help = Some(first.help.map_or(more.clone(), |help| format!("{help}; {more}")));
+            }
+            first
+        })
+        .collect();
+}
+
+fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Map> {
+    if !document.is_kind(root, "data") {
+        return None;
+    }
+    root.check_keys(&[&keys::FILE, &keys::FORMS, &keys::STANDS], document);
+    let mut head = root.required("data", document).and_then(|item| document.section(&item))?;
+    head.name = "[data]".to_owned();
+    head.check_keys(&[&keys::DATA], document);
+    let joints = joints(root, document, spec);
+    let inputs = inputs(root, document, spec);
+    let mut named = |key: &str| match head.get(key) {
+        Some(item) => column(&item, document).map(Some),
+        None => Some(None),
+    };
+    let (group, direction, time, setup) = (named("group"), named("direction"), named("time"), named("setup"));
+    let stated = match (head.get("uncertainty"), root.get("instrument")) {
+        (None, Some(_)) => None,
+        _ => {
+            let item = head.required("uncertainty", document);
+            item.and_then(|item| deviation(&item, document, spec, Dimension::LENGTH))
+        }
+    };
+    let target_frame = TargetFrame::read(&head, document, spec)?;
+    let layout = layout(root, stated, setup.flatten(), &target_frame, document, spec);
+    let layout = found_places(root, layout, document, spec);
+    let layout = distances(root, layout, document, spec);
+    let length = match &layout {
+        Some(Layout::Instruments(all)) if stated.flatten().is_none() => Some(Some(all.uncertainty())),
+        _ => stated,
+    };
+    let is_pose = matches!(layout, Some(Layout::Pose(..)));
+    let angle = match head.get("angle_uncertainty") {
+        Some(item) => deviation(&item, document, spec, Dimension::NONE),
+        None if is_pose => {
+            head.required("angle_uncertainty", document);
+            None
+        }
+        None => Some(Some(1.0)),
+    };
+    let uncertainty =
+        |sigma: Option<f64>, is_angle| sigma.unwrap_or_else(|| initial_deviation(is_angle, spec));
+    let base = match head.get("base") {
+        Some(item) => document.choice(&item, &BASES)?,
+        // No camera and no board stands in F_0 by design.
+        None if layout.as_ref().is_some_and(is_camera) => Base::Unknown,
+        None => Base::Known,
+    };
+    let stations = stations(root, &head, document, spec);
+    let placement = placement(root, &head, &target_frame, document, spec, layout.as_ref());
+    let accept = accept(root, document, spec);
+    let record = record(root, document);
+    let base = match &layout {
+        // The pose of `F_0` is absorbed by the fixtures of the instruments.
+        Some(Layout::Instruments(all)) if !all.see_the_base() => Base::Exact,
+        _ => base,
+    };
+    Some(Map {
+        title: head.optional_text("title", document),
+        uncertainty: Uncertainty { length: uncertainty(length?, false), angle: uncertainty(angle?, true) },
+        is_estimated: [length?.is_none(), angle?.is_none()],
+        base,
+        stations: stations?,
+        target_frame,
+        placement: placement?,
+        accept: accept?,
+        record: record?,
+        is_newly_stationed: false,
+        joints: joints?,
+        inputs: inputs?,
+        layout: layout?,
+        group: group?,
+        direction: direction?,
+        time: time?,
+        resolution: resolution(spec),
+        path: document.path.clone(),
+        text: Arc::clone(&document.text),
+        files: document.files.clone(),
+    })
+}
+
+fn is_camera(layout: &Layout) -> bool {
+    matches!(layout, Layout::Instruments(all) if all.camera.is_some())
+}
+
+fn layout(
+    root: &Section<'_>,
+    stated: Option<Option<f64>>,
+    setup: Option<Column>,
+    frame: &TargetFrame,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<Layout> {
+    let alone = |item: &Item<'_>| {
+        keys::FORMS.contain(&item.key) && !["target", "instrument"].contains(&item.key.as_str())
+    };
+    if root.get("instrument").is_some() && !root.items().any(|item| alone(&item)) {
+        let all = instruments(root, stated, setup, frame, document, spec)?;
+        return Some(Layout::Instruments(Box::new(all)));
+    }
+    let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
+    let (Some(form), None) = (forms.next(), forms.next()) else {
+        let message = "a map needs exactly one description of the measurements";
+        let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more), `[pose]` \
+            and `[[instrument]]`";
+        document.mistake(Diagnostic::new(0..0, message).help(help));
+        return None;
+    };
+    if form.key == "target" {
+        return targets(&form, frame, document, spec);
+    }
+    let mut section = document.section(&form)?;
+    section.name = format!("[{}]", form.key);
+    let factor = unit(&section, document, spec, Dimension::LENGTH);
+    match form.key.as_str() {
+        "point" => {
+            section.check_keys(&[&keys::POINT], document);
+            Some(Layout::Point(columns(&section, "columns", document)?, factor?))
+        }
+        "difference" => {
+            section.check_keys(&[&keys::DIFFERENCE], document);
+            let target = columns(&section, "target", document);
+            Some(Layout::Difference(target?, columns(&section, "difference", document)?, factor?))
+        }
+        _ => {
+            section.check_keys(&[&keys::POSE, &keys::TURN], document);
+            let position = columns(&section, "position", document);
+            Some(Layout::Pose(position?, factor?, turn(&section, document, spec)?))
+        }
+    }
+}
+
+fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Turn> {
+    if section.get("matrix").is_some() {
+        return Some(Turn::Matrix(Box::new(columns(section, "matrix", document)?)));
+    }
+    if let Some(item) = section.get("quaternion") {
+        let section = document.section(&item)?;
+        section.check_keys(&[&keys::QUATERNION], document);
+        let order = section.required("order", document)?;
+        let order = document.choice(&order, &QUATERNION_ORDERS);
+        return Some(Turn::Quaternion(Box::new(columns(&section, "columns", document)?), order?));
+    }
+    if let Some(item) = section.get("rotation_vector") {
+        let section = document.section(&item)?;
+        section.check_keys(&[&keys::ROTATION_VECTOR], document);
+        let factor = unit(&section, document, spec, Dimension::NONE);
+        return Some(Turn::RotationVector(Box::new(columns(&section, "columns", document)?), factor?));
+    }
+    let Some(item) = section.get("euler") else {
+        let help = "give `quaternion`, `matrix`, `euler` or `rotation_vector`";
+        document.mistake(Diagnostic::new(section.span.clone(), "this pose has no orientation").help(help));
+        return None;
+    };
+    let section = document.section(&item)?;
+    section.check_keys(&[&keys::EULER], document);
+    let order = section.required("order", document).and_then(|item| document.choice(&item, &EULER_ORDERS));
+    let factor = unit(&section, document, spec, Dimension::NONE);
+    Some(Turn::Euler(Box::new(columns(&section, "columns", document)?), order?, factor?))
+}
+
+fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: &Spec) -> Option<Layout> {
+    let items = document.array(item, "an array of tables [[target]]")?;
+    let mut targets = Vec::new();
+    for item in &items {
+        let mut section = document.section(item)?;
+        section.span = item.span();
+        section.name = "this [[target]]".to_owned();
+        section.check_keys(&[&keys::TARGET], document);
+        section.optional_text("name", document);
+        let columns = columns(&section, "columns", document);
+        let factor = unit(&section, document, spec, Dimension::LENGTH);
+        let position = section.required("position", document)?;
+        let position = target_position(&position, frame, document, spec)?;
+        targets.push(Target { columns: columns?, factor: factor?, position });
+    }
+    let positions: Vec<[f64; 3]> = targets.iter().filter_map(|target| target.position).collect();
+    let mistake = match register(&positions, &positions) {
+        _ if targets.len() < 3 => "at least three targets are needed",
+        // Where the others are, the rows show.
+        _ if positions.len() < targets.len() => return Some(Layout::Targets(targets)),
+        None => "at least three targets are needed",
+        Some(found) if found.breadth < 1e-3 => {
+            "these targets are collinear: a rotation about their line cannot be measured"
+        }
+        Some(_) => return Some(Layout::Targets(targets)),
+    };
+    let help = "move one of them off the line, or measure a single one as `[point]`";
+    document.mistake(Diagnostic::new(item.key_span.clone(), mistake).help(help));
+    None
+}
+
+/// Reads `[accept]`: limits for rows that were not used in a fit.
+fn accept(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Acceptance> {
+    let Some(item) = root.get("accept") else { return Some(Acceptance::default()) };
+    let mut section = document.section(&item)?;
+    section.name = "[accept]".to_owned();
+    section.check_keys(&[&keys::ACCEPT], document);
+    let figures = FIGURE_NAMES.into_iter().filter_map(|figure| Some((figure, section.get(figure)?)));
+    let limits =
+        figures.map(|(figure, item)| Some((figure, constant(&item, document, spec, Dimension::LENGTH)?)));
+    Some(Acceptance { limits: limits.collect::<Option<_>>()? })
+}
+
+/// Reads `[record]`: texts for a page that can be signed.
+fn record(root: &Section<'_>, document: &mut Document) -> Option<RunRecord> {
+    let mut record = RunRecord::default();
+    let Some(item) = root.get("record") else { return Some(record) };
+    let mut section = document.section(&item)?;
+    section.name = "[record]".to_owned();
+    section.check_keys(&[&keys::RECORD], document);
+    for key in keys::RECORD.names() {
+        let text = section.optional_text(key, document);
+        let wrong = check_date(&text).err().filter(|_| key == "date" && !text.is_empty());
+        if let (Some(form), Some(item)) = (wrong, section.get(key)) {
+            let message = format!("`{}` is no date", text.escape_debug());
+            document.mistake(Diagnostic::new(item.span(), message).help(form));
+        }
+        record.state(key, text);
+    }
+    Some(record)
+}

@@ -1,0 +1,204 @@
+//! Reader of runs of one axis or of body diagonals: target positions and deviations, as lasers
+//! write them.
+//!
+//! A file has one row for each reading, with columns `position`, `direction` and `deviation` (or
+//! `actual`, the actual position), or one row for each position with one column for each pass,
+//! such as `1+` and `1-`. Units are in the headings: `position (mm)`, `deviation (um)`.
+
+use abbe::LengthUnit;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::{Dimension, Unit};
+
+use super::source::{Opened, Source};
+use abbe_study::mistake;
+
+/// Approaches of one target position.
+#[derive(Clone, Debug, Default)]
+pub struct TargetRuns {
+    /// Target position, in mm or deg.
+    pub position: f64,
+    /// Deviations of the approaches from below and from above, in um or arcsec.
+    pub deviations: [Vec<f64>; 2],
+}
+
+/// Runs of an axis or of several diagonals.
+#[derive(Clone, Debug)]
+pub struct Runs {
+    /// The axis is rotary.
+    pub is_rotary: bool,
+    /// Name of each diagonal, empty for an axis, and its targets by rising position.
+    pub lines: Vec<(String, Vec<TargetRuns>)>,
+}
+
+/// Names of columns, in lower case.
+const POSITION: [&str; 3] = ["position", "target", "target position"];
+const DEVIATION: [&str; 2] = ["deviation", "error"];
+const ACTUAL: [&str; 3] = ["actual", "actual position", "measured"];
+const DIRECTION: [&str; 2] = ["direction", "approach"];
+const DIAGONAL: [&str; 1] = ["diagonal"];
+/// Columns without a meaning here.
+const IGNORED: [&str; 3] = ["run", "line", "time"];
+
+/// Words for the directions of approach, from below and from above.
+const WORDS: [&[&str]; 2] = [
+    &["+", "1", "+1", "up", "forward", "fwd", "positive", "↑"],
+    &["-", "−", "-1", "down", "reverse", "rev", "backward", "negative", "↓"],
+];
+
+/// Distance of positions, relative to the largest, within which they are the same.
+const SAME: f64 = 1e-9;
+
+const FORM: &str = "name columns `position (mm)`, `direction` and `deviation (um)`, or one column for \
+                    each pass: `1+ (um)`, `1- (um)`";
+
+/// Column of readings.
+struct Readings {
+    place: usize,
+    unit: Unit,
+    /// Direction of a pass; none where a column has it.
+    direction: Option<usize>,
+    /// Actual positions instead of deviations.
+    is_actual: bool,
+}
+
+/// Reads runs.
+pub(crate) fn runs(source: Source<'_>) -> Result<Runs, Diagnostics> {
+    let Opened { heading, records, .. } = source.open()?;
+    let name = source.name();
+    let refuse = |message: String, help: &str| Err(mistake::with_help(&name, message, help));
+    let parts: Vec<(String, Option<&str>)> = heading.iter().map(|cell| split(cell)).collect();
+    let find = |names: &[&str]| parts.iter().position(|(own, _)| names.contains(&own.as_str()));
+    let Some(position) = find(&POSITION) else {
+        return refuse("no column is named `position`".to_owned(), FORM);
+    };
+    let (direction, diagonal) = (find(&DIRECTION), find(&DIAGONAL));
+    let unit = |place: usize| match parts[place].1.map(|text| (text, Unit::named(text))) {
+        Some((_, Some(unit))) if unit.dimension == Dimension::LENGTH || unit.dimension == Dimension::NONE => {
+            Ok(unit)
+        }
+        Some((text, _)) => Err(mistake::with_help(
+            &name,
+            format!("`{}` is not a unit of a length or an angle", text.escape_debug()),
+            "write `mm`, `um`, `deg` or `arcsec`",
+        )),
+        None => Err(mistake::with_help(
+            &name,
+            format!("column `{}` has no unit", heading[place].escape_debug()),
+            "write it in parentheses behind the name: `position (mm)`, `deviation (um)`",
+        )),
+    };
+    let readings: Vec<Readings> = match (find(&DEVIATION), find(&ACTUAL)) {
+        (Some(place), _) => vec![Readings { place, unit: unit(place)?, direction: None, is_actual: false }],
+        (None, Some(place)) => vec![Readings { place, unit: unit(place)?, direction: None, is_actual: true }],
+        (None, None) => {
+            let mut passes = Vec::new();
+            for (place, (own, _)) in parts.iter().enumerate() {
+                let is_other = Some(place) == direction || Some(place) == diagonal || place == position;
+                if let Some(side) = pass(own).filter(|_| !is_other && !IGNORED.contains(&own.as_str())) {
+                    passes.push(Readings {
+                        place,
+                        unit: unit(place)?,
+                        direction: Some(side),
+                        is_actual: false,
+                    });
+                }
+            }
+            passes
+        }
+    };
+    if readings.is_empty() {
+        return refuse("no column has deviations".to_owned(), FORM);
+    }
+    if direction.is_none() && readings.iter().any(|own| own.direction.is_none()) {
+        return refuse("no column is named `direction`".to_owned(), FORM);
+    }
+    let position_unit = unit(position)?;
+    if let Some(own) = readings.iter().find(|own| own.unit.dimension != position_unit.dimension) {
+        let message = format!(
+            "`{}` and `{}` are not both lengths or both angles",
+            heading[position].escape_debug(),
+            heading[own.place].escape_debug()
+        );
+        return refuse(message, "write the units of one axis");
+    }
+    let is_rotary = position_unit.dimension == Dimension::NONE;
+    // In mm or rad; deviations are shown in um or arcsec.
+    let coherent = |unit: Unit, number: f64| unit.convert(number, LengthUnit::Millimetre);
+    let shown = |deviation: f64| if is_rotary { 3600.0 * deviation.to_degrees() } else { 1e3 * deviation };
+    let mut lines: Vec<(String, Vec<TargetRuns>)> = Vec::new();
+    for record in records {
+        let record = record?;
+        let failed = |reason: String| {
+            let message = format!("line {}: {reason}", record.line);
+            mistake::with_help(&name, message, "correct the row, or remove it")
+        };
+        if let Some(reason) = record.too_long() {
+            return Err(failed(reason));
+        }
+        let target = coherent(position_unit, record.number(position).map_err(failed)?);
+        let at = if is_rotary { target.to_degrees() } else { target };
+        let line = diagonal.map_or(String::new(), |place| record.text(place).into_owned());
+        if diagonal.is_some() && line.is_empty() {
+            return Err(failed("the diagonal is missing".to_owned()));
+        }
+        for own in &readings {
+            if own.direction.is_some() && record.is_empty(own.place) {
+                continue;
+            }
+            let side = match (own.direction, direction) {
+                (Some(side), _) => side,
+                (None, place) => {
+                    let text =
+                        place.map(|place| record.text(place).trim().to_lowercase()).unwrap_or_default();
+                    word(&text).ok_or_else(|| {
+                        failed(format!("`{}` is not a direction, `+` or `-`", text.escape_debug()))
+                    })?
+                }
+            };
+            let number = coherent(own.unit, record.number(own.place).map_err(failed)?);
+            let deviation = shown(if own.is_actual { number - target } else { number });
+            let place = lines.iter().position(|(other, _)| *other == line).unwrap_or_else(|| {
+                lines.push((line.clone(), Vec::new()));
+                lines.len() - 1
+            });
+            let targets = &mut lines[place].1;
+            let same = |one: &TargetRuns| (one.position - at).abs() <= SAME * at.abs().max(1.0);
+            let place = targets.iter().position(same).unwrap_or_else(|| {
+                targets.push(TargetRuns { position: at, ..TargetRuns::default() });
+                targets.len() - 1
+            });
+            targets[place].deviations[side].push(deviation);
+        }
+    }
+    for (line, targets) in &mut lines {
+        targets.sort_by(|a, b| a.position.total_cmp(&b.position));
+        if targets.len() < 2 {
+            let of =
+                if line.is_empty() { String::new() } else { format!(" of diagonal {}", line.escape_debug()) };
+            return refuse(format!("there are fewer than two target positions{of}"), "measure at several");
+        }
+    }
+    if lines.is_empty() {
+        return refuse("there are no readings".to_owned(), FORM);
+    }
+    Ok(Runs { is_rotary, lines })
+}
+
+/// Splits a heading into its name, in lower case, and the unit in parentheses.
+fn split(heading: &str) -> (String, Option<&str>) {
+    let parts = heading.strip_suffix(')').and_then(|text| text.rsplit_once('('));
+    let (name, unit) = parts.map_or((heading, None), |(name, unit)| (name, Some(unit.trim())));
+    (name.trim().to_lowercase(), unit)
+}
+
+/// Returns the direction that a word means: 0 from below, 1 from above.
+fn word(text: &str) -> Option<usize> {
+    WORDS.iter().position(|words| words.contains(&text))
+}
+
+/// Returns the direction of a pass: the last word or sign of its name.
+fn pass(name: &str) -> Option<usize> {
+    let last = name.split(' ').next_back().unwrap_or_default();
+    let sign = name.char_indices().next_back().map(|(at, _)| &name[at..]).filter(|sign| *sign != "1");
+    word(last).filter(|_| last != "1").or_else(|| word(sign?))
+}

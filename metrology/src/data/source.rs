@@ -1,0 +1,149 @@
+//! Sources of rows: a CSV file, or columns in memory.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use abbe_spec::diagnostic::Diagnostics;
+use sha2::{Digest, Sha256};
+
+use super::cells::Cells;
+use super::file::{File, MOST_ROWS};
+use super::record::Record;
+use abbe_study::{hash, mistake};
+
+/// Source of rows.
+#[derive(Clone, Copy, Debug)]
+pub enum Source<'a> {
+    /// A CSV file.
+    File(&'a Path),
+    /// Columns in memory.
+    Columns(&'a Columns),
+}
+
+/// Named columns of equal lengths, and the names of ignored ones.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    /// Name in diagnostics.
+    name: String,
+    pub(super) heading: Arc<[String]>,
+    cells: Vec<Arc<Cells>>,
+    rows: usize,
+}
+
+impl Columns {
+    /// Creates columns with their names.
+    ///
+    /// `name` is used in diagnostics; `others` are the names of ignored columns. Columns of
+    /// different lengths are an error.
+    pub fn new(name: &str, columns: Vec<(String, Cells)>, others: Vec<String>) -> Result<Self, Diagnostics> {
+        let rows = columns.first().map_or(0, |(_, cells)| cells.len());
+        if let Some((other, cells)) = columns.iter().find(|(_, cells)| cells.len() != rows) {
+            let message = format!(
+                "`{}` has {} rows, and `{}` has {rows}",
+                other.escape_debug(),
+                cells.len(),
+                columns[0].0.escape_debug()
+            );
+            return Err(mistake::with_help(name, message, "give columns of equal length"));
+        }
+        if rows > MOST_ROWS {
+            let message = format!("this table has {rows} rows; the maximum is {MOST_ROWS}");
+            return Err(mistake::with_help(name, message, "split it, or keep every second row"));
+        }
+        let (mut heading, cells): (Vec<_>, Vec<_>) =
+            columns.into_iter().map(|(name, cells)| (name, Arc::new(cells))).unzip();
+        heading.extend(others);
+        Ok(Self { name: name.to_owned(), heading: heading.into(), cells, rows })
+    }
+
+    /// Returns the SHA-256 of names, numbers and texts, without ignored columns.
+    fn hash(&self) -> String {
+        let mut hasher = Sha256::new();
+        let mut text = |text: &str| {
+            hasher.update((text.len() as u64).to_le_bytes());
+            hasher.update(text);
+        };
+        self.heading[..self.cells.len()].iter().for_each(|name| text(name));
+        for cells in &self.cells {
+            match &**cells {
+                Cells::Texts(cells) => cells.iter().for_each(|cell| text(cell)),
+                Cells::Numbers(cells) => {
+                    cells.iter().for_each(|number| text(&format!("{:016x}", number.to_bits())));
+                }
+            }
+        }
+        hash::hex(&hasher.finalize())
+    }
+}
+
+/// A heading, and an iterator over the rows below it.
+pub(super) struct Opened {
+    pub(super) heading: Arc<[String]>,
+    /// Description of the dialect, if it is not the usual one.
+    pub(super) dialect: Option<&'static str>,
+    pub(super) records: Box<dyn Iterator<Item = Result<Record, Diagnostics>>>,
+}
+
+impl Source<'_> {
+    /// Returns the name in diagnostics.
+    pub fn name(&self) -> String {
+        match self {
+            Self::File(file) => file.display().to_string(),
+            Self::Columns(columns) => columns.name.clone(),
+        }
+    }
+
+    /// Returns the path, if it is a file.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::File(file) => Some(file),
+            Self::Columns(_) => None,
+        }
+    }
+
+    /// Returns the SHA-256 of a file, as `sha256sum` does, or of the names, numbers and texts of
+    /// columns.
+    pub fn hash(&self) -> Result<String, Diagnostics> {
+        match self {
+            Self::File(file) => hash::file(file),
+            Self::Columns(columns) => Ok(columns.hash()),
+        }
+    }
+
+    /// Reads the heading.
+    pub(super) fn open(&self) -> Result<Opened, Diagnostics> {
+        match self {
+            Self::File(file) => {
+                let file = File::open(file)?;
+                let (heading, dialect) = (Arc::clone(&file.heading), file.dialect.words());
+                Ok(Opened { heading, dialect, records: Box::new(file.records()) })
+            }
+            Self::Columns(columns) => {
+                let (heading, cells) = (Arc::clone(&columns.heading), Arc::<[_]>::from(&columns.cells[..]));
+                let row = {
+                    let heading = Arc::clone(&heading);
+                    move |row| Ok(Record::of_columns(row, Arc::clone(&heading), Arc::clone(&cells)))
+                };
+                Ok(Opened { heading, dialect: None, records: Box::new((0..columns.rows).map(row)) })
+            }
+        }
+    }
+}
+
+impl<'a> From<&'a Path> for Source<'a> {
+    fn from(file: &'a Path) -> Self {
+        Self::File(file)
+    }
+}
+
+impl<'a> From<&'a PathBuf> for Source<'a> {
+    fn from(file: &'a PathBuf) -> Self {
+        Self::File(file)
+    }
+}
+
+impl<'a> From<&'a Columns> for Source<'a> {
+    fn from(columns: &'a Columns) -> Self {
+        Self::Columns(columns)
+    }
+}

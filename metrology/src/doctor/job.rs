@@ -1,0 +1,103 @@
+//! The job: reads the rows, searches the interpretations, and writes the map of the best.
+
+use abbe_spec::diagnostic::Diagnostics;
+
+use super::columns::Columns;
+use super::kinematics::Kinematics;
+use super::report::{Finding, Report};
+use super::sentence::sentence;
+use super::{alternatives, map_writer};
+use crate::data::Source;
+use crate::interpretations::{
+    Candidate, LENGTHS, Observed, PoseFormat, Ranked, Search, Tolerance, ranked, words,
+};
+use abbe_study::number::digits;
+use abbe_study::{Machine, Notes, mistake};
+
+/// Largest number of rows that are used; of more, this many evenly spaced ones.
+const MOST_ROWS: usize = 40;
+
+/// Default tolerance, as a share of the spread of the positions.
+const WITHIN: f64 = 0.02;
+
+/// Job of `abbe doctor`: finds the interpretation under which data agree with a spec.
+pub struct Doctor<'a> {
+    /// Machine with its spec.
+    pub machine: Machine,
+    /// Rows with one column per joint, then a pose or position.
+    pub data: Source<'a>,
+    /// Largest residual at which an interpretation fits, in the spec's length unit; `None` for the
+    /// default.
+    pub within: Option<f64>,
+}
+
+impl Doctor<'_> {
+    /// Searches the interpretations.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        self.machine.require_chain(
+            "conventions cannot be searched",
+            "compare a few rows with `abbe jacobian`, which prints the pose at given joint values",
+        )?;
+        let columns = Columns::read(self.data, &self.machine.spec, MOST_ROWS, notes)?;
+        let kinematics = Kinematics::new(&self.machine.spec)
+            .map_err(|error| mistake::whole(&self.machine.origin, &error))?;
+        let formats = PoseFormat::all(columns.pose.first().map_or(0, Vec::len));
+        if formats.is_empty() {
+            let count = columns.pose.first().map_or(0, Vec::len);
+            let message = format!("there are {count} columns of numbers besides the joints");
+            let help = "a position has 3 columns; a pose has 6 with angles, 7 with a quaternion, \
+                12 with a 3×4 matrix or 16 with a 4×4 matrix; remove the others. Pixels of a camera need a \
+                map: `abbe identify` with it tests units, signs and orders of the joints as well";
+            return Err(mistake::with_help(self.data.name(), message, help));
+        }
+        let tolerance = Tolerance { within: self.within, share: WITHIN, enough: 1.0 };
+        let metres = self.machine.spec.length.in_metres();
+        let observed = Observed::all(&columns.pose, &formats, &LENGTHS, &[None], metres);
+        let search = Search::new(&kinematics, &columns.joints, &LENGTHS, observed, tolerance);
+        let candidates = search.run(alternatives::stages(&kinematics), notes)?;
+        let Ranked { found, simpler, others } = ranked(candidates, &tolerance, None);
+        let spec = &self.machine.spec;
+        let best = found.first().or(others.first());
+        let within = best.map_or(self.within.unwrap_or_default(), |best| tolerance.limit(best.spread));
+        if let Some(requested) = self.within.filter(|requested| *requested > within) {
+            let unit = spec.length.symbol();
+            notes.warn(&format!(
+                "{} {unit} exceeds a tenth of the spread of the positions; within that, any \
+                 interpretation would fit. The limit {} {unit} is used instead",
+                digits(requested, 3),
+                digits(within, 3)
+            ));
+        }
+        let finding = |candidate: &Candidate| Finding {
+            words: words::interpretation(&candidate.interpretation, spec),
+            interpretation: candidate.interpretation.clone(),
+            residual: candidate.residual.position,
+            angle: candidate.residual.angle,
+            both: candidate.residual.both,
+        };
+        let (map, of_spec) = match found.first() {
+            Some(first) => {
+                let (map, of_spec) = map_writer::map(first, spec, &columns);
+                (Some(map), of_spec)
+            }
+            None => (None, Vec::new()),
+        };
+        let found: Vec<Finding> = found.iter().map(finding).collect();
+        let others: Vec<Finding> = others.iter().map(finding).collect();
+        Ok(Report {
+            name: spec.name.clone(),
+            length: spec.length.symbol(),
+            rows: columns.joints.len(),
+            fits: !found.is_empty(),
+            simpler: simpler.as_ref().map(finding),
+            joints: columns.joint_names,
+            seen: columns.pose_names,
+            within,
+            sentence: sentence(&found, &others, spec, within, &columns.joints),
+            found,
+            others,
+            map,
+            of_spec,
+        })
+    }
+}

@@ -1,0 +1,139 @@
+//! Numbers of the chain (joint zeros, structural parameters, Denavit-Hartenberg numbers) that are
+//! equivalent to constant errors of one frame.
+
+use abbe::{Component, VariableKind};
+use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
+use abbe_codegen::graph::{Frame, Graph, Node};
+use abbe_spec::expr::{Dimension, Motion, Symbol};
+use abbe_spec::{ChainNumber, DhNumber, Spec};
+
+use abbe_study::number::digits;
+
+/// Number of configurations at which an error must be equal to count as constant.
+const SAMPLES: usize = 5;
+
+/// Beginning of the name of a joint's zero.
+const ZERO_OF: &str = "zero of ";
+
+/// Number of the chain that is equivalent to constant errors of one frame.
+pub(crate) struct ChainError {
+    /// Name: `zero of q2`, `upper_arm`.
+    pub(crate) name: String,
+    /// Is true for an angle or a pure number, false for a length.
+    pub(crate) is_angle: bool,
+    /// Index of the frame, from 0.
+    pub(crate) frame: usize,
+    /// Six generalized errors of that frame per unit of the number.
+    pub(crate) errors: [f64; 6],
+}
+
+/// Returns all such numbers, joints first.
+pub(crate) fn chain_errors(spec: &Spec) -> Vec<ChainError> {
+    let mut graph = Graph::with_tables(&spec.tables);
+    let all = chain_numbers(spec).into_iter().filter_map(|(name, number)| {
+        let (frame, errors) = constant_errors(&mut graph, spec, number)?;
+        Some(ChainError { name, is_angle: is_angle(spec, number), frame, errors })
+    });
+    all.collect()
+}
+
+/// Returns an error of a frame as a number: `e_x of wrist`.
+pub(crate) fn frame_error(spec: &Spec, frame: usize, component: Component) -> ChainError {
+    ChainError {
+        name: format!("{} of {}", component.name(), spec.frames[frame].name),
+        is_angle: component.is_rotation(),
+        frame,
+        errors: Component::ALL.map(|other| f64::from(u8::from(other == component))),
+    }
+}
+
+/// Returns every number of the chain with its name: joints, then parameters, then
+/// Denavit-Hartenberg numbers.
+pub(super) fn chain_numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
+    let joints = spec.variables.iter().enumerate();
+    let joints = joints.map(|(i, joint)| (format!("{ZERO_OF}{}", joint.name), ChainNumber::Joint(i)));
+    let parameters = spec.parameters.iter().enumerate();
+    let parameters = parameters.map(|(i, parameter)| (parameter.name.clone(), ChainNumber::Parameter(i)));
+    let frames = spec.frames.iter().enumerate().filter(|(_, frame)| frame.convention.is_some());
+    let of_frames = frames.flat_map(|(i, frame)| {
+        let name = &frame.name;
+        DhNumber::ALL.map(|number| {
+            (format!("{} of {name}", number.name()), ChainNumber::DenavitHartenberg { frame: i, number })
+        })
+    });
+    joints.chain(parameters).chain(of_frames).collect()
+}
+
+/// Returns the frame and its six errors per unit of a number, if they are the same in all
+/// configurations.
+pub(super) fn constant_errors(
+    graph: &mut Graph,
+    spec: &Spec,
+    number: ChainNumber,
+) -> Option<(usize, [f64; 6])> {
+    let twists = frame_twists(graph, spec, number);
+    let [FrameTwist { frame, velocity, rotation }] = twists[..] else { return None };
+    if let Some(errors) = constant(graph, spec, velocity, rotation) {
+        return Some((frame, errors));
+    }
+    // Ad(A): ω' = R ω, v' = R v + p × ω'. In a tree, other frames may hang on that one.
+    let before = spec.frames[frame].parent.filter(|_| spec.is_serial())?;
+    let Frame { axes, position } = transform(graph, &spec.frames[frame].factors);
+    let turned = graph.turn(&axes, rotation);
+    let (moved, swing) = (graph.turn(&axes, velocity), graph.cross(position, turned));
+    let moved = graph.add_vectors(moved, swing);
+    Some((before, constant(graph, spec, moved, turned)?))
+}
+
+fn constant(graph: &Graph, spec: &Spec, velocity: [Node; 3], rotation: [Node; 3]) -> Option<[f64; 6]> {
+    let nodes = Component::ALL.map(|component| match component.is_rotation() {
+        true => rotation[component.axis()],
+        false => velocity[component.axis()],
+    });
+    let at = |sample: usize| {
+        graph.evaluate(&nodes, |symbol| match symbol {
+            Symbol::Variable(i) => spec.variables[i].home + (1.3 * (sample * (i + 2)) as f64).sin(),
+            Symbol::Parameter(i) => spec.parameters[i].value,
+            Symbol::Passive(_)
+            | Symbol::Input(_)
+            | Symbol::Error(_)
+            | Symbol::Local(_)
+            | Symbol::Magnitude(_)
+            | Symbol::Target(_) => f64::NAN,
+        })
+    };
+    let first = at(0);
+    let largest = first.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let same = |(a, b): (&f64, f64)| (a - b).abs() <= 1e-12 * largest;
+    let constant = (1..SAMPLES).all(|sample| first.iter().zip(at(sample)).all(same));
+    let errors: [f64; 6] = first.try_into().ok()?;
+    constant.then_some(errors.map(|value| if value.abs() > 1e-12 * largest { value } else { 0.0 }))
+}
+
+/// Returns whether the error of a number is an angle.
+pub(super) fn is_angle(spec: &Spec, number: ChainNumber) -> bool {
+    match number {
+        ChainNumber::Joint(joint) => spec.variables[joint].kind == VariableKind::Revolute,
+        ChainNumber::Parameter(parameter) => spec.parameters[parameter].dimension == Dimension::NONE,
+        ChainNumber::DenavitHartenberg { number, .. } => number.motion().0 == Motion::Rotation,
+    }
+}
+
+/// Formats the error of a number, such as `a of elbow is 0.2 ± 0.01 mm less than nominal`.
+pub(super) fn phrase(
+    spec: &Spec,
+    number: &str,
+    is_angle: bool,
+    value: f64,
+    standard_deviation: f64,
+) -> String {
+    let (factor, unit) = if is_angle { (1e3, "mrad") } else { (1.0, spec.length.symbol()) };
+    let size =
+        format!("{} ± {} {unit}", digits(value.abs() * factor, 3), digits(standard_deviation * factor, 2));
+    match (number.starts_with(ZERO_OF), value < 0.0) {
+        (true, true) => format!("the {number} is offset by -{size}"),
+        (true, false) => format!("the {number} is offset by {size}"),
+        (false, true) => format!("{number} is {size} less than nominal"),
+        (false, false) => format!("{number} is {size} more than nominal"),
+    }
+}

@@ -1,0 +1,65 @@
+//! Position errors of the fitted and of the delivered machine on the same rows.
+
+use abbe::LengthUnit;
+use abbe::identify::Model;
+use abbe_spec::diagnostic::Diagnostics;
+
+use super::report::Compared;
+use super::solve::Solved;
+use crate::data::Data;
+use abbe_study::{mistake, number};
+
+/// Probability by chance at which terms count as worse than constant errors on the test rows.
+const WORSE: f64 = 0.05;
+
+/// Compares a fit, and a fit of constant errors alone if there is one, with the machine as
+/// delivered on the rows that `used` accepts.
+pub(super) fn compare(
+    solved: &Solved,
+    constant: Option<&Solved>,
+    delivered: &Model,
+    data: &Data,
+    used: impl Fn(usize) -> bool + Sync,
+) -> Result<Compared, Diagnostics> {
+    let rows = &data.observations;
+    let distances = |model: &Model, x: &[f64]| {
+        let distances = model.distances_where(rows, |i| used(i).then_some(x));
+        distances.map_err(|failure| mistake::whole(&data.file, &failure))
+    };
+    // Few models at a time, to limit the memory for a million rows.
+    let before = distances(delivered, &[])?.into_figures();
+    let simple = distances(&solved.simple, &solved.simple_x)?;
+    let after = distances(&solved.model, &solved.fit.x)?;
+    let gain = after.compared_with(&simple);
+    let base_and_tool = simple.into_figures();
+    let constant = constant.map(|constant| distances(&constant.model, &constant.fit.x)).transpose()?;
+    let gain_of_terms = constant.as_ref().map(|constant| after.compared_with(constant).into());
+    let left = after.into_figures();
+    Ok(Compared {
+        rows: (0..rows.len()).filter(|i| used(*i)).count(),
+        configurations: left.configurations,
+        before: before.into(),
+        base_and_tool: base_and_tool.into(),
+        constant: constant.map(|constant| constant.into_figures().into()),
+        after: left.into(),
+        gain: gain.into(),
+        gain_of_terms,
+    })
+}
+
+impl Compared {
+    /// Returns a note if constant errors alone leave significantly less on these rows, which were
+    /// not fitted.
+    pub(super) fn note_on_terms(&self, unit: LengthUnit) -> Option<String> {
+        let (constant, gain) = (self.constant?, self.gain_of_terms?);
+        let length = |value| number::length(value, unit);
+        (gain.mean < 0.0 && gain.p <= WORSE).then(|| {
+            format!(
+                "note: on the test rows, constant errors alone leave {} in the mean, and {} with the \
+                 terms: for such configurations, identify without `--terms`",
+                length(constant.mean),
+                length(self.after.mean)
+            )
+        })
+    }
+}

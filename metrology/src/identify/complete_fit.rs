@@ -1,0 +1,104 @@
+//! Complete fit: constant errors together with selected terms.
+
+use abbe::identify::{Comparison, Distances, Failure};
+use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+
+use super::as_joint_errors::number_terms;
+use super::extended::extended;
+use super::instruments::estimate;
+use super::interpretation_check::check_interpretation;
+use super::magnitude::own_magnitudes;
+use super::options::Settings;
+use super::plausibility::check_plausibility;
+use super::setup::Setup;
+use super::solve::{Solved, solve};
+use super::terms::Term;
+use crate::data::{Data, Map};
+use abbe_study::{Notes, mistake};
+
+/// Spec with derived inputs, and the rows that a model is fitted to.
+#[derive(Clone, Copy)]
+pub(super) struct FitInput<'a> {
+    pub(super) spec: &'a Spec,
+    pub(super) map: &'a Map,
+    pub(super) data: &'a Data,
+    pub(super) settings: &'a Settings,
+}
+
+impl FitInput<'_> {
+    /// Returns the interpreter of the spec with these terms and the numbers of the chain, for
+    /// [`complete_fit`](Self::complete_fit).
+    pub(super) fn interpreter(&self, terms: &[Term]) -> Interpreter {
+        Interpreter::new(extended(self.spec, &[terms, &number_terms(self.spec)].concat()))
+    }
+
+    /// Places the machine of the interpreter, whose last `added` sources are not part of it. Checks
+    /// the interpretation and the plausibility of the data if `checked`.
+    pub(super) fn setup<'i>(
+        &self,
+        interpreter: &'i Interpreter,
+        added: usize,
+        checked: bool,
+        notes: &mut dyn Notes,
+    ) -> Result<Setup<'i>, Diagnostics> {
+        let Self { map, data, settings, .. } = *self;
+        let fail = |failure: Failure| mistake::whole(&data.file, &failure);
+        let mut setup = Setup::new(interpreter, map, data, added)?;
+        if checked {
+            check_interpretation(&setup, map, data)?;
+        }
+        setup.come_near(data).map_err(fail)?;
+        if checked {
+            check_plausibility(&setup, map, data, notes).map_err(fail)?;
+        }
+        estimate(&mut setup, map, data, settings)?;
+        Ok(setup)
+    }
+
+    /// Fits constant errors together with the terms. The interpreter is
+    /// [that of the terms](Self::interpreter).
+    pub(super) fn complete_fit<'i>(
+        &self,
+        interpreter: &'i Interpreter,
+        terms: &[Term],
+        checked: bool,
+        notes: &mut dyn Notes,
+    ) -> Result<(Setup<'i>, Solved<'i>), Diagnostics> {
+        let own = own_magnitudes(self.spec);
+        let added = own.len() + terms.len() + number_terms(self.spec).len();
+        let setup = self.setup(interpreter, added, checked, notes)?;
+        let solved = solve(&setup, self.data, &own, terms, self.settings, notes)?;
+        Ok((setup, solved))
+    }
+}
+
+/// Accuracy of a complete fit on rows that it leaves out.
+#[derive(Clone, Debug)]
+pub(super) struct Assessed {
+    /// Position errors of the cross-validation.
+    pub(super) cross_validated: Distances,
+    /// Lines of the rows rejected as outliers.
+    pub(super) rejected: Vec<u64>,
+}
+
+impl Assessed {
+    pub(super) fn new(solved: &Solved, data: &Data) -> Self {
+        Self {
+            cross_validated: solved.cross_validated.clone(),
+            rejected: solved.fit.rejected(&data.observations).map(|row| row.line).collect(),
+        }
+    }
+
+    /// Returns the mean cross-validation error.
+    pub(super) fn mean(&self) -> f64 {
+        self.cross_validated.figures().mean
+    }
+
+    /// Compares the cross-validation errors with those of another fit; none if the fits reject
+    /// different rows.
+    pub(super) fn compared_with(&self, other: &Self) -> Option<Comparison> {
+        (self.rejected == other.rejected).then(|| self.cross_validated.compared_with(&other.cross_validated))
+    }
+}

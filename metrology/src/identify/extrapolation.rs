@@ -1,0 +1,45 @@
+//! Test rows outside the fitted ranges, and the uncertainty of the machine there.
+
+use abbe_interpreter::Interpreter;
+use abbe_spec::Fitted;
+use serde::Serialize;
+
+use crate::data::Data;
+use abbe_study::extrapolation::ToolPointDeviation;
+
+/// Test rows outside the fitted ranges of joints and inputs.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct TestExtrapolation {
+    /// Number of such rows.
+    pub rows: usize,
+    /// Standard deviation of the tool point there, root mean square over these rows, in the length
+    /// unit; `null` if the spec cannot be written.
+    pub known_outside: Option<f64>,
+    /// Standard deviation of the tool point within the fitted ranges, root mean square over them,
+    /// in the length unit; `null` if the spec cannot be written.
+    pub known_within: Option<f64>,
+}
+
+impl TestExtrapolation {
+    /// Returns none if there are no such rows. `test` has the inputs of the written spec, if it was
+    /// written.
+    ///
+    /// The deviations follow from the covariance of the written spec, as in `measure`. Errors that
+    /// the model lacks are not included.
+    pub(super) fn new(fitted: &[Fitted], test: &Data, written: Option<&Interpreter>) -> Option<Self> {
+        let places = test.observations.iter().map(|row| (&row.q[..], &row.u[..]));
+        let fitted = written.map_or(fitted, |written| &written.spec().fitted);
+        let outside = places.filter(|(q, u)| fitted.iter().any(|range| range.is_outside(q, u)));
+        let outside = outside.collect::<Vec<_>>();
+        if outside.is_empty() {
+            return None;
+        }
+        let known =
+            written.and_then(|written| ToolPointDeviation::new(written.spec(), written, true, &outside));
+        Some(Self {
+            rows: outside.len(),
+            known_outside: known.map(|known| known.outside),
+            known_within: known.map(|known| known.within),
+        })
+    }
+}

@@ -1,0 +1,200 @@
+//! Identified machine as values to be added to its spec.
+
+use abbe::Component;
+use abbe::identify::{Configurations, Unknown};
+use abbe_spec::expr::Symbol;
+use abbe_spec::visible::alters_text;
+use abbe_spec::{Fitted, Spec};
+
+use super::as_joint_errors::{AsJointErrors, JointError};
+use super::derived::Derived;
+use super::found_placement::FoundPlacement;
+use super::instruments::InstrumentFit;
+use super::joint_profiles::JointProfile;
+use super::solve::Solved;
+use super::terms::{Basis, ErrorSite, Term};
+use super::undetermined::UndeterminedDirections;
+use crate::data::Data;
+use abbe_study::number::digits;
+use abbe_study::version;
+
+/// Identified model of a machine: constant errors, and terms with their magnitudes.
+#[derive(Clone, Debug, Default)]
+pub struct FoundModel {
+    /// Origin of the model and accuracy of the fit, in one sentence.
+    pub reference: String,
+    /// Placement of the machine and of what is mounted on its tool. It is not part of the spec.
+    pub placed: FoundPlacement,
+    /// Constant errors of every frame.
+    pub frames: Vec<Vec<FoundError>>,
+    /// Numbers of the chain with an error: their terms are constant.
+    pub numbers: Vec<FoundTerm>,
+    /// Magnitudes of sources of the spec.
+    pub magnitudes: Vec<FoundMagnitude>,
+    /// Richer terms.
+    pub terms: Vec<FoundTerm>,
+    /// Profiles of joints, with their rows of the covariance.
+    pub(super) profiles: Vec<(usize, JointProfile)>,
+    /// Derived inputs; terms index them after those of the spec.
+    pub derived: Vec<Derived>,
+    /// Covariance of the identified values, in the order of the kept unknowns; the `row` of a value
+    /// is its index in this matrix.
+    pub covariance: Vec<Vec<f64>>,
+    /// Significant errors as numbers of the chain, with their alternatives.
+    pub(super) meanings: Vec<JointError>,
+    /// Errors that the measurements could not determine.
+    pub(super) undetermined: UndeterminedDirections,
+    /// Standard deviation along each axis of the position errors that the model does not explain,
+    /// in the length unit; 0 if it explains all.
+    pub unexplained: f64,
+    /// Ranges of joints and inputs covered by the fitted rows.
+    pub fitted: Vec<Fitted>,
+    /// Uncertainties that were estimated from the data.
+    pub(super) estimated: Vec<InstrumentFit>,
+}
+
+/// Constant generalized error.
+#[derive(Clone, Copy, Debug)]
+pub struct FoundError {
+    /// Component of the generalized error.
+    pub component: Component,
+    /// Row of the covariance.
+    pub row: usize,
+    /// Value, in the length unit or rad.
+    pub value: f64,
+    /// Standard deviation, in the same unit.
+    pub standard_deviation: f64,
+}
+
+/// Term with its magnitude.
+#[derive(Clone, Copy, Debug)]
+pub struct FoundTerm {
+    /// Row of the covariance.
+    pub row: usize,
+    /// Term of magnitude 1.
+    pub term: Term,
+    /// Identified magnitude.
+    pub magnitude: f64,
+    /// Standard deviation of the magnitude.
+    pub standard_deviation: f64,
+}
+
+/// Identified magnitude of a source of the spec.
+#[derive(Clone, Copy, Debug)]
+pub struct FoundMagnitude {
+    /// Row of the covariance.
+    pub row: usize,
+    /// Index among all sources of the spec.
+    pub source: usize,
+    /// Factor of the source.
+    pub magnitude: f64,
+    /// Standard deviation of the magnitude.
+    pub standard_deviation: f64,
+}
+
+impl FoundModel {
+    /// Collects the values of a fit, as numbers of the chain where `joint_errors` has them. `left`
+    /// is the root mean square position error of the fitted rows and of the cross-validation, in
+    /// the length unit.
+    pub(super) fn new(
+        spec: &Spec,
+        solved: &Solved,
+        joint_errors: Option<&AsJointErrors>,
+        data: &Data,
+        pose: bool,
+        left: [f64; 2],
+    ) -> Self {
+        let Solved { model, fit, .. } = solved;
+        let deviations = fit.standard_deviations();
+        let kept = &fit.identifiable.kept;
+        let as_found = |(row, k): (usize, &usize)| (row, fit.x[*k], deviations[*k].unwrap_or_default());
+        let values: Vec<(usize, f64, f64)> = joint_errors
+            .map_or_else(|| kept.iter().enumerate().map(as_found).collect(), |one| one.others.clone());
+        let placed = FoundPlacement::new(model, fit, &data.observations, pose);
+        let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
+        let first = model.unknowns.len() - solved.terms.len();
+        for (row, value, standard_deviation) in values {
+            let error = |component| FoundError { row, component, value, standard_deviation };
+            let k = kept[row];
+            match model.unknowns[k] {
+                Unknown::Error(frame, component) => found.frames[frame].push(error(component)),
+                Unknown::Magnitude(_) => match solved.own_magnitude(k) {
+                    Some(own) => found.magnitudes.push(FoundMagnitude {
+                        row,
+                        source: own.source,
+                        magnitude: own.declared.value + value,
+                        standard_deviation,
+                    }),
+                    None => {
+                        let term = solved.terms[k - first];
+                        found.terms.push(FoundTerm { row, term, magnitude: value, standard_deviation });
+                    }
+                },
+                _ => {}
+            }
+        }
+        for one in joint_errors.iter().flat_map(|one| &one.numbers) {
+            let term = Term { site: ErrorSite::from_chain_number(one.number), basis: Basis::One };
+            let (magnitude, standard_deviation) = (one.value, one.standard_deviation);
+            found.numbers.push(FoundTerm { row: one.index, term, magnitude, standard_deviation });
+        }
+        found.fitted = fitted(spec, data);
+        let count = kept.len();
+        let of_fit = || (0..count).map(|i| (0..count).map(|j| fit.covariance[(i, j)]).collect()).collect();
+        found.covariance = joint_errors.map_or_else(of_fit, |one| one.covariance.clone());
+        let profiles = solved.profiles.iter().flat_map(|profiles| profiles.joints.clone());
+        found.profiles = (count..).zip(profiles).collect();
+        let deviations: Vec<f64> = found.profiles.iter().map(|(_, one)| one.standard_deviation).collect();
+        append_independent(&mut found.covariance, &deviations);
+        let unit = spec.length.symbol();
+        found.reference = format!(
+            "Identified from {} rows{} of {} by abbe {}: rms {} {unit} on these rows, {} {unit} \
+             in cross-validation",
+            data.observations.len(),
+            match Configurations::new(&data.observations).count {
+                count if count == data.observations.len() => String::new(),
+                count => format!(" ({count} configurations)"),
+            },
+            printable_name(&data.file),
+            version(),
+            digits(left[0], 4),
+            digits(left[1], 4),
+        );
+        found
+    }
+}
+
+/// Appends independent values with these standard deviations to a covariance matrix.
+fn append_independent(covariance: &mut Vec<Vec<f64>>, deviations: &[f64]) {
+    let size = covariance.len() + deviations.len();
+    covariance.iter_mut().for_each(|row| row.resize(size, 0.0));
+    for deviation in deviations {
+        let mut row = vec![0.0; size];
+        row[covariance.len()] = deviation * deviation;
+        covariance.push(row);
+    }
+}
+
+/// Returns the name of a file, with every character replaced that cannot stand in a TOML comment or
+/// string.
+fn printable_name(file: &str) -> String {
+    let name = std::path::Path::new(file).file_name().unwrap_or_default().to_string_lossy();
+    name.replace(alters_text, "\u{fffd}")
+}
+
+/// Returns the ranges of joints and inputs that the rows cover.
+fn fitted(spec: &Spec, data: &Data) -> Vec<Fitted> {
+    let symbols = (0..spec.variables.len()).map(Symbol::Variable);
+    let symbols = symbols.chain((0..spec.inputs.len()).map(Symbol::Input));
+    let range = |symbol| {
+        let values = data.observations.iter().map(|row| match symbol {
+            Symbol::Input(i) => row.u[i],
+            Symbol::Variable(i) => row.q[i],
+            _ => 0.0,
+        });
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], value| {
+            [least.min(value), largest.max(value)]
+        })
+    };
+    symbols.map(|symbol| Fitted { symbol, range: range(symbol) }).collect()
+}

@@ -1,0 +1,108 @@
+//! Options of an identification.
+
+use std::fmt;
+use std::str::FromStr;
+use std::time::Duration;
+
+use abbe::identify::Loss;
+
+use super::families::Family;
+use super::priors::Prior;
+use abbe_study::options::{Choices, NumericOption, share};
+
+/// Number of parts for cross-validation.
+pub const FOLDS: NumericOption<usize> = NumericOption { default: 10, range: 2..=1000 };
+
+/// Loss functions for residuals.
+pub const LOSSES: Choices<Loss> =
+    Choices(&[(Loss::Squares, "none", ""), (Loss::Huber, "huber", ""), (Loss::Tukey, "tukey", "")]);
+
+/// Families of richer terms.
+pub const TERMS: Choices<&[Family]> = Choices(&[
+    (&Family::ALL, "auto", "All of the following"),
+    (
+        &[Family::Joint],
+        "joint",
+        "Errors that vary with the frame's own joint: one to four cycles per turn, or \
+         proportional to its travel",
+    ),
+    (
+        &[Family::Load],
+        "load",
+        "Errors proportional to an input, such as a load, a temperature or a motor current",
+    ),
+    (&[Family::Elastic], "elastic", "Rotations proportional to the moment of weights"),
+    (
+        &[Family::Backlash],
+        "backlash",
+        "Joint errors that depend on the direction of approach, or on the sign of the weight's \
+         moment",
+    ),
+    (&[Family::Product], "product", "Joint errors that depend on one or two other joints"),
+    (
+        &[Family::Drift],
+        "drift",
+        "Errors that vary with time along the file; they are not written to the spec",
+    ),
+    (
+        &[Family::Profile],
+        "profile",
+        "Joint errors as functions of the joint, by up to 64 cycles per turn, as tables; they need \
+         128 points for each joint, at least 512, over whole turns",
+    ),
+]);
+
+/// Settings of an identification.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Loss function for residuals.
+    pub loss: Loss,
+    /// Expected size of errors.
+    pub prior: Prior,
+    /// Number of parts for cross-validation.
+    pub folds: usize,
+    /// Time limit for trying richer terms. The result then depends on the computer. No limit if
+    /// none.
+    pub time: Option<Duration>,
+    /// Keeps the residuals of every point, for plots.
+    pub points: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { loss: Loss::Squares, prior: Prior::default(), folds: FOLDS.default, time: None, points: false }
+    }
+}
+
+impl Default for Prior {
+    /// Returns the default: a hundredth of the arm length, and 0.01 rad.
+    fn default() -> Self {
+        Self::Share(Self::DEFAULT_SHARE)
+    }
+}
+
+/// Parses `spec`, `auto`, or a share from 0 to 1.
+impl FromStr for Prior {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "spec" => Ok(Self::Spec),
+            "auto" => Ok(Self::Auto),
+            text => {
+                let value = text.parse::<f64>().map_err(|error| error.to_string())?;
+                Ok(Self::Share(share(value)?))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Prior {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Spec => f.write_str("spec"),
+            Self::Auto => f.write_str("auto"),
+            Self::Share(share) => write!(f, "{share}"),
+        }
+    }
+}

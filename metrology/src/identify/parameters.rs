@@ -1,0 +1,105 @@
+//! Values of the identified unknowns, for the report.
+
+use abbe::identify::{Camera, FixtureGeometry, Unknown};
+use abbe_spec::Spec;
+
+use super::indistinguishable::combination;
+use super::magnitude::OwnMagnitude;
+use super::report::{Kind, Magnitude, Parameter};
+use super::setup::Setup;
+use super::solve::Solved;
+use abbe_study::IsoAxis;
+use abbe_study::number::digits;
+
+/// Returns the identified magnitudes of the sources of the spec.
+pub(super) fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
+    let Solved { model, fit, own, .. } = solved;
+    let deviations = fit.standard_deviations();
+    let one = |own: &OwnMagnitude| {
+        let of_this = |k: &usize| solved.own_magnitude(*k).is_some_and(|one| one.source == own.source);
+        let k = (0..model.unknowns.len()).find(of_this);
+        let (source, declared) = (spec.sources[own.source].name.clone(), own.declared.value);
+        let declared_deviation = own.declared.standard_deviation;
+        let standard_deviation = k.and_then(|k| deviations[k]);
+        let value = declared + k.map_or(0.0, |k| fit.x[k]);
+        let before = match declared_deviation {
+            Some(deviation) => format!("{} ± {}", digits(declared, 3), digits(deviation, 2)),
+            None => digits(declared, 3),
+        };
+        let stands_for: Vec<(String, f64)> = k.map_or(Vec::new(), |k| solved.held_magnitudes(spec, k));
+        let combination = match &stands_for[..] {
+            [] => String::new(),
+            others => {
+                let own = (source.clone(), 1.0);
+                let all = std::iter::once(own).chain(others.iter().cloned()).collect::<Vec<_>>();
+                format!("; these data determine the combination {} only", combination(&all))
+            }
+        };
+        let sentence = match standard_deviation {
+            Some(deviation) if k.is_some_and(|k| fit.weakly_determined().contains(&k)) => format!(
+                "the magnitude of {source} is {} ± {}, which these data determine less well than \
+                 the spec: {before}",
+                digits(value, 3),
+                digits(deviation, 2)
+            ),
+            Some(deviation) => format!(
+                "the magnitude of {source} is {} ± {} (in the spec: {before}){combination}",
+                digits(value, 4),
+                digits(deviation, 2)
+            ),
+            None => format!(
+                "the magnitude of {source} is indistinguishable from other errors in these data; \
+                 in the spec: {before}"
+            ),
+        };
+        Magnitude { source, declared, declared_deviation, value, standard_deviation, stands_for, sentence }
+    };
+    own.iter().map(one).collect()
+}
+
+/// Returns the values of the kept unknowns with their standard deviations.
+pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Parameter> {
+    let Solved { model, fit, .. } = solved;
+    let (deviations, hardly) = (fit.standard_deviations(), fit.weakly_determined());
+    let axes = IsoAxis::all(spec, setup.ideal.manipulator);
+    let parameter = |k: &usize| {
+        let unknown = model.unknowns[*k];
+        let (frame, rotation) = match unknown {
+            Unknown::Base(_, component) => (Some(0), component.is_rotation()),
+            Unknown::Error(frame, component) => (Some(frame + 1), component.is_rotation()),
+            Unknown::Tool(_, component) => (None, component.is_rotation()),
+            Unknown::Fixture(fixture, _) => {
+                (None, matches!(model.fixtures[fixture].geometry, FixtureGeometry::Direction(_)))
+            }
+            Unknown::Zero(reading) => (None, model.observables[reading].kind.is_angle),
+            Unknown::Target(..) | Unknown::Magnitude(_) | Unknown::Intrinsic(_) => (None, false),
+        };
+        let frame_name =
+            |frame: usize| frame.checked_sub(1).map_or("base", |i| &setup.description.frames[i].name);
+        let kind = match unknown {
+            Unknown::Base(..) => Kind::Station,
+            unknown if unknown.is_placement() => Kind::Placement,
+            _ => Kind::Machine,
+        };
+        Parameter {
+            kind,
+            name: model.name(unknown),
+            frame,
+            iso: match unknown {
+                Unknown::Error(frame, component) => IsoAxis::name_of(&axes, frame + 1, component),
+                _ => None,
+            },
+            frame_name: frame.map(|frame| frame_name(frame).to_owned()),
+            value: fit.x[*k] + solved.own_magnitude(*k).map_or(0.0, |own| own.declared.value) + 0.0,
+            standard_deviation: deviations[*k].unwrap_or_default(),
+            unit: match unknown {
+                Unknown::Intrinsic(parameter) if Camera::is_pixel(parameter) => "px",
+                Unknown::Magnitude(_) | Unknown::Intrinsic(_) => "",
+                _ if rotation => "rad",
+                _ => spec.length.symbol(),
+            },
+            hardly_known: hardly.contains(k),
+        }
+    };
+    fit.identifiable.kept.iter().map(parameter).collect()
+}

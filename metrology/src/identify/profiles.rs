@@ -1,0 +1,322 @@
+//! Joint profiles: errors of joints as functions of their own values, by up to 64 cycles per turn,
+//! such as the transmission errors of gears and encoders.
+//!
+//! [`find`] fits them beside the constants and terms of a fit, and keeps them if a paired test on
+//! the folds of the cross-validation shows that they reduce the error of held-out rows.
+//! [`FoundProfiles::refit`] then fits the machine that has the profiles as tables: it is the one
+//! that is reported and written.
+
+use std::time::Instant;
+
+use abbe::identify::{
+    Comparison, Distances, Failure, Folds, Observation, ProfileBasis, ProfileData, ProfileJoint, Profiles,
+    Unknown, fit_profiles,
+};
+use abbe::{Class, VariableKind};
+use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::{Expression, Symbol};
+use abbe_spec::{ChainNumber, Deviation, DeviationCause, Source, Spec};
+
+use super::as_joint_errors::number_terms;
+use super::families::Family;
+use super::instruments::estimate;
+use super::joint_profiles::{JointProfile, JointProfiles};
+use super::options::Settings;
+use super::profile_table::{ProfileTable, table_name};
+use super::setup::Setup;
+use super::solve::{Solved, solve};
+use super::terms::ErrorSite;
+use crate::data::{Data, Map};
+use abbe_study::number::digits;
+use abbe_study::{Notes, mistake};
+
+/// Significance level of the paired test.
+const CHANCE: f64 = 0.01;
+
+/// Smallest share of the rows in the range of a profile.
+const COVERED: f64 = 0.9;
+
+/// Cycles per turn of the highest harmonic, and twice its cycles over a travel.
+const HIGHEST: f64 = 64.0;
+
+/// Rows at which the standard deviation of the tool point is evaluated.
+const SAMPLES: usize = 500;
+
+/// Profiles of joints that were found, and why not.
+#[derive(Default)]
+pub(super) struct ProfileTrial {
+    pub(super) found: Option<FoundProfiles>,
+    /// Note for the report.
+    pub(super) note: Option<String>,
+}
+
+/// Profiles that a paired test has shown to reduce the error of held-out rows.
+pub(super) struct FoundProfiles {
+    fitted: Profiles,
+    comparison: Comparison,
+    joints: Vec<JointProfile>,
+}
+
+/// Fits profiles if `families` include them. A note says why there are none, if the user named the
+/// family instead of trying all.
+pub(super) fn find_profiles(
+    families: &[Family],
+    spec: &Spec,
+    fitted: (&Setup, &Solved),
+    data: &Data,
+    settings: &Settings,
+    notes: &mut dyn Notes,
+) -> Result<ProfileTrial, Diagnostics> {
+    if !families.contains(&Family::Profile) {
+        return Ok(ProfileTrial::default());
+    }
+    let is_named = !Family::ALL.iter().all(|family| families.contains(family));
+    if is_named && data.observations.iter().any(|row| row.from().is_some()) {
+        let message = "profiles of joints cannot be fitted to displacements between rows";
+        let help = "leave out `profile`, or read the instrument as an `indicator` with its zero";
+        return Err(mistake::with_help(&data.file, message, help));
+    }
+    Ok(match find(spec, fitted, data, settings, notes)? {
+        Ok(found) => ProfileTrial { found: Some(found), note: None },
+        Err(reason) => {
+            let note = is_named.then(|| format!("note: no profiles of joints: {reason}"));
+            ProfileTrial { found: None, note }
+        }
+    })
+}
+
+/// Fits profiles of all joints that move. Returns the reason if none are kept.
+///
+/// The manipulator of the setup ends with the [`number_terms`] of `spec`.
+fn find(
+    spec: &Spec,
+    (setup, solved): (&Setup, &Solved),
+    data: &Data,
+    settings: &Settings,
+    notes: &mut dyn Notes,
+) -> Result<Result<FoundProfiles, String>, Diagnostics> {
+    let rows = &data.observations;
+    let (moving, offered) = joints(spec, setup, rows);
+    if let Some(missing) = missing(rows, if offered.is_empty() { &moving } else { &offered }) {
+        return Ok(Err(missing));
+    }
+    if offered.is_empty() {
+        let reason = "no joint moves over a range without gaps wider than 5.6° or a 32nd of its travel";
+        return Ok(Err(reason.to_owned()));
+    }
+    let start = Instant::now();
+    let stops = &*notes;
+    let mut proceed = || !stops.stop() && settings.time.is_none_or(|time| start.elapsed() < time);
+    let folds = Folds::new(rows, settings.folds);
+    let fitted = fit_profiles(&solved.model, rows, &solved.fit, &offered, &folds, &mut proceed);
+    let fitted = fitted.map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let on_time = proceed();
+    notes.go_on()?;
+    let reason = match on_time {
+        true => "they do not reduce the cross-validation error by half a percent each",
+        false => "the time limit was reached",
+    };
+    let Some(fitted) = fitted else { return Ok(Err(reason.to_owned())) };
+    let comparison = fitted.cross_validated.compared_with(&solved.cross_validated);
+    if comparison.gain <= 0.0 || comparison.p > CHANCE {
+        let reason = format!(
+            "the reduction of the cross-validation error is not significant (p {})",
+            digits(comparison.p, 2)
+        );
+        return Ok(Err(reason));
+    }
+    let joints = fitted.profiles.iter().filter_map(|profile| {
+        let (variable, range) = (profile.joint.variable, profile.joint.range);
+        let values: Vec<f64> = rows.iter().map(|row| row.q[variable]).collect();
+        let rms = |value: &dyn Fn(f64) -> f64| {
+            let squares: f64 = values.iter().map(|q| value(*q).powi(2)).sum();
+            (squares / values.len().max(1) as f64).sqrt()
+        };
+        let deviation = rms(&|q| profile.deviation(q));
+        Some(JointProfile {
+            joint: spec.variables[variable].name.clone(),
+            unit: match profile.joint.basis {
+                ProfileBasis::Turn => "rad",
+                ProfileBasis::Travel(_) => spec.length.symbol(),
+            },
+            range,
+            rms: rms(&|q| profile.value(q)),
+            standard_deviation: deviation,
+            without: profile.without / fitted.after,
+            variable,
+            table: ProfileTable::new(profile, &values, deviation, spec.length)?,
+        })
+    });
+    let joints: Vec<JointProfile> = joints.collect();
+    Ok(Ok(FoundProfiles { joints, comparison, fitted }))
+}
+
+/// Returns the joints that move, and those of them whose rows leave no gaps in a range.
+fn joints(spec: &Spec, setup: &Setup, rows: &[Observation]) -> (Vec<ProfileJoint>, Vec<ProfileJoint>) {
+    let (mut moving, mut offered) = (Vec::new(), Vec::new());
+    for variable in setup.moved(rows) {
+        let mut values: Vec<f64> = rows.iter().map(|row| row.q[variable]).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        let range = [values[0], values[values.len() - 1]];
+        let (basis, gap) = match spec.variables[variable].kind {
+            VariableKind::Revolute => (ProfileBasis::Turn, core::f64::consts::TAU / HIGHEST),
+            VariableKind::Prismatic => (ProfileBasis::Travel(range), 2.0 * (range[1] - range[0]) / HIGHEST),
+        };
+        let Some(error) = joint_error(spec, setup, variable) else { continue };
+        let joint = ProfileJoint { variable, error, basis, range };
+        moving.push(joint);
+        offered.extend(covered(&values, gap).map(|range| ProfileJoint { range, ..joint }));
+    }
+    (moving, offered)
+}
+
+/// Returns the constant error of a joint as an unknown: one of the [`number_terms`], the last
+/// sources of the manipulator.
+fn joint_error(spec: &Spec, setup: &Setup, variable: usize) -> Option<Unknown> {
+    let numbers = number_terms(spec);
+    let first = setup.description.sources.len() - numbers.len();
+    let number = numbers.iter().position(|term| term.site == ErrorSite::Joint(variable))?;
+    Some(Unknown::Magnitude(first + number))
+}
+
+/// Returns the longest stretch of sorted joint values without a gap wider than a period of the
+/// highest harmonic. Harmonics are arbitrary in such a gap. Returns none if the stretch is shorter
+/// than the period, or has less than nine tenths of the values.
+fn covered(values: &[f64], gap: f64) -> Option<[f64; 2]> {
+    let stretch = values.chunk_by(|a, b| b - a <= gap).max_by_key(|stretch| stretch.len())?;
+    let range = [stretch[0], stretch[stretch.len() - 1]];
+    let is_enough = stretch.len() as f64 >= COVERED * values.len() as f64;
+    (is_enough && range[1] - range[0] > gap).then_some(range)
+}
+
+/// States what is missing for profiles of these joints, if anything.
+fn missing(rows: &[Observation], joints: &[ProfileJoint]) -> Option<String> {
+    let (have, needed) = (ProfileData::of_rows(rows), ProfileData::needed(joints));
+    (!have.suffices(needed)).then(|| {
+        format!(
+            "{} joints need {} independent numbers at {} configurations, and the rows have {} at {}",
+            joints.len(),
+            needed.numbers,
+            needed.configurations,
+            have.numbers,
+            have.configurations
+        )
+    })
+}
+
+impl FoundProfiles {
+    /// Returns the spec with the profiles as its last tables and sources.
+    pub(super) fn added_to(&self, spec: &Spec) -> Spec {
+        let mut profiled = spec.clone();
+        for one in &self.joints {
+            let name = table_name(spec, &one.joint);
+            let table = one.table.table(name, spec.length);
+            let dimension = table.dimensions[0];
+            let joint = Expression::from_symbol(Symbol::Variable(one.variable), dimension);
+            let error = joint.looked_up(profiled.tables.len() as u16, &table);
+            profiled.tables.push(table.into());
+            profiled.sources.push(Source {
+                name: one.source_name(),
+                class: Class::Repeatable,
+                degrees_of_freedom: f64::INFINITY,
+                enabled: true,
+                description: String::new(),
+                reference: String::new(),
+                magnitude: None,
+                scale: 1.0,
+                tuned_by: None,
+                effects: Vec::new(),
+                deviations: vec![Deviation {
+                    number: ChainNumber::Joint(one.variable),
+                    cause: DeviationCause::Error(error),
+                    span: 0..0,
+                }],
+                propagated: Vec::new(),
+            });
+        }
+        profiled
+    }
+
+    /// Fits the machine with the profiles, which is the manipulator of [`added_to`](Self::added_to)
+    /// with the same sources behind them as that of the first fit.
+    ///
+    /// The model with base and tool alone, and the machine as delivered, stay without profiles.
+    pub(super) fn refit<'a>(
+        self,
+        interpreter: &'a Interpreter,
+        (first_setup, first): (Setup<'a>, Solved<'a>),
+        (spec, map, data): (&Spec, &Map, &Data),
+        settings: &Settings,
+        notes: &mut dyn Notes,
+    ) -> Result<(Setup<'a>, Solved<'a>), Diagnostics> {
+        let fail = |failure| mistake::whole(&data.file, &failure);
+        let added = first_setup.description.sources.len() - first_setup.declared;
+        let mut setup = Setup::new(interpreter, map, data, added)?;
+        setup.come_near(data).map_err(fail)?;
+        estimate(&mut setup, map, data, settings)?;
+        let mut solved = solve(&setup, data, &first.own, &first.terms, settings, notes)?;
+        setup.delivered = first_setup.delivered;
+        let sigma = self.fitted.add_uncertainty(&mut solved.fit);
+        let mut joints = self.joints;
+        joints.iter_mut().for_each(|joint| joint.standard_deviation *= sigma);
+        let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints).map_err(fail)?;
+        let [before, after] = [&first.cross_validated, &self.fitted.cross_validated].map(Distances::figures);
+        let mut profiles = JointProfiles {
+            before: before.into(),
+            after: after.into(),
+            gain: self.comparison.into(),
+            effective: self.fitted.effective(),
+            standard_deviation: deviation,
+            joints,
+            sentence: String::new(),
+        };
+        profiles.sentence = profiles.sentence(spec);
+        let (simple, simple_x) = (first.simple, first.simple_x);
+        let cross_validated = self.fitted.cross_validated;
+        Ok((setup, Solved { simple, simple_x, cross_validated, profiles: Some(profiles), ..solved }))
+    }
+}
+
+/// Returns the standard deviation of the tool point by that of the profiles, root mean square over
+/// some of the rows: `σ² = Σ_j |∂x/∂q_j|² σ_j²`.
+fn tool_point_deviation(
+    spec: &Spec,
+    setup: &Setup,
+    rows: &[Observation],
+    joints: &[JointProfile],
+) -> Result<f64, Failure> {
+    let errors = joints.iter().filter_map(|joint| joint_error(spec, setup, joint.variable));
+    let model = setup.ideal.with(errors.collect());
+    let (mut scratch, zero) = (model.scratch(), vec![0.0; joints.len()]);
+    let rows = rows.iter().step_by(rows.len().div_ceil(SAMPLES));
+    let count = rows.len();
+    let mut variance = 0.0;
+    for row in rows {
+        let (_, moves) = model.tool(&mut scratch, row, &zero)?;
+        for (joint, derivative) in joints.iter().zip(moves) {
+            variance += derivative.map(|one| (one * joint.standard_deviation).powi(2)).iter().sum::<f64>();
+        }
+    }
+    Ok((variance / count.max(1) as f64).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::covered;
+
+    /// A range ends before a gap, and is none if many values are beyond it or if all are at a few
+    /// places.
+    #[test]
+    fn ranges_have_no_gaps() {
+        let dense: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
+        assert_eq!(covered(&dense, 0.1), Some([0.0, 0.99]));
+        let tail = [&dense[..], &[1.5, 1.55]].concat();
+        assert_eq!(covered(&tail, 0.1), Some([0.0, 0.99]));
+        let halves: Vec<f64> = dense.iter().map(|x| if *x < 0.5 { *x } else { x + 1.0 }).collect();
+        assert_eq!(covered(&halves, 0.1), None);
+        let grid: Vec<f64> = (0..100).map(|i| f64::from(i / 10)).collect();
+        assert_eq!(covered(&grid, 0.1), None);
+        assert_eq!(covered(&dense[..8], 0.1), None);
+    }
+}

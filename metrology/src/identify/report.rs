@@ -1,0 +1,337 @@
+//! Report of an identification.
+
+use abbe::Pose;
+use abbe::identify::student_factor;
+use serde::Serialize;
+
+use super::as_joint_errors::JointError;
+use super::counts::Counts;
+use super::drift::ResidualDrift;
+use super::extrapolation::TestExtrapolation;
+use super::found_model::FoundModel;
+use super::found_placement::FoundPlacement;
+use super::gain::Gain;
+use super::indistinguishable::Indistinguishable;
+use super::instruments::InstrumentFit;
+use super::joint_profiles::JointProfiles;
+use super::known_distances::KnownDistanceFit;
+use super::point_residuals::PointResidual;
+use super::weakly_determined::WeaklyDetermined;
+use crate::AcceptanceVerdict;
+use crate::data::{Summary, Unusable};
+use crate::sizes::Sizes;
+use abbe_study::{Residual, Residuals, RunRecord};
+
+/// Identified errors, their uncertainty, and the accuracy of the identified machine.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Name of the machine.
+    pub name: String,
+    /// Length unit of all values.
+    pub length: &'static str,
+    /// Title of the map.
+    pub title: String,
+    /// Number of combinations of unknowns that the data determine.
+    pub rank: usize,
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// Number of identifiable errors of base and frames alone, without targets on the tool.
+    pub machine: Counts,
+    /// Ratio of the smallest significant singular value to the largest insignificant one; none if
+    /// all are significant.
+    pub gap: Option<f64>,
+    /// Condition number of the kept columns of the design matrix, each scaled to unit length.
+    pub condition: f64,
+    /// Observability indices.
+    pub observability: Indices,
+    /// Combinations of unknowns that cannot be distinguished, with the reason.
+    pub groups: Vec<Indistinguishable>,
+    /// Number of undetermined combinations that `groups` and `not_known` do not explain; normally
+    /// 0.
+    pub unexplained: usize,
+    /// Kept unknowns, which stand for the identifiable combinations.
+    pub parameters: Vec<Parameter>,
+    /// Significant errors expressed as errors of joint zeros, parameters and Denavit-Hartenberg
+    /// numbers.
+    pub meanings: Vec<JointError>,
+    /// Errors that these data determine poorly compared with their prior; they are fixed at zero.
+    pub not_known: Vec<WeaklyDetermined>,
+    /// Magnitudes of sources of the spec that were unknown.
+    pub magnitudes: Vec<Magnitude>,
+    /// Unknowns that are fixed at zero because they are equivalent to kept ones.
+    pub held: Vec<Held>,
+    /// Pairs of parameters with an absolute correlation above 0.9.
+    pub correlations: Vec<Pair>,
+    /// Factor of the stated uncertainty that explains the residuals.
+    pub uncertainty_factor: f64,
+    /// Basis of all standard deviations.
+    pub certainty: Certainty,
+    /// Instruments that are read one by one, with statistics of their residuals.
+    pub instruments: Vec<InstrumentFit>,
+    /// Known distances between instruments, with their residuals; absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub known_distances: Vec<KnownDistanceFit>,
+    /// Positions and rotations, with statistics of their residuals, where poses are measured or
+    /// their uncertainty was estimated from the data; otherwise empty.
+    pub coordinates: Vec<InstrumentFit>,
+    /// Initial pose of `F_0` in the frame of the instrument at the first station, without
+    /// identified errors of the base, as rows of a homogeneous matrix.
+    pub base: [[f64; 4]; 4],
+    /// Identified placement of the machine and of what is mounted on its tool.
+    pub placed: FoundPlacement,
+    /// Position errors of the fitted rows, without outliers.
+    pub fit: Compared,
+    /// Position errors of the test rows.
+    pub test: Option<Compared>,
+    /// Number of test rows that are identical to fitted rows. They cannot assess the fit.
+    pub test_rows_of_the_fit: usize,
+    /// Test rows outside the fitted ranges of joints and inputs; none if there are no such rows.
+    pub outside: Option<TestExtrapolation>,
+    /// Position errors of cross-validation.
+    pub cross_validation: CrossValidation,
+    /// Verdict on the declared limits, if there are any.
+    pub accepted: Option<AcceptanceVerdict>,
+    /// Richer terms that were accepted, in the order of acceptance.
+    pub terms: Vec<TermGain>,
+    /// Number of groups of terms that were tried.
+    pub tried: usize,
+    /// Profiles of joints; none if they were not tried, or do not reduce the cross-validation error
+    /// significantly.
+    pub profiles: Option<JointProfiles>,
+    /// Drift of the residuals with the row order; none if there are too few rows for the test.
+    pub drift: Option<ResidualDrift>,
+    /// Rows that cannot be used.
+    pub unusable: Vec<LeftOut>,
+    /// Lines rejected as outliers by a robust loss.
+    pub rejected: Vec<u64>,
+    /// Notes for the user.
+    pub notes: Vec<String>,
+    /// Stated date, persons and instruments, and the version of abbe; absent if nothing is stated.
+    #[serde(skip_serializing_if = "RunRecord::is_empty")]
+    pub record: RunRecord,
+    /// Files of the data and of the test data.
+    #[serde(skip)]
+    pub files: Vec<Summary>,
+    /// Residuals of every point of the data, then of the test data, if the settings request them.
+    #[serde(skip)]
+    pub points: Vec<PointResidual>,
+    /// Identified machine.
+    #[serde(skip)]
+    pub found: FoundModel,
+}
+
+impl Report {
+    /// Returns the residuals of the fitted points, without outliers; `None` for instruments that
+    /// measure no points, and if the points were not requested.
+    pub fn residuals(&self) -> Option<Residuals> {
+        if !self.instruments.is_empty() {
+            return None;
+        }
+        let poses = self.found.placed.stations.iter().map(|station| {
+            Pose(std::array::from_fn(|column| std::array::from_fn(|row| station.pose[row][column])))
+        });
+        let stations: Vec<Pose> = poses.collect();
+        let is_fitted = |point: &&PointResidual| !point.is_test && !point.is_rejected;
+        let fitted: Vec<&PointResidual> = self.points.iter().filter(is_fitted).collect();
+        Residuals::new(Some("base and tool fitted"), "identified", &fitted, |point| {
+            let PointResidual { line, point: at, before, after, .. } = **point;
+            let (q, u) = (point.q.clone(), point.u.clone());
+            Residual { line, q, u, point: at, before: Some(before), after }.in_f0(&stations[point.station])
+        })
+    }
+}
+
+/// Basis of the standard deviations.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Certainty {
+    /// Number of independent configurations.
+    pub configurations: usize,
+    /// Unit of counting for degrees of freedom: `numbers` for every measured value, `points` for
+    /// one point per configuration, or `configurations`.
+    pub counted: &'static str,
+    /// Residual degrees of freedom.
+    pub freedom: f64,
+    /// Coverage factor for 95 %, from Student's t.
+    pub factor_95: f64,
+    /// Probability of an uncertainty factor at least as far from 1 by chance.
+    pub p_of_factor: f64,
+}
+
+impl Certainty {
+    /// Returns the coverage factor at which all of `count` intervals together hold with 95 %
+    /// (Bonferroni): the limit for the errors that are called significant.
+    pub fn factor_of_all(&self, count: usize) -> f64 {
+        student_factor(1.0 - 0.05 / count.max(1) as f64, self.freedom)
+    }
+}
+
+/// Observability indices of the singular values `σ_1 ≥ … ≥ σ_r` of the design matrix with `m` rows
+/// and columns of unit length, without a unit; see [`abbe::identify::Observability`].
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Indices {
+    /// `O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`, without a unit.
+    pub o1: f64,
+    /// `O2 = σ_r / σ_1`, without a unit.
+    pub o2: f64,
+    /// `O3 = σ_r`, without a unit.
+    pub o3: f64,
+    /// `O4 = σ_r² / σ_1`, without a unit.
+    pub o4: f64,
+    /// `O5 = 1 / Σ 1/σ_i`, without a unit.
+    pub o5: f64,
+}
+
+/// Object that an unknown belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Machine: the value goes into the spec.
+    Machine,
+    /// Placement of the machine.
+    Station,
+    /// Placement of what is mounted on the tool.
+    Placement,
+}
+
+/// Kept unknown, which stands for an identifiable combination.
+#[derive(Clone, Debug, Serialize)]
+pub struct Parameter {
+    /// Name: `e_x1`, or `e_x0` for the base.
+    pub name: String,
+    /// Object that the unknown belongs to.
+    pub kind: Kind,
+    /// Frame of an error, from 1; 0 is the base. None for other unknowns.
+    pub frame: Option<usize>,
+    /// Name of that frame.
+    pub frame_name: Option<String>,
+    /// Name of the error by ISO 230-1, of a machine with slides along X, Y and Z; with a minus sign
+    /// where the frame has the opposite one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iso: Option<String>,
+    /// Identified value, in `unit`.
+    pub value: f64,
+    /// Standard deviation of the value, in `unit`.
+    pub standard_deviation: f64,
+    /// Unit: the length unit, rad, or empty.
+    pub unit: &'static str,
+    /// Is true if the standard deviation exceeds half of the prior's: the data contribute little.
+    pub hardly_known: bool,
+}
+
+/// Identified magnitude of a source of the spec.
+#[derive(Clone, Debug, Serialize)]
+pub struct Magnitude {
+    /// Name of the source.
+    pub source: String,
+    /// Magnitude declared in the spec, in coherent units.
+    pub declared: f64,
+    /// Standard deviation declared in the spec, in coherent units; `None` if there is none.
+    pub declared_deviation: Option<f64>,
+    /// Identified magnitude, in coherent units; the declared one if the data do not determine it.
+    pub value: f64,
+    /// Standard deviation of the magnitude, in coherent units; `None` if the data do not determine
+    /// it.
+    pub standard_deviation: Option<f64>,
+    /// Magnitudes fixed at their declared values that act as this one in these data, with their
+    /// factors: the value stands for this magnitude plus their sum.
+    pub stands_for: Vec<(String, f64)>,
+    /// Statement of the result in one sentence.
+    pub sentence: String,
+}
+
+/// Unknown that is fixed at zero, and the combination it is equivalent to.
+#[derive(Clone, Debug, Serialize)]
+pub struct Held {
+    /// Name of the unknown.
+    pub name: String,
+    /// Names and factors of the equivalent combination of parameters; empty if the unknown has no
+    /// effect.
+    pub acts_as: Vec<(String, f64)>,
+}
+
+/// Two correlated parameters.
+#[derive(Clone, Debug, Serialize)]
+pub struct Pair {
+    /// Names of the parameters.
+    pub of: [String; 2],
+    /// Correlation coefficient.
+    pub correlation: f64,
+}
+
+/// Position errors of a set of rows.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Compared {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of independent configurations among them.
+    pub configurations: usize,
+    /// Errors as delivered: with the sources of the spec.
+    pub before: Sizes,
+    /// Errors with base and tool fitted.
+    pub base_and_tool: Sizes,
+    /// Errors with constants alone, if the model has richer terms or profiles.
+    pub constant: Option<Sizes>,
+    /// Errors with the identified model.
+    pub after: Sizes,
+    /// Improvement of the identified model over base and tool alone.
+    pub gain: Gain,
+    /// Improvement of the identified model over constants alone, if it has richer terms or
+    /// profiles.
+    pub gain_of_terms: Option<Gain>,
+}
+
+/// Position errors of k-fold cross-validation.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CrossValidation {
+    /// Number of parts.
+    pub folds: usize,
+    /// Number of independent configurations distributed over the parts.
+    pub configurations: usize,
+    /// Errors with constants alone, if richer terms were tried.
+    pub constant: Option<Sizes>,
+    /// Errors with the complete model.
+    pub after: Sizes,
+    /// Improvement by the richer terms over constants alone, if they were tried.
+    pub gain: Option<Gain>,
+}
+
+/// Accepted group of terms.
+#[derive(Clone, Debug, Serialize)]
+pub struct TermGain {
+    /// Name of the group.
+    pub name: String,
+    /// Terms of the group as lines of a spec with the identified magnitudes, one source effect
+    /// each.
+    pub lines: Vec<String>,
+    /// Is true if a spec can contain these terms.
+    pub written: bool,
+    /// Root mean square residual of a coordinate in cross-validation without the group, in the
+    /// length unit.
+    pub before: f64,
+    /// Root mean square residual of a coordinate in cross-validation with the group, in the length
+    /// unit.
+    pub after: f64,
+    /// F statistic of the group, with configurations as independent samples.
+    pub f: f64,
+    /// Probability of an F at least as large by chance.
+    pub p: f64,
+}
+
+/// Row that cannot be used.
+#[derive(Clone, Debug, Serialize)]
+pub struct LeftOut {
+    /// File of the row.
+    pub file: String,
+    /// Line of the row in the file.
+    pub line: u64,
+    /// Reason, in words.
+    pub reason: String,
+}
+
+impl LeftOut {
+    pub(super) fn of_file(file: &Summary) -> impl Iterator<Item = Self> {
+        let left_out =
+            |row: &Unusable| Self { file: file.file.clone(), line: row.line, reason: row.reason.clone() };
+        file.unusable.iter().map(left_out)
+    }
+}

@@ -1,0 +1,185 @@
+//! Fit and cross-validation on the data alone.
+
+use abbe::VariableKind;
+use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::Motion;
+
+use super::joint_profiles::JointProfiles;
+use super::magnitude::OwnMagnitude;
+use super::options::Settings;
+use super::outliers;
+use super::priors::Prior;
+use super::setup::Setup;
+use super::terms::{Basis, ErrorSite, Term};
+use crate::data::Data;
+use abbe_study::number::{counted, digits};
+use abbe_study::{Notes, mistake};
+
+/// Result of the fit.
+pub(super) struct Solved<'a> {
+    /// Model with only base and tool unknown, and its solution.
+    pub(super) simple: Model<'a>,
+    pub(super) simple_x: Vec<f64>,
+    /// Complete model and its fit.
+    pub(super) model: Model<'a>,
+    pub(super) fit: Fit,
+    /// Position errors of the cross-validation.
+    pub(super) cross_validated: Distances,
+    /// Sources of the spec whose magnitudes are unknowns of the model, its first ones.
+    pub(super) own: Vec<OwnMagnitude>,
+    /// Terms whose magnitudes are the last unknowns of the model.
+    pub(super) terms: Vec<Term>,
+    /// Profiles of joints, which the manipulator has as known sources.
+    pub(super) profiles: Option<JointProfiles>,
+    /// Notes for the report.
+    pub(super) notes: Vec<String>,
+}
+
+/// Fits the complete model and cross-validates it.
+///
+/// The manipulator has the sources of the spec, then copies of the `own` ones, then the `terms`.
+pub(super) fn solve<'a>(
+    setup: &Setup<'a>,
+    data: &Data,
+    own: &[OwnMagnitude],
+    terms: &[Term],
+    settings: &Settings,
+    notes: &mut dyn Notes,
+) -> Result<Solved<'a>, Diagnostics> {
+    let rows = &data.observations;
+    let diagnose = |cause: Failure| diagnose(&cause, data);
+    let options = Options { loss: settings.loss, ..Options::default() };
+    let simple = setup.real.with(setup.base_and_tool());
+    let expected = simple.expected(&[]).map_err(diagnose)?;
+    let simple_x = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(diagnose)?.x;
+
+    let mut magnitudes = (setup.declared..).map(Unknown::Magnitude);
+    let of_own: Vec<Unknown> = magnitudes.by_ref().take(own.len()).collect();
+    let of_terms = magnitudes.take(terms.len());
+    // Of equivalent unknowns, magnitudes named in the spec are kept before errors of frames, and
+    // terms after them.
+    let model = setup.real.with(of_own.into_iter().chain(setup.constants()).chain(of_terms).collect());
+    let fitted = |model: &Model, prior: Prior| -> Result<Fit, Failure> {
+        let mut priors = prior.for_model(model)?;
+        let share = prior.share();
+        priors.resize(model.unknowns.len(), None);
+        for (prior, own) in priors.iter_mut().zip(own) {
+            *prior = own.declared.standard_deviation;
+        }
+        let first = priors.len() - terms.len();
+        for (prior, term) in priors[first..].iter_mut().zip(terms).filter(|_| share > 0.0) {
+            *prior = Some(share * term.scale(setup));
+        }
+        let at = embedded(&simple, &simple_x, model);
+        let expected = model.expected(&priors)?;
+        fit(model, rows, &Options { at, priors, expected, ..options.clone() })
+    };
+    let cross_validated =
+        |model: &Model, fit: &Fit| cross_validate(model, rows, fit, settings.folds).map_err(diagnose);
+    let prior = settings.prior.resolve(&model, rows, settings.folds, fitted).map_err(diagnose)?;
+    let found = fitted(&model, prior);
+    let warning = match settings.loss {
+        Loss::Squares => outliers::warning(&model, data, found.as_ref().ok()),
+        _ => None,
+    };
+    if let (Err(_), Some(warning)) = (&found, &warning) {
+        notes.note(warning);
+    }
+    let fit = found.map_err(diagnose)?;
+    let mut solved = Solved {
+        cross_validated: cross_validated(&model, &fit)?,
+        simple: simple.clone(),
+        simple_x: simple_x.clone(),
+        model,
+        fit,
+        own: own.to_vec(),
+        terms: terms.to_vec(),
+        profiles: None,
+        notes: warning.into_iter().map(|warning| format!("note: {warning}")).collect(),
+    };
+    if let (Prior::Auto, Prior::Share(share)) = (settings.prior, prior) {
+        solved.notes.push(format!(
+            "note: prior standard deviation of the errors: {} % of the length of the arm, chosen \
+             by cross-validation",
+            digits(100.0 * share, 2)
+        ));
+    }
+    Ok(solved)
+}
+
+impl Solved<'_> {
+    /// Returns the terms that the fit does not hold at zero.
+    pub(super) fn determined_terms(&self) -> Vec<Term> {
+        let first = self.model.unknowns.len() - self.terms.len();
+        let kept = &self.fit.identifiable.kept;
+        kept.iter().filter_map(|k| self.terms.get(k.checked_sub(first)?)).copied().collect()
+    }
+
+    /// Returns the source and the declared magnitude of an unknown; none if the unknown is not a
+    /// magnitude of the spec.
+    pub(super) fn own_magnitude(&self, unknown: usize) -> Option<OwnMagnitude> {
+        self.own.get(unknown).copied()
+    }
+}
+
+impl Solved<'_> {
+    /// Returns the magnitudes fixed at their declared values that act as an unknown, with their
+    /// factors: the value of the unknown stands for the sum.
+    pub(super) fn held_magnitudes(&self, spec: &Spec, unknown: usize) -> Vec<(String, f64)> {
+        let held = self.fit.identifiable.held.iter().filter_map(|(k, acts_as)| {
+            let own = self.own_magnitude(*k)?;
+            let (_, factor) = acts_as.iter().find(|(kept, _)| *kept == unknown)?;
+            Some((spec.sources[own.source].name.clone(), *factor))
+        });
+        held.collect()
+    }
+}
+
+impl Term {
+    /// Returns the magnitude of an error as large as the arm length, or of 1 rad; for a compliance,
+    /// that of 1 rad by the weight of 1 kg at the end of the arm.
+    fn scale(self, setup: &Setup) -> f64 {
+        let is_angle = match self.site {
+            ErrorSite::Joint(joint) => setup.description.variables[joint].kind == VariableKind::Revolute,
+            ErrorSite::Frame(_, component) | ErrorSite::Base(component) => component.is_rotation(),
+            ErrorSite::DenavitHartenberg(_, number) => number.motion().0 == Motion::Rotation,
+            ErrorSite::Parameter(_) => false,
+        };
+        match self.basis {
+            Basis::Moment | Basis::Coupled(_) => 1e6 / (9.80665 * setup.arm),
+            _ if is_angle => 1.0,
+            _ => setup.arm,
+        }
+    }
+}
+
+/// Returns the values of one model's unknowns in the order of another's, 0 for unknowns it lacks.
+fn embedded(from: &Model, x: &[f64], to: &Model) -> Vec<f64> {
+    let value = |unknown| from.unknowns.iter().position(|u| u == unknown).map_or(0.0, |k| x[k]);
+    to.unknowns.iter().map(value).collect()
+}
+
+pub(super) fn diagnose(failure: &Failure, data: &Data) -> Diagnostics {
+    match failure {
+        Failure::Observation { .. } | Failure::Machine(_) | Failure::Untouched { .. } => {
+            mistake::whole(&data.file, failure)
+        }
+        Failure::TooFew { numbers, configurations, rank } => {
+            let message = format!(
+                "{} at {} for {rank} or more unknowns: no degrees of freedom remain for a test",
+                counted(*numbers, "independent value", "independent values"),
+                counted(*configurations, "configuration", "configurations")
+            );
+            let help = "measure at more configurations, until there are twice as many values as unknowns; \
+             repeated visits do not count";
+            mistake::with_help(&data.file, message, help)
+        }
+        Failure::NotConverged { .. } => {
+            let help = "if the data have outliers, try `--robust tukey`; if joint zeros or units may be \
+             wrong, try `abbe doctor`";
+            mistake::with_help(&data.file, failure, help)
+        }
+    }
+}

@@ -1,0 +1,424 @@
+//! The job `measure`: accuracy, repeatability, and the share explained by the sources of the spec.
+//!
+//! `errors` computes ΔX of each row; `iso9283` the characteristics of repeated visits; `explained`
+//! compares with the prediction; `readings` does the same for instruments that are read one number
+//! at a time; `residual_test` compares what remains with the stated uncertainty.
+
+mod errors;
+mod explained;
+mod iso9283;
+mod readings;
+mod residual_test;
+
+use std::borrow::Cow;
+
+use abbe::identify::{self, Figures, Observation, drift};
+use abbe::{LengthUnit, Pose};
+use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
+use serde::Serialize;
+
+use crate::data::{Data, Instruments, Map, Summary, Table};
+use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
+use crate::{Acceptance, AcceptanceVerdict};
+use abbe_study::extrapolation::{Extrapolation, warn_of_extrapolation};
+use abbe_study::other_tool::{OtherTool, warn_of_other_tool};
+use abbe_study::{Machine, Notes, Residual, Residuals, RunRecord, finite, mistake};
+
+pub use errors::RowError;
+use errors::{Errors, Visit};
+use readings::{Readings, readings};
+
+pub use explained::Explained;
+pub use iso9283::{Directions, Distances, Drift, MeanAndMax, Repeated};
+pub use readings::{InstrumentErrors, ReadingErrors, RowReadings};
+pub use residual_test::ResidualTest;
+
+/// Options of `measure`.
+pub struct Measure {
+    /// The machine.
+    pub machine: Machine,
+    /// Map of the data.
+    pub map: Map,
+    /// Measurements.
+    pub data: Data,
+    /// Limits for the errors minus the repeatable sources.
+    pub accept: Acceptance,
+}
+
+/// Errors of measured rows, before and after the predicted errors are subtracted.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Name of the machine.
+    pub name: String,
+    /// Length unit of all lengths.
+    pub length: &'static str,
+    /// Title of the map.
+    pub title: String,
+    /// Number of usable rows.
+    pub rows: usize,
+    /// ΔX = measured − ideal: along x, y, z and its norm; for poses, also about x, y, z.
+    pub errors: Vec<Size>,
+    /// Reading minus prediction of each instrument, in its own unit.
+    pub instruments: Vec<InstrumentErrors>,
+    /// Comparison with the prediction by the sources of the spec.
+    pub explained: Explained,
+    /// Test of the errors minus the repeatable sources against the stated uncertainty; none if the
+    /// map states none, or for too few rows.
+    pub residual_test: Option<ResidualTest>,
+    /// Characteristics of repeated visits.
+    pub repeated: Repeated,
+    /// Verdict on the declared limits, if any.
+    pub accepted: Option<AcceptanceVerdict>,
+    /// Rows outside the fitted ranges, and the predicted uncertainty there; none if there are no
+    /// such rows.
+    pub extrapolated: Option<Extrapolation>,
+    /// Uncertainty of the measured points if the errors of the spec were fitted at other points of
+    /// the tool; none if they were fitted at these.
+    pub other_tool: Option<OtherTool>,
+    /// Number of independent configurations.
+    pub configurations: usize,
+    /// Cluster-robust standard error of the mean norm of ΔX, in the length unit; none for a single
+    /// configuration.
+    pub standard_error: Option<f64>,
+    /// Drift test of the errors minus the repeatable sources; none for too few rows.
+    pub drift: Option<ResidualDrift>,
+    /// Number of unusable rows.
+    pub unusable: usize,
+    /// Stated date, persons and instruments, and the version of abbe; absent if nothing is stated.
+    #[serde(skip_serializing_if = "RunRecord::is_empty")]
+    pub record: RunRecord,
+    /// Length unit as a value.
+    #[serde(skip)]
+    pub unit: LengthUnit,
+    /// Summary of the file.
+    #[serde(skip)]
+    pub file: Summary,
+    /// The pose of the base or the fixtures were fitted.
+    #[serde(skip)]
+    pub base_fitted: bool,
+    /// Places on the tool that the map does not state were fitted.
+    #[serde(skip)]
+    pub tool_fitted: bool,
+    /// Poses of `F_0` in the frame of the instrument, one per station.
+    #[serde(skip)]
+    pub stations: Vec<Pose>,
+    /// ΔX of each row.
+    #[serde(skip)]
+    pub row_errors: Vec<RowError>,
+    /// Reading minus prediction of each row.
+    #[serde(skip)]
+    pub row_readings: Vec<RowReadings>,
+    /// Names of the readings: those of the instruments, with the axis where there are three.
+    #[serde(skip)]
+    pub numbers: Vec<String>,
+    /// Unit of each of these numbers.
+    #[serde(skip)]
+    pub number_units: Vec<String>,
+    /// Points of repeated visits relative to their barycentre, for figures.
+    #[serde(skip)]
+    pub about_barycentres: Vec<[f64; 3]>,
+}
+
+/// One component of ΔX over all rows. Values are in `unit`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Size {
+    /// `x`, `norm`, `about x`.
+    pub name: &'static str,
+    /// The length unit, or rad.
+    pub unit: &'static str,
+    /// The mean.
+    pub mean: f64,
+    /// The root mean square.
+    pub rms: f64,
+    /// The largest absolute value.
+    pub max: f64,
+    /// Three standard deviations about the mean.
+    pub three_sigma: f64,
+}
+
+/// Running sums for a [`Size`], about the current mean (Welford, 1962).
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    count: f64,
+    mean: f64,
+    about_mean: f64,
+    squares: f64,
+    max: f64,
+}
+
+impl Sums {
+    fn add(&mut self, value: f64) {
+        self.count += 1.0;
+        let before = value - self.mean;
+        self.mean += before / self.count;
+        self.about_mean += before * (value - self.mean);
+        self.squares += value * value;
+        self.max = self.max.max(value.abs());
+    }
+
+    fn size(&self, name: &'static str, unit: &'static str) -> Size {
+        Size {
+            name,
+            unit,
+            mean: self.mean + 0.0,
+            rms: (self.squares / self.count.max(1.0)).sqrt(),
+            max: self.max,
+            three_sigma: 3.0 * (self.about_mean / (self.count - 1.0).max(1.0)).sqrt(),
+        }
+    }
+}
+
+/// Number of rows between reports of progress.
+const PROGRESS_STEP: usize = 1000;
+
+/// Returns whether each configuration has more than one row.
+fn visited_again(rows: &[Observation]) -> Vec<bool> {
+    let count = rows.iter().map(|row| row.configuration as usize + 1).max().unwrap_or_default();
+    let (mut once, mut again) = (vec![false; count], vec![false; count]);
+    for row in rows {
+        let at = row.configuration as usize;
+        again[at] |= once[at];
+        once[at] = true;
+    }
+    again
+}
+
+impl Measure {
+    /// Returns the options that the figures depend on.
+    fn options(&self) -> Vec<(&'static str, String)> {
+        let Self { machine, map, data: _, accept } = self;
+        let station = if map.is_newly_stationed { "new" } else { "" };
+        machine.options_with([("station", station.to_owned()), ("accept", accept.text(machine.spec.length))])
+    }
+
+    /// Compares each row with the ideal machine and with the predicted one.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        self.evaluate(self.data.clone(), true, notes)
+    }
+
+    /// Computes the report without ΔX of each row, with little memory beyond the data.
+    pub fn figures(mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let data = std::mem::take(&mut self.data);
+        self.evaluate(data, false, notes)
+    }
+
+    fn evaluate(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, map, accept, .. } = self;
+        let interpreter = Interpreter::new(machine.spec.clone());
+        let data = match data.completed(map, &interpreter, &machine.spec) {
+            Cow::Owned(completed) => completed,
+            Cow::Borrowed(_) => data,
+        };
+        map.carried_targets(machine).iter().for_each(|warning| notes.warn(warning));
+        let mut setup = Setup::new(&interpreter, map, &data, 0)?;
+        let fitted = check_interpretation(&setup, map, &data)?;
+        let placed = setup.find_places(map, &data)?;
+        let mut evaluated = match map.instruments() {
+            Some(all) => Evaluated::of_readings(&setup, all, data)?,
+            None => Evaluated::of_points(&setup, data, keep, notes)?,
+        };
+        evaluated.data.note_on_time().iter().for_each(|note| notes.warn(note));
+        let rows = &evaluated.data.observations;
+        let places = || rows.iter().map(|row| (&row.q[..], &row.u[..]));
+        let (spec, points) = (&machine.spec, setup.delivered_points());
+        let other_tool = warn_of_other_tool(spec, &interpreter, &points, "rows", &mut places(), notes)?;
+        let is_measured = other_tool.is_none();
+        let extrapolated = warn_of_extrapolation(spec, &interpreter, is_measured, "rows", places(), notes);
+        let Figures { rms, configurations, standard_error, .. } = evaluated.norms;
+        if let Some(warning) = too_large(rms, fitted, &setup) {
+            notes.warn(&warning);
+        }
+        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } =
+            evaluated.explained;
+        let accepted = accept.verdict("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
+        notes.go_on()?;
+        let residual_test = ResidualTest::new(&setup, map, rows, placed.as_ref())
+            .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
+        if !map.states_uncertainty() {
+            (evaluated.explained.inside, evaluated.explained.likely) = (None, None);
+        }
+        let residual_drift = drift(&setup.real, rows, &[]);
+        let residual_drift =
+            residual_drift.map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
+        let file = evaluated.data.file.clone();
+        let report = Report {
+            name: machine.spec.name.clone(),
+            length: machine.spec.length.symbol(),
+            unit: machine.spec.length,
+            title: map.title.clone(),
+            rows: rows.len(),
+            errors: std::mem::take(&mut evaluated.errors),
+            instruments: std::mem::take(&mut evaluated.instruments),
+            explained: evaluated.explained,
+            residual_test,
+            accepted,
+            extrapolated,
+            other_tool,
+            repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets_of(0).len() > 1),
+            configurations,
+            standard_error: Some(standard_error).filter(|error| error.is_finite()),
+            drift: residual_drift.map(|drift| ResidualDrift::new(drift, setup.description.length)),
+            unusable: evaluated.data.unusable.len(),
+            record: map.record.with_options(self.options()),
+            file: evaluated.data.summary(),
+            base_fitted: placed.is_some() && (setup.is_station_open() || map.instruments().is_some()),
+            tool_fitted: placed.is_some() && setup.is_tool_open(),
+            about_barycentres: if keep { iso9283::about_barycentres(&evaluated.visits) } else { Vec::new() },
+            stations: setup.ideal.stations.iter().map(|station| station.pose).collect(),
+            row_errors: evaluated.rows,
+            row_readings: evaluated.row_readings,
+            numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
+            number_units: map.instruments().map(Instruments::units).unwrap_or_default(),
+        };
+        finite(file, report)
+    }
+}
+
+/// Results of either kind of measurement.
+struct Evaluated {
+    errors: Vec<Size>,
+    instruments: Vec<InstrumentErrors>,
+    explained: Explained,
+    /// Figures of the norms of the errors.
+    norms: Figures,
+    /// Rows of configurations with repeated visits.
+    visits: Vec<Visit>,
+    /// The rows, if they are kept.
+    rows: Vec<RowError>,
+    row_readings: Vec<RowReadings>,
+    /// Usable rows.
+    data: Data,
+}
+
+impl Evaluated {
+    fn of_points(
+        setup: &Setup,
+        mut data: Data,
+        keep: bool,
+        notes: &mut dyn Notes,
+    ) -> Result<Self, Diagnostics> {
+        errors::leave_out(setup, &mut data)?;
+        let fail = |failure: identify::Failure| mistake::whole(&data.file, &failure);
+        let unit = setup.description.length.symbol();
+        let numbers = if setup.pose || setup.ideal.targets_of(0).len() > 1 { 6 } else { 3 };
+        let mut sizes = vec![Sums::default(); numbers + 1];
+        let (mut errors, mut norms) = (Errors::new(setup), identify::Distances::default());
+        let again = visited_again(&data.observations);
+        let (mut visits, mut rows) = (Vec::new(), Vec::new());
+        for (i, row) in data.observations.iter().enumerate() {
+            if i.is_multiple_of(PROGRESS_STEP) {
+                notes.progress(i, data.observations.len());
+                notes.go_on()?;
+            }
+            let row = errors.row_error(row).map_err(fail)?;
+            let distance = row.distance();
+            sizes[..numbers].iter_mut().zip(row.error).for_each(|(size, value)| size.add(value));
+            sizes[numbers].add(distance);
+            norms.push(row.observation.configuration, distance);
+            if again[row.observation.configuration as usize] {
+                visits.push(Visit::new(&row));
+            }
+            if keep {
+                rows.push(row);
+            }
+        }
+        notes.progress(data.observations.len(), data.observations.len());
+        let norms = norms.into_figures();
+        let of = |i: usize, name, unit| sizes[i].size(name, unit);
+        let mut errors: Vec<Size> = (0..3).map(|i| of(i, ["x", "y", "z"][i], unit)).collect();
+        errors.push(of(numbers, "norm", unit));
+        errors.extend((3..numbers).map(|i| of(i, ["about x", "about y", "about z"][i - 3], "rad")));
+        let explained = explained::explained(setup, &data.observations).map_err(fail)?;
+        Ok(Self {
+            errors,
+            instruments: Vec::new(),
+            explained,
+            norms,
+            visits,
+            rows,
+            row_readings: Vec::new(),
+            data,
+        })
+    }
+
+    fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self, Diagnostics> {
+        let Readings { instruments, explained, rows: row_readings, norms } =
+            readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        let (errors, visits, rows) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self {
+            errors,
+            instruments,
+            explained,
+            norms: norms.into_figures(),
+            visits,
+            rows,
+            row_readings,
+            data,
+        })
+    }
+}
+
+impl Report {
+    /// Returns ΔX of the measured points, before and after the prediction by the repeatable sources
+    /// of the spec is subtracted; `None` for instruments that measure no points, and without rows.
+    pub fn residuals(&self) -> Option<Residuals> {
+        let position = |error: &[f64; 6]| [error[0], error[1], error[2]];
+        let (ideal, predicted) = ("measured − ideal", "measured − predicted");
+        let (before, after) = match self.explained.repeatable {
+            0 => (None, ideal),
+            _ => (Some(ideal), predicted),
+        };
+        Residuals::new(before, after, &self.row_errors, |row| {
+            let RowError { observation, error, point, residual } = row;
+            let station = &self.stations[observation.station as usize];
+            let after = position(if before.is_some() { residual } else { error });
+            let before = before.map(|_| position(error));
+            Residual { before, ..Residual::new(observation, &observation.q, *point, after) }.in_f0(station)
+        })
+    }
+
+    /// Returns the table of the rows: ΔX, the tool point predicted by the machine with its
+    /// repeatable sources, and measured minus predicted; or readings minus prediction and
+    /// predictions.
+    pub fn table(&self) -> Table {
+        if !self.instruments.is_empty() {
+            return self.readings_table();
+        }
+        let names = ["x", "y", "z", "about_x", "about_y", "about_z"];
+        let units = [self.length, self.length, self.length, "rad", "rad", "rad"];
+        // One less without the norm.
+        let shown = self.errors.len() - 1;
+        let mut columns = vec![("line".to_owned(), "")];
+        for (prefix, shown) in [("", shown), ("predicted_", 3), ("residual_", shown)] {
+            let named = names.iter().zip(units).take(shown);
+            columns.extend(named.map(|(name, unit)| (format!("{prefix}{name}"), unit)));
+        }
+        let rows = self.row_errors.iter().map(|row| {
+            let mut values = vec![row.observation.line as f64];
+            values.extend(&row.error[..shown]);
+            values.extend(row.predicted());
+            values.extend(&row.residual[..shown]);
+            values.into_iter().map(Some).collect()
+        });
+        let (heading, units) = columns.into_iter().map(|(name, unit)| (name, unit.to_owned())).unzip();
+        Table { heading, units, rows: rows.collect(), ..Table::default() }
+    }
+
+    fn readings_table(&self) -> Table {
+        let line = std::iter::once("line".to_owned());
+        let predicted = self.numbers.iter().map(|name| format!("predicted_{name}"));
+        let rows = self.row_readings.iter().map(|row| {
+            let values = row.left.iter().chain(&row.predicted).copied();
+            std::iter::once(Some(row.line as f64)).chain(values).collect()
+        });
+        let units =
+            std::iter::once(String::new()).chain([&self.number_units; 2].into_iter().flatten().cloned());
+        Table {
+            units: units.collect(),
+            heading: line.chain(self.numbers.iter().cloned()).chain(predicted).collect(),
+            rows: rows.collect(),
+            ..Table::default()
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! Plans a measurement and predicts how well it determines the errors of the machine in its
+//! workspace of use.
+
+mod keys;
+mod mounting;
+pub mod options;
+mod report;
+mod sets;
+
+use abbe::analysis::sampling::closes;
+use abbe::analysis::{Configuration, Workspace, joint_samples, random_joint_samples};
+use abbe::identify::{
+    Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, knowable,
+    optimal, whole,
+};
+use abbe::{Description, Manipulator};
+use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
+
+use crate::data::{Instruments, Map};
+use crate::identify::{
+    Counts, Prior, Setup, WeaklyDetermined, indistinguishable, nothing_readable, readable_configurations,
+    scale_note,
+};
+use abbe_study::workspace::has_range;
+use abbe_study::{Machine, Notes, Study, finite, mistake};
+use mounting::Assessed;
+
+pub use keys::{TABLES, rules};
+pub use mounting::{HiddenNumber, TargetMounting};
+pub use report::{Input, Predicted, Report, UndeterminedError};
+pub use sets::{SetSize, Sets};
+
+/// Largest number of configurations of the workspace of use that are evaluated.
+const USED: usize = 1000;
+
+/// Planning of a measurement.
+pub struct Plan {
+    /// Nominal machine.
+    pub machine: Machine,
+    /// Quantities to be measured, and their uncertainty.
+    pub map: Map,
+    /// Selection of the configurations.
+    pub choice: Choice,
+    /// Study whose workspace is the workspace of use.
+    pub study: Study,
+    /// Error of the identified model itself: root mean square position error in the length unit
+    /// that remains beside the noise of the instrument, known from an earlier fit. It is taken as
+    /// independent between configurations.
+    pub model_error: f64,
+    /// Seed for random candidates and for the random samples of the study; without it, candidates
+    /// follow a low-discrepancy sequence.
+    pub seed: Option<u64>,
+}
+
+/// Selection of configurations.
+#[derive(Clone, Debug)]
+pub enum Choice {
+    /// Sets of a plan file.
+    Sets(Sets),
+    /// Optimal design.
+    Optimal {
+        /// Optimality criterion.
+        criterion: Criterion,
+        /// Number of configurations.
+        count: usize,
+        /// Number of candidate samples within the joint limits.
+        candidates: usize,
+    },
+}
+
+/// Selected rows by title and sets, and what they determine.
+struct Chosen {
+    title: String,
+    sets: Vec<SetSize>,
+    rows: Vec<Observation>,
+    identifiable: Identifiable,
+    design: Option<Design>,
+}
+
+impl Plan {
+    /// Selects the configurations and predicts the uncertainty after the measurement.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, map, .. } = self;
+        map.require_uncertainty("a plan")?;
+        let interpreter = Interpreter::new(machine.spec.clone());
+        let description = interpreter.description();
+        let setup = Setup::at_home(&interpreter, map)?;
+        let model = setup.ideal.with(setup.constants());
+        let fail = |failure: Failure| mistake::whole(&machine.origin, &failure);
+        let used = self.configurations_of_use(&interpreter, description)?;
+        let tool_points = model.tool_points(&used).map_err(fail)?;
+        // Per coordinate.
+        let model_error = self.model_error / 3.0_f64.sqrt();
+        let objective = Objective { criterion: Criterion::Variance, used: &tool_points, model_error };
+        let Chosen { title, sets, rows, identifiable, design } =
+            self.choose(&interpreter, &setup, &model, objective, notes)?;
+        let numbers = rows.iter().map(Observation::count).sum::<usize>();
+        let Some(design) = design.filter(|_| numbers > identifiable.rank) else {
+            let rank = identifiable.rank;
+            let message = format!("too few configurations to determine {rank} combinations of errors");
+            return Err(mistake::with_help(&machine.origin, message, "choose more configurations"));
+        };
+        let own = self.model_error;
+        // An optimal design is assessed again on its own rows, as an identification would do it.
+        // Sets need no second assessment.
+        let (observed, own_design) = match &self.choice {
+            Choice::Sets(_) => (identifiable.clone(), Some(design.clone())),
+            Choice::Optimal { .. } => {
+                let observed = identifiable_from(&model, &rows).map_err(fail)?;
+                let own_design = whole(&model, &rows, &observed, &objective, &mut |_, _| {}).map_err(fail)?;
+                (observed, own_design)
+            }
+        };
+        let (assessed, covariance) = match &own_design {
+            Some(own_design) => (&observed, &own_design.covariance),
+            None => (&identifiable, &design.covariance),
+        };
+        let spread = tool_points.deviations(assessed, covariance);
+        let spread = Figures::from_norms(spread.into_iter().map(|deviation| deviation.hypot(own)).collect());
+        let sizes = model.priors(Prior::DEFAULT_SHARE).map_err(fail)?;
+        let unseen = tool_points.unseen(assessed, |k| sizes[k].unwrap_or(1.0));
+        // Effects below a millionth of the instrument's uncertainty are rounding errors.
+        let matters =
+            |(k, moves): &(usize, f64)| moves * sizes[*k].unwrap_or(1.0) > 1e-6 * map.uncertainty.length;
+        let unseen = unseen
+            .into_iter()
+            .filter(matters)
+            .map(|(k, moves)| UndeterminedError::new(&model, k, moves))
+            .collect();
+        let moved = setup.moved(&rows);
+        if let Some(note) = scale_note(&setup.ideal, &rows, &moved).map_err(fail)? {
+            notes.note(&note);
+        }
+        let groups =
+            rows.first().map_or(Ok(Vec::new()), |row| indistinguishable(&model, &row.q, &moved, setup.pose));
+        let groups = groups.map_err(|error| mistake::whole(&machine.origin, &error))?;
+        let assessed = Assessed {
+            spec: &machine.spec,
+            setup: &setup,
+            model: &model,
+            rows: &rows,
+            used: &used,
+            model_error,
+        };
+        let mounting = assessed.mounting().map_err(fail)?;
+        let report = Report {
+            name: machine.spec.name.clone(),
+            length: machine.spec.length.symbol(),
+            title,
+            rows: rows.len(),
+            sets,
+            inputs: self.inputs(&rows),
+            rank: observed.rank,
+            unknowns: model.unknowns.len(),
+            machine: Counts::new(&model, &observed),
+            not_known: WeaklyDetermined::all(&model, &observed, machine.spec.length),
+            condition: observed.observability.condition,
+            log_det: design.log_det,
+            exchanges: design.exchanges,
+            model_error: self.model_error,
+            unseen,
+            mounting,
+            used: used.len(),
+            predicted: Predicted { mean: spread.mean, rms: spread.rms, max: spread.max, p95: spread.p95 },
+            groups,
+            observations: rows,
+        };
+        finite(&machine.origin, report)
+    }
+
+    fn readable(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
+        let most = list.len();
+        let readable = readable_configurations(setup, &self.map, list, most);
+        let readable = readable.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
+        if readable.is_empty() { Err(nothing_readable(self.map.path())) } else { Ok(readable) }
+    }
+
+    fn choose(
+        &self,
+        manipulator: &Interpreter,
+        setup: &Setup,
+        model: &Model,
+        objective: Objective<'_>,
+        notes: &mut dyn Notes,
+    ) -> Result<Chosen, Diagnostics> {
+        let description = manipulator.description();
+        let fail = |failure: Failure| mistake::whole(&self.machine.origin, &failure);
+        match &self.choice {
+            Choice::Sets(sets) => {
+                let (configurations, counts) = sets.rows(manipulator, description, notes)?;
+                let rows = (1..).zip(configurations).map(|(line, configuration): (u64, Configuration)| {
+                    let u = configuration.u.clone();
+                    Observation { u: u.into(), ..self.map.planned(line, configuration) }
+                });
+                let rows = self.map.in_sequence(self.readable(setup, rows.collect())?);
+                let rows = with_nominal_measurements(model, rows.into_iter()).map_err(fail)?;
+                let identifiable = identifiable_from(model, &rows).map_err(fail)?;
+                let progress = &mut |done, total| notes.progress(done, total);
+                let design = whole(model, &rows, &identifiable, &objective, progress).map_err(fail)?;
+                Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
+            }
+            Choice::Optimal { criterion, count, candidates } => {
+                if self.map.instruments().is_some_and(Instruments::depend_on_previous_row) {
+                    let message = "this instrument reads relative to the row before, so single \
+                        configurations cannot be chosen";
+                    let help = "plan ordered rows with `--sets`";
+                    return Err(mistake::with_help(self.map.path(), message, help));
+                }
+                let moved: Vec<usize> = self.map.moved().collect();
+                let inputs = self.map.moved_inputs(&self.machine);
+                let samples = match self.seed {
+                    Some(seed) => random_joint_samples(manipulator, &moved, *candidates, seed),
+                    None => joint_samples(manipulator, &moved, *candidates),
+                };
+                let samples = samples.and_then(|samples| samples.inputs(manipulator, &inputs));
+                let samples =
+                    samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
+                let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
+                let list = self.readable(setup, list.collect())?;
+                if *count > list.len() {
+                    let message = format!("cannot choose {count} configurations from {} samples", list.len());
+                    let help = "each sample is chosen at most once: increase `--candidates`, or \
+                        choose fewer configurations";
+                    return Err(mistake::with_help(&self.machine.origin, message, help));
+                }
+                let list = with_nominal_measurements(model, list.into_iter()).map_err(fail)?;
+                let identifiable = identifiable_from(model, &list).map_err(fail)?;
+                let objective = Objective { criterion: *criterion, ..objective };
+                let progress = &mut |done, total| notes.progress(done, total);
+                let design =
+                    optimal(model, &list, &identifiable, *count, &objective, progress).map_err(fail)?;
+                let chosen = design.iter().flat_map(|design| &design.chosen);
+                let rows = chosen.map(|i| list[*i].clone()).collect();
+                let name = match criterion {
+                    Criterion::Variance => "V-optimal",
+                    Criterion::Determinant => "D-optimal",
+                };
+                let title = format!("{name}: {count} of {} samples", list.len());
+                Ok(Chosen { title, sets: Vec::new(), rows, identifiable, design })
+            }
+        }
+    }
+
+    /// Returns the range of each input over these rows.
+    fn inputs(&self, rows: &[Observation]) -> Vec<Input> {
+        let inputs = self.machine.spec.inputs.iter().enumerate().filter(|(_, input)| has_range(input));
+        let inputs = inputs.map(|(i, input)| {
+            let values = rows.iter().map(|row| row.u[i]);
+            let between = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], value| {
+                [least.min(value), largest.max(value)]
+            });
+            Input { name: input.name.clone(), unit: input.unit.clone(), between }
+        });
+        inputs.collect()
+    }
+
+    /// Returns the configurations of the workspace of use, without measurements.
+    fn configurations_of_use(
+        &self,
+        manipulator: &dyn Manipulator,
+        description: &Description,
+    ) -> Result<Vec<Observation>, Diagnostics> {
+        let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, &error);
+        let mut region = self.study.region.clone();
+        region.fix(self.machine.fixed_inputs());
+        let workspace = region.workspace(manipulator, self.seed).map_err(fail)?;
+        let step = workspace.len().div_ceil(USED).max(1);
+        let configurations =
+            (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
+        let configurations = configurations.filter(|Configuration { q, s, .. }| closes(manipulator, q, s));
+        let mut configurations: Vec<_> = configurations.collect();
+        if configurations.is_empty() {
+            let every: Vec<usize> = (0..description.variables.len()).collect();
+            configurations = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
+            configurations.retain(|Configuration { q, s, .. }| closes(manipulator, q, s));
+        }
+        let nothing = || Measurement::Points(Vec::new().into());
+        let rows = (1..)
+            .zip(configurations)
+            .map(|(line, configuration)| Observation::new(line, configuration.q, configuration.u, nothing()));
+        Ok(rows.collect())
+    }
+}
+
+fn identifiable_from(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
+    let expected = model.expected(&model.priors(Prior::DEFAULT_SHARE)?)?;
+    knowable(model, rows, &vec![0.0; model.unknowns.len()], &expected, 1.0)
+}
+
+/// Fills in the measurements of the nominal machine.
+fn with_nominal_measurements(
+    model: &Model,
+    rows: impl Iterator<Item = Observation>,
+) -> Result<Vec<Observation>, Failure> {
+    let mut scratch = model.scratch();
+    rows.map(|row| model.nominally_seen(&mut scratch, &row)).collect()
+}

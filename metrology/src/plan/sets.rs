@@ -1,0 +1,187 @@
+//! Reads a plan file: sets of configurations to measure.
+//!
+//! `docs/reference/plan.md` describes every key.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use abbe::analysis::{Axis, Configuration};
+use abbe::{Description, Manipulator};
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::document::{Document, Section};
+use serde::Serialize;
+
+use super::keys;
+use abbe_study::workspace::{Candidates, Region, count, read_region};
+use abbe_study::{Notes, mistake, named};
+
+/// Largest number of rows of a plan.
+const MOST_ROWS: usize = 1_000_000;
+
+/// Plan file, read and checked.
+#[derive(Clone, Debug)]
+pub struct Sets {
+    pub(super) title: String,
+    repeat: usize,
+    sets: Vec<Set>,
+    inputs: Vec<Axis>,
+    /// Files that were read: the plan itself and those of paths; none for a shipped plan.
+    pub(crate) files: Vec<PathBuf>,
+}
+
+#[derive(Clone, Debug)]
+struct Set {
+    name: String,
+    content: Content,
+}
+
+#[derive(Clone, Debug)]
+enum Content {
+    Workspace(Region),
+    /// One axis at a time.
+    Axes(Vec<Axis>),
+}
+
+/// Number of rows of a set.
+#[derive(Clone, Debug, Serialize)]
+pub struct SetSize {
+    /// Name of the set.
+    pub name: String,
+    /// Number of rows.
+    pub rows: usize,
+}
+
+impl Sets {
+    /// Reads the plan in a file, or the shipped one with that name.
+    pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
+        let mut document =
+            named::document("--sets", argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
+        let text = Arc::clone(&document.text);
+        let tables = document.tables(&text);
+        let sets = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
+        document.finish(sets)
+    }
+
+    /// Returns all rows, and the number of rows of each set.
+    pub(super) fn rows(
+        &self,
+        manipulator: &dyn Manipulator,
+        description: &Description,
+        notes: &mut dyn Notes,
+    ) -> Result<(Vec<Configuration>, Vec<SetSize>), Diagnostics> {
+        let home = Configuration::home(description);
+        // All combinations of the plan's inputs, each a list of indices and values.
+        let mut combinations: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
+        let sizes = self.inputs.iter().map(|axis| axis.values.len());
+        let count = sizes.chain([self.repeat]).fold(1, usize::saturating_mul);
+        let few_enough = |more: usize| match count.saturating_mul(more) {
+            rows if rows > MOST_ROWS => {
+                let message = format!("this plan has too many rows; the limit is {MOST_ROWS}");
+                let help = "use fewer input values, fewer configurations, or a smaller `repeat`";
+                Err(mistake::with_help(&self.title, message, help))
+            }
+            _ => Ok(()),
+        };
+        few_enough(1)?;
+        for axis in &self.inputs {
+            let with = |before: &Vec<(usize, f64)>| {
+                let before = before.clone();
+                axis.values.iter().map(move |value| [&before[..], &[(axis.index, *value)]].concat())
+            };
+            combinations = combinations.iter().flat_map(with).collect();
+        }
+        let (mut rows, mut counts) = (Vec::new(), Vec::new());
+        for set in &self.sets {
+            let configurations: Vec<Configuration> = match &set.content {
+                Content::Workspace(region) => {
+                    let workspace = region.workspace(manipulator, None);
+                    let workspace = workspace.map_err(|error| mistake::whole(&set.name, &error))?;
+                    few_enough(workspace.len())?;
+                    let unreached = workspace.len() - workspace.reached().len();
+                    if unreached > 0 {
+                        notes.note(&format!("{}: {unreached} configurations are unreachable", set.name));
+                    }
+                    workspace.reached()
+                }
+                Content::Axes(axes) => axes
+                    .iter()
+                    .flat_map(|axis| {
+                        axis.values.iter().map(|value| {
+                            let mut configuration = home.clone();
+                            configuration.q[axis.index] = *value;
+                            configuration
+                        })
+                    })
+                    .collect(),
+            };
+            let before = rows.len();
+            few_enough(configurations.len())?;
+            for inputs in &combinations {
+                for _ in 0..self.repeat {
+                    rows.extend(configurations.iter().cloned().map(|mut configuration| {
+                        inputs.iter().for_each(|(input, value)| configuration.u[*input] = *value);
+                        configuration
+                    }));
+                }
+            }
+            counts.push(SetSize { name: set.name.clone(), rows: rows.len() - before });
+        }
+        Ok((rows, counts))
+    }
+}
+
+fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets> {
+    if !document.is_kind(root, "plan") {
+        return None;
+    }
+    root.check_keys(&[&keys::FILE], document);
+    let mut head = root.required("plan", document).and_then(|item| document.section(&item))?;
+    head.name = "[plan]".to_owned();
+    head.check_keys(&[&keys::PLAN], document);
+    let repeat = match head.get("repeat") {
+        Some(item) => count(&item, keys::MOST_REPEATS as usize, document, spec),
+        None => Some(1),
+    };
+    let inputs = match root.get("inputs") {
+        Some(item) => Candidates::inputs(spec).axes(&item, document, spec),
+        None => Vec::new(),
+    };
+    let items = root
+        .required_list("set", document)
+        .and_then(|item| document.array(&item, "an array of tables [[set]]"))?;
+    if items.is_empty() {
+        let item = root.get("set").map_or(0..0, |item| item.span());
+        document.mistake(Diagnostic::new(item, "a plan needs at least one set").help("add a [[set]]"));
+    }
+    let mut sets = Vec::new();
+    for item in &items {
+        let mut section = document.section(item)?;
+        section.span = item.span();
+        section.name = "this [[set]]".to_owned();
+        section.check_keys(&[&keys::SET], document);
+        let name = section.optional_text("name", document);
+        let content = if let Some(axes) = section.get("axes") {
+            if let Some(workspace) = section.get("workspace") {
+                document.mistake(
+                    Diagnostic::new(axes.key_span.clone(), "a set has a `workspace` or `axes`, not both")
+                        .label("one too many")
+                        .context(workspace.key_span, "the other one")
+                        .help("write two sets instead"),
+                );
+            }
+            Content::Axes(Candidates::variables(spec).axes(&axes, document, spec))
+        } else {
+            let workspace = section.required("workspace", document)?;
+            Content::Workspace(read_region(&workspace, document, spec)?)
+        };
+        sets.push(Set { name, content });
+    }
+    Some(Sets {
+        title: head.optional_text("title", document),
+        repeat: repeat?,
+        sets,
+        inputs,
+        files: document.files.clone(),
+    })
+}

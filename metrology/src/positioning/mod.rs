@@ -1,0 +1,177 @@
+//! `abbe positioning`: evaluates runs of one axis by ISO 230-2, or of body diagonals by ISO 230-6.
+//!
+//! `evaluation` has the formulas.
+
+mod evaluation;
+
+use std::path::Path;
+
+use abbe::LengthUnit;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
+use serde::Serialize;
+
+use crate::data::{Runs, Source, Table, TargetRuns, runs};
+use abbe_study::notes::Notes;
+use abbe_study::{finite, mistake};
+
+pub use evaluation::{
+    ApproachResult, Bidirectional, Characteristic, Evaluation, InstrumentUncertainty, PositionResult,
+    Unidirectional,
+};
+
+/// Number of approaches in each direction that ISO 230-2 evaluates.
+const APPROACHES: usize = 5;
+
+/// Job that evaluates runs.
+pub struct Positioning<'a> {
+    /// Runs: a CSV file, or its columns.
+    pub data: Source<'a>,
+    /// Standard uncertainty of one reading, such as `0.1 um`.
+    pub reading: Option<String>,
+    /// Standard uncertainty of the scale of the instrument, such as `1 um/m`.
+    pub scale: Option<String>,
+}
+
+/// Results of one axis, or of several diagonals. Positions are in mm or deg, deviations in um or
+/// arcsec.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Name of the file, or of columns in memory.
+    pub file: String,
+    /// Unit of deviations and characteristics: `um` or `arcsec`.
+    pub unit: &'static str,
+    /// Unit of positions: `mm` or `deg`.
+    pub position_unit: &'static str,
+    /// Smallest and largest number of approaches of a position in one direction.
+    pub approaches: [usize; 2],
+    /// Standard uncertainties of the instrument: of a reading in `unit`, of the scale in `unit` by
+    /// `position_unit`; none if they are not stated.
+    pub instrument: Option<[f64; 2]>,
+    /// Results of the axis, or of each diagonal.
+    pub lines: Vec<PositioningLine>,
+    /// Results of all diagonals together; none for an axis.
+    pub diagonals: Option<DiagonalResult>,
+}
+
+/// Results of an axis or a diagonal.
+#[derive(Clone, Debug, Serialize)]
+pub struct PositioningLine {
+    /// Name of the diagonal; empty for an axis.
+    pub name: String,
+    /// Results.
+    #[serde(flatten)]
+    pub evaluation: Evaluation,
+}
+
+/// Largest characteristics of all body diagonals.
+#[derive(Clone, Debug, Serialize)]
+pub struct DiagonalResult {
+    /// Diagonal systematic deviation of positioning `E_d`: the largest `E`; none unless all
+    /// diagonals have both directions.
+    pub systematic: Option<Characteristic>,
+    /// Diagonal reversal error `B_d`: the largest `B`.
+    pub reversal: Option<Characteristic>,
+}
+
+impl Positioning<'_> {
+    /// Reads and evaluates the runs.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Runs { is_rotary, lines } = runs(self.data)?;
+        let instrument = self.instrument(is_rotary)?;
+        let counts = lines.iter().flat_map(|(_, targets)| targets).flat_map(|target| &target.deviations);
+        let counts = counts.map(Vec::len).filter(|count| *count > 0);
+        let approaches =
+            counts.fold([usize::MAX, 0], |[least, most], count| [least.min(count), most.max(count)]);
+        let is_axis = lines.iter().all(|(name, _)| name.is_empty());
+        if is_axis && approaches[0] < APPROACHES {
+            notes.warn(&format!(
+                "ISO 230-2 evaluates {APPROACHES} approaches of each position in each direction; here \
+                 there are {}",
+                match approaches {
+                    [least, most] if least == most => least.to_string(),
+                    [least, most] => format!("{least} to {most}"),
+                }
+            ));
+        }
+        let line = |(name, targets): (String, Vec<TargetRuns>)| PositioningLine {
+            name,
+            evaluation: Evaluation::new(&targets, instrument),
+        };
+        let lines: Vec<PositioningLine> = lines.into_iter().map(line).collect();
+        let report = Report {
+            file: match self.data.file().and_then(Path::file_name) {
+                Some(name) => name.to_string_lossy().into_owned(),
+                None => self.data.name(),
+            },
+            unit: if is_rotary { "arcsec" } else { "um" },
+            position_unit: if is_rotary { "deg" } else { "mm" },
+            approaches,
+            instrument: instrument.map(|InstrumentUncertainty { reading, scale }| [reading, scale]),
+            diagonals: (!is_axis).then(|| DiagonalResult::new(&lines)),
+            lines,
+        };
+        finite(self.data.name(), report)
+    }
+
+    /// Reads the uncertainties of the instrument, in um or arcsec and in these by mm or deg.
+    fn instrument(&self, is_rotary: bool) -> Result<Option<InstrumentUncertainty>, Diagnostics> {
+        if self.reading.is_none() && self.scale.is_none() {
+            return Ok(None);
+        }
+        let value = |option: &str, text: &Option<String>, dimension: Dimension| {
+            let Some(text) = text else { return Ok(0.0) };
+            let mut document = Document::new(option, text.as_str());
+            let name = format!("`{option}`");
+            let value = parse_value(&mut document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
+            let value = document.finish(value)?;
+            if value < 0.0 {
+                return Err(mistake::with_help(
+                    option,
+                    format!("{name} is negative"),
+                    "give a standard uncertainty: 0 or more",
+                ));
+            }
+            Ok(value)
+        };
+        let dimension = if is_rotary { Dimension::NONE } else { Dimension::LENGTH };
+        let reading = value("--reading-uncertainty", &self.reading, dimension)?;
+        let scale = value("--scale-uncertainty", &self.scale, Dimension::NONE)?;
+        Ok(Some(match is_rotary {
+            true => InstrumentUncertainty { reading: 3600.0 * reading.to_degrees(), scale: 3600.0 * scale },
+            false => InstrumentUncertainty { reading: 1e3 * reading, scale: 1e3 * scale },
+        }))
+    }
+}
+
+impl DiagonalResult {
+    fn new(lines: &[PositioningLine]) -> Self {
+        let largest = |one: fn(&Bidirectional) -> Characteristic| {
+            let all: Option<Vec<Characteristic>> =
+                lines.iter().map(|line| line.evaluation.bidirectional.as_ref().map(one)).collect();
+            all?.into_iter().max_by(|a, b| a.value.total_cmp(&b.value))
+        };
+        Self { systematic: largest(|both| both.systematic), reversal: largest(|both| both.reversal) }
+    }
+}
+
+impl Report {
+    /// Returns the mean deviations of an axis at its positions, for a table of a spec: of both
+    /// directions together and of each; `None` for diagonals.
+    pub fn table(&self) -> Option<Table> {
+        let [line] = &self.lines[..] else { return None };
+        let rows = line.evaluation.positions.iter().map(|one| {
+            let [up, down] = [one.forward, one.reverse].map(|own| own.map(|own| own.mean));
+            vec![Some(one.position), one.mean.or(up).or(down), up, down]
+        });
+        let units = [self.position_unit, self.unit, self.unit, self.unit];
+        Some(Table {
+            heading: ["position", "deviation", "forward", "reverse"].map(str::to_owned).to_vec(),
+            units: units.map(str::to_owned).to_vec(),
+            rows: rows.collect(),
+            ..Table::default()
+        })
+    }
+}

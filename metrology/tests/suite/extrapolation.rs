@@ -1,0 +1,169 @@
+//! Uncertainty of an identified machine outside the fitted ranges, compared with the scatter of
+//! many identifications.
+
+use abbe::Manipulator;
+use abbe::identify::Loss;
+use abbe_interpreter::Interpreter;
+use abbe_metrology::Acceptance;
+use abbe_metrology::compensate::Compensate;
+use abbe_metrology::data::{Data, Map};
+use abbe_metrology::identify::{Identify, Prior, Report, Settings};
+use abbe_metrology::measure::Measure;
+use abbe_metrology::simulate::{Places, Simulate};
+use abbe_study::{Machine, Notes};
+
+use super::simulated_ur5::{joints, machine, ur5, ur5_with};
+
+/// Share of the joint limits within which the machine is measured.
+const SHARE: f64 = 0.15;
+
+const ERRORS: &str = "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ne_x = \"0.6 mm\"\ne_s = \"0.8 mrad\"\n";
+
+/// Returns a map with exactly known base and target.
+fn map() -> Map {
+    let joints = joints();
+    let text = format!(
+        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\nplacement = \"exact\"\n\n[joints]\n{joints}\n[point]\n\
+         columns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n"
+    );
+    Map::parse("map.toml", &text, &ur5().spec).unwrap()
+}
+
+fn simulated(at: Places, seed: u64) -> Data {
+    let job = Simulate {
+        machine: ur5_with(ERRORS),
+        map: map(),
+        at,
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed,
+    };
+    let observations = job.run(&mut ()).unwrap().observations;
+    Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() }
+}
+
+/// Simulates measurements over the whole workspace or near home; `seed` determines the noise.
+fn measured(samples: usize, near: bool, seed: u64) -> Data {
+    let mut data = simulated(Places::Samples(samples), 7);
+    if near {
+        data.observations.iter_mut().for_each(|row| row.q.iter_mut().for_each(|q| *q *= SHARE));
+    }
+    simulated(Places::Rows(data), seed)
+}
+
+/// Identifies the machine near home; returns the report and the machine of the written spec.
+fn identified(seed: u64, test: Option<Data>) -> (Report, Machine) {
+    let settings =
+        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let job = Identify {
+        machine: ur5(),
+        map: map(),
+        data: measured(80, true, seed),
+        test,
+        terms: Vec::new(),
+        harmonics: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    };
+    let report = job.run(&mut ()).unwrap();
+    let nominal = ur5();
+    let written = report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml");
+    let written = machine("found.toml", &written.unwrap().text);
+    (report, written)
+}
+
+fn found(seed: u64) -> Machine {
+    identified(seed, None).1
+}
+
+/// Holds that `identify` states the same deviations of test rows outside the fitted ranges as
+/// `measure` with the written spec.
+#[test]
+fn identify_and_measure_state_the_same_deviations() {
+    let far = measured(40, false, 100);
+    let (report, written) = identified(0, Some(far.clone()));
+    let job = Measure { machine: written, map: map(), data: far, accept: Acceptance::default() };
+    let measured = job.run(&mut ()).unwrap().extrapolated.unwrap();
+    let (stated, known) = (report.outside.unwrap(), measured.known.unwrap());
+    println!("{stated:?} {known:?}");
+    assert_eq!(stated.rows, measured.outside);
+    for (stated, known) in [(stated.known_outside, known.outside), (stated.known_within, known.within)] {
+        assert!((stated.unwrap() / known - 1.0).abs() < 1e-9, "{stated:?} {known}");
+    }
+}
+
+/// Warnings of a job.
+#[derive(Default)]
+struct RecordedNotes(Vec<String>);
+
+impl Notes for RecordedNotes {
+    fn warn(&mut self, line: &str) {
+        self.0.push(line.to_owned());
+    }
+}
+
+/// Computes the scatter of the tool points of several machines: root mean square over
+/// configurations, all directions together, in mm.
+fn scatter(machines: &[Machine], data: &Data) -> f64 {
+    let s: Vec<f64> = machines[0].spec.parameters.iter().map(|parameter| parameter.value).collect();
+    let interpreters: Vec<Interpreter> =
+        machines.iter().map(|machine| Interpreter::new(machine.spec.clone())).collect();
+    let mut squares = 0.0;
+    for row in &data.observations {
+        let points: Vec<[f64; 3]> = interpreters
+            .iter()
+            .map(|one| {
+                let magnitudes = vec![1.0; one.description().sources.len()];
+                one.drawn_pose(&row.q, &s, &row.u, &magnitudes).unwrap().unwrap().position()
+            })
+            .collect();
+        for axis in 0..3 {
+            let mean = points.iter().map(|point| point[axis]).sum::<f64>() / points.len() as f64;
+            let sum = points.iter().map(|point| (point[axis] - mean).powi(2)).sum::<f64>();
+            squares += sum / (points.len() - 1) as f64;
+        }
+    }
+    (squares / data.observations.len() as f64).sqrt()
+}
+
+/// The uncertainty stated by one identification agrees with the scatter of twenty, inside the
+/// fitted ranges and outside.
+#[test]
+fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
+    let machines: Vec<Machine> = (0..20).map(found).collect();
+    let (far, near) = (measured(40, false, 100), measured(40, true, 100));
+    let measure = |data: &Data, heard: &mut RecordedNotes| {
+        let (machine, map, data) = (machines[0].clone(), map(), data.clone());
+        Measure { machine, map, data, accept: Acceptance::default() }.run(heard).unwrap().extrapolated
+    };
+    let mut heard = RecordedNotes::default();
+    let said = measure(&far, &mut heard).unwrap();
+    assert_eq!((said.outside, said.all), (40, 40));
+    let known = said.known.unwrap();
+    let (within, outside) = (scatter(&machines, &near), scatter(&machines, &far));
+    println!(
+        "within {within:.4} (said {:.4}), outside {outside:.4} (said {:.4})",
+        known.within, known.outside
+    );
+    // With 20 machines and a few dominant directions, the standard deviation of the scatter is
+    // about 10 %.
+    assert!((0.75..1.33).contains(&(known.within / within)), "{known:?} {within}");
+    assert!((0.75..1.33).contains(&(known.outside / outside)), "{known:?} {outside}");
+    assert!(known.outside > 1.5 * known.within && known.outside_max > known.outside, "{known:?}");
+    assert!(
+        heard.0[0].contains("times the") && heard.0[0].contains("extrapolations"),
+        "{heard:?}",
+        heard = heard.0
+    );
+    let mut quiet = RecordedNotes::default();
+    assert!(measure(&near, &mut quiet).is_none() && quiet.0.is_empty(), "{:?}", quiet.0);
+    // `compensate` corrects the tool point, which is not the measured target: errors that the
+    // target does not show are added, within the ranges and outside.
+    let job =
+        Compensate { machine: machines[0].clone(), map: map(), data: far, poses: false, tolerance: 1e-3 };
+    let report = job.run(&mut ()).unwrap();
+    let (again, other) = (report.extrapolated.unwrap().known.unwrap(), report.other_tool.unwrap());
+    assert!(again.outside > known.outside && again.within > 2.0 * known.within, "{again:?} {known:?}");
+    assert!((other.by_noise / known.outside - 1.0).abs() < 1e-9, "{other:?} {known:?}");
+}
