@@ -1,7 +1,7 @@
 //! `abbe bound`: certified upper bounds of the errors.
 
 use abbe_bound::Effort;
-use abbe_report::text;
+use abbe_report::views;
 use abbe_study::bound::Bound;
 
 use crate::arguments;
@@ -27,6 +27,6 @@ pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
     Ok(Outcome::passed(if arguments.running.json {
         json(&report)?
     } else {
-        text::bound(&report, arguments.showing.detail()) + &arguments.showing.next(next)
+        views::bound(&report).text(arguments.showing.detail()) + &arguments.showing.next(next)
     }))
 }

@@ -1,6 +1,6 @@
 //! `abbe check`: checks a spec and shows its model.
 
-use abbe_report::text;
+use abbe_report::views;
 use abbe_study::Notes;
 use abbe_study::check;
 
@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let shown = if arguments.json {
         json(&report)?
     } else {
-        text::check(&report, arguments.showing.detail()) + &arguments.showing.next(&next)
+        views::check(&report).text(arguments.showing.detail()) + &arguments.showing.next(&next)
     };
     Ok(Outcome::checked(shown, report.passed()))
 }

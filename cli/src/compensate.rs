@@ -5,7 +5,7 @@ use std::path::Path;
 
 use abbe_metrology::compensate::{Compensate, Report, check_poses};
 use abbe_metrology::data::{Csv, Data, Map};
-use abbe_report::{Provenance, text};
+use abbe_report::{Provenance, views};
 use abbe_spec::Spec;
 use abbe_study::explore::Explore;
 
@@ -46,28 +46,27 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     })?;
     let report = Report { rows, ..report };
     let commands = commands.map(Csv::finish).transpose().map_err(failed)?;
+    let evaluator = job.machine.evaluator(true);
+    let document = || views::compensation(&job.machine.spec, evaluator.description(), &job.map, &report);
     let page = page.map(|file| {
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);
         let files = [("commands", &arguments.data)];
         let provenance = Provenance::new(spec, map, files)?;
-        let evaluator = job.machine.evaluator(true);
-        let machine = evaluator.description();
         let live =
             Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
-        file.fill(&abbe_report::compensation(spec, machine, &job.map, &report, &provenance, live.as_ref()))
+        file.fill(&document().page(&provenance, live.as_ref()))
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
     let text = match arguments.running.json {
         true => json(&report)?,
         false => {
             let file = out.map(|file| format!("\n{}: {} rows\n", file.display(), report.row_summary.rows));
-            let manipulator = job.machine.evaluator(true);
             let next = match out {
                 None => "--out FILE writes the corrected commands, --full shows the first of them",
                 Some(_) => "--full shows the first corrected commands",
             };
-            text::compensation(manipulator.description(), &report, arguments.showing.detail())
+            document().text(arguments.showing.detail())
                 + &arguments.showing.next(next)
                 + &file.unwrap_or_default()
         }

@@ -2,7 +2,7 @@
 
 use abbe_metrology::data::Source;
 use abbe_metrology::doctor::Doctor;
-use abbe_report::text;
+use abbe_report::views;
 use abbe_spec::document::Document;
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
     let text = if arguments.json {
         json(&report)?
     } else {
-        text::doctor(&report, arguments.showing.detail()) + &arguments.showing.next(next)
+        views::doctor(&report).text(arguments.showing.detail()) + &arguments.showing.next(next)
     };
     let outcome = Outcome::checked(text, report.fits);
     Ok(match printed {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use abbe_report::text;
+use abbe_report::views;
 use abbe_study::export;
 
 use crate::arguments;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
         json(&report)?
     } else {
         {
-            text::exported(&report, showing.detail())
+            views::exported(&report).text(showing.detail())
                 + &showing.next("--full lists all differences and what the format cannot store")
         }
     };

@@ -6,8 +6,8 @@ use abbe::VariableKind;
 use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::identify::{Harmonics, Identify, Report, Settings};
-use abbe_report::Provenance;
-use abbe_report::text::{self, Detail, wrapped};
+use abbe_report::text::{Detail, wrapped};
+use abbe_report::{Provenance, views};
 use abbe_spec::Spec;
 use abbe_study::explore::Explore;
 
@@ -56,6 +56,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
             (Some(found.text(detail)), vec![spec.fill(&found.spec)?, map.fill(&found.map)?])
         }
     };
+    let document = || views::identification(&job.machine.spec, &job.map, &report);
     let page = page.map(|file| {
         let test = arguments.test.iter().map(|file| ("test", file));
         let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
@@ -63,7 +64,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         let provenance = Provenance::new(spec, Some(&job.map), files)?;
         let live =
             Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
-        file.fill(&abbe_report::identification(spec, &job.map, &report, &provenance, live.as_ref()))
+        file.fill(&document().page(&provenance, live.as_ref()))
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
@@ -78,9 +79,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
                 Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
             };
             let written = written.map(|written| format!("\n{written}"));
-            text::identification(&job.machine.spec, &report, detail)
-                + &arguments.showing.next(next)
-                + &written.unwrap_or_default()
+            document().text(detail) + &arguments.showing.next(next) + &written.unwrap_or_default()
         }
     };
     Ok(Outcome::checked(text, accepted).beside(printed))

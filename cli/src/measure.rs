@@ -2,7 +2,7 @@
 
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::measure::{Measure, Report};
-use abbe_report::{Provenance, text};
+use abbe_report::{Provenance, views};
 use abbe_spec::Spec;
 use abbe_study::explore::Explore;
 
@@ -29,20 +29,25 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
             Some((outputs.file(&folder.join("errors.csv"))?, outputs.file(&folder.join(abbe_report::PAGE))?))
         }
     };
-    let spec = job.machine.spec.clone();
+    let (spec, map) = (job.machine.spec.clone(), job.map.clone());
     let Some((errors, page)) = files else {
-        return outcome(arguments, &spec, &job.figures(&mut Console::default())?);
+        return outcome(arguments, &spec, &map, &job.figures(&mut Console::default())?);
     };
     let report = job.run(&mut Console::default())?;
     let files = [("measurements", &arguments.measured.data)];
     let provenance = Provenance::new(&spec, Some(&job.map), files)?;
     let live = Explore::measured(job.machine.clone(), report.residuals()).panel(&mut Console::default())?;
-    let text = abbe_report::measurement(&spec, &job.map, &report, &provenance, live.as_ref());
+    let text = views::measurement(&spec, &map, &report).page(&provenance, live.as_ref());
     outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
-    outcome(arguments, &spec, &report)
+    outcome(arguments, &spec, &map, &report)
 }
 
-fn outcome(arguments: &arguments::Measure, spec: &Spec, report: &Report) -> Result<Outcome, Failure> {
+fn outcome(
+    arguments: &arguments::Measure,
+    spec: &Spec,
+    map: &Map,
+    report: &Report,
+) -> Result<Outcome, Failure> {
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
     let text = if arguments.running.json {
         json(report)?
@@ -57,7 +62,8 @@ fn outcome(arguments: &arguments::Measure, spec: &Spec, report: &Report) -> Resu
                 }
                 _ => "--full for all figures of ISO 9283",
             };
-            text::measurement(spec, report, arguments.showing.detail()) + &arguments.showing.next(next)
+            let document = views::measurement(spec, map, report);
+            document.text(arguments.showing.detail()) + &arguments.showing.next(next)
         }
     };
     Ok(Outcome::checked(text, accepted))

@@ -2,7 +2,7 @@
 
 use abbe_metrology::data::Map;
 use abbe_metrology::monitor::{Checks, Monitor, Settings};
-use abbe_report::{Provenance, text};
+use abbe_report::{Provenance, views};
 use abbe_study::explore::Explore;
 
 use crate::arguments;
@@ -28,12 +28,13 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
+    let document = || views::monitoring(&job.machine.spec, &job.map, &report);
     let page = page.map(|file| {
         let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
         let provenance = Provenance::new(spec, Some(&job.map), files)?;
         let residuals = report.residuals.clone();
         let live = Explore::measured(job.machine.clone(), residuals).panel(&mut Console::default())?;
-        file.fill(&abbe_report::monitoring(spec, &job.map, &report, &provenance, live.as_ref()))
+        file.fill(&document().page(&provenance, live.as_ref()))
     });
     let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();
@@ -41,7 +42,7 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
         json(&report)?
     } else {
         {
-            let text = text::monitoring(&job.machine.spec, &report, arguments.showing.detail());
+            let text = document().text(arguments.showing.detail());
             let next = match &arguments.page.report {
                 None => "--report FILE for a page with the charts, --full for all charts",
                 Some(_) => "--full for all charts",

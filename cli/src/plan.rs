@@ -3,7 +3,7 @@
 use abbe_metrology::data::Map;
 use abbe_metrology::plan::options::COUNT;
 use abbe_metrology::plan::{Choice, Plan, Sets};
-use abbe_report::text;
+use abbe_report::views;
 
 use crate::arguments;
 use crate::console::Console;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
                 None => "--out FILE writes the configurations, --full lists indistinguishable errors",
                 Some(_) => "--full lists indistinguishable errors",
             };
-            text::plan(&job.machine.spec, &job.map, &report, arguments.showing.detail())
+            views::plan(&job.machine.spec, &job.map, &report).text(arguments.showing.detail())
                 + &arguments.showing.next(next)
         }
     };

@@ -1,7 +1,7 @@
 //! `abbe positioning`: evaluates runs of an axis by ISO 230-2, or of body diagonals by ISO 230-6.
 
 use abbe_metrology::positioning;
-use abbe_report::text;
+use abbe_report::views;
 
 use crate::arguments::Positioning;
 use crate::console::Console;
@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
     };
     let text = match is_json {
         true => json(&report)?,
-        false => text::positioning(&report, showing.detail()) + &showing.next(next),
+        false => views::positioning(&report).text(showing.detail()) + &showing.next(next),
     };
     let Some(file) = file else { return Ok(Outcome::passed(text)) };
     let Some(table) = report.table() else {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_report::text;
+use abbe_report::budget;
 use abbe_study::analyze;
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
@@ -19,7 +19,7 @@ pub(crate) fn analysis(
 ) -> PyResult<Py<Report>> {
     let report = Arc::new(report);
     let drawn = Arc::clone(&report);
-    let found = Report::new("analyze", &report, notes, text::analysis)?;
+    let found = Report::new("analyze", &report, notes, |report, detail| budget(report).text(detail))?;
     let found = found.with_figures(move || abbe_report::figures(&drawn));
     let found = found.with_pages(move || {
         let live = live.as_ref().map(|live| live.run(&mut ())).transpose()?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_bound::Effort;
-use abbe_report::text;
+use abbe_report::views;
 use abbe_study::bound::Bound as Job;
 use abbe_study::bound::options::{BOXES, Gap};
 use pyo3::exceptions::PyValueError;
@@ -69,6 +69,7 @@ impl Machine {
             job.time = time;
             job.run(notes)
         })?;
-        Report::new("bound", &Arc::new(report), notes, text::bound)?.create(py)
+        Report::new("bound", &Arc::new(report), notes, |report, detail| views::bound(report).text(detail))?
+            .create(py)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_report::text;
+use abbe_report::views;
 use abbe_study::check::Check;
 use pyo3::prelude::*;
 
@@ -23,6 +23,7 @@ impl Machine {
     fn check(&self, py: Python<'_>) -> PyResult<Py<Report>> {
         let job = Check { machine: self.machine.clone() };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
-        Report::new("check", &Arc::new(report), notes, text::check)?.create(py)
+        Report::new("check", &Arc::new(report), notes, |report, detail| views::check(report).text(detail))?
+            .create(py)
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use abbe_metrology::doctor::Doctor;
-use abbe_report::text;
+use abbe_report::views;
 use pyo3::prelude::*;
 
 use crate::failure::{guarded, spec_error};
@@ -66,7 +66,9 @@ impl Machine {
         let corrected = || report.corrected(&self.unchanged.spec, &self.text()?, CORRECTED);
         let corrected = guarded(|| corrected().map_err(|mistakes| spec_error(py, &mistakes)))?;
         pages.extend(corrected.map(|spec| (CORRECTED.to_owned(), spec)));
-        let found = Report::new("doctor", &Arc::new(report), notes, text::doctor)?;
+        let found = Report::new("doctor", &Arc::new(report), notes, |report, detail| {
+            views::doctor(report).text(detail)
+        })?;
         found.with_spec(CORRECTED).with_pages(move || Ok(pages.clone())).create(py)
     }
 }

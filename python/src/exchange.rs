@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use abbe_report::text;
+use abbe_report::{text, views};
 use abbe_spec::document::Document;
 use abbe_study::export::{Export, Format as Exported, SAMPLES_RANGE};
 use abbe_study::import::{Format, Import, Units};
@@ -168,7 +168,9 @@ impl Machine {
         let job = Export { machine: self.machine.clone(), format, samples, seed };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
         let files: Vec<_> = report.files.iter().map(|file| (file.name.clone(), file.text.clone())).collect();
-        let found = Report::new("export", &Arc::new(report), notes, text::exported)?;
+        let found = Report::new("export", &Arc::new(report), notes, |report, detail| {
+            views::exported(report).text(detail)
+        })?;
         found.with_pages(move || Ok(files.clone())).create(py)
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use abbe_metrology::data::Data;
 use abbe_metrology::identify::options::{FOLDS, LOSSES, TERMS};
 use abbe_metrology::identify::{Family, Identify, Prior, Settings};
-use abbe_report::{Provenance, text};
+use abbe_report::{Provenance, views};
 use abbe_study::explore::Explore;
 use abbe_study::options::share;
 use pyo3::exceptions::PyTypeError;
@@ -79,8 +79,8 @@ impl Machine {
         let nominal = self.machine.spec.hash == self.unchanged.spec.hash
             && self.changes().is_ok_and(|changes| changes.is_empty());
         let spec_text = self.text();
-        let (report, spec) = (Arc::new(report), job.machine.spec.clone());
-        let text = move |report: &_, detail| text::identification(&spec, report, detail);
+        let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
+        let text = move |report: &_, detail| views::identification(&spec, &map, report).text(detail);
         let found = Report::new("identify", &report, notes, text)?.with_spec("found.toml");
         let found = found.with_pages(move || {
             let Identify { machine, map, .. } = &job;
@@ -88,7 +88,7 @@ impl Machine {
             let files = [("measurements", measured.source())].into_iter().chain(test);
             let provenance = Provenance::new(&machine.spec, Some(map), files)?;
             let live = Explore::measured(machine.clone(), report.residuals()).run(&mut ())?;
-            let page = abbe_report::identification(&machine.spec, map, &report, &provenance, Some(&live));
+            let page = views::identification(&machine.spec, map, &report).page(&provenance, Some(&live));
             let mut pages: Pages = vec![("report.html".into(), page)];
             if nominal {
                 let spec = report.found.identified_spec(&machine.spec, &spec_text.clone()?, "found.toml")?;

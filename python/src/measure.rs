@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use abbe_metrology::data::Data;
 use abbe_metrology::measure::Measure;
-use abbe_report::{Provenance, text};
+use abbe_report::{Provenance, views};
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
 
@@ -51,14 +51,14 @@ impl Machine {
             let report = job.run(notes)?;
             Ok((job, report))
         })?;
-        let (report, spec) = (Arc::new(report), job.machine.spec.clone());
-        let text = move |report: &_, detail| text::measurement(&spec, report, detail);
+        let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
+        let text = move |report: &_, detail| views::measurement(&spec, &map, report).text(detail);
         let found = Report::new("measure", &report, notes, text)?.with_rows(report.table());
         let found = found.with_pages(move || {
             let spec = &job.machine.spec;
             let provenance = Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;
             let live = Explore::measured(job.machine.clone(), report.residuals()).run(&mut ())?;
-            let page = abbe_report::measurement(spec, &job.map, &report, &provenance, Some(&live));
+            let page = views::measurement(spec, &job.map, &report).page(&provenance, Some(&live));
             Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
         });
         found.create(py)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use abbe_metrology::monitor::options::FALSE_ALARM;
 use abbe_metrology::monitor::{Checks, Monitor, Settings};
-use abbe_report::{Provenance, text};
+use abbe_report::{Provenance, views};
 use abbe_study::explore::Explore;
 use pyo3::prelude::*;
 
@@ -50,14 +50,14 @@ impl Machine {
             let report = job.run(notes)?;
             Ok((job, report))
         })?;
-        let (report, spec) = (Arc::new(report), job.machine.spec.clone());
-        let text = move |report: &_, detail| text::monitoring(&spec, report, detail);
+        let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
+        let text = move |report: &_, detail| views::monitoring(&spec, &map, report).text(detail);
         let found = Report::new("monitor", &report, notes, text)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
             let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files)?;
             let live = Explore::measured(job.machine.clone(), report.residuals.clone()).run(&mut ())?;
-            let page =
-                abbe_report::monitoring(&job.machine.spec, &job.map, &report, &provenance, Some(&live));
+            let document = views::monitoring(&job.machine.spec, &job.map, &report);
+            let page = document.page(&provenance, Some(&live));
             Ok(vec![("report.html".into(), page)])
         });
         found.create(py)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use abbe_metrology::plan::options::{CANDIDATES, COUNT, CRITERIA};
 use abbe_metrology::plan::{Choice, Plan, Sets};
-use abbe_report::text;
+use abbe_report::views;
 use abbe_study::Study;
 use pyo3::prelude::*;
 
@@ -60,7 +60,7 @@ impl Machine {
             Ok((job, report))
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec, job.map.clone());
-        let text = move |report: &_, detail| text::plan(&spec, &map, report, detail);
+        let text = move |report: &_, detail| views::plan(&spec, &map, report).text(detail);
         let found = Report::new("plan", &report, notes, text)?.with_rows(report.table(&job.map));
         let found = found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())]));
         found.create(py)

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use abbe_metrology::positioning::Positioning;
-use abbe_report::text;
+use abbe_report::views;
 use pyo3::prelude::*;
 
 use crate::job::run;
@@ -40,7 +40,9 @@ pub(crate) fn positioning(
         Positioning { data: measured.source(), reading, scale }.run(notes)
     })?;
     let rows = report.table();
-    let found = Report::new("positioning", &Arc::new(report), notes, text::positioning)?;
+    let found = Report::new("positioning", &Arc::new(report), notes, |report, detail| {
+        views::positioning(report).text(detail)
+    })?;
     match rows {
         Some(rows) => found.with_rows(rows),
         None => found,

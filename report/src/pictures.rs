@@ -5,9 +5,10 @@ use abbe_study::analyze::figures::Figures;
 use abbe_study::explore;
 use abbe_study::study_file::Content;
 
+use crate::document::Figure;
 use crate::figures::{self, NamedFigure};
 use crate::scene::Scene;
-use crate::{html, svg};
+use crate::{Document, Provenance, svg, views};
 
 /// Name of the page.
 pub const PAGE: &str = "report.html";
@@ -62,7 +63,18 @@ pub fn analysis(report: &Report, live: Option<&explore::Report>) -> Vec<File> {
     let none = Figures::default();
     let Figures { left_out, .. } = report.figures.as_ref().unwrap_or(&none);
     let scenes = scenes(report);
-    let page = html::page(&scenes, figures::sampled(report).as_ref(), left_out, report, live);
+    let spec = &report.spec;
+    let study = report.study.file.iter().map(|(name, hash)| ("study", name.clone(), hash.clone()));
+    let files = std::iter::once(("spec", spec.file.clone(), spec.hash.clone())).chain(study).collect();
+    let drawn = scenes.iter().map(|(named, scene)| {
+        let (note, file) = (named.workspace_note.clone(), format!("{}.svg", named.name));
+        let is_first = matches!(named.request.content, Content::Pareto | Content::Cloud);
+        (is_first, Figure { scene: scene.clone(), note, file })
+    });
+    let (first, others): (Vec<_>, Vec<_>) = drawn.partition(|(is_first, _)| *is_first);
+    let figures = [first, others].map(|all| all.into_iter().map(|(_, figure)| figure).collect());
+    let sampled = figures::sampled(report).map(Figure::from);
+    let page = views::analysis(report, figures, sampled, left_out).page(&Provenance { files }, live);
     let file = |(named, scene): &(NamedFigure, Scene)| File {
         name: format!("{}.svg", named.name),
         text: svg::file(scene),
@@ -70,4 +82,9 @@ pub fn analysis(report: &Report, live: Option<&explore::Report>) -> Vec<File> {
     let mut files = scenes.iter().map(file).collect::<Vec<_>>();
     files.push(File { name: PAGE.to_owned(), text: page });
     files
+}
+
+/// Describes an error budget over a workspace, without the figures of its page.
+pub fn budget(report: &Report) -> Document {
+    views::analysis(report, [Vec::new(), Vec::new()], None, &[])
 }

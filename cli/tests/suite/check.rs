@@ -18,7 +18,7 @@ fn every_shipped_manipulator_passes() {
 fn it_shows_what_follows_from_a_spec() {
     let text = full(&["check", "pps"]);
     for word in [
-        "Lengths in mm, orientation euler-yzx",
+        "lengths in mm; orientation as euler-yzx",
         "0 … 2256 mm",
         "-90 … 90 deg",
         "base rail curvature, signs as printed   repeatable   frame lateral   off",

@@ -179,7 +179,7 @@ fn tables_that_end_at_a_limit_are_compensated_there() {
     let text = run.stdout;
     assert!(run.status == 1 && text.contains("2 of 3 commands corrected to within 0.001 mm"), "{text}");
     assert!(
-        text.contains("Line 4    x is at its limit 0 mm and would have to exceed it; 0.005 mm left"),
+        text.contains("Failed    line 4: x is at its limit 0 mm and would have to exceed it; 0.005 mm left"),
         "{text}"
     );
 }

@@ -30,12 +30,12 @@ fn the_file_that_it_is_made_from_is_never_written_over() {
     // The file alone on stdout, its report on stderr; the same content in a file.
     let printed = abbe(&["export", spec, "--to", "urdf", "--from", urdf, "--full"]);
     assert!(printed.stdout.starts_with("<robot name=\"cell\"><!-- one joint -->"), "{}", printed.stdout);
-    assert!(printed.stderr.contains("+") && printed.stderr.contains("Sign convention"), "{}", printed.stderr);
+    assert!(printed.stderr.contains("+") && printed.stderr.contains("\nSign      "), "{}", printed.stderr);
     let out = folder.path().join("calibrated.urdf");
     let said = full(&["export", spec, "--to", "urdf", "--from", urdf, "-o", out.to_str().unwrap()]);
     assert_eq!(fs::read_to_string(&out).unwrap(), printed.stdout);
     assert!(
-        said.contains("\n-<joint name=\"flange\"") && said.contains("\n+<joint name=\"flange\""),
+        said.contains("\n  -<joint name=\"flange\"") && said.contains("\n  +<joint name=\"flange\""),
         "{said}"
     );
     let report = json(&["export", spec, "--to", "urdf", "--from", urdf, "--json"]);

@@ -151,7 +151,7 @@ fn every_shipped_manipulator_has_a_report() {
 fn verdicts_have_a_column_where_there_are_any() {
     for (arguments, any) in [(&["pps"][..], true), (&["scara"], false)] {
         let page = &written(arguments)["report.html"];
-        assert_eq!(page.contains(">verdict</th>"), any, "{arguments:?}");
+        assert_eq!(page.contains(">agreement</th>"), any, "{arguments:?}");
     }
 }
 

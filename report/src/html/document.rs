@@ -3,6 +3,7 @@
 use abbe_study::explore::Report;
 
 use super::escaped;
+use crate::document::Card;
 use crate::explore::Panels;
 
 const STYLE: &str = include_str!("style.css");
@@ -54,17 +55,10 @@ pub(super) fn verdict(is_met: bool, line: &str, sentences: &[String]) -> String 
     )
 }
 
-/// Important number: its name, the number with its unit, and a note.
-pub(super) struct Card {
-    pub(super) name: &'static str,
-    pub(super) value: String,
-    pub(super) note: String,
-}
-
 /// Formats important numbers.
-pub(super) fn cards(cards: impl IntoIterator<Item = Card>) -> String {
-    let cards = cards.into_iter().map(|Card { name, value, note }| {
-        let note = escaped(&note);
+pub(super) fn cards(cards: &[Card]) -> String {
+    let cards = cards.iter().map(|Card { name, value, note }| {
+        let note = escaped(note);
         format!("<div class=\"card\"><span>{name}</span><b>{value}</b><small>{note}</small></div>\n")
     });
     format!("<div class=\"cards\">\n{}</div>\n", cards.collect::<String>())

@@ -14,8 +14,9 @@ pub fn notebook(answer: &str, full: &str) -> String {
     if !rest.trim().is_empty() {
         html += &text(rest);
     }
-    if full.trim() != answer.trim() {
-        html += &format!("<details><summary>All tables</summary>{}</details>", text(full));
+    let details = full.trim().strip_prefix(answer.trim()).unwrap_or(full);
+    if !details.trim().is_empty() {
+        html += &format!("<details><summary>All tables</summary>{}</details>", text(details));
     }
     html + "</div>"
 }

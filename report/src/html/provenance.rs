@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use abbe_metrology::data::{Base, Layout, Map, Source};
+use abbe_metrology::data::{Map, Source};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::number::{self, short};
 use abbe_study::{RunRecord, version};
 
 use super::table::{facts, ledger, row_header};
@@ -91,40 +90,4 @@ fn table<'f>(files: impl Iterator<Item = (&'static str, &'f String, &'f String)>
         ledger("Input files of this report", &["input", "file", "SHA-256"], &[0, 1, 2], &body),
         version()
     )
-}
-
-/// Formats the instrument and its observables.
-pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
-    let angle = format!(" and {} mrad", short(map.uncertainty.angle * 1e3));
-    let uncertainty = match &map.layout {
-        Layout::Instruments(_) => "see each instrument".to_owned(),
-        _ => format!(
-            "{}{} (one standard deviation)",
-            number::quantity(map.uncertainty.length, spec.length.symbol()),
-            if matches!(map.layout, Layout::Pose(..)) { &angle } else { "" }
-        ),
-    };
-    let base = match map.base {
-        Base::Known => "in F<sub>0</sub>, up to small errors",
-        Base::Unknown => "fitted",
-        Base::Exact => "exactly in F<sub>0</sub>",
-    };
-    let measured = match &map.layout {
-        Layout::Point(..) => "the tool point".to_owned(),
-        Layout::Difference(..) => "the tool point, as target − actual".to_owned(),
-        Layout::Targets(targets) => format!("{} targets", targets.len()),
-        Layout::Pose(..) => "position and orientation of the tool".to_owned(),
-        Layout::Instruments(all) => {
-            let names: Vec<String> = all.list.iter().map(|instrument| escaped(&instrument.name)).collect();
-            names.join(", ")
-        }
-    };
-    let all = [
-        ("Instrument", escaped(&map.title)),
-        ("Uncertainty", uncertainty),
-        ("Measured", measured),
-        ("Stands", base.to_owned()),
-        ("Map", escaped(map.path())),
-    ];
-    facts("Instrument and measured quantity", all)
 }

@@ -10,10 +10,11 @@ pub(super) fn ledger(caption: &str, columns: &[&str], words: &[usize], bodies: &
             name => format!("<th scope=\"col\"{class}>{name}</th>"),
         }
     });
-    format!(
-        "<table class=\"ledger\">\n<caption>{caption}</caption>\n<thead><tr>{}</tr></thead>\n{bodies}</table>\n",
-        columns.collect::<String>()
-    )
+    let head = match columns.collect::<String>() {
+        none if none.is_empty() => none,
+        names => format!("<thead><tr>{names}</tr></thead>\n"),
+    };
+    format!("<table class=\"ledger\">\n<caption>{caption}</caption>\n{head}{bodies}</table>\n")
 }
 
 /// Formats the header cell of a row.

@@ -4,7 +4,6 @@ use std::cell::Cell;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use abbe_study::Listing;
 use abbe_study::number::NO_BREAK;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle};
 
@@ -32,13 +31,6 @@ const LONGEST: usize = 2 * WIDTH;
 
 const STYLE: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─').left('─').right('─'));
-
-/// A listing as a table.
-pub fn listed(listing: &Listing) -> String {
-    let mut table = Table::new(&listing.header);
-    listing.rows.iter().for_each(|row| table.row(row.clone()));
-    table.right(&listing.numbers.clone().collect::<Vec<_>>()).to_string()
-}
 
 /// A table that grows row by row.
 #[derive(Debug)]

@@ -214,7 +214,7 @@ fn what_is_grouped_with_what_is_said() {
     assert!(full(&["plan", "ur5", "--map", path(&bench.map)]).contains("e_r1 acts as −425 e_y2 + e_r2"));
     for expected in [
         "Identifiable: 27 combinations of 45 unknowns, 27 of the 42 errors of frames and base",
-        "q2 is revolute: errors about and along   e_z1 acts as e_z2",
+        "q2 is revolute: errors about and along its axis are   e_z1 acts as e_z2",
         "e_r1 acts as −425 e_y2 + e_r2",
         "e_p6 cannot be observed",
         "used for validation only",
@@ -284,12 +284,12 @@ fn counts_of_the_paper() {
     };
     let exact = |text: &str| text.replace("[data]", "[data]\nbase = \"exact\"");
     for (map, expected) in [
-        (exact(&nominal), "14 of the 36 errors of frames)"),
-        (nominal.clone(), "16 of the 42 errors of frames and base)"),
-        (exact(&point(&nominal)), "11 of the 36 errors of frames)"),
-        (point(&nominal), "13 of the 42 errors of frames and base)"),
-        (exact(&free), "22 of the 36 errors of frames)"),
-        (free, "24 of the 42 errors of frames and base)"),
+        (exact(&nominal), "14 of the 36 errors of frames "),
+        (nominal.clone(), "16 of the 42 errors of frames and base "),
+        (exact(&point(&nominal)), "11 of the 36 errors of frames "),
+        (point(&nominal), "13 of the 42 errors of frames and base "),
+        (exact(&free), "22 of the 36 errors of frames "),
+        (free, "24 of the 42 errors of frames and base "),
     ] {
         let map = write(folder.path(), "map.toml", &map);
         let text = full(&["plan", "pps", "--map", path(&map), "--optimal", "60", "--candidates", "80"]);

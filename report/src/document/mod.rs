@@ -1,0 +1,75 @@
+//! A report as a document: what it says, without the way in which it is shown.
+//!
+//! A view (`views`) builds the document of a job from its numbers, and knows no renderer. A
+//! renderer (`terminal`, `html`) shows any document, and knows no job. `section` has the parts,
+//! `table` tables, and `list` short lists of names.
+
+mod list;
+mod section;
+mod table;
+
+use abbe_study::RunRecord;
+
+pub(crate) use list::{first, joined};
+pub(crate) use section::{Block, Card, Depth, Figure, Section};
+pub(crate) use table::{Column, Table, number, words};
+
+/// Report of a job, in sections.
+#[derive(Clone, Debug, Default)]
+pub struct Document {
+    /// Kind of the report, such as `Errors from measurements`.
+    pub(crate) kind: &'static str,
+    /// Title of the machine.
+    pub(crate) machine: String,
+    /// Title of the study or of the map; may be empty.
+    pub(crate) title: String,
+    /// The result in one sentence.
+    pub(crate) headline: String,
+    /// Verdict on a tolerance or on limits, if there are any.
+    pub(crate) verdict: Option<Verdict>,
+    /// A person signs the page.
+    pub(crate) is_signed: bool,
+    /// Heading of the live panel on a page.
+    pub(crate) panel: &'static str,
+    /// Sections, those of the first screen first.
+    pub(crate) sections: Vec<Section>,
+    /// Stated entries, and the options of the run.
+    pub(crate) record: RunRecord,
+}
+
+/// Verdict on a tolerance or on limits.
+#[derive(Clone, Debug)]
+pub(crate) struct Verdict {
+    pub(crate) is_met: bool,
+    pub(crate) text: String,
+}
+
+impl Document {
+    /// Returns the machine and the result.
+    pub(crate) fn first_line(&self) -> String {
+        match self.machine.as_str() {
+            "" => self.headline.clone(),
+            machine => format!("{machine}: {}", self.headline),
+        }
+    }
+
+    /// Returns the words of the statement with a name; `None` if the report does not state it.
+    ///
+    /// ```no_run
+    /// # fn shown(document: &abbe_report::Document) -> Option<()> {
+    /// let sentence = document.statement("residuals")?;
+    /// assert!(sentence.contains("agree with the stated uncertainty"));
+    /// # Some(())
+    /// # }
+    /// ```
+    pub fn statement(&self, name: &str) -> Option<&str> {
+        let mut statements = self.sections.iter().flat_map(Section::statements);
+        statements.find(|statement| statement.name == name).map(|statement| statement.text.as_str())
+    }
+
+    /// Iterates over the names and the words of all statements.
+    pub fn statements(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let statements = self.sections.iter().flat_map(Section::statements);
+        statements.map(|statement| (statement.name, statement.text.as_str()))
+    }
+}

@@ -1,0 +1,217 @@
+//! Error budget: verdict, figures, sources, uncertainty, and what the numbers mean.
+
+mod answer;
+mod reference;
+mod tables;
+
+use abbe::analysis::Measurand;
+use abbe_study::analyze::{self, AfterCompensation, Report, UncertaintyBudget};
+use abbe_study::number::{self, percent, trimmed, unbroken};
+
+use crate::document::{Card, Document, Figure, Section, Table, Verdict};
+
+/// Describes an error budget over a workspace, with the figures of its page, the first of which
+/// stand above all tables. `sampled` is the figure of the certified norms, and `left_out` are
+/// disabled sources whose figures are missing.
+pub(crate) fn analysis(
+    report: &Report,
+    [first, others]: [Vec<Figure>; 2],
+    sampled: Option<Figure>,
+    left_out: &[String],
+) -> Document {
+    let mut sections = Vec::new();
+    match report.sources.is_empty() {
+        true => {
+            let none = "No error source is enabled: there is no error to predict.".to_owned();
+            sections.push(Section::answer().state("no_source", none));
+        }
+        false => sections.push(answer::answer(report)),
+    }
+    sections.extend([
+        Section::page("").cards(cards(report)),
+        description(report),
+        verdict(report),
+        workspace(report),
+        Section::page("Figures").state("units_of_figures", units(&first)).figures(first),
+    ]);
+    if !report.sources.is_empty() {
+        sections.push(together(report));
+        sections.push(certified(report, sampled));
+        sections.push(allowance(report));
+    }
+    let missing = left_out.iter().map(|source| format!("Not drawn: the source “{source}” is disabled."));
+    sections.push(
+        Section::page("More figures").state("units_of_figures", units(&others)).figures(others).list(
+            "not_drawn",
+            "",
+            missing.collect(),
+        ),
+    );
+    if !report.sources.is_empty() {
+        sections.extend([
+            each_alone(report),
+            ledger(report),
+            uncertainty(report),
+            tables::monte_carlo(report),
+        ]);
+    }
+    sections.extend([not_reproducible(report), reference::conventions(report), reference::values(report)]);
+    Document {
+        kind: "Error analysis",
+        machine: report.spec.title.clone(),
+        title: report.study.title.clone(),
+        headline: answer::headline(report),
+        verdict: report
+            .verdict_line()
+            .map(|text| Verdict { is_met: report.verdict() != Some(analyze::Verdict::NotMet), text }),
+        panel: "Errors at a configuration",
+        sections,
+        is_signed: false,
+        record: report.record.clone(),
+    }
+}
+
+fn units(figures: &[Figure]) -> Option<String> {
+    (!figures.is_empty()).then(|| "Errors are in mm, those of the orientation in mrad.".to_owned())
+}
+
+/// Formats the most important figures.
+fn cards(report: &Report) -> Vec<Card> {
+    let (radii, unit) = (&report.combined.radii, report.spec.length.symbol());
+    let decimals = report.decimals().min(4);
+    let show = |value| format!("{} {unit}", trimmed(value, decimals));
+    let of = |value| {
+        report.study.tolerance.map(|tolerance| format!("{} of the tolerance", percent(value, tolerance)))
+    };
+    let card = |name, value, note: Option<String>| Card { name, value, note: note.unwrap_or_default() };
+    let mut all = vec![
+        card("Total error radius", show(radii.radius), of(radii.radius)),
+        card("Random errors only", format!("± {}", show(radii.random_radius)), of(radii.random_radius)),
+    ];
+    if let Some(AfterCompensation { total, .. }) = report.after_compensation {
+        all.push(card("After compensation", format!("± {}", show(total)), of(total)));
+    }
+    if let Some(tolerance) = report.study.tolerance {
+        all.push(card("Tolerance", format!("± {}", show(tolerance)), None));
+    }
+    all.push(card("Configurations", report.configurations.to_string(), Some(unreachable(report))));
+    all
+}
+
+fn unreachable(report: &Report) -> String {
+    let unreachable = &report.budget.unreachable;
+    match unreachable.count {
+        0 => "all reachable".to_owned(),
+        count => format!("{count} unreachable: {}", analyze::unreachable_summary(unreachable, &report.spec)),
+    }
+}
+
+fn description(report: &Report) -> Section {
+    let words: Vec<&str> = report.spec.description.split_whitespace().collect();
+    Section::page("Machine").state("description", words.join(" "))
+}
+
+/// States whether the tolerance is met, which error matters most, and where.
+fn verdict(report: &Report) -> Section {
+    let verdict = report.verdict_sentences().into_iter();
+    let section = verdict.fold(Section::full("Verdict"), |section, text| section.state("verdict", text));
+    report.summary().into_iter().fold(section, |section, text| section.state("largest_error", text))
+}
+
+fn workspace(report: &Report) -> Section {
+    let Report { spec, budget, .. } = report;
+    let inputs = report.inputs().join(", ");
+    let mut facts = vec![("Covers", report.workspace.clone())];
+    facts.push(("Reached", format!("{}, {}", budget.configurations, unreachable(report))));
+    let examples = analyze::first_unreachable(&budget.unreachable, &report.home, spec);
+    facts.extend(examples.into_iter().map(|example| ("", format!("- {example}"))));
+    facts.push(("Home", unbroken(&number::variables(&report.home.q, spec))));
+    if !inputs.is_empty() {
+        facts.push(("Inputs", unbroken(&inputs)));
+    }
+    let errors = "ΔX = J_e ε of the tool point, along x, y, z of F_0; for a random source its bound (±)";
+    facts.push(("Errors", errors.to_owned()));
+    let singular = (report.singular() > 0).then(|| report.singular_sentence());
+    Section::full("Workspace").facts(facts).state("singular_euler_angles", singular)
+}
+
+/// States the errors of all sources together.
+fn together(report: &Report) -> Section {
+    let section = Section::full("All sources together").table(tables::combined(report));
+    let section =
+        report.conclusions().into_iter().fold(section, |section, text| section.state("conclusion", text));
+    section
+        .state("other_tool", report.other_tool.as_ref().map(|tool| tool.sentence.clone()))
+        .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
+}
+
+fn certified(report: &Report, sampled: Option<Figure>) -> Section {
+    let section = Section::page("Certified bounds");
+    let Some(norms) = analyze::norm_comparison_table(report) else { return section };
+    let unit = report.spec.length.symbol();
+    let caption = format!("Largest norms, sampled and certified ({unit})");
+    section.figures(sampled.into_iter().collect()).table(Table::listing(caption, norms))
+}
+
+/// Tabulates the allowed sizes of the sources.
+fn allowance(report: &Report) -> Section {
+    let tables = Measurand::ALL.into_iter().filter_map(|measurand| {
+        let (_, unit) = analyze::unit::display_unit(report, measurand);
+        let caption = format!("Factors that meet the tolerance, most effective source first ({unit})");
+        Some(Table::listing(caption, analyze::allowance_table(report, measurand)?))
+    });
+    let section = tables.fold(Section::full("Error allowance"), Section::table);
+    let about = "Alone at most: factor by which a source may grow if all other errors are zero. Equal shares: \
+                 factor by which it may grow if every source takes an equal share of the tolerance. Gain: \
+                 decrease of the radius per percent decrease of the source; tighten the first source first.";
+    let about = (!section.blocks.is_empty()).then(|| about.to_owned());
+    section.state("allowance", about)
+}
+
+fn each_alone(report: &Report) -> Section {
+    let metrics = "Plain maximum: the largest error. Half peak-to-peak: half of its range; for the norm, the \
+                   radius of the smallest sphere that contains all errors. Relative to home: the largest \
+                   difference from the error at home. For a random source, the bound (±).";
+    Section::full("Each source alone").table(tables::sources(report)).state("metrics", metrics.to_owned())
+}
+
+fn ledger(report: &Report) -> Section {
+    let unit = report.spec.length.symbol();
+    let caption =
+        format!("Norms of the errors of the tool point ({unit}): the largest and the root mean square");
+    let section = Section::full("Ledger").table(Table::listing(caption, analyze::ledger(report)));
+    match analyze::orientation_ledger(report) {
+        Some(rotations) => {
+            section.table(Table::listing("Rows 4 to 6 of ΔX in mrad, largest over the workspace", rotations))
+        }
+        None => section,
+    }
+}
+
+/// Tabulates the budgets of the GUM; what holds for several is stated once.
+fn uncertainty(report: &Report) -> Section {
+    let mut stated: Vec<String> = Vec::new();
+    let budget = |section: Section, budget: &UncertaintyBudget| {
+        let (_, unit) = analyze::unit::display_unit(report, budget.measurand);
+        let mut sentences = analyze::uncertainty_sentences(report, budget);
+        sentences.retain(|sentence| !stated.contains(sentence));
+        stated.extend_from_slice(&sentences);
+        let section = section
+            .table(Table::listing(
+                format!("Standard uncertainty of each source ({unit})"),
+                analyze::uncertainty_contributions(report, budget),
+            ))
+            .table(Table::listing(
+                format!("Expanded uncertainty and bias ({unit})"),
+                analyze::uncertainty_totals(report, budget),
+            ));
+        sentences.into_iter().fold(section, |section, text| section.state("uncertainty", text))
+    };
+    report.uncertainty_budgets().fold(Section::full("Uncertainty budget"), budget)
+}
+
+fn not_reproducible(report: &Report) -> Section {
+    let notes = report.study.not_reproducible.clone();
+    let title = format!("Not reproducible from {}:", report.publisher());
+    Section::full("Published figures").list("not_reproducible", &title, notes)
+}

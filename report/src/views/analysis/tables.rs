@@ -1,0 +1,155 @@
+//! Tables of an error budget.
+
+use abbe::analysis::{Figures, MonteCarlo};
+use abbe::{Class, Distribution};
+use abbe_study::analyze::{Report, SourceReport};
+use abbe_study::number::{self as numbers, fixed, percent, short};
+use abbe_study::study_file::{CombinedFigure, Metric, Subject};
+
+use crate::document::{Column, Section, Table, number, words};
+
+/// Tabulates three metrics of every source, and under each what is published on it, in descending
+/// order of the largest norms.
+pub(super) fn sources(report: &Report) -> Table {
+    let mut sources: Vec<&SourceReport> = report.sources.iter().collect();
+    sources.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
+    let mut rows = Vec::new();
+    for source in sources {
+        let about = [source.name.clone(), class(source.class).to_owned(), source.at.clone()];
+        let of = Metric::ALL.into_iter().flat_map(|(name, metric)| {
+            let Figures { x, y, z, norm } = source.figures(metric);
+            let subject = Subject::Source(source.name.clone(), metric);
+            lines(report, name, [x, y, z, norm].map(Some), Some(&subject), None)
+        });
+        let about = about.into_iter().chain(std::iter::repeat(String::new()));
+        rows.extend(about.zip(of).map(|(about, line)| [vec![about], line].concat()));
+    }
+    let columns = [vec![words("source")], columns(report, None)].concat();
+    Table { caption: unit(report), columns, rows, rest: String::new() }
+}
+
+/// Tabulates all sources together.
+pub(super) fn combined(report: &Report) -> Table {
+    let names = [
+        (CombinedFigure::Repeatable, "repeatable: signed sum"),
+        (CombinedFigure::Random, "random: root sum of squares of the bounds"),
+        (CombinedFigure::Both, "total: repeatable + random"),
+    ];
+    let tolerance = report.study.tolerance;
+    let mut rows = Vec::new();
+    for (figure, name) in names {
+        let ([x, y, z], norm) = report.combined_figure(figure);
+        rows.extend(lines(report, name, [x, y, z, Some(norm)], Some(&Subject::Combined(figure)), tolerance));
+    }
+    let all = &report.combined;
+    for (name, axes, norm) in [
+        ("random: standard deviation", all.standard_deviation, all.standard_radius),
+        ("worst case: sum of absolute values", all.worst_case, all.worst_case_radius),
+    ] {
+        let [x, y, z] = axes.map(Some);
+        rows.extend(lines(report, name, [x, y, z, Some(norm)], None, tolerance));
+    }
+    Table { caption: unit(report), columns: columns(report, tolerance), rows, rest: String::new() }
+}
+
+fn unit(report: &Report) -> String {
+    format!("Largest errors over the workspace ({})", report.spec.length.symbol())
+}
+
+/// Returns the columns of metric, axes, norm, share of the tolerance and agreement; the last two if
+/// there are any.
+fn columns(report: &Report, tolerance: Option<f64>) -> Vec<Column> {
+    let share = tolerance.map(|_| number("of tolerance"));
+    let agreement = (!report.study.published.is_empty()).then(|| words("agreement"));
+    std::iter::once(words("figure"))
+        .chain(["x", "y", "z", "norm"].map(number))
+        .chain(share)
+        .chain(agreement)
+        .collect()
+}
+
+/// Formats figures, and below them the published ones, if there are any.
+fn lines(
+    report: &Report,
+    name: &str,
+    figures: [Option<f64>; 4],
+    subject: Option<&Subject>,
+    tolerance: Option<f64>,
+) -> Vec<Vec<String>> {
+    let published = subject.and_then(|subject| report.published(subject));
+    let show = |figure: Option<f64>| figure.map_or_else(String::new, |value| fixed(value, report.decimals()));
+    let of = tolerance.map(|tolerance| figures[3].map_or_else(String::new, |norm| percent(norm, tolerance)));
+    let none = (!report.study.published.is_empty()).then(String::new);
+    let mut lines = vec![
+        std::iter::once(name.to_owned()).chain(figures.map(show)).chain(of).chain(none).collect::<Vec<_>>(),
+    ];
+    if let Some(published) = published {
+        let publisher = format!("  {}", report.publisher());
+        let figures = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+        let skipped = tolerance.map(|_| String::new());
+        let agreement = match published.reference.as_str() {
+            "" => published.agreement.text(report),
+            reference => format!("{} ({reference})", published.agreement.text(report)),
+        };
+        lines.push(
+            std::iter::once(publisher).chain(figures).chain(skipped).chain([agreement]).collect::<Vec<_>>(),
+        );
+    }
+    lines
+}
+
+fn class(class: Class) -> &'static str {
+    match class {
+        Class::Repeatable => "repeatable",
+        Class::Random(Distribution::Uniform) => "random, uniform: half-width",
+        Class::Random(Distribution::Normal) => "random, normal: 3σ",
+        Class::Random(Distribution::Triangular) => "random, triangular: half-width",
+        Class::Random(Distribution::Arcsine) => "random, arcsine: amplitude",
+    }
+}
+
+/// Tabulates the Monte Carlo results, if there are draws.
+pub(super) fn monte_carlo(report: &Report) -> Section {
+    let section = Section::full("Monte Carlo on the exact chain");
+    let Some(drawn) = &report.monte_carlo else { return section };
+    let decimals = report.decimals();
+    let with_error =
+        |value: f64, error: f64| format!("{} ± {}", fixed(value, decimals), fixed(error, decimals + 1));
+    let norms = |(place, found): (&str, &MonteCarlo)| {
+        let [a, b, c] = found.quantiles.map(|quantile| with_error(quantile.value, quantile.standard_error));
+        let inside = found.inside_ellipsoid.map(|share| format!("{:.2} %", 100.0 * share));
+        [place.to_owned(), a, b, c, fixed(found.largest, decimals), inside.unwrap_or_default()]
+    };
+    let deviations = |(place, found): (&str, &MonteCarlo)| {
+        let [x, y, z] = [0, 1, 2].map(|i| {
+            let sigma = found.covariance[i][i].sqrt();
+            // d√v = dv / 2√v.
+            let error = if sigma > 0.0 { found.standard_error[i][i] / (2.0 * sigma) } else { 0.0 };
+            let first_order = fixed(found.first_order[i][i].sqrt(), decimals);
+            format!("{} ({first_order})", with_error(sigma, error))
+        });
+        [place.to_owned(), x, y, z]
+    };
+    let unit = report.spec.length.symbol();
+    let columns = [
+        words("at"),
+        number("50 %"),
+        number("95 %"),
+        number("99 %"),
+        number("largest"),
+        number("in ellipsoid"),
+    ];
+    let norms = Table::new(format!("Quantiles of the norm of the error ({unit})"), columns)
+        .rows(drawn.results().map(norms));
+    let columns = [words("at"), number("σ x"), number("σ y"), number("σ z")];
+    let caption = format!("Standard deviations, and in brackets those to first order ({unit})");
+    let deviations = Table::new(caption, columns).rows(drawn.results().map(deviations));
+    let explained = format!(
+        "{} draws per configuration, seed {}: quantiles and maximum of the norm of the total error, the share \
+         of draws inside the first-order 95 % ellipsoid, which is 95 % if all random sources are normal, and \
+         standard deviations; ± is the standard error.",
+        numbers::short(drawn.draws as f64),
+        drawn.seed,
+    );
+    section.table(norms).table(deviations).state("monte_carlo", explained)
+}

@@ -1,0 +1,172 @@
+//! Compensation: how many commands are corrected, and the error before and after.
+
+use abbe::{Class, Description, VariableKind};
+use abbe_metrology::compensate::{NormStatistics, Report, RowSummary};
+use abbe_metrology::data::Map;
+use abbe_spec::Spec;
+use abbe_study::number::{NO_BREAK, counted, error_decimals, error_unit, fixed, length, short, visible};
+
+use super::shared::{data_rows, extrapolated, first_rows, other_tool};
+use crate::document::{Card, Column, Document, Section, Table, Verdict, number, words};
+use crate::figures::distances;
+
+/// Number of reasons on the first screen.
+const REASONS: usize = 4;
+/// Number of reasons in a full report.
+const LISTED: usize = 100;
+
+/// Describes corrected commands; `spec` and `map` are those of the job, and `machine` is the
+/// description of its manipulator.
+pub fn compensation(spec: &Spec, machine: &Description, map: &Map, report: &Report) -> Document {
+    let within = length(report.tolerance, machine.length);
+    let (done, all) = (report.compensated, report.total_rows());
+    Document {
+        kind: "Corrected commands",
+        machine: machine.title.to_string(),
+        title: map.title.clone(),
+        headline: format!("{done} of {all} commands corrected to within {within}"),
+        verdict: Some(Verdict {
+            is_met: report.complete(),
+            text: format!("{done} of {all} commands corrected"),
+        }),
+        panel: "Errors at a command",
+        sections: vec![
+            Section::answer().table(errors(report)).facts(facts(machine, report)),
+            Section::page("").cards(cards(spec, report)),
+            Section::page("Figures").figures(distances::scenes(report, spec)),
+            about(machine, report),
+            Section::full("Corrected commands").table(commands(machine, report)),
+            Section::full("Rows not corrected").list("reasons", "", failed(report)),
+            data_rows(std::slice::from_ref(&report.file)),
+        ],
+        is_signed: false,
+        record: report.record.clone(),
+    }
+}
+
+fn errors(report: &Report) -> Table {
+    let (factor, unit) = error_unit(report.length);
+    let columns = [
+        words("tool point"),
+        number(format!("mean {unit}")),
+        number("rms"),
+        number("max"),
+        number("max orientation mrad"),
+    ];
+    let row = |(name, size): (&str, &NormStatistics)| {
+        let [mean, rms, max] = [size.mean, size.rms, size.max].map(|value| visible(factor * value, 4));
+        [name.to_owned(), mean, rms, max, visible(1e3 * size.angle_max, 4)]
+    };
+    Table::new("", columns).rows([("as commanded", &report.before), ("corrected", &report.after)].map(row))
+}
+
+fn facts(machine: &Description, report: &Report) -> Vec<(&'static str, String)> {
+    let mut facts = Vec::new();
+    if !machine.sources.iter().any(|source| source.class == Class::Repeatable) {
+        let nothing = "the spec has no repeatable source: there is nothing to compensate";
+        facts.push(("Sources", nothing.to_owned()));
+    }
+    let RowSummary { failed, reasons, far, farthest, .. } = &report.row_summary;
+    let names = std::iter::once("Failed").chain(std::iter::repeat(""));
+    let reasons = reasons.iter().take(REASONS).map(|(line, reason)| format!("line {line}: {reason}"));
+    facts.extend(names.zip(reasons));
+    if *failed > REASONS {
+        facts.push(("", format!("… and {} more rows not corrected", failed - REASONS)));
+    }
+    if let Some((line, turn)) = farthest {
+        let rows = counted(*far, "row", "rows");
+        let text = format!(
+            "{rows} with a joint more than {}° from its command; largest {:.0}° (line {line}): review \
+             before use",
+            RowSummary::FAR,
+            turn.to_degrees()
+        );
+        facts.push(("Far", text));
+    }
+    if report.mobility < 6 {
+        let text = format!(
+            "the joints move the tool in {} of 6 degrees of freedom; position has priority",
+            report.mobility
+        );
+        facts.push(("Freedom", text));
+    }
+    facts.extend(report.other_tool.iter().map(|tool| ("Tool", other_tool(tool, report.length))));
+    facts.extend(report.extrapolated.iter().map(|rows| ("Outside", extrapolated(rows))));
+    facts.extend(first_rows(std::slice::from_ref(&report.file)));
+    facts
+}
+
+fn cards(spec: &Spec, report: &Report) -> Vec<Card> {
+    let (factor, unit) = error_unit(report.length);
+    let card = |name, size: &NormStatistics| Card {
+        name,
+        value: format!("{} {unit}", visible(factor * size.mean, 4)),
+        note: format!("mean; maximum {} {unit}", visible(factor * size.max, 4)),
+    };
+    let tolerance = Card {
+        name: "Tolerance",
+        value: length(report.tolerance, spec.length),
+        note: "largest error allowed at the tool point".to_owned(),
+    };
+    vec![card("As commanded", &report.before), card("Corrected", &report.after), tolerance]
+}
+
+/// States what corrected means, and what corrections cover.
+fn about(machine: &Description, report: &Report) -> Section {
+    let turn = match report.mobility {
+        0..6 => String::new(),
+        _ => format!(" and {}{NO_BREAK}mrad", short(1e3 * report.tolerance * machine.length.in_metres())),
+    };
+    let tolerance = length(report.tolerance, machine.length);
+    let cover = "Corrections cover the errors of the machine in its frame F_0, not the placement of the \
+                 instrument or of targets.";
+    Section::full("Corrections")
+        .state(
+            "tolerance",
+            format!("Corrected: the remaining error of the tool point is at most {tolerance}{turn}."),
+        )
+        .state("cover", cover.to_owned())
+        .state("other_tool", report.other_tool.as_ref().map(|tool| tool.sentence.clone()))
+        .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
+}
+
+/// Tabulates the first rows.
+fn commands(machine: &Description, report: &Report) -> Table {
+    let (factor, unit) = error_unit(report.length);
+    let columns: Vec<Column> = std::iter::once(number("line"))
+        .chain(machine.variables.iter().map(|variable| {
+            let unit = if variable.kind == VariableKind::Revolute { "°" } else { report.length };
+            number(format!("{} ({unit})", variable.name))
+        }))
+        .chain(["before", "after"].map(|name| number(format!("{name} ({unit})"))))
+        .collect();
+    let first = &report.row_summary.first;
+    let rows = first.iter().map(|row| {
+        let values =
+            machine.variables.iter().zip(&row.q.0).map(|(variable, (_, value))| match variable.kind {
+                VariableKind::Revolute => fixed(value.to_degrees(), 4),
+                VariableKind::Prismatic => fixed(*value, error_decimals(machine.length)),
+            });
+        let left = [row.before.length, row.after.length].map(|value| visible(factor * value, 4));
+        std::iter::once(row.line.to_string()).chain(values).chain(left).collect()
+    });
+    let rest = match report.row_summary.rows - first.len() {
+        0 => String::new(),
+        more => format!("… and {more} more"),
+    };
+    Table { caption: String::new(), columns, rows: rows.collect(), rest }
+}
+
+/// Lists the reasons of rows that are not corrected, if the first screen does not have them all.
+fn failed(report: &Report) -> Vec<String> {
+    let all = report.rows.iter().filter_map(|row| Some((row.line, row.reason.as_ref()?)));
+    let all: Vec<String> = all.map(|(line, reason)| format!("line {line}: {reason}")).collect();
+    match all.len() {
+        0..=REASONS => Vec::new(),
+        count if count > LISTED => {
+            let more = format!("… and {} more", count - LISTED);
+            all.into_iter().take(LISTED).chain([more]).collect()
+        }
+        _ => all,
+    }
+}

@@ -1,0 +1,69 @@
+//! Diagnosis of data: the interpretation that fits, and its alternatives.
+
+use abbe_metrology::doctor::{Finding, Report};
+use abbe_study::number::digits;
+
+use super::shared::some;
+use crate::document::{Document, Section, first, joined};
+
+/// Number of interpretations on the first screen.
+const SHOWN: usize = 3;
+/// Number of interpretations in a full report.
+const LISTED: usize = 8;
+
+/// Describes how the columns of data are meant.
+pub fn doctor(report: &Report) -> Document {
+    let Report { joints, seen, found, simpler, others, of_spec, length, .. } = report;
+    let show = |finding: &Finding| format!("{} {length}  {}", digits(finding.residual, 3), finding.words);
+    let mut facts = vec![("Joints", first(joints, 9)), ("Measured", first(seen, 9))];
+    facts.extend(simpler.iter().map(|finding| ("Simpler", show(finding))));
+    let alternatives = if found.len() > 1 { &found[1..] } else { &others[..] };
+    let name = if found.len() > 1 { "Or" } else { "Next best" };
+    facts.extend(some(name, &alternatives.iter().map(show).collect::<Vec<_>>(), SHOWN));
+    facts.extend(some("In spec", of_spec, SHOWN));
+    Document {
+        kind: "Diagnosis of data",
+        headline: report.sentence.clone(),
+        sections: vec![Section::answer().facts(facts), details(report)],
+        ..Document::default()
+    }
+}
+
+fn details(report: &Report) -> Section {
+    let Report { rows, joints, seen, found, simpler, others, of_spec, length, .. } = report;
+    let columns = format!("Joint columns: {}. Measurement columns: {}.", joined(joints), joined(seen));
+    let simpler = simpler.as_ref().map(|Finding { words, residual, both, .. }| {
+        format!(
+            "A simpler interpretation leaves {} {length}, more than noise, but possibly errors of this \
+             machine: {words}. If its errors may be that large: `--within \"{} {length}\"`.",
+            digits(*residual, 3),
+            digits(1.2 * both, 2)
+        )
+    });
+    let found = if found.len() > 1 { &found[..] } else { &[] };
+    Section::full("Interpretations")
+        .state("columns", columns)
+        .state("simpler", simpler)
+        .list(
+            "equally_good",
+            &format!("These interpretations fit the {rows} rows equally well:"),
+            listed(found, length),
+        )
+        .list("next_best", "Next best interpretations:", listed(others, length))
+        .list(
+            "in_the_spec",
+            "A map cannot express this; change the spec (`--corrected SPEC` does it where possible) or the \
+             file:",
+            of_spec.clone(),
+        )
+}
+
+fn listed(findings: &[Finding], length: &str) -> Vec<String> {
+    let shown = findings.iter().take(LISTED).map(|Finding { words, residual, angle, .. }| {
+        let angle = angle.map_or(String::new(), |angle| format!(", {}°", digits(angle.to_degrees(), 2)));
+        format!("{} {length}{angle}: {words}", digits(*residual, 3))
+    });
+    let more = findings.len().saturating_sub(LISTED);
+    let more = (more > 0).then(|| format!("… and {more} more"));
+    shown.chain(more).collect()
+}

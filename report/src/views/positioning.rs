@@ -1,0 +1,191 @@
+//! Positioning test: the characteristics of ISO 230-2 or ISO 230-6.
+
+use abbe_metrology::positioning::{
+    Bidirectional, Characteristic, PositionResult, PositioningLine, Report, Unidirectional,
+};
+use abbe_study::number::digits;
+
+use crate::document::{Document, Section, Table, joined, number, words};
+
+/// Describes the characteristics of a positioning test.
+pub fn positioning(report: &Report) -> Document {
+    let table = match &report.lines[..] {
+        [line] if report.diagonals.is_none() => of_axis(line, report.unit),
+        lines => of_diagonals(lines, report.unit),
+    };
+    let positions = report.lines.iter().map(|line| positions(report, line));
+    Document {
+        kind: "Positioning test",
+        machine: report.file.clone(),
+        headline: headline(report),
+        sections: vec![
+            Section::answer().table(table).facts(facts(report)),
+            positions.fold(Section::full("Positions"), Section::table),
+        ],
+        ..Document::default()
+    }
+}
+
+/// Returns the verdict: the characteristics that are quoted most.
+fn headline(report: &Report) -> String {
+    let unit = report.unit;
+    let named = |name: &str, value: Option<Characteristic>| {
+        value.map(|value| format!("{name} {} {unit}", digits(value.value, 3)))
+    };
+    let (standard, figures) = match (&report.diagonals, &report.lines[..]) {
+        (Some(diagonals), _) => {
+            ("ISO 230-6", vec![named("E_d", diagonals.systematic), named("B_d", diagonals.reversal)])
+        }
+        (None, [PositioningLine { evaluation, .. }, ..]) => {
+            let figures = match (&evaluation.bidirectional, evaluation.forward.or(evaluation.reverse)) {
+                (Some(Bidirectional { accuracy, systematic, repeatability, reversal, .. }), _) => vec![
+                    named("A", *accuracy),
+                    named("E", Some(*systematic)),
+                    named("R", *repeatability),
+                    named("B", Some(*reversal)),
+                ],
+                (None, Some(Unidirectional { accuracy, systematic, repeatability })) => vec![
+                    named("one direction: A", accuracy),
+                    named("E", Some(systematic)),
+                    named("R", repeatability),
+                ],
+                (None, None) => vec![Some("no direction has readings at every position".to_owned())],
+            };
+            ("ISO 230-2", figures)
+        }
+        (None, []) => ("ISO 230-2", Vec::new()),
+    };
+    let figures: Vec<String> = figures.into_iter().flatten().collect();
+    format!("{} ({standard})", joined(figures))
+}
+
+/// Formats a characteristic with its uncertainty.
+fn shown(value: Option<Characteristic>) -> String {
+    let Some(Characteristic { value, uncertainty }) = value else { return "-".to_owned() };
+    let spread = uncertainty.map_or(String::new(), |uncertainty| format!(" ± {}", digits(uncertainty, 2)));
+    digits(value, 3) + &spread
+}
+
+fn of_axis(PositioningLine { evaluation, .. }: &PositioningLine, unit: &str) -> Table {
+    let both = evaluation.bidirectional.as_ref();
+    let sides = [evaluation.forward.as_ref(), evaluation.reverse.as_ref()];
+    let row =
+        |name: &str, both: Option<Characteristic>, one: fn(&Unidirectional) -> Option<Characteristic>| {
+            let [up, down] = sides.map(|side| shown(side.and_then(one)));
+            [name.to_owned(), shown(both), up, down]
+        };
+    let none = |_: &Unidirectional| None;
+    let columns = [words(unit), number("bidirectional"), number("forward"), number("reverse")];
+    Table::new("", columns).rows([
+        row("A   accuracy", both.and_then(|both| both.accuracy), |side| side.accuracy),
+        row("E   systematic error", both.map(|both| both.systematic), |side| Some(side.systematic)),
+        row("M   mean error", both.map(|both| both.mean), none),
+        row("R   repeatability", both.and_then(|both| both.repeatability), |side| side.repeatability),
+        row("B   reversal error", both.map(|both| both.reversal), none),
+        row("B̄   mean reversal error", both.map(|both| both.mean_reversal), none),
+    ])
+}
+
+fn of_diagonals(lines: &[PositioningLine], unit: &str) -> Table {
+    let columns = [words("diagonal"), number(format!("E {unit}")), number("M"), number("R"), number("B")];
+    Table::new("", columns).rows(lines.iter().map(|PositioningLine { name, evaluation }| {
+        let both = evaluation.bidirectional.as_ref();
+        [
+            name.clone(),
+            shown(both.map(|both| both.systematic)),
+            shown(both.map(|both| both.mean)),
+            shown(both.and_then(|both| both.repeatability)),
+            shown(both.map(|both| both.reversal)),
+        ]
+    }))
+}
+
+/// Tabulates every position of an axis or of a diagonal.
+fn positions(report: &Report, PositioningLine { name, evaluation }: &PositioningLine) -> Table {
+    let of = if name.is_empty() { String::new() } else { format!(" of diagonal {name}") };
+    let caption = format!("Positions{of}, in {}; deviations in {}", report.position_unit, report.unit);
+    let columns = ["P_i", "x̄_i↑", "s_i↑", "x̄_i↓", "s_i↓", "x̄_i", "B_i", "R_i"].map(number);
+    Table::new(caption, columns).rows(evaluation.positions.iter().map(|one| {
+        let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| digits(value, 3));
+        let [up, down] = [one.forward, one.reverse];
+        [
+            digits(one.position, 6),
+            number(up.map(|up| up.mean)),
+            number(up.and_then(|up| up.standard_deviation)),
+            number(down.map(|down| down.mean)),
+            number(down.and_then(|down| down.standard_deviation)),
+            number(one.mean),
+            number(one.reversal),
+            number(one.repeatability),
+        ]
+    }))
+}
+
+/// Returns why characteristics are missing: approaches in one direction, or only one at a position.
+fn missing(report: &Report) -> Option<String> {
+    let positions = || report.lines.iter().flat_map(|line| &line.evaluation.positions);
+    let [forward, reverse] =
+        [positions().any(|one| one.forward.is_some()), positions().any(|one| one.reverse.is_some())];
+    let one_sided = positions().find(|one| one.forward.is_some() != one.reverse.is_some());
+    if let Some(one) = one_sided.filter(|_| forward && reverse) {
+        let side = if one.forward.is_none() { "below" } else { "above" };
+        return Some(format!(
+            "position {} {} has no approach from {side}: there are no characteristics of both directions",
+            digits(one.position, 6),
+            report.position_unit
+        ));
+    }
+    let is_single = |one: &PositionResult| {
+        [one.forward, one.reverse].into_iter().flatten().any(|own| own.standard_deviation.is_none())
+    };
+    positions().find(|one| is_single(one)).map(|one| {
+        format!(
+            "position {} {} has a single approach in a direction: A and R need two or more",
+            digits(one.position, 6),
+            report.position_unit
+        )
+    })
+}
+
+/// Returns the facts about the runs and the uncertainty.
+fn facts(report: &Report) -> Vec<(&'static str, String)> {
+    let targets: Vec<usize> = report.lines.iter().map(|line| line.evaluation.positions.len()).collect();
+    let all = || report.lines.iter().flat_map(|line| &line.evaluation.positions).map(|one| one.position);
+    let (least, most) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    let range = |[least, most]: [usize; 2]| match least == most {
+        true => least.to_string(),
+        false => format!("{least} to {most}"),
+    };
+    let positions = [targets.iter().min(), targets.iter().max()].map(|one| one.copied().unwrap_or_default());
+    let mut facts = vec![(
+        "Runs",
+        format!(
+            "{} target positions from {} to {} {}, {} {} in each direction",
+            range(positions),
+            digits(least, 6),
+            digits(most, 6),
+            report.position_unit,
+            range(report.approaches),
+            if report.approaches == [1, 1] { "approach" } else { "approaches" }
+        ),
+    )];
+    facts.extend(missing(report).map(|missing| ("Missing", missing)));
+    facts.push((
+        "±",
+        match report.instrument {
+            None => {
+                "not known: `--reading-uncertainty` and `--scale-uncertainty` state those of the instrument"
+                    .to_owned()
+            }
+            Some([reading, scale]) => format!(
+                "expanded uncertainty, k = 2, to first order: {} {unit} of a reading, {} {unit}/{} of the \
+                 scale (standard uncertainties)",
+                digits(reading, 3),
+                digits(scale, 3),
+                report.position_unit,
+                unit = report.unit
+            ),
+        },
+    ));
+    facts
+}

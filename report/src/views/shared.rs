@@ -1,0 +1,144 @@
+//! Parts that several views have.
+
+use abbe::LengthUnit;
+use abbe_metrology::AcceptanceVerdict;
+use abbe_metrology::data::{Base, Layout, Map, Summary};
+use abbe_spec::Spec;
+use abbe_study::number::{digits, error_unit, quantity, short, unbroken};
+use abbe_study::{Extrapolation, OtherTool};
+
+use crate::document::{Section, Verdict, first, joined};
+
+/// Rows of a file that the first screen names, one of which is the number of rows.
+const ROWS: usize = 3;
+/// Number of values of a configuration that are shown.
+const NAMED: usize = 12;
+/// Notes on the first screen.
+pub(super) const NOTES: usize = 2;
+
+/// Returns the factor and the unit in which a number is shown: mrad for rad.
+pub(super) fn angle_in_mrad(unit: &'static str) -> (f64, &'static str) {
+    if unit == "rad" { (1e3, "mrad") } else { (1.0, unit) }
+}
+
+/// Formats a p-value.
+pub(super) fn p_value(p: f64) -> String {
+    if p < 1e-12 { "below 1e-12".to_owned() } else { digits(p, 2) }
+}
+
+pub(super) fn accepted(verdict: &AcceptanceVerdict, length: LengthUnit) -> Verdict {
+    Verdict { is_met: verdict.met, text: verdict.sentence(length) }
+}
+
+/// Returns the facts about data files: their rows, and the first of those that cannot be used.
+pub(super) fn first_rows(files: &[Summary]) -> Vec<(&'static str, String)> {
+    let of_file = |file: &Summary| {
+        let names = std::iter::once("Data").chain(std::iter::repeat(""));
+        let lines = file.lines().into_iter().take(ROWS);
+        names.zip(lines).map(|(name, line)| (name, line.trim().to_owned())).collect::<Vec<_>>()
+    };
+    files.iter().flat_map(of_file).collect()
+}
+
+/// Lists the rows of data files that cannot be used, if the first screen does not name them all.
+pub(super) fn data_rows(files: &[Summary]) -> Section {
+    let lines: Vec<String> =
+        files.iter().filter(|file| file.lines().len() > ROWS).flat_map(Summary::lines).collect();
+    Section::full("Rows").list("unusable_rows", "", lines)
+}
+
+/// Returns the first notes as facts.
+pub(super) fn first_notes(notes: &[String]) -> Vec<(&'static str, String)> {
+    some("Note", notes, NOTES)
+}
+
+/// Lists notes, if there are more than the first screen shows.
+pub(super) fn notes(notes: &[String], shown: usize) -> Section {
+    let all = if notes.len() > shown { notes } else { &[] };
+    Section::full("Notes").list("notes", "", all.iter().map(plain).collect())
+}
+
+fn plain(note: &String) -> String {
+    note.strip_prefix("note: ").unwrap_or(note).to_owned()
+}
+
+/// States the result of the χ² test of residuals: `factor` of the stated uncertainty with the
+/// probability `p`. `missing` names errors that a larger factor shows, `or` is another cause of a
+/// smaller one.
+pub(super) fn residual_verdict(factor: f64, p: f64, missing: &str, or: &str) -> String {
+    let times = digits(factor, 3);
+    match factor {
+        _ if p > 0.01 => "The residuals agree with the stated uncertainty of the instrument.".to_owned(),
+        _ if factor > 1.5 => format!(
+            "The residuals are {times} times the stated uncertainty of the instrument: the machine has \
+             errors that {missing}."
+        ),
+        _ if factor > 1.0 => format!(
+            "The residuals are {times} times the stated uncertainty of the instrument, more than chance \
+             explains: the machine has errors that {missing}, or the instrument is worse than stated."
+        ),
+        _ => format!(
+            "The residuals are {times} times the uncertainty stated in the map: the instrument is \
+             better than stated{or}."
+        ),
+    }
+}
+
+/// Returns the facts about the instrument and what it measures.
+pub(super) fn instrument(spec: &Spec, map: &Map) -> Vec<(&'static str, String)> {
+    let angle = format!(" and {} mrad", short(map.uncertainty.angle * 1e3));
+    let uncertainty = match &map.layout {
+        Layout::Instruments(_) => "see each instrument".to_owned(),
+        _ => format!(
+            "{}{} (one standard deviation)",
+            quantity(map.uncertainty.length, spec.length.symbol()),
+            if matches!(map.layout, Layout::Pose(..)) { &angle } else { "" }
+        ),
+    };
+    let base = match map.base {
+        Base::Known => "in F_0, up to small errors",
+        Base::Unknown => "fitted",
+        Base::Exact => "exactly in F_0",
+    };
+    let measured = match &map.layout {
+        Layout::Point(..) => "the tool point".to_owned(),
+        Layout::Difference(..) => "the tool point, as target − actual".to_owned(),
+        Layout::Targets(targets) => format!("{} targets", targets.len()),
+        Layout::Pose(..) => "position and orientation of the tool".to_owned(),
+        Layout::Instruments(all) => joined(all.list.iter().map(|instrument| instrument.name.as_str())),
+    };
+    vec![
+        ("Instrument", map.title.clone()),
+        ("Uncertainty", uncertainty),
+        ("Measured", measured),
+        ("Stands", base.to_owned()),
+        ("Map", map.path().to_owned()),
+    ]
+}
+
+/// Returns the uncertainty with a tool that is not the measured one.
+pub(super) fn other_tool(tool: &OtherTool, length: &str) -> String {
+    let (factor, unit) = error_unit(length);
+    let [all, noise] = [tool.standard_deviation, tool.by_noise].map(|value| digits(factor * value, 3));
+    format!("not the measured one: σ {all} {unit}, {noise} {unit} by noise; not all errors are determined")
+}
+
+/// Returns the number of rows outside the fitted ranges.
+pub(super) fn extrapolated(rows: &Extrapolation) -> String {
+    format!("{} of {} rows are outside the identified ranges", rows.outside, rows.all)
+}
+
+/// Returns the first texts under one name, and the number of the others.
+pub(super) fn some(name: &'static str, texts: &[String], shown: usize) -> Vec<(&'static str, String)> {
+    let mut facts: Vec<_> = texts.iter().take(shown).map(|text| (name, plain(text))).collect();
+    if texts.len() > shown {
+        facts.push(("", format!("… and {} more", texts.len() - shown)));
+    }
+    facts
+}
+
+/// Returns a configuration with at most [`NAMED`] of its values.
+pub(super) fn place(label: &str) -> String {
+    let values: Vec<&str> = label.split(", ").collect();
+    format!("at {}", unbroken(&first(&values, NAMED)))
+}
