@@ -19,6 +19,7 @@ pub mod scene;
 mod svg;
 mod terminal;
 pub mod text;
+mod unit;
 pub mod views;
 
 pub use document::Document;

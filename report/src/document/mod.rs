@@ -67,6 +67,22 @@ impl Document {
         statements.find(|statement| statement.name == name).map(|statement| statement.text.as_str())
     }
 
+    /// Returns the verdict in one line; `None` if there is no tolerance and no limit.
+    pub fn verdict(&self) -> Option<&str> {
+        self.verdict.as_ref().map(|verdict| verdict.text.as_str())
+    }
+
+    /// Iterates over the rows of the tables that have a column of a name.
+    pub fn rows(&self, column: &str) -> impl Iterator<Item = &[String]> {
+        let tables =
+            self.sections.iter().flat_map(|section| &section.blocks).filter_map(|block| match block {
+                Block::Table(table) => Some(table),
+                _ => None,
+            });
+        let tables = tables.filter(move |table| table.columns.iter().any(|one| one.name == column));
+        tables.flat_map(|table| &table.rows).map(Vec::as_slice)
+    }
+
     /// Iterates over the names and the words of all statements.
     pub fn statements(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let statements = self.sections.iter().flat_map(Section::statements);

@@ -1,6 +1,6 @@
 //! Tables of a document.
 
-use abbe_study::Listing;
+use std::ops::Range;
 
 /// Table of texts. The first column names the rows.
 #[derive(Clone, Debug)]
@@ -43,14 +43,18 @@ impl Table {
         self
     }
 
-    /// Creates a table from a listing.
-    pub(crate) fn listing(caption: impl Into<String>, listing: Listing) -> Self {
-        let columns = listing
-            .header
+    /// Creates a table without a caption, of which some columns are numbers.
+    pub(crate) fn listing(header: &[&str], rows: Vec<Vec<String>>, numbers: Range<usize>) -> Self {
+        let columns = header
             .iter()
             .enumerate()
-            .map(|(i, name)| Column { name: (*name).to_owned(), is_number: listing.numbers.contains(&i) });
-        Self { caption: caption.into(), columns: columns.collect(), rows: listing.rows, rest: String::new() }
+            .map(|(i, name)| Column { name: (*name).to_owned(), is_number: numbers.contains(&i) });
+        Self { caption: String::new(), columns: columns.collect(), rows, rest: String::new() }
+    }
+
+    /// Sets the caption.
+    pub(crate) fn titled(self, caption: impl Into<String>) -> Self {
+        Self { caption: caption.into(), ..self }
     }
 
     /// Iterates over the names of the columns; `None` if they have none.

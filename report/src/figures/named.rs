@@ -1,8 +1,9 @@
 //! Figure of an analysis: its data with title and file name.
 
+use crate::unit;
 use abbe::analysis::Measurand;
+use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::{Figure, FigureData, Range};
-use abbe_study::analyze::{Report, unit};
 use abbe_study::study_file::{self, CombinedFigure, Content, Metric};
 
 use super::Quantity;

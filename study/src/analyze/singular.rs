@@ -18,14 +18,4 @@ impl Report {
     pub fn singular(&self) -> usize {
         self.configurations - self.orientation.configurations
     }
-
-    /// Returns a sentence on these configurations.
-    pub fn singular_sentence(&self) -> String {
-        format!(
-            "Euler angles are singular at {} of {} configurations: those count for the position, not \
-             for the orientation.",
-            self.singular(),
-            self.configurations,
-        )
-    }
 }

@@ -56,14 +56,13 @@ fn jobs_on_chains_are_refused() {
     }
 }
 
-/// Nothing is certified, and a sentence says so. The exact machine agrees with first order to
+/// Nothing is certified. The exact machine agrees with first order to
 /// second order: errors are of order 0.1 mm and the arm of 100 mm or more.
 #[test]
 fn analyses_certify_nothing() {
     for text in all() {
         let report = analyzed(&text);
         assert!(report.certified.is_none());
-        assert!(report.conclusions().iter().any(|sentence| sentence.starts_with("Certified: nothing")));
         let radius = report.budget.combined.radius.value;
         assert!(report.first_order.largest < 0.02 * radius, "{} {radius}", report.first_order.largest);
     }

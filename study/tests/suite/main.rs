@@ -5,7 +5,6 @@ mod closed_loops;
 mod compensated;
 mod jobs;
 mod parts;
-mod verdict;
 
 #[path = "../../../tests/src/thorough.rs"]
 mod thorough;

@@ -53,4 +53,5 @@ mod schemas;
 mod selected_models;
 mod structured_text;
 mod tables;
+mod verdict;
 mod voice;

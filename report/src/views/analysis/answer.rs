@@ -2,14 +2,18 @@
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{
-    Agreement, CompensationBasis, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict, Verdict, unit,
+    Agreement, CompensationBasis, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict, Verdict,
     unreachable_summary,
 };
 use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self as numbers, error_unit, fixed, percent, steady};
 use abbe_study::study_file::JudgedMachine;
 
+use super::agreement::agreement_text;
+use super::conclusions::{exact, singular_sentence};
+use super::verdict::stated_probability;
 use crate::document::{Section, Table, first, number, words};
+use crate::unit;
 use crate::views::shared::place;
 
 /// Number of sources shown one by one.
@@ -68,7 +72,7 @@ fn figures(report: &Report) -> Table {
     let judged = |verdict: Option<&ToleranceVerdict>, factor: f64, unit: &str| {
         verdict.map_or([const { String::new() }; 2], |verdict| {
             let u95 = numbers::digits(factor * verdict.u95, 3);
-            [format!("P(within) {}", verdict.probability()), format!("U95 {u95} {unit}")]
+            [format!("P(within) {}", stated_probability(verdict)), format!("U95 {u95} {unit}")]
         })
     };
     let as_built = report.verdicts.as_ref().map(|verdicts| &verdicts.as_built);
@@ -195,7 +199,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let missed: Vec<String> = published
         .iter()
         .filter(|one| one.agreement != Agreement::Met)
-        .map(|one| format!("{} ({}) {}", one.figure, one.metric, one.agreement.text(report)))
+        .map(|one| format!("{} ({}) {}", one.figure, one.metric, agreement_text(one.agreement, report)))
         .collect();
     if !published.is_empty() {
         let met = published.len() - missed.len();
@@ -214,14 +218,14 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let nearly_singular = report.loops.as_ref().filter(|loops| loops.is_nearly_singular());
     facts.extend(nearly_singular.map(|loops| ("Loops", loops.sentence())));
     if report.singular() > 0 {
-        facts.push(("Euler", report.singular_sentence()));
+        facts.push(("Euler", singular_sentence(report)));
     }
     let largest = factor * report.first_order.largest;
     facts.push((
         "Exact",
         format!(
             "figures to first order; {} differs by up to {} {unit} at {}",
-            report.exact(),
+            exact(report),
             numbers::rounded_up(largest, numbers::decimals(largest, 2)),
             numbers::counted(report.first_order.checked, "configuration", "configurations")
         ),

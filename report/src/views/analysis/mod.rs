@@ -1,14 +1,26 @@
 //! Error budget: verdict, figures, sources, uncertainty, and what the numbers mean.
 
+mod agreement;
 mod answer;
+mod conclusions;
+mod ledger;
+mod norms;
 mod reference;
+mod summary;
 mod tables;
+mod uncertainty;
+mod verdict;
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{self, AfterCompensation, Report, UncertaintyBudget};
 use abbe_study::number::{self, percent, trimmed, unbroken};
 
-use crate::document::{Card, Document, Figure, Section, Table, Verdict};
+use conclusions::{conclusions, singular_sentence};
+use summary::summary;
+use verdict::{verdict_line, verdict_sentences};
+
+use crate::document::{Card, Document, Figure, Section, Verdict};
+use crate::unit::{self, decimals};
 
 /// Describes an error budget over a workspace, with the figures of its page, the first of which
 /// stand above all tables. `sampled` is the figure of the certified norms, and `left_out` are
@@ -61,8 +73,7 @@ pub(crate) fn analysis(
         machine: report.spec.title.clone(),
         title: report.study.title.clone(),
         headline: answer::headline(report),
-        verdict: report
-            .verdict_line()
+        verdict: verdict_line(report)
             .map(|text| Verdict { is_met: report.verdict() != Some(analyze::Verdict::NotMet), text }),
         panel: "Errors at a configuration",
         sections,
@@ -78,7 +89,7 @@ fn units(figures: &[Figure]) -> Option<String> {
 /// Formats the most important figures.
 fn cards(report: &Report) -> Vec<Card> {
     let (radii, unit) = (&report.combined.radii, report.spec.length.symbol());
-    let decimals = report.decimals().min(4);
+    let decimals = decimals(report).min(4);
     let show = |value| format!("{} {unit}", trimmed(value, decimals));
     let of = |value| {
         report.study.tolerance.map(|tolerance| format!("{} of the tolerance", percent(value, tolerance)))
@@ -113,9 +124,9 @@ fn description(report: &Report) -> Section {
 
 /// States whether the tolerance is met, which error matters most, and where.
 fn verdict(report: &Report) -> Section {
-    let verdict = report.verdict_sentences().into_iter();
+    let verdict = verdict_sentences(report).into_iter();
     let section = verdict.fold(Section::full("Verdict"), |section, text| section.state("verdict", text));
-    report.summary().into_iter().fold(section, |section, text| section.state("largest_error", text))
+    summary(report).into_iter().fold(section, |section, text| section.state("largest_error", text))
 }
 
 fn workspace(report: &Report) -> Section {
@@ -131,7 +142,7 @@ fn workspace(report: &Report) -> Section {
     }
     let errors = "ΔX = J_e ε of the tool point, along x, y, z of F_0; for a random source its bound (±)";
     facts.push(("Errors", errors.to_owned()));
-    let singular = (report.singular() > 0).then(|| report.singular_sentence());
+    let singular = (report.singular() > 0).then(|| singular_sentence(report));
     Section::full("Workspace").facts(facts).state("singular_euler_angles", singular)
 }
 
@@ -139,7 +150,7 @@ fn workspace(report: &Report) -> Section {
 fn together(report: &Report) -> Section {
     let section = Section::full("All sources together").table(tables::combined(report));
     let section =
-        report.conclusions().into_iter().fold(section, |section, text| section.state("conclusion", text));
+        conclusions(report).into_iter().fold(section, |section, text| section.state("conclusion", text));
     section
         .state("other_tool", report.other_tool.as_ref().map(|tool| tool.sentence.clone()))
         .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
@@ -147,18 +158,18 @@ fn together(report: &Report) -> Section {
 
 fn certified(report: &Report, sampled: Option<Figure>) -> Section {
     let section = Section::page("Certified bounds");
-    let Some(norms) = analyze::norm_comparison_table(report) else { return section };
+    let Some(norms) = norms::norm_comparison_table(report) else { return section };
     let unit = report.spec.length.symbol();
     let caption = format!("Largest norms, sampled and certified ({unit})");
-    section.figures(sampled.into_iter().collect()).table(Table::listing(caption, norms))
+    section.figures(sampled.into_iter().collect()).table(norms.titled(caption))
 }
 
 /// Tabulates the allowed sizes of the sources.
 fn allowance(report: &Report) -> Section {
     let tables = Measurand::ALL.into_iter().filter_map(|measurand| {
-        let (_, unit) = analyze::unit::display_unit(report, measurand);
+        let (_, unit) = unit::display_unit(report, measurand);
         let caption = format!("Factors that meet the tolerance, most effective source first ({unit})");
-        Some(Table::listing(caption, analyze::allowance_table(report, measurand)?))
+        Some(ledger::allowance_table(report, measurand)?.titled(caption))
     });
     let section = tables.fold(Section::full("Error allowance"), Section::table);
     let about = "Alone at most: factor by which a source may grow if all other errors are zero. Equal shares: \
@@ -179,10 +190,10 @@ fn ledger(report: &Report) -> Section {
     let unit = report.spec.length.symbol();
     let caption =
         format!("Norms of the errors of the tool point ({unit}): the largest and the root mean square");
-    let section = Section::full("Ledger").table(Table::listing(caption, analyze::ledger(report)));
-    match analyze::orientation_ledger(report) {
+    let section = Section::full("Ledger").table(ledger::ledger(report).titled(caption));
+    match ledger::orientation_ledger(report) {
         Some(rotations) => {
-            section.table(Table::listing("Rows 4 to 6 of ΔX in mrad, largest over the workspace", rotations))
+            section.table(rotations.titled("Rows 4 to 6 of ΔX in mrad, largest over the workspace"))
         }
         None => section,
     }
@@ -192,19 +203,19 @@ fn ledger(report: &Report) -> Section {
 fn uncertainty(report: &Report) -> Section {
     let mut stated: Vec<String> = Vec::new();
     let budget = |section: Section, budget: &UncertaintyBudget| {
-        let (_, unit) = analyze::unit::display_unit(report, budget.measurand);
-        let mut sentences = analyze::uncertainty_sentences(report, budget);
+        let (_, unit) = unit::display_unit(report, budget.measurand);
+        let mut sentences = uncertainty::uncertainty_sentences(report, budget);
         sentences.retain(|sentence| !stated.contains(sentence));
         stated.extend_from_slice(&sentences);
         let section = section
-            .table(Table::listing(
-                format!("Standard uncertainty of each source ({unit})"),
-                analyze::uncertainty_contributions(report, budget),
-            ))
-            .table(Table::listing(
-                format!("Expanded uncertainty and bias ({unit})"),
-                analyze::uncertainty_totals(report, budget),
-            ));
+            .table(
+                uncertainty::uncertainty_contributions(report, budget)
+                    .titled(format!("Standard uncertainty of each source ({unit})")),
+            )
+            .table(
+                uncertainty::uncertainty_totals(report, budget)
+                    .titled(format!("Expanded uncertainty and bias ({unit})")),
+            );
         sentences.into_iter().fold(section, |section, text| section.state("uncertainty", text))
     };
     report.uncertainty_budgets().fold(Section::full("Uncertainty budget"), budget)

@@ -6,7 +6,9 @@ use abbe_study::analyze::{Report, SourceReport};
 use abbe_study::number::{self as numbers, fixed, percent, short};
 use abbe_study::study_file::{CombinedFigure, Metric, Subject};
 
+use super::agreement::agreement_text;
 use crate::document::{Column, Section, Table, number, words};
+use crate::unit::decimals;
 
 /// Tabulates three metrics of every source, and under each what is published on it, in descending
 /// order of the largest norms.
@@ -77,7 +79,7 @@ fn lines(
     tolerance: Option<f64>,
 ) -> Vec<Vec<String>> {
     let published = subject.and_then(|subject| report.published(subject));
-    let show = |figure: Option<f64>| figure.map_or_else(String::new, |value| fixed(value, report.decimals()));
+    let show = |figure: Option<f64>| figure.map_or_else(String::new, |value| fixed(value, decimals(report)));
     let of = tolerance.map(|tolerance| figures[3].map_or_else(String::new, |norm| percent(norm, tolerance)));
     let none = (!report.study.published.is_empty()).then(String::new);
     let mut lines = vec![
@@ -88,8 +90,8 @@ fn lines(
         let figures = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
         let skipped = tolerance.map(|_| String::new());
         let agreement = match published.reference.as_str() {
-            "" => published.agreement.text(report),
-            reference => format!("{} ({reference})", published.agreement.text(report)),
+            "" => agreement_text(published.agreement, report),
+            reference => format!("{} ({reference})", agreement_text(published.agreement, report)),
         };
         lines.push(
             std::iter::once(publisher).chain(figures).chain(skipped).chain([agreement]).collect::<Vec<_>>(),
@@ -112,23 +114,28 @@ fn class(class: Class) -> &'static str {
 pub(super) fn monte_carlo(report: &Report) -> Section {
     let section = Section::full("Monte Carlo on the exact chain");
     let Some(drawn) = &report.monte_carlo else { return section };
-    let decimals = report.decimals();
-    let with_error =
-        |value: f64, error: f64| format!("{} ± {}", fixed(value, decimals), fixed(error, decimals + 1));
+    let decimals = decimals(report);
     let norms = |(place, found): (&str, &MonteCarlo)| {
-        let [a, b, c] = found.quantiles.map(|quantile| with_error(quantile.value, quantile.standard_error));
+        let [a, b, c] = found.quantiles.map(|quantile| fixed(quantile.value, decimals));
+        let errors = found.quantiles.map(|quantile| fixed(quantile.standard_error, decimals + 1));
         let inside = found.inside_ellipsoid.map(|share| format!("{:.2} %", 100.0 * share));
-        [place.to_owned(), a, b, c, fixed(found.largest, decimals), inside.unwrap_or_default()]
+        let values = [place.to_owned(), a, b, c, fixed(found.largest, decimals), inside.unwrap_or_default()];
+        let [a, b, c] = errors;
+        [values, ["  standard error".to_owned(), a, b, c, String::new(), String::new()]]
     };
     let deviations = |(place, found): (&str, &MonteCarlo)| {
-        let [x, y, z] = [0, 1, 2].map(|i| {
-            let sigma = found.covariance[i][i].sqrt();
-            // d√v = dv / 2√v.
-            let error = if sigma > 0.0 { found.standard_error[i][i] / (2.0 * sigma) } else { 0.0 };
-            let first_order = fixed(found.first_order[i][i].sqrt(), decimals);
-            format!("{} ({first_order})", with_error(sigma, error))
-        });
-        [place.to_owned(), x, y, z]
+        let row = |name: &str, value: &dyn Fn(usize) -> f64, more: usize| {
+            let [x, y, z] = [0, 1, 2].map(|i| fixed(value(i), decimals + more));
+            [name.to_owned(), x, y, z]
+        };
+        let sigma = |i: usize| found.covariance[i][i].sqrt();
+        // d√v = dv / 2√v.
+        let error = |i: usize| match sigma(i) {
+            0.0 => 0.0,
+            sigma => found.standard_error[i][i] / (2.0 * sigma),
+        };
+        let first_order = |i: usize| found.first_order[i][i].sqrt();
+        [row(place, &sigma, 0), row("  standard error", &error, 1), row("  first order", &first_order, 0)]
     };
     let unit = report.spec.length.symbol();
     let columns = [
@@ -140,14 +147,14 @@ pub(super) fn monte_carlo(report: &Report) -> Section {
         number("in ellipsoid"),
     ];
     let norms = Table::new(format!("Quantiles of the norm of the error ({unit})"), columns)
-        .rows(drawn.results().map(norms));
+        .rows(drawn.results().into_iter().flat_map(norms));
     let columns = [words("at"), number("σ x"), number("σ y"), number("σ z")];
-    let caption = format!("Standard deviations, and in brackets those to first order ({unit})");
-    let deviations = Table::new(caption, columns).rows(drawn.results().map(deviations));
+    let caption = format!("Standard deviations ({unit})");
+    let deviations = Table::new(caption, columns).rows(drawn.results().into_iter().flat_map(deviations));
     let explained = format!(
         "{} draws per configuration, seed {}: quantiles and maximum of the norm of the total error, the share \
          of draws inside the first-order 95 % ellipsoid, which is 95 % if all random sources are normal, and \
-         standard deviations; ± is the standard error.",
+         standard deviations.",
         numbers::short(drawn.draws as f64),
         drawn.seed,
     );

@@ -99,7 +99,7 @@ impl UncertaintyBudget {
     }
 
     /// Returns true if any standard uncertainty has finite degrees of freedom.
-    pub(in crate::analyze) fn is_estimated(&self) -> bool {
+    pub fn is_estimated(&self) -> bool {
         self.sources.iter().any(|one| one.degrees_of_freedom.is_finite())
     }
 }

@@ -2,13 +2,13 @@
 
 use abbe::analysis::{Extreme, Figures, Measurand};
 
-use super::report::{Ledger, LedgerEntry, Report, SourceAllowance};
-use super::unit;
-use crate::listing::Listing;
-use crate::number::{self, fixed, percent, unbroken};
+use crate::document::Table;
+use crate::unit::{self, decimals, decimals_of};
+use abbe_study::analyze::{Ledger, LedgerEntry, Report, SourceAllowance};
+use abbe_study::number::{self, fixed, percent, unbroken};
 
 /// Returns the ledger of position errors as a table.
-pub fn ledger(report: &Report) -> Listing {
+pub(super) fn ledger(report: &Report) -> Table {
     let tolerance = report.study.tolerance;
     let mut header = vec!["source", "max", "RMS", "rank", "worst at (the rest as at home)"];
     if tolerance.is_some() {
@@ -21,7 +21,7 @@ pub fn ledger(report: &Report) -> Listing {
             .configuration(*configuration)
             .filter(|_| *max > 0.0)
             .map(|worst| unbroken(&report.label(worst)));
-        let show = |value| fixed(value, report.decimals());
+        let show = |value| fixed(value, decimals(report));
         let mut cells = vec![
             name.clone(),
             show(*max),
@@ -35,12 +35,12 @@ pub fn ledger(report: &Report) -> Listing {
         rows.push(cells);
     }
     let numbers = 1..header.len() - 1;
-    Listing { header, rows, numbers }
+    Table::listing(&header, rows, numbers)
 }
 
 /// Returns the ledger of orientation errors in mrad, rows 4–6 and their norm; `None` if no source
 /// rotates the tool.
-pub fn orientation_ledger(report: &Report) -> Option<Listing> {
+pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
     let (errors, combined, _) = report.budget.errors(Measurand::Orientation);
     if combined.worst_case_radius.value == 0.0 {
         return None;
@@ -81,24 +81,20 @@ pub fn orientation_ledger(report: &Report) -> Option<Listing> {
     ];
     let rows = alone.chain(together).collect();
     let numbers = 1..header.len() - 1;
-    Some(Listing { header, rows, numbers })
+    Some(Table::listing(&header, rows, numbers))
 }
 
 /// Returns the table of errors that the tolerance allows each source, and of the gain from reducing
 /// it by one percent.
-pub fn allowance_table(report: &Report, measurand: Measurand) -> Option<Listing> {
+pub(super) fn allowance_table(report: &Report, measurand: Measurand) -> Option<Table> {
     let (factor, _) = unit::display_unit(report, measurand);
     let times = |scale: Option<f64>| {
         scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
     };
     let row = |SourceAllowance { name, alone, equal, gain_per_percent }: &SourceAllowance| {
-        let gain = fixed(factor * gain_per_percent, report.decimals_of(measurand) + 1);
+        let gain = fixed(factor * gain_per_percent, decimals_of(report, measurand) + 1);
         vec![name.clone(), times(*alone), times(*equal), gain]
     };
     let rows = report.allowance(measurand)?.sources.iter().map(row).collect();
-    Some(Listing {
-        header: vec!["source", "alone at most", "equal shares", "gain per percent"],
-        rows,
-        numbers: 1..4,
-    })
+    Some(Table::listing(&["source", "alone at most", "equal shares", "gain per percent"], rows, 1..4))
 }

@@ -1,13 +1,14 @@
 //! Verdicts on tolerances and their uncertainty.
 
 use abbe::analysis::{Compliance, Measurand, errors_at, normal_compliance};
+use abbe_report::budget;
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
 use abbe_study::analyze::figures::FigureData;
-use abbe_study::analyze::{Analyze, Report, ToleranceVerdict, Verdict, uncertainty_contributions};
+use abbe_study::analyze::{Analyze, Report, ToleranceVerdict, Verdict};
 use abbe_study::{Machine, Study};
 
-use crate::thorough::thorough;
+use abbe_tests::thorough;
 
 /// Analyzes a slide with a repeatable error of 0.1 mm along x and four random errors of a size and
 /// distribution in the same direction.
@@ -53,19 +54,47 @@ fn verdict(report: &Report) -> &ToleranceVerdict {
     verdict
 }
 
+/// Returns the words of all statements with a name.
+fn stated(report: &Report, name: &str) -> String {
+    let document = budget(report);
+    let words = document.statements().filter(|(stated, _)| *stated == name).map(|(_, words)| words);
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// A non-zero difference too small to print is not reported as 0.
+#[test]
+fn a_small_first_order_error_is_not_reported_as_0() {
+    let machine = Machine::find("wam").unwrap();
+    let study = Study::find(None, &machine).unwrap();
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    assert!(report.first_order.largest > 0.0);
+    let conclusions = stated(&report, "conclusion");
+    assert!(conclusions.contains("by less than 0.00001 mm"), "{conclusions}");
+    assert!(!conclusions.contains("by at most 0 mm"), "{conclusions}");
+}
+
+/// Nothing is certified of closed loops, and a sentence says so.
+#[test]
+fn nothing_is_certified_of_closed_loops() {
+    let machine = Machine::find("palletizer").unwrap();
+    let study = Study::find(None, &machine).unwrap();
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    assert!(report.certified.is_none() && stated(&report, "conclusion").contains("Certified: nothing"));
+}
+
 /// One repeatable and four uniform errors of T/5: the equal share that meets the tolerance with
 /// certainty.
 #[test]
 fn bounded_errors_give_a_certain_verdict() {
     let met = report("uniform", "0.1 mm", "\"0.5001 mm\"");
     assert_eq!(met.verdict(), Some(Verdict::Met));
-    assert_eq!(met.verdict_line().unwrap(), "Verdict: met");
+    assert_eq!(budget(&met).verdict().unwrap(), "Verdict: met");
     assert!((verdict(&met).largest.unwrap() - 0.5).abs() < 1e-12);
     assert_eq!(verdict(&met).compliance.probability, 1.0);
     let allowance = met.allowance.as_ref().unwrap();
     assert_eq!(allowance.equal_share_probability, 1.0);
     assert!((allowance.equal_share.unwrap() - 0.10002).abs() < 1e-12);
-    assert!(met.conclusions().iter().any(|said| said.contains("the tolerance is met for certain")));
+    assert!(stated(&met, "conclusion").contains("the tolerance is met for certain"));
 
     // The sum of the extremes exceeds the tolerance, but few draws do.
     let likely = report("uniform", "0.1 mm", "\"0.4 mm\"");
@@ -81,7 +110,7 @@ fn bounded_errors_give_a_certain_verdict() {
 
     let asked = report("uniform", "0.1 mm", "{ position = \"0.4 mm\", probability = 0.999 }");
     assert_eq!(asked.verdict(), Some(Verdict::NotMet));
-    assert!(asked.verdict_sentences()[0].contains("99.9 % is required"), "{:?}", asked.verdict_sentences());
+    assert!(stated(&asked, "verdict").contains("99.9 % is required"));
 }
 
 /// Four normal errors of 0.1 mm are equivalent to one of 0.2 mm, with a mean of 0.1 mm.
@@ -93,9 +122,9 @@ fn normal_errors_have_a_probability() {
     let compliance = verdict(&report).compliance;
     assert!(compliance.draws.is_none() && (compliance.probability - exact).abs() < 1e-9);
     assert_eq!(report.verdict(), Some(Verdict::MetWithProbability));
-    assert_eq!(report.verdict_line().unwrap(), "Verdict: met with probability 97.59 %");
+    assert_eq!(budget(&report).verdict().unwrap(), "Verdict: met with probability 97.59 %");
     assert!(verdict(&report).largest.is_none());
-    let allowed = report.conclusions().join(" ");
+    let allowed = stated(&report, "conclusion");
     // 0.9973⁴, rounded down.
     assert!(
         allowed.contains("with a probability of at least 98.92 %") && !allowed.contains("certain"),
@@ -222,8 +251,11 @@ fn the_value_of_a_joint_is_its_angle() {
         |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() / expected - 1.0).abs() < 1e-9;
     assert!(close(&source["value"], 3e-4) && close(&source["sensitivity"][3], 100.0), "{source}");
     assert!(close(&source["standard_uncertainty"][3], 0.03 / 6_f64.sqrt()));
-    let table = uncertainty_contributions(&report, report.uncertainty.as_ref().unwrap());
-    assert_eq!(table.rows[0][1..5], ["0.3 mrad", "triangular", "√6", "0.1 mm/mrad"]);
+    let document = budget(&report);
+    assert_eq!(
+        document.rows("divisor").next().unwrap()[1..5],
+        ["0.3 mrad", "triangular", "√6", "0.1 mm/mrad"]
+    );
 }
 
 /// Analyzes a machine with its spec and study as texts.
@@ -263,8 +295,11 @@ fn a_magnitude_has_an_uncertainty() {
     assert_eq!(names, ["scale", "scale (its magnitude)"]);
     let budget = report.uncertainty.as_ref().unwrap();
     assert!((budget.standard_uncertainty[0] - 0.02).abs() < 1e-15 && (budget.bias[0] - 0.05).abs() < 1e-15);
-    let table = uncertainty_contributions(&report, report.uncertainty.as_ref().unwrap());
-    assert_eq!(table.rows[0][..5], ["scale (its magnitude)", "0.2", "normal", "1", "0.1 mm"]);
+    let document = self::budget(&report);
+    assert_eq!(
+        document.rows("divisor").next().unwrap()[..5],
+        ["scale (its magnitude)", "0.2", "normal", "1", "0.1 mm"]
+    );
     // Φ((0.0892 − 0.05)/0.02) = Φ(1.96); the lower limit is far away. The tolerance is no longer
     // met with certainty.
     let judged = verdict(&report);
@@ -287,9 +322,10 @@ fn few_degrees_of_freedom_are_reported() {
     let report = analyzed(&text, "tolerance = \"0.022621572 mm\"\n[workspace.joints]\nsamples = 5\n");
     let (budget, judged) = (report.uncertainty.as_ref().unwrap(), verdict(&report));
     assert!((budget.expanded_uncertainty[3] - 0.022_621_572).abs() < 1e-9);
-    assert_eq!(uncertainty_contributions(&report, budget).rows[0][6], "9");
-    assert_eq!(abbe_study::analyze::uncertainty_totals(&report, budget).rows[3][2], "9");
-    let said = abbe_study::analyze::uncertainty_sentences(&report, budget).join(" ");
+    let document = self::budget(&report);
+    assert_eq!(document.rows("divisor").next().unwrap()[6], "9");
+    assert_eq!(document.rows("U = k u").nth(3).unwrap()[2], "9");
+    let said = stated(&report, "uncertainty");
     assert!(said.contains("Student's t") && said.contains("(2.262 × 0.01 mm)"), "{said}");
     assert!(!said.contains("infinite degrees of freedom"), "{said}");
     let Compliance { probability, error, draws } = judged.compliance;
@@ -356,7 +392,7 @@ fn the_least_likely_configuration_is_found() {
         let judged = verdict(&report);
         assert!(judged.compliance.probability < least + 1e-3, "{seed}: {judged:?}, {least}");
         elsewhere += usize::from(likely(report.budget.combined.radius.configuration.unwrap()) > least + 5e-3);
-        assert!(report.verdict_sentences()[0].contains("the lowest of"), "{:?}", report.verdict_sentences());
+        assert!(stated(&report, "verdict").contains("the lowest of"));
     }
     // The test is meaningful only if the two configurations differ at least once.
     assert!(elsewhere > 0);

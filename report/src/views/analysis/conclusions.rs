@@ -2,56 +2,54 @@
 
 use abbe::analysis::Measurand;
 
-use super::norm_comparison;
-use super::report::{AfterCompensation, RemainingErrors, Report};
-use super::unit;
-use crate::number::{self, percent, short};
+use super::norms;
+use crate::unit::{self, decimals};
+use abbe_study::analyze::{AfterCompensation, RemainingErrors, Report};
+use abbe_study::number::{self, percent, short};
 
-impl Report {
-    /// Returns the results in sentences: tolerance, enclosing sphere, compensation, first-order
-    /// error.
-    pub fn conclusions(&self) -> Vec<String> {
-        let sentences = [
-            allowance(self, Measurand::Position),
-            allowance(self, Measurand::Orientation),
-            Some(spheres(self)),
-            ellipsoid(self),
-            published_residual(self),
-            self.compensation.as_ref().map(|compensation| residual(self, compensation)),
-            norm_comparison::sentence(self),
-            Some(first_order(self)),
-            self.loops.as_ref().map(|loops| format!("Loops: {}.", loops.sentence())),
-        ];
-        sentences.into_iter().flatten().collect()
-    }
+/// Returns the results in sentences: tolerance, enclosing sphere, compensation, first-order
+/// error.
+pub(super) fn conclusions(report: &Report) -> Vec<String> {
+    let sentences = [
+        allowance(report, Measurand::Position),
+        allowance(report, Measurand::Orientation),
+        Some(spheres(report)),
+        ellipsoid(report),
+        published_residual(report),
+        report.compensation.as_ref().map(|compensation| residual(report, compensation)),
+        norms::certified_norms(report),
+        Some(first_order(report)),
+        report.loops.as_ref().map(|loops| format!("Loops: {}.", loops.sentence())),
+    ];
+    sentences.into_iter().flatten().collect()
+}
 
-    /// Returns what first order is compared with.
-    pub fn exact(&self) -> &'static str {
-        match (self.spec.is_serial(), self.spec.loops.is_empty()) {
-            (true, _) => "the exact chain",
-            (_, true) => "the exact tree of frames",
-            _ => "the exact machine with closed loops",
-        }
+/// Returns what first order is compared with.
+pub(super) fn exact(report: &Report) -> &'static str {
+    match (report.spec.is_serial(), report.spec.loops.is_empty()) {
+        (true, _) => "the exact chain",
+        (_, true) => "the exact tree of frames",
+        _ => "the exact machine with closed loops",
     }
+}
 
-    pub(super) fn show(&self, value: f64) -> String {
-        format!("{} {}", number::trimmed(value, self.decimals()), self.spec.length.symbol())
-    }
+pub(super) fn show(report: &Report, value: f64) -> String {
+    format!("{} {}", number::trimmed(value, decimals(report)), report.spec.length.symbol())
+}
 
-    /// Formats an upper bound as `at most 0.0123 mm`, or `less than 0.001 mm` if the value is below
-    /// the last printed digit.
-    fn upper_bound(&self, value: f64) -> String {
-        let smallest = 10f64.powi(-(self.decimals() as i32));
-        match value < smallest / 2.0 {
-            true => format!("less than {}", self.show(smallest)),
-            false => format!("at most {}", self.show(value)),
-        }
+/// Formats an upper bound as `at most 0.0123 mm`, or `less than 0.001 mm` if the value is below
+/// the last printed digit.
+fn upper_bound(report: &Report, value: f64) -> String {
+    let smallest = 10f64.powi(-(decimals(report) as i32));
+    match value < smallest / 2.0 {
+        true => format!("less than {}", show(report, smallest)),
+        false => format!("at most {}", show(report, value)),
     }
+}
 
-    fn share_of_tolerance(&self, value: f64) -> String {
-        let share = self.study.tolerance.map(|tolerance| percent(value, tolerance));
-        share.map(|share| format!(", {share} of the tolerance")).unwrap_or_default()
-    }
+fn share_of_tolerance(report: &Report, value: f64) -> String {
+    let share = report.study.tolerance.map(|tolerance| percent(value, tolerance));
+    share.map(|share| format!(", {share} of the tolerance")).unwrap_or_default()
 }
 
 fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
@@ -73,16 +71,16 @@ fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
 fn spheres(report: &Report) -> String {
     let combined = &report.budget.combined;
     let sphere = &combined.enclosing;
-    let [x, y, z] = sphere.centre.map(|value| number::trimmed(value, report.decimals()));
+    let [x, y, z] = sphere.centre.map(|value| number::trimmed(value, decimals(report)));
     let mut text = format!(
         "Repeatable errors lie within {} of zero; their smallest enclosing sphere has the radius \
          {} and the centre ({x}, {y}, {z})",
-        report.show(combined.repeatable_radius.value),
-        report.show(sphere.radius),
+        show(report, combined.repeatable_radius.value),
+        show(report, sphere.radius),
     );
     // A smaller excess is rounding.
     if sphere.excess > 1e-9 * sphere.radius {
-        text += &format!(" (at most {} too large)", report.show(sphere.excess));
+        text += &format!(" (at most {} too large)", show(report, sphere.excess));
     }
     text + "."
 }
@@ -90,7 +88,7 @@ fn spheres(report: &Report) -> String {
 fn ellipsoid(report: &Report) -> Option<String> {
     let ellipsoid = &report.budget.combined.ellipsoid;
     ellipsoid.configuration?;
-    let [a, b, c] = ellipsoid.semi_axes.map(|value| number::trimmed(value, report.decimals()));
+    let [a, b, c] = ellipsoid.semi_axes.map(|value| number::trimmed(value, decimals(report)));
     let unit = report.spec.length.symbol();
     let lie = "Random errors, if normal, lie with 95 % probability";
     Some(match ellipsoid.rank() {
@@ -111,14 +109,14 @@ fn published_residual(report: &Report) -> Option<String> {
     let (residual, random, total) = (*residual, *random, *total);
     Some(format!(
         "After compensation: {} repeatable residual + {} random = {}{}; {} prints {} + {} = {} ({}).",
-        report.show(residual),
-        report.show(random),
-        report.show(total),
-        report.share_of_tolerance(total),
+        show(report, residual),
+        show(report, random),
+        show(report, total),
+        share_of_tolerance(report, total),
         report.publisher(),
         short(published.residual),
         short(published.random),
-        report.show(published.total),
+        show(report, published.total),
         published.reference,
     ))
 }
@@ -128,9 +126,9 @@ fn residual(report: &Report, compensation: &RemainingErrors) -> String {
         "With the compensation of the study, at most {} of the repeatable errors remain, and {} with \
          the random errors{} (residuals as root sum of squares, errors that are not compensated \
          with their signs).",
-        report.show(compensation.residual),
-        report.show(compensation.total),
-        report.share_of_tolerance(compensation.total),
+        show(report, compensation.residual),
+        show(report, compensation.total),
+        share_of_tolerance(report, compensation.total),
     )
 }
 
@@ -146,14 +144,24 @@ fn first_order(report: &Report) -> String {
     };
     let (differs, by) = match first_order.largest {
         0.0 => ("does not differ", String::new()),
-        largest => ("differs", format!(" by {}", report.upper_bound(largest))),
+        largest => ("differs", format!(" by {}", upper_bound(report, largest))),
     };
     format!(
         "First order: J_e ε of the {which} {differs} from {}{by}, at {} configurations{spread}.",
         match report.spec.is_serial() {
             true => "the exact chain A_1 E_1 … A_n E_n T",
-            false => report.exact(),
+            false => exact(report),
         },
         first_order.checked,
+    )
+}
+
+/// States at how many configurations Euler angles are singular.
+pub(super) fn singular_sentence(report: &Report) -> String {
+    format!(
+        "Euler angles are singular at {} of {} configurations: those count for the position, not \
+         for the orientation.",
+        report.singular(),
+        report.configurations,
     )
 }

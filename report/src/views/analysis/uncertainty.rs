@@ -3,14 +3,14 @@
 use abbe::Distribution;
 use abbe::analysis::{COVERAGE, Measurand, student_95};
 
-use super::report::{Quantity, Report, SourceUncertainty, UncertaintyBudget};
-use super::unit;
-use crate::listing::Listing;
-use crate::number;
+use crate::document::Table;
+use crate::unit;
+use abbe_study::analyze::{Quantity, Report, SourceUncertainty, UncertaintyBudget};
+use abbe_study::number;
 
 /// Returns the table of random sources, largest share first. Has a column of degrees of freedom if
 /// any are finite.
-pub fn uncertainty_contributions(report: &Report, budget: &UncertaintyBudget) -> Listing {
+pub(super) fn uncertainty_contributions(report: &Report, budget: &UncertaintyBudget) -> Table {
     let measurand = budget.measurand;
     let estimated = budget.is_estimated();
     let row = |one: &SourceUncertainty| {
@@ -33,12 +33,12 @@ pub fn uncertainty_contributions(report: &Report, budget: &UncertaintyBudget) ->
         header.insert(6, "ν");
     }
     let numbers = 3..header.len();
-    Listing { header, rows: budget.sources.iter().map(row).collect(), numbers }
+    Table::listing(&header, budget.sources.iter().map(row).collect(), numbers)
 }
 
 /// Returns the table of bias, u, k and U for each row and the norm. Has a column of effective
 /// degrees of freedom if any are finite.
-pub fn uncertainty_totals(report: &Report, budget: &UncertaintyBudget) -> Listing {
+pub(super) fn uncertainty_totals(report: &Report, budget: &UncertaintyBudget) -> Table {
     let UncertaintyBudget { measurand, bias, expanded_uncertainty: expanded, .. } = budget;
     let estimated = budget.is_estimated();
     let names = unit::row_names(report, *measurand).into_iter().chain(["norm"]);
@@ -63,11 +63,11 @@ pub fn uncertainty_totals(report: &Report, budget: &UncertaintyBudget) -> Listin
         header.insert(2, "ν");
     }
     let numbers = 1..header.len();
-    Listing { header, rows: names.enumerate().map(row).collect(), numbers }
+    Table::listing(&header, names.enumerate().map(row).collect(), numbers)
 }
 
 /// Returns sentences on what the budget covers.
-pub fn uncertainty_sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
+pub(super) fn uncertainty_sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
     let UncertaintyBudget { measurand, coverage, .. } = budget;
     let (_, combined, _) = report.budget.errors(*measurand);
     let estimated = budget.is_estimated();

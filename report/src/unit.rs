@@ -1,0 +1,55 @@
+//! Display units of positions and orientations: the spec's length unit, and mrad.
+
+use abbe::analysis::Measurand;
+
+use abbe_study::analyze::Report;
+use abbe_study::number::{self, error_decimals};
+
+/// Returns the factor from internal to display unit, and the symbol of the display unit.
+pub(crate) fn display_unit(report: &Report, measurand: Measurand) -> (f64, &'static str) {
+    match measurand {
+        Measurand::Position => (1.0, report.spec.length.symbol()),
+        Measurand::Orientation => (1e3, "mrad"),
+    }
+}
+
+/// Returns the names of the three rows.
+pub(crate) fn row_names(report: &Report, measurand: Measurand) -> [&'static str; 3] {
+    match measurand {
+        Measurand::Position => ["x", "y", "z"],
+        Measurand::Orientation => report.orientation.rows,
+    }
+}
+
+/// Formats a figure in its display unit, without the symbol, with the same number of decimals as
+/// its table.
+pub(crate) fn fixed(report: &Report, measurand: Measurand, value: f64) -> String {
+    number::fixed(value * display_unit(report, measurand).0, decimals_of(report, measurand))
+}
+
+/// Formats a figure with its unit.
+pub(crate) fn with_symbol(report: &Report, measurand: Measurand, value: f64) -> String {
+    let (factor, symbol) = display_unit(report, measurand);
+    format!("{} {symbol}", number::trimmed(value * factor, decimals_of(report, measurand)))
+}
+
+/// Returns the number of decimals of position errors: three significant digits of the smallest
+/// source that is not negligible.
+pub(crate) fn decimals(report: &Report) -> usize {
+    decimals_of(report, Measurand::Position)
+}
+
+/// Returns the number of decimals of a measurand in its display unit; at least four for mrad.
+pub(crate) fn decimals_of(report: &Report, measurand: Measurand) -> usize {
+    let (sources, combined, _) = report.budget.errors(measurand);
+    let (factor, _) = display_unit(report, measurand);
+    let least = match measurand {
+        Measurand::Position => error_decimals(report.spec.length),
+        Measurand::Orientation => 4,
+    };
+    let negligible = 1e-6 * factor * combined.radius.value;
+    let norms = sources.iter().map(|errors| factor * errors.plain_max.norm);
+    let smallest = norms.filter(|norm| *norm > negligible).fold(f64::INFINITY, f64::min);
+    let needed = 2.0 - smallest.log10().floor();
+    (needed.max(0.0) as usize).clamp(least, least + 4)
+}
