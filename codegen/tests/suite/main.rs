@@ -3,3 +3,7 @@
 mod any_input;
 mod graph_laws;
 mod readable_rust;
+mod used_names;
+
+#[path = "../../../tests/src/closed_machines.rs"]
+mod closed_machines;

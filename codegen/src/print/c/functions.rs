@@ -272,9 +272,12 @@ impl Printer<'_> {
             Statement::Declare(array) => self.declare(*array),
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
-            Statement::Copy { from, to } => {
+            Statement::Copy { from, to, fresh } => {
                 let [first, _] = self.flat.range(*from);
                 let (from, to, len) = (self.name(from.array), self.name(*to), self.flat.len(*to));
+                if *fresh {
+                    self.writer.lines(&format!("{real} {to}[{len}];"));
+                }
                 let at = if first == 0 { "k".to_owned() } else { format!("{first} + k") };
                 self.writer.open(&format!("for (int k = 0; k < {len}; k++)"));
                 self.writer.lines(&format!("{to}[k] = {from}[{at}];"));

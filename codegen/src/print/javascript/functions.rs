@@ -136,8 +136,13 @@ impl Printer<'_> {
             }
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
-            Statement::Copy { from, to } => {
-                let line = format!("{}.set({});", self.name(*to), self.part(*from));
+            Statement::Copy { from, to, fresh } => {
+                let (to, from) = (self.name(*to), self.part(*from));
+                let line = if *fresh {
+                    format!("const {to} = {from}.slice();")
+                } else {
+                    format!("{to}.set({from});")
+                };
                 self.writer.lines(&line);
             }
             Statement::Assign { to, values, fresh: true, .. } => {

@@ -156,7 +156,7 @@ impl Printer<'_> {
             Statement::Declare(array) => self.declare(*array),
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
-            Statement::Copy { from, to } => {
+            Statement::Copy { from, to, .. } => {
                 self.writer.lines(&format!("{} = {};", self.name(*to), self.part(*from)));
             }
             Statement::Assign { to, index, values, fresh } => {

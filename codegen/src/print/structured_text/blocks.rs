@@ -294,7 +294,7 @@ impl Printer<'_> {
             // Local arrays are cleared where they are declared.
             Statement::Clear(array) if self.flat.routine.arrays[*array].role == Role::Zeros => {}
             Statement::Clear(array) => self.clear(*array),
-            Statement::Copy { from, to } => {
+            Statement::Copy { from, to, .. } => {
                 let [first, _] = self.flat.range(*from);
                 let (from, to, count) = (self.name(from.array), self.name(*to), self.flat.len(*to));
                 let at = if first == 0 { "k".to_owned() } else { format!("k + {first}") };
