@@ -40,7 +40,7 @@ fn helper_head(routines: &Routines, routine: &Routine, real: Real) -> String {
 
 /// Returns a head with the declarations of its arrays, on several lines if it is long. An array
 /// without elements is no argument.
-fn head_of(
+pub(super) fn head_of(
     name: &str,
     arrays: impl Iterator<Item = (&'static str, Role, usize)>,
     real: Real,

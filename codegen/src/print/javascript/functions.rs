@@ -76,6 +76,13 @@ pub(super) fn documentation(
     }
 }
 
+/// Prints a block comment.
+pub(super) fn comment(writer: &mut Writer, text: &str) {
+    writer.lines("/**");
+    writer.documentation(text);
+    writer.lines(" */");
+}
+
 struct Printer<'p> {
     writer: &'p mut Writer,
     flat: Flat<'p>,
