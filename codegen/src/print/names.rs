@@ -228,6 +228,13 @@ pub(super) fn file_name(spec: &Spec, taken: &str) -> String {
     distinct(spec.name.clone(), "_", |name| taken.split_whitespace().any(|word| word == name))
 }
 
+/// Returns a note on a file or a class whose name is not the manipulator's.
+pub(super) fn renamed(spec: &Spec, kind: &str, name: &str) -> Option<String> {
+    let note =
+        || format!("This {kind} is named `{name}`, because `{}` is not available as its name.", spec.name);
+    (spec.name != name).then(note)
+}
+
 /// Returns the variable of `variable ± something else`, or the angle itself.
 fn without_offset(angle: Operand, program: &Program) -> Operand {
     let is_variable = |operand: &Operand| matches!(operand, Operand::Symbol(Symbol::Variable(_)));

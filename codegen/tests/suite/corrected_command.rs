@@ -2,7 +2,7 @@
 //! `abbe_core::compensator` at every configuration. Variables hold NaN before they are assigned, so
 //! that no call depends on what was there before.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use abbe_codegen::chain::Model;
 use abbe_codegen::procedure::{
@@ -234,6 +234,44 @@ fn check(spec: Spec, count: usize) -> Vec<Status> {
         expected.status
     };
     (0..count).map(one).collect()
+}
+
+/// Fails if a branch assigns what no statement before it assigns: where configurations are computed
+/// together, those that do not take the branch keep the value.
+fn check_branches<'p>(statements: &'p [Statement], assigned: &mut HashSet<&'p str>, in_branch: bool) {
+    for statement in statements {
+        let names: Vec<&str> = match statement {
+            Statement::Set(Value::Name(name), _)
+            | Statement::SetFlag(name, _)
+            | Statement::SetWhole(name, _)
+            | Statement::Copy { to: name, .. } => vec![name],
+            Statement::Call { result, .. } => vec![result.name],
+            Statement::Evaluate { results, .. } => results.clone(),
+            Statement::For { body, .. } => {
+                check_branches(body, assigned, in_branch);
+                continue;
+            }
+            Statement::If { body, .. } => {
+                check_branches(body, assigned, true);
+                continue;
+            }
+            _ => continue,
+        };
+        for name in names {
+            let is_new = assigned.insert(name);
+            assert!(!(is_new && in_branch), "{name} has no value before the branch");
+        }
+    }
+}
+
+#[test]
+fn branches_assign_what_has_a_value() {
+    for (file, text) in shipped() {
+        let spec = Spec::parse(&file, &text).unwrap();
+        for procedure in [Precision::Double, Precision::Single].map(|p| compensated(&spec, p)).concat() {
+            check_branches(&procedure.body, &mut HashSet::new(), false);
+        }
+    }
 }
 
 #[test]

@@ -107,6 +107,23 @@ fn generated_names_are_distinct_and_not_reserved() {
     assert!(count > 500, "{count}");
 }
 
+/// A file or a class that is named otherwise says so.
+#[test]
+fn other_names_are_explained() {
+    let mut count = 0;
+    for spec in specs() {
+        for language in [Language::C(Real::Double), Language::Python, Language::Matlab] {
+            let SourceFile { name, text } = language.files(&spec).remove(0);
+            let is_other = name.split('.').next() != Some(&spec.name);
+            let words = text.split_whitespace().filter(|word| !["*", "%"].contains(word));
+            let words = words.collect::<Vec<_>>().join(" ");
+            assert_eq!(words.contains("is not available as its name"), is_other, "{name}");
+            count += usize::from(is_other);
+        }
+    }
+    assert!(count > 10, "{count}");
+}
+
 /// A class is not named like a variable of its functions.
 #[test]
 fn classes_are_no_variables() {

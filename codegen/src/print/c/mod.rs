@@ -23,7 +23,7 @@ pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
 use super::layout::Writer;
-use super::names::file_name;
+use super::names::{file_name, renamed};
 use super::source_file::SourceFile;
 use super::text::escaped;
 use crate::chain::Model;
@@ -37,7 +37,7 @@ const HEADERS: &str = "assert complex ctype errno fenv float inttypes iso646 lim
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {
     let name = &file_name(spec, HEADERS);
     vec![
-        SourceFile { name: format!("{name}.h"), text: declarations(spec, routines, real) },
+        SourceFile { name: format!("{name}.h"), text: declarations(spec, routines, real, name) },
         SourceFile { name: format!("{name}.c"), text: definitions(spec, model, routines, real, name) },
     ]
 }
@@ -67,7 +67,7 @@ pub(super) fn lost(spec: &Spec, routines: &Routines, real: Real) -> Option<f64> 
 }
 
 /// Returns the header.
-fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
+fn declarations(spec: &Spec, routines: &Routines, real: Real, file: &str) -> String {
     let upper = spec.name.to_ascii_uppercase();
     let mut writer = Writer::new(" *");
     writer.lines("/**");
@@ -80,8 +80,13 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     );
     writer.documentation_line("");
     writer.documentation(if real == Real::Float { SINGLE } else { SAME_BITS });
+    if let Some(note) = renamed(spec, "file", file) {
+        writer.documentation_line("");
+        writer.documentation(&note);
+    }
     writer.lines(" */");
-    writer.lines(&format!("#ifndef {upper}_H\n#define {upper}_H\n\n{SIZES}\n{BEGIN}"));
+    let guard = file.to_ascii_uppercase();
+    writer.lines(&format!("#ifndef {guard}_H\n#define {guard}_H\n\n{SIZES}\n{BEGIN}"));
     writer.blank();
     writer.lines("/** Version of the generator, and the first digits of the spec's SHA-256. */");
     writer.lines(&format!("#define {upper}_GENERATOR \"{}\"", env!("CARGO_PKG_VERSION")));

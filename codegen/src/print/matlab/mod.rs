@@ -20,7 +20,7 @@ use self::functions::{function, list};
 use self::operators::{WORDS, number, spelled};
 use super::header::header;
 use super::layout::Writer;
-use super::names::distinct;
+use super::names::{distinct, renamed};
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
 use crate::procedure::{Precision, Procedure, compensated as described};
@@ -38,6 +38,10 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
         "Call functions as `{class}.pose(q, {class}.parameters)`, for one configuration at a time. A pose is a matrix \
          `[x_axis y_axis z_axis position]` of 3 rows and 4 columns; J_e has 6 rows."
     ));
+    if let Some(note) = renamed(spec, "class", &class) {
+        writer.documentation_line("");
+        writer.documentation(&note);
+    }
     properties(&mut writer, routines);
     writer.blank();
     writer.begin("methods (Static)");

@@ -18,7 +18,7 @@ use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
-use super::names::file_name;
+use super::names::{file_name, renamed};
 use super::records::records;
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless};
@@ -32,11 +32,12 @@ const MODULES: &str = "abc ast asyncio builtins codecs collections concurrent co
 
 /// Returns the file of a manipulator.
 pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
-    SourceFile { name: format!("{}.py", file_name(spec, MODULES)), text: module(spec, routines) }
+    let name = file_name(spec, MODULES);
+    SourceFile { text: module(spec, routines, &name), name: name + ".py" }
 }
 
 /// Returns the source of a manipulator's module.
-fn module(spec: &Spec, routines: &Routines) -> String {
+fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
     let mut writer = Writer::new("");
     writer.lines("r\"\"\"");
     header(&mut writer, spec, routines);
@@ -46,6 +47,10 @@ fn module(spec: &Spec, routines: &Routines) -> String {
          second-to-last axis, as usual in NumPy: a pose is `[x_axis y_axis z_axis position]`, 3 rows and 4 columns. \
          `None` for `s` or `u` stands for the nominal values.",
     );
+    if let Some(note) = renamed(spec, "module", name) {
+        writer.blank();
+        writer.documentation(&note);
+    }
     writer.lines("\"\"\"");
     writer.blank();
     writer.lines("import numpy as np");
