@@ -12,11 +12,13 @@
 //! want no build-time dependency. All three generate the same code.
 //!
 //! `abbe_spec` reads and checks the spec. In this crate, `chain` builds the nodes of a `graph`,
-//! `program` puts them in order, and `print` writes Rust or another language.
+//! `program` puts them in order, and `print` writes Rust or another language. `procedure` describes
+//! algorithms with loops and branches, which are the same for every manipulator.
 
 pub mod chain;
 pub mod graph;
 pub mod print;
+pub mod procedure;
 pub mod program;
 
 mod compile;

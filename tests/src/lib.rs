@@ -7,6 +7,7 @@ pub mod chains;
 pub mod closed_machines;
 pub mod erroneous;
 pub mod frame_loop;
+pub mod hostile;
 pub mod languages;
 pub mod mutants;
 pub mod needs;

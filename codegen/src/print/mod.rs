@@ -2,14 +2,13 @@
 //!
 //! `statements` converts a routine to language-independent statements (`statement`); `body` does so
 //! for a program, with an `expression` for each step that needs no name and `names` for the rest.
-//! `layout` lays out lines, `flat` indexes flat arrays, `compensated` inserts numbers in the
-//! templates of corrected commands, `header` and `text` print documentation, `records` the
+//! `layout` lays out lines, `flat` indexes flat arrays, `procedure` prints what the procedures of
+//! corrected commands have in common, `header` and `text` print documentation, `records` the
 //! description of a manipulator. Each language is a folder with its operators, numbers, statements,
 //! functions, corrected commands and the surrounding module.
 
 mod body;
 mod c;
-mod compensated;
 mod expression;
 mod flat;
 mod fmu;
@@ -18,6 +17,7 @@ mod javascript;
 mod layout;
 mod matlab;
 mod names;
+mod procedure;
 mod python;
 mod records;
 pub mod rust;
@@ -129,7 +129,7 @@ impl Language {
             Self::Rust => one("rs", rust::module(spec, &model, &routines)),
             Self::C(real) => c::files(spec, &model, &routines, real),
             Self::JavaScript => one("js", javascript::module(spec, &routines)),
-            Self::Python => one("py", python::module(spec, &routines)),
+            Self::Python => vec![python::file(spec, &routines)],
             Self::Matlab => vec![matlab::class(spec, &routines)],
             Self::StructuredText => vec![structured_text::file(spec, &routines)],
             Self::Fmu(fmi) => fmu::files(spec, &model, &routines, fmi),

@@ -208,12 +208,31 @@ impl<'s> Names<'s> {
 
     fn free(&mut self, name: &str) -> String {
         let Identifiers { spelled, key, suffix } = self.identifiers;
-        let mut name = spelled(name);
-        while !self.used.insert(key(&name)) {
-            name.push_str(suffix);
-        }
+        let name = distinct(spelled(name), suffix, |name| self.used.contains(&key(name)));
+        self.used.insert(key(&name));
         name
     }
+}
+
+/// Returns a name with as many suffixes as it takes to be free.
+pub(super) fn distinct(mut name: String, suffix: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    while is_taken(&name) {
+        name.push_str(suffix);
+    }
+    name
+}
+
+/// Returns the name of a file without its extension: the manipulator's, unless a file of the
+/// language has it.
+pub(super) fn file_name(spec: &Spec, taken: &str) -> String {
+    distinct(spec.name.clone(), "_", |name| taken.split_whitespace().any(|word| word == name))
+}
+
+/// Returns a note on a file or a class whose name is not the manipulator's.
+pub(super) fn renamed(spec: &Spec, kind: &str, name: &str) -> Option<String> {
+    let note =
+        || format!("This {kind} is named `{name}`, because `{}` is not available as its name.", spec.name);
+    (spec.name != name).then(note)
 }
 
 /// Returns the variable of `variable ± something else`, or the angle itself.

@@ -1,7 +1,7 @@
 //! Language-independent statements.
 
 use super::expression::{Expression, Value};
-use crate::program::{ArrayRows, Repeated};
+use crate::program::{ArrayRows, Repeated, Row};
 
 /// A statement. Arrays are indices in the routine's list of arrays.
 pub(super) enum Statement {
@@ -17,8 +17,8 @@ pub(super) enum Statement {
     Declare(usize),
     /// Fills an array with zeros.
     Clear(usize),
-    /// Copies rows of an array to another one.
-    Copy { from: ArrayRows, to: usize },
+    /// Copies rows of an array to another one; a `fresh` array is declared with these values.
+    Copy { from: ArrayRows, to: usize, fresh: bool },
     /// Assigns row `index` of a place; a `fresh` array is declared with these values.
     Assign { to: ArrayRows, index: usize, values: Vec<Value>, fresh: bool },
     /// Part of column `index` of `J_e`, for consumers that take columns one by one.
@@ -31,4 +31,15 @@ pub(super) enum Statement {
     For { repeated: Repeated, body: Vec<Statement> },
     /// Returns the margin.
     Return(String),
+}
+
+impl Statement {
+    /// Returns `true` if the statement reads or writes a row that the counter of its loop selects.
+    pub(super) fn is_counted(&self) -> bool {
+        let counted = |place: &ArrayRows| matches!(place.row, Row::Each { .. } | Row::Listed { .. });
+        match self {
+            Self::Unpack { from: place, .. } | Self::Assign { to: place, .. } => counted(place),
+            _ => false,
+        }
+    }
 }

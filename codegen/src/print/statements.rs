@@ -198,9 +198,12 @@ impl Writer<'_> {
                 statements.push(Statement::Sums { sums, terms, entries });
             }
             Stage::Copy { from, to } => {
-                let fresh = self.begin([*to].into_iter());
-                self.declare(fresh, statements);
-                statements.push(Statement::Copy { from: *from, to: *to });
+                let fresh = !self.begin([*to].into_iter()).is_empty();
+                let is_local = self.routine.arrays[*to].role == Role::Zeros;
+                if fresh && !is_local {
+                    statements.push(Statement::Declare(*to));
+                }
+                statements.push(Statement::Copy { from: *from, to: *to, fresh: fresh && is_local });
             }
             // An empty array needs no clearing.
             Stage::Clear(array) if self.routine.arrays[*array].is_empty(self.description) => {}

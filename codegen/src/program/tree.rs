@@ -120,7 +120,11 @@ impl<'d> Draft<'d> {
     fn real_pose(&mut self, real: &RealNodes) {
         let graph = &self.model.graph;
         let nominal = self.nominal();
-        let errors = (!real.errors.is_empty()).then(|| {
+        let pose: Vec<Node> = real.pose.axes.iter().flatten().chain(&real.pose.position).copied().collect();
+        let read = graph.symbols(&[&real.step[..], &pose].concat());
+        let passive = self.loops.passive_home.len();
+        let reads_errors = read.iter().any(|symbol| matches!(symbol, Symbol::Local(i) if *i >= passive));
+        let errors = reads_errors.then(|| {
             let errors = self.local("source_errors", Count::Exactly(real.errors.len()));
             self.block(&[nominal], &[errors], Program::new(graph, &real.errors), None);
             errors
@@ -128,7 +132,6 @@ impl<'d> Draft<'d> {
         let passive = self.local("real_passive", Count::Passive);
         self.stages.push(Stage::Copy { from: ArrayRows { array: nominal, row: Row::All }, to: passive });
         self.refine(graph.clone(), passive, errors, &real.step);
-        let pose: Vec<Node> = real.pose.axes.iter().flatten().chain(&real.pose.position).copied().collect();
         let reads: Vec<usize> = [passive].into_iter().chain(errors).collect();
         let results = [self.array("pose")];
         self.block(&reads, &results, Program::new(graph, &pose), None);

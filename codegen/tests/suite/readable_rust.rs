@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// An arm with a spherical wrist, whose generated module has every function.
-const SPEC: &str = r#"
+pub(crate) const SPEC: &str = r#"
 [manipulator]
 name = "arm"
 length = "m"
@@ -101,23 +101,22 @@ fn calls_are_recognized() {
     assert_eq!(found.len(), 3, "{found:?}");
 }
 
-#[test]
-fn shipped_robots_have_no_method_call_with_one_argument() {
-    let mut count = 0;
+/// Returns the name and the text of every shipped spec.
+pub(crate) fn shipped() -> Vec<(String, String)> {
+    let mut specs = Vec::new();
     for folder in ["specs", "mechanisms"] {
         let folder = format!("{}/../manipulators/{folder}", env!("CARGO_MANIFEST_DIR"));
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            check(&path.display().to_string(), &std::fs::read_to_string(&path).unwrap());
-            count += 1;
+            specs.push((path.display().to_string(), std::fs::read_to_string(&path).unwrap()));
         }
     }
-    assert!(count > 10, "{count}");
+    assert!(specs.len() > 10, "{}", specs.len());
+    specs
 }
 
-/// Above 30 frames, modules have loops.
-#[test]
-fn long_chains_have_no_method_call_with_one_argument() {
+/// Returns a chain of 39 frames: above 30 frames, modules have loops.
+pub(crate) fn long_chain() -> String {
     let (head, sources) = SPEC.split_once("[[source]]").unwrap();
     let frame = |index: usize| {
         format!(
@@ -127,12 +126,25 @@ fn long_chains_have_no_method_call_with_one_argument() {
     };
     let frames: String = (7..40).map(frame).collect();
     let sources = sources.replace("EXPRESSION", "sin(q31)/1000");
-    check("long.toml", &format!("{head}{frames}[[source]]{sources}"));
+    format!("{head}{frames}[[source]]{sources}")
 }
 
-/// Returns random expressions of joints, parameters and inputs with every function of the language.
-fn expression() -> impl Strategy<Value = String> {
-    let leaf = prop::sample::select(vec!["x", "y", "u/kg", "a/b", "0.3", "2.5"]).prop_map(str::to_owned);
+#[test]
+fn shipped_robots_have_no_method_call_with_one_argument() {
+    shipped().iter().for_each(|(file, spec)| check(file, spec));
+}
+
+#[test]
+fn long_chains_have_no_method_call_with_one_argument() {
+    check("long.toml", &long_chain());
+}
+
+/// Joints, parameters and inputs of [`SPEC`], and numbers.
+pub(crate) const LEAVES: [&str; 6] = ["x", "y", "u/kg", "a/b", "0.3", "2.5"];
+
+/// Returns random expressions of some values with every function of the language.
+pub(crate) fn expression(leaves: &[&'static str]) -> impl Strategy<Value = String> + use<> {
+    let leaf = prop::sample::select(leaves.to_vec()).prop_map(str::to_owned);
     leaf.prop_recursive(6, 40, 2, |inner| {
         let one = prop::sample::select(vec![
             "sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "abs", "exp", "log", "sign",
@@ -155,7 +167,7 @@ proptest! {
     })]
 
     #[test]
-    fn random_programs_have_no_method_call_with_one_argument(expression in expression()) {
+    fn random_programs_have_no_method_call_with_one_argument(expression in expression(&LEAVES)) {
         let text = SPEC.replace("EXPRESSION", &format!("0.001*({expression})"));
         // Some are refused, such as `log(0.3 - 0.3)`.
         if Spec::parse("arm.toml", &text).is_ok() {

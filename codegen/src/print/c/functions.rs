@@ -40,7 +40,7 @@ fn helper_head(routines: &Routines, routine: &Routine, real: Real) -> String {
 
 /// Returns a head with the declarations of its arrays, on several lines if it is long. An array
 /// without elements is no argument.
-fn head_of(
+pub(super) fn head_of(
     name: &str,
     arrays: impl Iterator<Item = (&'static str, Role, usize)>,
     real: Real,
@@ -272,9 +272,12 @@ impl Printer<'_> {
             Statement::Declare(array) => self.declare(*array),
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
-            Statement::Copy { from, to } => {
+            Statement::Copy { from, to, fresh } => {
                 let [first, _] = self.flat.range(*from);
                 let (from, to, len) = (self.name(from.array), self.name(*to), self.flat.len(*to));
+                if *fresh {
+                    self.writer.lines(&format!("{real} {to}[{len}];"));
+                }
                 let at = if first == 0 { "k".to_owned() } else { format!("{first} + k") };
                 self.writer.open(&format!("for (int k = 0; k < {len}; k++)"));
                 self.writer.lines(&format!("{to}[k] = {from}[{at}];"));

@@ -1,14 +1,15 @@
 //! C99: a header and a source of pure functions on flat arrays, which need only `math.h`.
 //!
 //! `functions` prints routines, `operators` expressions, `support` the sine and other helpers,
-//! `compensated` the corrected commands, and `self_test` expected values for checks on the target.
+//! `procedures` the procedures of the corrected commands, `compensated` their heads, and
+//! `self_test` expected values for checks on the target.
 
 mod compensated;
 mod functions;
 mod operators;
+mod procedures;
 mod real;
 mod self_test;
-mod shortest;
 mod sines;
 mod support;
 
@@ -22,17 +23,22 @@ pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
 use super::layout::Writer;
+use super::names::{file_name, renamed};
 use super::source_file::SourceFile;
 use super::text::escaped;
 use crate::chain::Model;
 use crate::program::{Operand, Routines, Sums};
 
+/// Headers of the language, which would include a file of the same name instead of their own.
+const HEADERS: &str = "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg \
+     stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype";
+
 /// Returns the header and the source of a manipulator.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {
-    let name = &spec.name;
+    let name = &file_name(spec, HEADERS);
     vec![
-        SourceFile { name: format!("{name}.h"), text: declarations(spec, routines, real) },
-        SourceFile { name: format!("{name}.c"), text: definitions(spec, model, routines, real) },
+        SourceFile { name: format!("{name}.h"), text: declarations(spec, routines, real, name) },
+        SourceFile { name: format!("{name}.c"), text: definitions(spec, model, routines, real, name) },
     ]
 }
 
@@ -61,7 +67,7 @@ pub(super) fn lost(spec: &Spec, routines: &Routines, real: Real) -> Option<f64> 
 }
 
 /// Returns the header.
-fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
+fn declarations(spec: &Spec, routines: &Routines, real: Real, file: &str) -> String {
     let upper = spec.name.to_ascii_uppercase();
     let mut writer = Writer::new(" *");
     writer.lines("/**");
@@ -74,8 +80,13 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     );
     writer.documentation_line("");
     writer.documentation(if real == Real::Float { SINGLE } else { SAME_BITS });
+    if let Some(note) = renamed(spec, "file", file) {
+        writer.documentation_line("");
+        writer.documentation(&note);
+    }
     writer.lines(" */");
-    writer.lines(&format!("#ifndef {upper}_H\n#define {upper}_H\n\n{SIZES}\n{BEGIN}"));
+    let guard = file.to_ascii_uppercase();
+    writer.lines(&format!("#ifndef {guard}_H\n#define {guard}_H\n\n{SIZES}\n{BEGIN}"));
     writer.blank();
     writer.lines("/** Version of the generator, and the first digits of the spec's SHA-256. */");
     writer.lines(&format!("#define {upper}_GENERATOR \"{}\"", env!("CARGO_PKG_VERSION")));
@@ -107,13 +118,13 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
 }
 
 /// Returns the source.
-fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> String {
+fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real, file: &str) -> String {
     let mut writer = Writer::new(" *");
     comment(
         &mut writer,
-        &format!("Definitions of the functions declared and documented in {}.h. Do not edit.", spec.name),
+        &format!("Definitions of the functions declared and documented in {file}.h. Do not edit."),
     );
-    writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>\n\n{REFUSED}\n{SIZES}", spec.name));
+    writer.lines(&format!("#include \"{file}.h\"\n\n#include <math.h>\n\n{REFUSED}\n{SIZES}"));
     values(&mut writer, spec, routines, real, "", true);
     for table in routines.used_tables() {
         writer.blank();

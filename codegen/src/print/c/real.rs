@@ -4,6 +4,8 @@ use std::fmt;
 
 use abbe_spec::expr::Table;
 
+use crate::procedure::Precision;
+
 /// A floating-point type: its name, its literals and its functions of `math.h`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Real {
@@ -15,7 +17,7 @@ pub enum Real {
 }
 
 /// Functions of `math.h` that [`Real::text`] replaces.
-const FUNCTIONS: [&str; 5] = ["atan2", "cos", "fabs", "sin", "sqrt"];
+const FUNCTIONS: [&str; 4] = ["cos", "fabs", "sin", "sqrt"];
 
 impl Real {
     /// Every type.
@@ -48,6 +50,14 @@ impl Real {
         match self {
             Self::Double => f64::MAX,
             Self::Float => f64::from(f32::MAX),
+        }
+    }
+
+    /// Returns the precision of the corrected command.
+    pub(super) fn precision(self) -> Precision {
+        match self {
+            Self::Double => Precision::Double,
+            Self::Float => Precision::Single,
         }
     }
 

@@ -74,7 +74,7 @@ pub(super) fn definition(
     let entries = if entries.is_empty() { &zero[..] } else { &entries[..] };
     writer.braces(&format!("{real} given[{}] = ", len.max(1)), entries, ";");
     for (name, range) in &taken.ranges {
-        writer.lines(&format!("const {real} *const {name} = &given[{}];", range.start));
+        writer.lines(&format!("const {real} *const given_{name} = &given[{}];", range.start));
     }
     writer.lines(&format!("volatile {real} infinity = {};", real.number(f64::INFINITY)));
     writer.lines("if (follows_ieee() == 0) {\n    return -1;\n}");
@@ -314,12 +314,14 @@ fn one(
     for array in signature.results.iter().filter(some) {
         writer.lines(&format!("{real} {}[{}];", array.name, array.len(description)));
     }
-    let bound = |array: &Array| match array.name {
+    let given = |array: &Array| match array.name {
         "change" | "largest" => format!("{name}_{}", array.name),
-        other => other.to_owned(),
+        other => format!("given_{other}"),
     };
-    let arrays = signature.arguments.iter().chain(signature.results).filter(some);
-    let call = format!("{name}_{}({})", signature.name, arrays.map(bound).collect::<Vec<_>>().join(", "));
+    let arguments = signature.arguments.iter().filter(some).map(given);
+    let results = signature.results.iter().filter(some).map(|array| array.name.to_owned());
+    let arrays: Vec<String> = arguments.chain(results).collect();
+    let call = format!("{name}_{}({})", signature.name, arrays.join(", "));
     writer.lines(&format!("const int status = {call};"));
     let right = conditions.concat().join(" && ");
     let refused = taken.condition(signature);

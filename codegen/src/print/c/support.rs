@@ -21,6 +21,7 @@ pub(super) enum Support {
     Sign,
     Side,
     LookUp,
+    Clamped,
 }
 
 impl Support {
@@ -29,6 +30,7 @@ impl Support {
         let programs = routines.programs();
         let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
         let mut used: BTreeSet<Self> = actions.filter_map(Self::for_action).collect();
+        used.extend(Some(Self::Clamped).filter(|_| routines.has_compensated()));
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
             used.insert(Self::SinCos);
         }
@@ -65,6 +67,7 @@ impl Support {
             Self::Sign => SIGN,
             Self::Side => SIDE,
             Self::LookUp => LOOK_UP,
+            Self::Clamped => CLAMPED,
         };
         real.text(text).replace("ROUND", &real.rounder())
     }
@@ -132,6 +135,15 @@ const SIDE: &str = "\
 static double side(double x)
 {
     return (x >= 0.0) ? 1.0 : ((x < 0.0) ? -1.0 : x);
+}
+";
+
+const CLAMPED: &str = "\
+/* Returns the nearest value of an interval, and its lower end for NaN. */
+static double clamped(double value, double lower, double upper)
+{
+    const double above = (value > lower) ? value : lower;
+    return (above < upper) ? above : upper;
 }
 ";
 

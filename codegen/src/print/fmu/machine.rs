@@ -8,12 +8,12 @@ use crate::print::c::Real;
 use crate::print::layout::Writer;
 
 /// Returns the header.
-pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String {
+pub(super) fn header(spec: &Spec, variables: &Variables, token: &str, included: &str) -> String {
     let (name, upper) = (&spec.name, spec.name.to_ascii_uppercase());
     let mut writer = Writer::new(" *");
     writer.paragraphs(&format!(
         "/* Constants of the machine. Do not edit. */\n#ifndef FMI_MACHINE_H\n#define FMI_MACHINE_H\n\n\
-         #include \"{name}.h\"\n\n#include <math.h>\n#include <stddef.h>\n\n#define TOKEN \"{token}\"\n\n\
+         #include \"{included}\"\n\n#include <math.h>\n#include <stddef.h>\n\n#define TOKEN \"{token}\"\n\n\
          /* Value references of the first variable of each array. */"
     ));
     writer.open("enum");

@@ -76,6 +76,13 @@ pub(super) fn documentation(
     }
 }
 
+/// Prints a block comment.
+pub(super) fn comment(writer: &mut Writer, text: &str) {
+    writer.lines("/**");
+    writer.documentation(text);
+    writer.lines(" */");
+}
+
 struct Printer<'p> {
     writer: &'p mut Writer,
     flat: Flat<'p>,
@@ -136,8 +143,13 @@ impl Printer<'_> {
             }
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
-            Statement::Copy { from, to } => {
-                let line = format!("{}.set({});", self.name(*to), self.part(*from));
+            Statement::Copy { from, to, fresh } => {
+                let (to, from) = (self.name(*to), self.part(*from));
+                let line = if *fresh {
+                    format!("const {to} = {from}.slice();")
+                } else {
+                    format!("{to}.set({from});")
+                };
                 self.writer.lines(&line);
             }
             Statement::Assign { to, values, fresh: true, .. } => {

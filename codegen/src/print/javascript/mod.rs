@@ -2,16 +2,17 @@
 //!
 //! Every function allocates its results, flat and in the order of the Rust arrays. A single result
 //! is returned as it is, several results as an object. `functions` prints routines, `operators`
-//! expressions, `compensated` the corrected commands.
+//! expressions, `procedures` and `compensated` the corrected commands.
 
 mod compensated;
 mod functions;
 mod operators;
+mod procedures;
 
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use self::functions::function;
+use self::functions::{comment, function};
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
@@ -114,10 +115,4 @@ fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[Stri
     writer.blank();
     comment(writer, documentation);
     writer.array(&format!("const {name} = "), values, ";");
-}
-
-fn comment(writer: &mut Writer, text: &str) {
-    writer.lines("/**");
-    writer.documentation(text);
-    writer.lines(" */");
 }

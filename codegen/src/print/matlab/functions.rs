@@ -96,6 +96,17 @@ pub(super) fn checks<'a>(
     }
 }
 
+/// Prints `name = [first second …];` with a few entries per line.
+pub(super) fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], entries: &[String]) {
+    let inner = entries.join(" ");
+    if inner.len() < 70 {
+        return writer.lines(&format!("{name} = {open}{inner}{close};"));
+    }
+    writer.lines(&format!("{name} = {open} ..."));
+    entries.chunks(4).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
+    writer.lines(&format!("{close};"));
+}
+
 struct Printer<'p> {
     writer: &'p mut Writer,
     class: &'p str,
@@ -156,7 +167,7 @@ impl Printer<'_> {
             Statement::Declare(array) => self.declare(*array),
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
-            Statement::Copy { from, to } => {
+            Statement::Copy { from, to, .. } => {
                 self.writer.lines(&format!("{} = {};", self.name(*to), self.part(*from)));
             }
             Statement::Assign { to, index, values, fresh } => {

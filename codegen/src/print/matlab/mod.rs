@@ -1,23 +1,29 @@
 //! Matlab and Octave: a class of static functions, one configuration at a time.
 //!
 //! Arrays are matrices in Matlab's column-major order, which is the order of the numbers in the
-//! Rust arrays. `functions` prints routines, `operators` expressions, `compensated` the corrected
-//! commands.
+//! Rust arrays. `functions` prints routines, `operators` expressions, `procedures` and
+//! `compensated` the corrected commands.
 
 mod compensated;
 mod functions;
 mod operators;
+mod procedures;
+
+use std::collections::HashSet;
 
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
+use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use self::functions::function;
+use self::functions::{function, list};
 use self::operators::{WORDS, number, spelled};
 use super::header::header;
 use super::layout::Writer;
+use super::names::{distinct, renamed};
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
+use crate::procedure::{Precision, Procedure, compensated as described};
 use crate::program::{Routines, Sums};
 
 /// Returns the file of a manipulator's class. Matlab requires the file to have the name of the
@@ -32,6 +38,10 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
         "Call functions as `{class}.pose(q, {class}.parameters)`, for one configuration at a time. A pose is a matrix \
          `[x_axis y_axis z_axis position]` of 3 rows and 4 columns; J_e has 6 rows."
     ));
+    if let Some(note) = renamed(spec, "class", &class) {
+        writer.documentation_line("");
+        writer.documentation(&note);
+    }
     properties(&mut writer, routines);
     writer.blank();
     writer.begin("methods (Static)");
@@ -49,23 +59,45 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     SourceFile { name: format!("{class}.m"), text: writer.finish() }
 }
 
-/// Returns the name of the class: the manipulator's, unless it is a keyword or one of the
-/// functions.
+/// Returns the name of the class: the manipulator's, unless it is a keyword, or the name of a
+/// function, a property, an argument or a local variable.
 fn class_name(spec: &Spec, routines: &Routines) -> String {
-    let mut name = spelled(&spec.name);
-    let own = ["only_real", "side", "least", "greatest", "look_up", "is_given"];
-    let own = [&own[..], &compensated::FUNCTIONS].concat();
-    let is_taken = |name: &str| {
-        own.contains(&name)
-            || PROPERTIES.contains(&name)
-            || WORDS.split_whitespace().any(|word| word == name)
-            || routines.list.iter().any(|routine| routine.name == name)
-    };
-    while is_taken(&name) {
-        name.push('_');
-    }
-    name
+    let procedures = described(spec, Precision::Double);
+    let arrays = routines.list.iter().flat_map(|routine| &routine.arrays).map(|array| array.name);
+    let signature = COMPENSATED.arguments.iter().chain(COMPENSATED.results).map(|array| array.name);
+    let names = OWN.into_iter().chain(PROPERTIES).chain(WORDS.split_whitespace()).chain(arrays);
+    let names = names.chain(signature).chain(routines.list.iter().map(|routine| routine.name));
+    let names: HashSet<&str> = names.chain(procedures.iter().flat_map(Procedure::names)).collect();
+    distinct(spelled(&spec.name), "_", |name| names.contains(name))
 }
+
+/// Functions with a text of their own, and the variables of these.
+const OWN: [&str; 24] = [
+    "only_real",
+    "side",
+    "least",
+    "greatest",
+    "look_up",
+    "is_given",
+    "clamped",
+    "a",
+    "b",
+    "x",
+    "y",
+    "name",
+    "value",
+    "count",
+    "table",
+    "order",
+    "even",
+    "last",
+    "nearest",
+    "bucket",
+    "piece",
+    "unit",
+    "step",
+    "p",
+];
 
 const PROPERTIES: [&str; 13] = [
     "title",
@@ -156,17 +188,6 @@ fn lookup_table(writer: &mut Writer, table: &Table) {
     let piece = |piece: &[f64; 4]| format!("{};", piece.map(number).join(" "));
     field(writer, "pieces", lookup.pieces.iter().map(piece).collect(), ");");
     writer.end();
-}
-
-/// Prints `name = [first second …];` with a few entries per line.
-fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], entries: &[String]) {
-    let inner = entries.join(" ");
-    if inner.len() < 70 {
-        return writer.lines(&format!("{name} = {open}{inner}{close};"));
-    }
-    writer.lines(&format!("{name} = {open} ..."));
-    entries.chunks(4).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
-    writer.lines(&format!("{close};"));
 }
 
 fn comment(writer: &mut Writer, text: &str) {

@@ -189,8 +189,11 @@ impl Printer<'_> {
             Statement::Declare(array) => self.declare(*array),
             // Arrays are cleared where they are declared.
             Statement::Clear(_) => {}
-            Statement::Copy { from, to } => {
-                self.writer.lines(&format!("{}[...] = {}", self.name(*to), self.part(*from)));
+            Statement::Copy { from, to, fresh } => {
+                let (to, from) = (self.name(*to), self.part(*from));
+                let line =
+                    if *fresh { format!("{to} = {from}.copy()") } else { format!("{to}[...] = {from}") };
+                self.writer.lines(&line);
             }
             Statement::Assign { to, index, values, fresh } => {
                 // A newly declared array has one row.

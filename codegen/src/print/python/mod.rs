@@ -3,11 +3,12 @@
 //!
 //! Every function consists of a public part, which checks its arguments, reports mistakes and gives
 //! results the usual shapes, and a routine on flat arrays behind it. `functions` prints both,
-//! `operators` expressions, `compensated` the corrected commands.
+//! `operators` expressions, `procedures` and `compensated` the corrected commands.
 
 mod compensated;
 mod functions;
 mod operators;
+mod procedures;
 
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
@@ -17,12 +18,26 @@ use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
+use super::names::{file_name, renamed};
 use super::records::records;
+use super::source_file::SourceFile;
 use super::text::{escaped, harmless};
 use crate::program::{Routines, Sums};
 
+/// Modules that NumPy imports: a file of the same name would hide them.
+const MODULES: &str = "abc ast asyncio builtins codecs collections concurrent contextlib copy csv ctypes datetime decimal enum \
+     fractions functools glob inspect io itertools json linecache locale logging math numbers numpy operator os pathlib \
+     pickle platform random re shutil socket stat statistics string struct subprocess sys tempfile textwrap threading \
+     time token tokenize traceback types typing unittest urllib uuid warnings weakref zipfile";
+
+/// Returns the file of a manipulator.
+pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
+    let name = file_name(spec, MODULES);
+    SourceFile { text: module(spec, routines, &name), name: name + ".py" }
+}
+
 /// Returns the source of a manipulator's module.
-pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
+fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
     let mut writer = Writer::new("");
     writer.lines("r\"\"\"");
     header(&mut writer, spec, routines);
@@ -32,6 +47,10 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
          second-to-last axis, as usual in NumPy: a pose is `[x_axis y_axis z_axis position]`, 3 rows and 4 columns. \
          `None` for `s` or `u` stands for the nominal values.",
     );
+    if let Some(note) = renamed(spec, "module", name) {
+        writer.blank();
+        writer.documentation(&note);
+    }
     writer.lines("\"\"\"");
     writer.blank();
     writer.lines("import numpy as np");

@@ -169,7 +169,7 @@ impl Printer<'_> {
                 let reference = if array.role == Role::Result { "*" } else { "" };
                 self.writer.lines(&format!("{reference}{} = {value};", array.name));
             }
-            Statement::Copy { from, to } => self.copy(*from, *to),
+            Statement::Copy { from, to, fresh } => self.copy(*from, *to, *fresh),
             Statement::Assign { to, index, values, fresh } => self.assign(*to, *index, values, *fresh),
             Statement::Column { index, part, values } => self.give_column(*index, part, values),
             Statement::Call { routine, arrays, fresh } => {
@@ -182,7 +182,8 @@ impl Printer<'_> {
                 let count = size(repeated.count);
                 let range =
                     if repeated.backwards { format!("(0..{count}).rev()") } else { format!("0..{count}") };
-                self.writer.open(&format!("for i in {range}"));
+                let counter = if body.iter().any(Statement::is_counted) { "i" } else { "_" };
+                self.writer.open(&format!("for {counter} in {range}"));
                 body.iter().for_each(|statement| self.statement(statement));
                 self.writer.close("}");
             }
@@ -247,9 +248,13 @@ impl Printer<'_> {
         }
     }
 
-    fn copy(&mut self, from: ArrayRows, to: usize) {
+    fn copy(&mut self, from: ArrayRows, to: usize, fresh: bool) {
         let from_rows = self.place(from, 0);
         let line = match from.row {
+            _ if fresh => {
+                let begins = self.begins(to);
+                format!("{begins}{} = {from_rows};", self.routine.arrays[to].name)
+            }
             Row::AllButFirst => {
                 format!("<[_]>::copy_from_slice({}, &{from_rows});", self.routine.arrays[to].name)
             }
@@ -271,13 +276,14 @@ impl Printer<'_> {
         self.writer.lines(&(call + ";"));
     }
 
+    /// Returns the beginning of a declaration with values, which is mutable if others follow.
+    fn begins(&self, array: usize) -> &'static str {
+        if self.routine.writes(array) > 1 { "let mut " } else { "let " }
+    }
+
     fn assign(&mut self, to: ArrayRows, index: usize, values: &[Value], fresh: bool) {
         let target = &self.routine.arrays[to.array];
-        let begins = match (fresh, self.routine.writes(to.array) > 1) {
-            (true, true) => "let mut ",
-            (true, false) => "let ",
-            (false, _) => "",
-        };
+        let begins = if fresh { self.begins(to.array) } else { "" };
         let before = format!("{begins}{} = ", self.place(to, index));
         let indent = self.writer.indent();
         let text =

@@ -13,7 +13,7 @@ use crate::print::flat::{Flat, filled};
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
-use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row, Stage};
+use crate::program::{Array, ArrayRows, Block, Role, Routine, Routines, Row, Stage};
 
 /// Prints one function block.
 pub(super) fn block(
@@ -258,6 +258,29 @@ impl Printer<'_> {
         self.writer.begin(&format!("FOR {counter} := 0 TO {} DO", count - 1));
     }
 
+    /// Returns `true` if an array need not be cleared, and zeros need not be assigned to it: a
+    /// result keeps its numbers from call to call, so that entries which nothing but a zero is
+    /// assigned to are always 0.
+    fn keeps_zeros(&self, array: usize) -> bool {
+        let Routine { arrays, stages, .. } = self.flat.routine;
+        let repeats = |stage: &Stage| {
+            matches!(stage, Stage::Block(Block { repeated: Some(_), .. })) && stage.writes(array)
+        };
+        let is_written_once = self.flat.routine.writes(array) == 1;
+        arrays[array].role == Role::Result && is_written_once && !stages.iter().any(repeats)
+    }
+
+    /// Returns `true` if the first stage that writes a result writes all of it.
+    fn begins_whole(&self, array: usize) -> bool {
+        let Routine { arrays, stages, .. } = self.flat.routine;
+        let is_whole = |stage: &Stage| match stage {
+            Stage::Block(block) => block.repeated.is_none() && block.writes.contains(&ArrayRows::all(array)),
+            _ => true,
+        };
+        let first = stages.iter().find(|stage| stage.writes(array));
+        arrays[array].role == Role::Result && first.is_some_and(is_whole)
+    }
+
     fn clear(&mut self, array: usize) {
         let (name, count) = (self.name(array), self.flat.len(array));
         self.count("k", count);
@@ -286,15 +309,14 @@ impl Printer<'_> {
                     self.writer.lines(&format!("{cosine} := {prefix}_cosine_and_sine({angle}, {sine});"));
                 }
             }
-            Statement::Declare(array) if self.flat.routine.arrays[*array].role == Role::Zeros => {
+            Statement::Declare(array) if !self.keeps_zeros(*array) && !self.begins_whole(*array) => {
                 self.clear(*array);
             }
-            // Entries of results that are never written keep their initial 0.
             Statement::Declare(_) => {}
             // Local arrays are cleared where they are declared.
             Statement::Clear(array) if self.flat.routine.arrays[*array].role == Role::Zeros => {}
             Statement::Clear(array) => self.clear(*array),
-            Statement::Copy { from, to } => {
+            Statement::Copy { from, to, .. } => {
                 let [first, _] = self.flat.range(*from);
                 let (from, to, count) = (self.name(from.array), self.name(*to), self.flat.len(*to));
                 let at = if first == 0 { "k".to_owned() } else { format!("k + {first}") };
@@ -303,8 +325,8 @@ impl Printer<'_> {
                 self.writer.close("END_FOR;");
             }
             Statement::Assign { to, index, values, .. } => {
-                let is_result = self.flat.routine.arrays[to.array].role == Role::Result;
-                let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
+                let keeps_zeros = self.keeps_zeros(to.array);
+                let values = values.iter().enumerate().filter(|(_, value)| !(keeps_zeros && value.is_zero));
                 let entry = |(k, value): (usize, &crate::print::expression::Value)| {
                     format!("{} := {}", self.place(*to, *index, k), value.text)
                 };

@@ -12,6 +12,7 @@ mod blocks;
 mod compensated;
 mod declarations;
 mod operators;
+mod procedures;
 mod support;
 mod tables;
 
@@ -21,10 +22,10 @@ use self::blocks::block;
 use self::declarations::harmless;
 use self::operators::StructuredText;
 use self::support::Support;
-use super::compensated::{Tolerances, statuses};
 use super::header::header;
 use super::layout::Writer;
 use super::source_file::SourceFile;
+use crate::procedure::Precision;
 use crate::program::Routines;
 
 /// Returns the file of a manipulator.
@@ -45,7 +46,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
          value. 2 `SINGULAR`: Rows 4 to 6 are Euler angles, which are undefined at this pose. 3 `OUT_OF_RANGE`: An input is \
          outside its range. Of {}_compensated also: {}",
         syntax.prefix,
-        statuses(&Tolerances::DOUBLE)
+        Precision::Double.statuses()
     ));
     writer.lines(" *)");
     let has_compensated = routines.has_compensated();

@@ -8,7 +8,8 @@ use abbe_spec::expr::{Function, Lookup};
 
 use super::support::Support;
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
-use crate::print::names::Identifiers;
+use crate::print::names::{Identifiers, distinct};
+use crate::procedure::{Precision, compensated};
 use crate::program::{Action, Routines};
 
 /// The syntax of Structured Text for a file.
@@ -50,19 +51,19 @@ impl StructuredText {
         let prefix = spelled(&spec.name);
         let mut tables: Vec<String> = Vec::new();
         for table in &spec.tables {
-            let mut name = format!("{prefix}_table_{}", spelled(&table.name));
-            while tables.iter().any(|other| other.eq_ignore_ascii_case(&name)) {
-                name.push_str(SUFFIX);
-            }
-            tables.push(name);
+            let name = format!("{prefix}_table_{}", spelled(&table.name));
+            let is_taken = |name: &str| tables.iter().any(|other| other.eq_ignore_ascii_case(name));
+            tables.push(distinct(name, SUFFIX, is_taken));
         }
+        let procedures = compensated(spec, Precision::Double);
         let mut reserved = format!("{WORDS} {OWN} {}", tables.join(" "));
-        let called = routines.list.iter().map(|routine| routine.name).chain(["compensated"]);
+        let called =
+            routines.list.iter().map(|routine| routine.name).chain(procedures.iter().map(|one| one.name));
         for name in called.chain(Routine::ALL.map(Routine::name)) {
             reserved.push_str(&format!(" {prefix}_{name} {}", instance(name)));
         }
-        for support in Support::ALL {
-            reserved.push_str(&format!(" {prefix}_{}", support.name()));
+        for name in Support::names() {
+            reserved.push_str(&format!(" {prefix}_{name}"));
         }
         for table in &routines.tables {
             reserved.push_str(&format!(" {0}_0 {0}_1", table.name));
@@ -134,11 +135,14 @@ pub(super) fn instance(routine: &str) -> String {
     format!("run_{routine}")
 }
 
-/// Converts a name of a spec to an identifier: no underscore at an end or beside another one.
+/// Converts a name of a spec to an identifier: no underscore at an end or beside another one, and
+/// nothing that begins like the end of a statement.
 pub(super) fn spelled(name: &str) -> String {
     let parts: Vec<&str> = name.split('_').filter(|part| !part.is_empty()).collect();
     let joined = parts.join("_");
-    let begun = if joined.starts_with(|first: char| first.is_ascii_alphabetic()) { "" } else { "x" };
+    let is_end = parts.first().is_some_and(|first| first.eq_ignore_ascii_case("end"));
+    let is_plain = joined.starts_with(|first: char| first.is_ascii_alphabetic()) && !is_end;
+    let begun = if is_plain { "" } else { "x" };
     let name = format!("{begun}{joined}");
     name[..name.len().min(LONGEST)].trim_end_matches('_').to_owned()
 }

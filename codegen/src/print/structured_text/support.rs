@@ -14,6 +14,7 @@ use crate::program::{Action, Operand, Routines};
 pub(super) enum Support {
     IsWithin,
     Nearest,
+    Clamped,
     CosineAndSine,
     Sine,
     Cosine,
@@ -29,25 +30,31 @@ pub(super) enum Support {
     Side,
 }
 
+/// Name without the prefix, whether the last argument is `fault`, and source of every function.
+const FUNCTIONS: [(Support, &str, bool, &str); 16] = [
+    (Support::IsWithin, "is_within", false, IS_WITHIN),
+    (Support::Nearest, "nearest", false, NEAREST),
+    (Support::Clamped, "clamped", false, CLAMPED),
+    (Support::CosineAndSine, "cosine_and_sine", false, COSINE_AND_SINE),
+    (Support::Sine, "sine", false, SINE),
+    (Support::Cosine, "cosine", false, COSINE),
+    (Support::Arctangent, "arctangent", false, ARCTANGENT),
+    (Support::Quotient, "quotient", true, QUOTIENT),
+    (Support::Root, "root", true, ROOT),
+    (Support::Arcsine, "arcsine", true, ARCSINE),
+    (Support::Arccosine, "arccosine", true, ARCCOSINE),
+    (Support::Power, "power", true, POWER),
+    (Support::Exponential, "exponential", true, EXPONENTIAL),
+    (Support::Logarithm, "logarithm", true, LOGARITHM),
+    (Support::Sign, "sign", false, SIGN),
+    (Support::Side, "side", false, SIDE),
+];
+
 impl Support {
-    /// Every function.
-    pub(super) const ALL: [Self; 15] = [
-        Self::IsWithin,
-        Self::Nearest,
-        Self::CosineAndSine,
-        Self::Sine,
-        Self::Cosine,
-        Self::Arctangent,
-        Self::Quotient,
-        Self::Root,
-        Self::Arcsine,
-        Self::Arccosine,
-        Self::Power,
-        Self::Exponential,
-        Self::Logarithm,
-        Self::Sign,
-        Self::Side,
-    ];
+    /// Iterates over the names of all functions.
+    pub(super) fn names() -> impl Iterator<Item = &'static str> {
+        FUNCTIONS.into_iter().map(|(_, name, ..)| name)
+    }
 
     /// Returns the functions that a file uses.
     pub(super) fn used(spec: &Spec, routines: &Routines, has_compensated: bool) -> BTreeSet<Self> {
@@ -59,7 +66,7 @@ impl Support {
         });
         let mut used: BTreeSet<Self> = used.chain([Self::IsWithin]).collect();
         if has_compensated {
-            used.insert(Self::Arctangent);
+            used.extend([Self::Arctangent, Self::Clamped]);
         }
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
             used.insert(Self::CosineAndSine);
@@ -95,59 +102,17 @@ impl Support {
 
     /// Returns the name without the prefix.
     pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::IsWithin => "is_within",
-            Self::Nearest => "nearest",
-            Self::CosineAndSine => "cosine_and_sine",
-            Self::Sine => "sine",
-            Self::Cosine => "cosine",
-            Self::Arctangent => "arctangent",
-            Self::Quotient => "quotient",
-            Self::Root => "root",
-            Self::Arcsine => "arcsine",
-            Self::Arccosine => "arccosine",
-            Self::Power => "power",
-            Self::Exponential => "exponential",
-            Self::Logarithm => "logarithm",
-            Self::Sign => "sign",
-            Self::Side => "side",
-        }
+        FUNCTIONS[self as usize].1
     }
 
     /// Returns `true` if the last argument is `fault`.
     pub(super) const fn is_guarded(self) -> bool {
-        matches!(
-            self,
-            Self::Quotient
-                | Self::Root
-                | Self::Arcsine
-                | Self::Arccosine
-                | Self::Power
-                | Self::Exponential
-                | Self::Logarithm
-        )
+        FUNCTIONS[self as usize].2
     }
 
     /// Returns the source.
     pub(super) fn text(self, prefix: &str) -> String {
-        let text = match self {
-            Self::IsWithin => IS_WITHIN,
-            Self::Nearest => NEAREST,
-            Self::CosineAndSine => COSINE_AND_SINE,
-            Self::Sine => SINE,
-            Self::Cosine => COSINE,
-            Self::Arctangent => ARCTANGENT,
-            Self::Quotient => QUOTIENT,
-            Self::Root => ROOT,
-            Self::Arcsine => ARCSINE,
-            Self::Arccosine => ARCCOSINE,
-            Self::Power => POWER,
-            Self::Exponential => EXPONENTIAL,
-            Self::Logarithm => LOGARITHM,
-            Self::Sign => SIGN,
-            Self::Side => SIDE,
-        };
-        text.replace("PREFIX", prefix)
+        FUNCTIONS[self as usize].3.replace("PREFIX", prefix)
     }
 }
 
@@ -182,6 +147,26 @@ ELSIF rest < -LREAL#0.5 THEN
     whole := whole - 1;
 END_IF;
 PREFIX_nearest := whole;
+END_FUNCTION
+";
+
+const CLAMPED: &str = "\
+(* Returns the nearest value of an interval, and its lower end for NaN. *)
+FUNCTION PREFIX_clamped : LREAL
+VAR_INPUT
+    value, lower, upper : LREAL;
+END_VAR
+VAR
+    nearest : LREAL;
+END_VAR
+nearest := lower;
+IF value > lower THEN
+    nearest := value;
+END_IF;
+IF nearest > upper THEN
+    nearest := upper;
+END_IF;
+PREFIX_clamped := nearest;
 END_FUNCTION
 ";
 

@@ -14,7 +14,7 @@ use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
 use abbe_tests::languages::{NAMES, arguments, compare_compensated, configurations, open_linkage};
 use abbe_tests::needs::{Missing, Tests, tool};
-use abbe_tests::{is_tested, specs};
+use abbe_tests::{hostile, is_tested, specs, thorough};
 
 use self::program::{STRICT, called, functions, succeeds, write, write_files};
 
@@ -30,6 +30,7 @@ pub(crate) const TESTS: Tests = &[
     ("loops", loops),
     ("tables_and_functions", tables_and_functions),
     ("names_that_mean_something", names_that_mean_something),
+    ("hostile_names_compile", hostile_names_compile),
     ("headers_are_those_of_cpp_too", headers_are_those_of_cpp_too),
     ("single_precision_is_as_close_as_the_chapter_says", single::shipped_robots),
     ("single_precision_of_long_chains_and_tables", single::long_chains_and_tables),
@@ -95,6 +96,26 @@ fn tables_and_functions() -> Result<(), Missing> {
 fn names_that_mean_something() -> Result<(), Missing> {
     tool("cc", "")?;
     assert_equal(Spec::parse("names.toml", NAMES).unwrap(), 50);
+    Ok(())
+}
+
+/// Compiles sources whose folder is searched for headers first, alone and in C++.
+fn hostile_names_compile() -> Result<(), Missing> {
+    tool("cc", "")?;
+    let step = if thorough() { 1 } else { 7 };
+    for (name, text) in hostile::specs(110).step_by(step) {
+        // Units are no names.
+        let Ok(spec) = Spec::parse(&format!("{name}.toml"), &text) else { continue };
+        for real in Real::ALL {
+            let folder = tempfile::tempdir().unwrap();
+            let files = Language::C(real).files(&spec);
+            let source = folder.path().join(&files[1].name);
+            write_files(folder.path(), files);
+            let mut compile = Command::new("cc");
+            compile.args(STRICT).arg("-I").arg(folder.path()).args(["-c", "-o"]);
+            succeeds(compile.arg(folder.path().join("object.o")).arg(&source));
+        }
+    }
     Ok(())
 }
 

@@ -8,6 +8,7 @@ mod chapter;
 mod cycles;
 mod guards;
 mod rejected;
+mod repeated;
 mod support;
 
 use abbe::{Function, Manipulator};

@@ -13,7 +13,7 @@ use super::shipped;
 /// Returns a program with a block that calls a function of two numbers.
 fn calling(expression: &str) -> Program {
     let text = Language::StructuredText.files(&shipped("ur5")).remove(0).text;
-    let (support, _) = text.split_once("(* Deviation of the real").unwrap();
+    let (support, _) = text.split_once("FUNCTION_BLOCK").unwrap();
     let block = format!(
         "{support}\nPROGRAM called\nVAR_INPUT\n    a, b : LREAL;\nEND_VAR\nVAR_OUTPUT\n    x, y : LREAL;\nEND_VAR\n\
          {expression}\nEND_PROGRAM\n"

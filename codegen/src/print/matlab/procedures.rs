@@ -1,0 +1,121 @@
+//! Procedures in Matlab.
+
+use super::functions::list;
+use super::operators::number;
+use crate::print::expression::{Binding, Expression};
+use crate::print::layout::Writer;
+use crate::print::procedure::{Called, Printer, arrays, evaluated};
+use crate::print::text::harmless;
+use crate::procedure::{Counter, Index, Procedure, Variable};
+use crate::program::Routines;
+
+/// Prints a procedure that another one calls.
+pub(super) fn helper(writer: &mut Writer, class: &str, routines: &Routines, procedure: &Procedure) {
+    let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
+    let result = procedure.results[0].name;
+    writer.blank();
+    writer.begin(&format!("function {result} = {}({})", procedure.name, arguments.join(", ")));
+    writer.documentation(&procedure.documentation);
+    let mut printer = MatlabProcedure { writer, class, routines };
+    printer.declarations(procedure);
+    printer.statements(&procedure.body);
+    writer.close("end");
+}
+
+/// Printer of a procedure.
+pub(super) struct MatlabProcedure<'p> {
+    pub(super) writer: &'p mut Writer,
+    pub(super) class: &'p str,
+    pub(super) routines: &'p Routines,
+}
+
+impl MatlabProcedure<'_> {
+    /// Prints constants, and arrays that are filled element by element.
+    pub(super) fn declarations(&mut self, procedure: &Procedure) {
+        for (name, values) in &procedure.constants {
+            let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
+            list(self.writer, name, ["[", "]"], &entries);
+        }
+        for (name, len) in arrays(&procedure.results).chain(arrays(&procedure.locals)) {
+            if procedure.begins_by_elements(name) {
+                self.writer.lines(&format!("{name} = zeros(1, {len});"));
+            }
+        }
+    }
+}
+
+impl Printer for MatlabProcedure<'_> {
+    const BRANCH: [&'static str; 3] = ["if ", "", "end"];
+    const LOOP_END: &'static str = "end";
+    const LEAVE: &'static str = "break";
+
+    fn writer(&mut self) -> &mut Writer {
+        self.writer
+    }
+
+    fn number(&self, value: f64) -> Expression {
+        Expression::number(number(value), value)
+    }
+
+    fn function(&self, called: Called) -> String {
+        match called {
+            Called::Absolute => "abs".to_owned(),
+            Called::Root => "sqrt".to_owned(),
+            Called::Arctangent => "atan2".to_owned(),
+            Called::Clamped => format!("{}.clamped", self.class),
+        }
+    }
+
+    /// Matrices begin at 1.
+    fn element(&self, array: &str, index: &Index) -> String {
+        format!("{array}({})", index.clone() + 1)
+    }
+
+    fn dot(&self, counter: Counter, range: &[Index; 2], factors: &[(&'static str, Index); 2]) -> Expression {
+        let [a, b] = factors.each_ref().map(|(array, index)| {
+            let [first, behind] = range.each_ref().map(|end| index.with(counter, end));
+            let step = index.factor(counter);
+            let last = behind - step;
+            match step {
+                1 => format!("{array}({}:{})", first + 1, last + 1),
+                step => format!("{array}({}:{step}:{})", first + 1, last + 1),
+            }
+        });
+        Expression::new(format!("sum({a} .* {b})"), Binding::Atom)
+    }
+
+    fn comment(&mut self, text: &str) {
+        self.writer.lines(&format!("% {}", harmless(text)));
+    }
+
+    fn assign(&mut self, place: &str, value: &str, _: Option<&str>) {
+        self.writer.lines(&format!("{place} = {value};"));
+    }
+
+    fn copy(&mut self, to: &str, from: &str, _: usize) {
+        self.assign(to, from, None);
+    }
+
+    fn loop_head(&self, counter: &str, [from, to]: &[Index; 2], is_descending: bool) -> String {
+        let last = to.clone() - 1;
+        match is_descending {
+            false => format!("for {counter} = {from}:{last}"),
+            true => format!("for {counter} = {last}:-1:{from}"),
+        }
+    }
+
+    fn call(&mut self, procedure: &'static str, arguments: &[&'static str], result: &Variable) {
+        let call = format!("{}.{procedure}({})", self.class, arguments.join(", "));
+        self.assign(result.name, &call, None);
+    }
+
+    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
+        let (given, _) = evaluated(self.routines, function, q, results, false);
+        let (class, results) = (self.class, results.join(", "));
+        self.writer.lines(&format!("[{results}] = {class}.{function}({});", given.join(", ")));
+        let finite = results.split(", ").map(|name| format!("all(isfinite({name}(:)))"));
+        self.writer.begin(&format!("if ~({})", finite.collect::<Vec<_>>().join(" && ")));
+        self.writer.lines("error('abbe:finite', 'a result is not finite');");
+        self.writer.close("end");
+    }
+}

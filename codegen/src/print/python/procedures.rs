@@ -1,0 +1,170 @@
+//! Procedures on NumPy arrays of configurations.
+//!
+//! A number is an array with one entry for each configuration. A branch therefore executes the
+//! statements of every case, and assigns where its condition holds.
+
+use abbe_core::compensator::Status;
+
+use super::operators::number;
+use crate::print::expression::{Binding, Expression};
+use crate::print::layout::Writer;
+use crate::print::procedure::{Called, Printer, arrays, evaluated};
+use crate::print::text::harmless;
+use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
+use crate::program::Routines;
+
+/// Prints a procedure that another one calls.
+pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Procedure) {
+    let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
+    writer.blank();
+    writer.blank();
+    writer.begin(&format!("def _{}(batch, {}):", procedure.name, arguments.join(", ")));
+    writer.lines("r\"\"\"");
+    writer.documentation(&procedure.documentation);
+    writer.lines("\"\"\"");
+    let mut printer = PythonProcedure { writer, routines, cases: Vec::new() };
+    printer.declarations(procedure);
+    printer.statements(&procedure.body);
+    writer.lines(&format!("return {}", procedure.results[0].name));
+    writer.end();
+}
+
+/// Printer of a procedure.
+pub(super) struct PythonProcedure<'p> {
+    pub(super) writer: &'p mut Writer,
+    pub(super) routines: &'p Routines,
+    /// Conditions of the branches around the statement.
+    pub(super) cases: Vec<String>,
+}
+
+impl PythonProcedure<'_> {
+    /// Prints constants, and arrays that are filled element by element.
+    pub(super) fn declarations(&mut self, procedure: &Procedure) {
+        for (name, values) in &procedure.constants {
+            let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
+            self.writer.array(&format!("{name} = "), &entries, "");
+        }
+        for (name, len) in arrays(&procedure.results).chain(arrays(&procedure.locals)) {
+            if procedure.begins_by_elements(name) {
+                self.writer.lines(&format!("{name} = np.zeros(({len},) + batch)"));
+            }
+        }
+    }
+
+    /// Returns a value that is assigned in the present branch only.
+    fn chosen(&self, value: &str, place: &str) -> String {
+        match self.cases.last() {
+            None => value.to_owned(),
+            Some(case) => format!("np.where({case}, {value}, {place})"),
+        }
+    }
+}
+
+impl Printer for PythonProcedure<'_> {
+    const BRANCH: [&'static str; 3] = ["if np.all(", "):", ""];
+    const LOOP_END: &'static str = "";
+    const LEAVE: &'static str = "break";
+
+    fn writer(&mut self) -> &mut Writer {
+        self.writer
+    }
+
+    fn number(&self, value: f64) -> Expression {
+        Expression::number(number(value), value)
+    }
+
+    fn function(&self, called: Called) -> String {
+        match called {
+            Called::Absolute => "np.abs",
+            Called::Root => "np.sqrt",
+            Called::Arctangent => "np.arctan2",
+            Called::Clamped => "_clamped",
+        }
+        .to_owned()
+    }
+
+    fn operators(&self) -> [&'static str; 3] {
+        ["&", "|", "=="]
+    }
+
+    fn truth(&self, value: bool) -> String {
+        if value { "True" } else { "False" }.to_owned()
+    }
+
+    fn status(&self, status: Status) -> String {
+        format!("description[\"statuses\"][\"{}\"]", status.name())
+    }
+
+    fn dot(&self, counter: Counter, range: &[Index; 2], factors: &[(&'static str, Index); 2]) -> Expression {
+        let [a, b] = factors.each_ref().map(|(array, index)| {
+            let [first, behind] = range.each_ref().map(|end| index.with(counter, end));
+            match index.factor(counter) {
+                1 => format!("{array}[{first} : {behind}]"),
+                step => format!("{array}[{first} : {behind} : {step}]"),
+            }
+        });
+        Expression::new(format!("_dot({a}, {b})"), Binding::Atom)
+    }
+
+    fn comment(&mut self, text: &str) {
+        self.writer.lines(&format!("# {}", harmless(text)));
+    }
+
+    fn assign(&mut self, place: &str, value: &str, _: Option<&str>) {
+        let value = self.chosen(value, place);
+        self.writer.lines(&format!("{place} = {value}"));
+    }
+
+    fn copy(&mut self, to: &str, from: &str, _: usize) {
+        self.assign(to, &format!("{from}.copy()"), None);
+    }
+
+    fn loop_head(&self, counter: &str, [from, to]: &[Index; 2], is_descending: bool) -> String {
+        match (is_descending, from.number()) {
+            (false, Some(0)) => format!("for {counter} in range({to}):"),
+            (false, _) => format!("for {counter} in range({from}, {to}):"),
+            (true, _) => {
+                let [last, before] = [to.clone() - 1, from.clone() - 1];
+                format!("for {counter} in range({last}, {before}, -1):")
+            }
+        }
+    }
+
+    fn branch(&mut self, condition: &Condition, body: &[Statement]) {
+        let condition = match (self.cases.last(), self.condition(condition)) {
+            (Some(around), condition) => format!("{around} & ({condition})"),
+            (None, condition) => condition,
+        };
+        let case = match (body, self.cases.len()) {
+            ([Statement::Set(..) | Statement::SetFlag(..) | Statement::SetWhole(..)], _) => condition,
+            (_, depth) => {
+                let name = if depth == 0 { "case".to_owned() } else { format!("case_{}", depth + 1) };
+                self.writer.lines(&format!("{name} = {condition}"));
+                name
+            }
+        };
+        self.cases.push(case);
+        self.statements(body);
+        self.cases.pop();
+    }
+
+    fn call(&mut self, procedure: &'static str, arguments: &[&'static str], result: &Variable) {
+        self.assign(result.name, &format!("_{procedure}(batch, {})", arguments.join(", ")), None);
+    }
+
+    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
+        let (given, _) = evaluated(self.routines, function, q, results, false);
+        let call = format!("_{function}(batch, {})", given.join(", "));
+        let results = results.join(", ");
+        self.writer.lines(&match self.cases.last() {
+            None => format!("{results} = {call}"),
+            Some(case) => {
+                format!("{results} = (np.where({case}, *pair) for pair in zip({call}, ({results})))")
+            }
+        });
+        let finite = results.split(", ").map(|name| format!("np.all(np.isfinite({name}))"));
+        self.writer.begin(&format!("if not ({}):", finite.collect::<Vec<_>>().join(" and ")));
+        self.writer.lines("raise ValueError(\"a result is not finite\")");
+        self.writer.end();
+    }
+}

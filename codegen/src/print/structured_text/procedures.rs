@@ -1,0 +1,173 @@
+//! Procedures in Structured Text: function blocks.
+
+use super::declarations::{array_name, array_type, comment, numbers, section, variables};
+use super::operators::{instance, number};
+use super::support::Support;
+use crate::print::expression::{Binding, Expression};
+use crate::print::layout::{LINE, Writer, width};
+use crate::print::procedure::{Called, Printer, arrays, evaluated};
+use crate::procedure::{Index, Kind, Procedure, Variable};
+use crate::program::Routines;
+
+/// Prints a procedure that another one calls.
+pub(super) fn helper(
+    writer: &mut Writer,
+    routines: &Routines,
+    procedure: &Procedure,
+    prefix: &str,
+    procedures: &[Procedure],
+) {
+    writer.blank();
+    comment(writer, &procedure.documentation);
+    writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", procedure.name));
+    section(writer, "VAR_INPUT", |writer| declare(writer, &procedure.arguments));
+    section(writer, "VAR_OUTPUT", |writer| declare(writer, &procedure.results));
+    declarations(writer, procedure, prefix, &[]);
+    BlockProcedure { writer, routines, prefix, procedures }.statements(&procedure.body);
+    writer.lines("END_FUNCTION_BLOCK");
+}
+
+/// Prints constants and variables, and `more` variables.
+pub(super) fn declarations(writer: &mut Writer, procedure: &Procedure, prefix: &str, more: &[Variable]) {
+    if !procedure.constants.is_empty() {
+        section(writer, "VAR CONSTANT", |writer| {
+            procedure.constants.iter().for_each(|(name, values)| numbers(writer, name, values));
+        });
+    }
+    section(writer, "VAR", |writer| {
+        for called in procedure.called() {
+            writer.lines(&format!("{} : {prefix}_{called};", instance(called)));
+        }
+        declare(writer, more);
+        declare(writer, &procedure.locals);
+        let counters: Vec<String> = procedure.counters().into_iter().map(str::to_owned).collect();
+        variables(writer, &counters, "DINT");
+    });
+}
+
+/// Prints declarations of variables, those of one type together.
+fn declare(writer: &mut Writer, list: &[Variable]) {
+    let mut lens: Vec<usize> = Vec::new();
+    for (_, len) in arrays(list) {
+        if !lens.contains(&len) {
+            lens.push(len);
+        }
+    }
+    let mut one = |kind, of_type: &str| {
+        let names =
+            list.iter().filter(|variable| variable.kind == kind).map(|variable| variable.name.to_owned());
+        variables(writer, &names.collect::<Vec<_>>(), of_type);
+    };
+    lens.into_iter().for_each(|len| one(Kind::Array(len), &array_type(len, "LREAL")));
+    [(Kind::Real, "LREAL"), (Kind::Flag, "BOOL"), (Kind::Whole, "DINT")]
+        .into_iter()
+        .for_each(|(kind, of_type)| one(kind, of_type));
+}
+
+/// Prints the call of an instance, on several lines if it is long.
+fn call(writer: &mut Writer, run: &str, given: &[String]) {
+    let mut line = format!("{run}(");
+    for (k, argument) in given.iter().enumerate() {
+        let end = if k + 1 < given.len() { "," } else { ");" };
+        if writer.indent() + width(&line) + width(argument) + 3 > LINE {
+            writer.lines(line.trim_end());
+            line = " ".repeat(run.len() + 1);
+        }
+        line += &format!("{argument}{end} ");
+    }
+    writer.lines(line.trim_end());
+}
+
+/// Printer of the statements of a procedure.
+pub(super) struct BlockProcedure<'p> {
+    pub(super) writer: &'p mut Writer,
+    pub(super) routines: &'p Routines,
+    pub(super) prefix: &'p str,
+    /// The procedures, whose inputs have names.
+    pub(super) procedures: &'p [Procedure],
+}
+
+impl BlockProcedure<'_> {
+    /// Prints the end of the block with the status of another one that has no result.
+    fn fail_with(&mut self, run: &str) {
+        self.writer.begin(&format!("IF {run}.status <> 0 THEN"));
+        self.writer.lines(&format!("status := {run}.status;"));
+        self.writer.lines("RETURN;");
+        self.writer.close("END_IF;");
+    }
+}
+
+impl Printer for BlockProcedure<'_> {
+    const BRANCH: [&'static str; 3] = ["IF ", " THEN", "END_IF;"];
+    const LOOP_END: &'static str = "END_FOR;";
+    const HAS_LESS: bool = false;
+    const LEAVE: &'static str = "EXIT;";
+
+    fn writer(&mut self) -> &mut Writer {
+        self.writer
+    }
+
+    fn number(&self, value: f64) -> Expression {
+        Expression::new(number(value), if value.is_sign_negative() { Binding::Choice } else { Binding::Atom })
+    }
+
+    fn function(&self, called: Called) -> String {
+        match called {
+            Called::Absolute => "ABS".to_owned(),
+            Called::Root => "SQRT".to_owned(),
+            Called::Arctangent => format!("{}_{}", self.prefix, Support::Arctangent.name()),
+            Called::Clamped => format!("{}_{}", self.prefix, Support::Clamped.name()),
+        }
+    }
+
+    fn operators(&self) -> [&'static str; 3] {
+        ["AND", "OR", "="]
+    }
+
+    fn truth(&self, value: bool) -> String {
+        if value { "TRUE" } else { "FALSE" }.to_owned()
+    }
+
+    fn comment(&mut self, text: &str) {
+        comment(self.writer, text);
+    }
+
+    fn assign(&mut self, place: &str, value: &str, _: Option<&str>) {
+        self.writer.lines(&format!("{place} := {value};"));
+    }
+
+    fn copy(&mut self, to: &str, from: &str, _: usize) {
+        self.assign(to, from, None);
+    }
+
+    fn loop_head(&self, counter: &str, [from, to]: &[Index; 2], is_descending: bool) -> String {
+        let last = to.clone() - 1;
+        match is_descending {
+            false => format!("FOR {counter} := {from} TO {last} DO"),
+            true => format!("FOR {counter} := {last} TO {from} BY -1 DO"),
+        }
+    }
+
+    fn call(&mut self, procedure: &'static str, arguments: &[&'static str], result: &Variable) {
+        let callee = self.procedures.iter().find(|one| one.name == procedure).expect("it is described");
+        let run = instance(procedure);
+        let given = callee.arguments.iter().zip(arguments);
+        let given: Vec<String> = given.map(|(wanted, name)| format!("{} := {name}", wanted.name)).collect();
+        call(self.writer, &run, &given);
+        self.writer.lines(&format!("{} := {run}.{};", result.name, callee.results[0].name));
+    }
+
+    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
+        let (given, filled) = evaluated(self.routines, function, q, results, true);
+        let given: Vec<String> = given
+            .into_iter()
+            .map(|name| format!("{} := {}", if name == q { "q" } else { array_name(name) }, array_name(name)))
+            .collect();
+        let run = instance(function);
+        call(self.writer, &run, &given);
+        self.fail_with(&run);
+        for (array, result) in filled {
+            self.writer.lines(&format!("{result} := {run}.{};", array.name));
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The corrected command: the algorithm of [`abbe_core::compensator`] as procedures, by its fixed
+//! number of steps.
+//!
+//! `error` measures how far the real pose is from the ideal one, `shortest` and `single` solve for
+//! the shortest step (in double and in single precision), `departure` takes it within the bounds,
+//! and `cycle` is the algorithm.
+
+mod cycle;
+mod departure;
+mod error;
+mod machine;
+mod shortest;
+mod single;
+
+use abbe_spec::Spec;
+
+use self::machine::Machine;
+pub use self::machine::Precision;
+use super::Procedure;
+
+/// Returns the procedures of the corrected command, each behind those that it calls.
+pub fn compensated(spec: &Spec, precision: Precision) -> Vec<Procedure> {
+    let (count, metre) = (spec.variables.len(), 1.0 / spec.length.in_metres());
+    let machine = Machine { spec, precision, count, metre };
+    let shortest = match precision {
+        Precision::Double => shortest::shortest(&machine),
+        Precision::Single => single::shortest(&machine),
+    };
+    vec![
+        error::deviation(&machine),
+        error::weighted(&machine),
+        error::cost(),
+        shortest,
+        departure::departure(&machine),
+        cycle::cycle(&machine),
+    ]
+}

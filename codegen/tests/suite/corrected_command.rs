@@ -1,0 +1,290 @@
+//! The description of the corrected command, executed statement by statement, has the bits of
+//! `abbe_core::compensator` at every configuration. Variables hold NaN before they are assigned, so
+//! that no call depends on what was there before.
+
+use std::collections::{HashMap, HashSet};
+
+use abbe_codegen::chain::Model;
+use abbe_codegen::procedure::{
+    Binary, Condition, Index, Kind, Precision, Procedure, Statement, Unary, Value, Whole, compensated,
+};
+use abbe_codegen::program::{Routines, results};
+use abbe_core::compensator::{Compensated, Cycle, Status, compensate};
+use abbe_core::{Function, Pose};
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
+
+use crate::readable_rust::shipped;
+
+/// A machine with the procedures of its corrected command.
+struct Machine {
+    spec: Spec,
+    model: Model,
+    procedures: Vec<Procedure>,
+}
+
+/// Variables of a call: the numbers of each, one for those that are no arrays.
+type Variables = HashMap<&'static str, Vec<f64>>;
+
+/// End of the statements of a loop.
+#[derive(PartialEq)]
+enum Flow {
+    Next,
+    Leave,
+}
+
+impl Machine {
+    /// Evaluates a generated function at joint variables and nominal parameters and inputs.
+    fn evaluate(&self, function: Function, q: &[f64]) -> Vec<Vec<f64>> {
+        let (arrays, _) = results(function, &self.model);
+        let value = |symbol| match symbol {
+            Symbol::Variable(i) => q[i],
+            Symbol::Parameter(i) => self.spec.parameters[i].value,
+            Symbol::Input(i) => self.spec.inputs[i].value,
+            _ => f64::NAN,
+        };
+        arrays.iter().map(|nodes| self.model.graph.evaluate(nodes, value)).collect()
+    }
+
+    /// Calls a procedure, and returns its results in order.
+    fn call(&self, name: &str, given: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let procedure = self.procedures.iter().find(|procedure| procedure.name == name).unwrap();
+        let unset = |kind| vec![f64::NAN; if let Kind::Array(len) = kind { len } else { 1 }];
+        let own = procedure.results.iter().chain(&procedure.locals);
+        let mut variables: Variables = own.map(|variable| (variable.name, unset(variable.kind))).collect();
+        variables.extend(procedure.constants.iter().cloned());
+        variables.extend(procedure.arguments.iter().map(|argument| argument.name).zip(given.iter().cloned()));
+        self.run(&procedure.body, &mut variables);
+        procedure.results.iter().map(|result| variables[result.name].clone()).collect()
+    }
+
+    fn run(&self, statements: &[Statement], variables: &mut Variables) -> Flow {
+        for statement in statements {
+            match statement {
+                Statement::Comment(_) => {}
+                Statement::Set(place, result) => {
+                    let result = value(result, variables);
+                    let (name, at) = match place {
+                        Value::Name(name) => (name, 0),
+                        Value::Element(name, index) => (name, index_of(index, variables)),
+                        other => panic!("{other:?} is no variable"),
+                    };
+                    variables.get_mut(name).unwrap()[at] = result;
+                }
+                Statement::SetFlag(name, flag) => drop(variables.insert(name, vec![f64::from(*flag)])),
+                Statement::SetWhole(name, whole) => {
+                    let number = match whole {
+                        Whole::Number(number) => *number as f64,
+                        Whole::Counter(counter) => variables[counter.name()][0],
+                        Whole::Status(status) => f64::from(status.code()),
+                    };
+                    variables.insert(name, vec![number]);
+                }
+                Statement::Copy { to, from, .. } => drop(variables.insert(to, variables[from].clone())),
+                Statement::For { counter, range, is_descending, body } => {
+                    let [from, to] = range.each_ref().map(|end| index_of(end, variables));
+                    for k in from..to {
+                        let k = if *is_descending { to - 1 - (k - from) } else { k };
+                        variables.insert(counter.name(), vec![k as f64]);
+                        if self.run(body, variables) == Flow::Leave {
+                            break;
+                        }
+                    }
+                }
+                Statement::If { condition, body } => {
+                    if holds(condition, variables) && self.run(body, variables) == Flow::Leave {
+                        return Flow::Leave;
+                    }
+                }
+                Statement::Leave(condition) if holds(condition, variables) => return Flow::Leave,
+                Statement::Leave(_) => {}
+                Statement::Call { procedure, arguments, result } => {
+                    assert!(!arguments.contains(&result.name), "{procedure} overwrites {}", result.name);
+                    let given: Vec<Vec<f64>> = arguments.iter().map(|name| variables[name].clone()).collect();
+                    variables.insert(result.name, self.call(procedure, &given).remove(0));
+                }
+                Statement::Evaluate { function, q, results } => {
+                    let function = Function::ALL.into_iter().find(|one| one.name() == *function).unwrap();
+                    let found = self.evaluate(function, &variables[q]);
+                    variables.extend(results.iter().copied().zip(found));
+                }
+            }
+        }
+        Flow::Next
+    }
+
+    /// Returns the corrected command by the compensator.
+    fn expected(
+        &self,
+        description: &abbe_core::Description,
+        q: &[f64],
+        cycle: &Cycle<Vec<f64>>,
+    ) -> Compensated<Vec<f64>> {
+        let pose = |numbers: &[f64]| {
+            let entries: [f64; 12] = numbers.try_into().unwrap();
+            Pose(entries.as_chunks::<3>().0.try_into().unwrap())
+        };
+        let target = pose(&self.evaluate(Function::Pose, q)[0]);
+        let columns = vec![[0.0; 6]; q.len()];
+        let step = |q: &Vec<f64>, columns: &mut Vec<[f64; 6]>| {
+            let found = self.evaluate(Function::CompensatorStep, q);
+            columns.copy_from_slice(found[1].as_chunks::<6>().0);
+            Ok(pose(&found[0]))
+        };
+        compensate(description, &target, &q.to_vec(), cycle, columns, step).unwrap()
+    }
+}
+
+fn index_of(index: &Index, variables: &Variables) -> usize {
+    usize::try_from(index.value(|counter| variables[counter.name()][0] as i64)).unwrap()
+}
+
+fn value(expression: &Value, variables: &Variables) -> f64 {
+    let value = |expression: &Value| value(expression, variables);
+    match expression {
+        Value::Number(number) => *number,
+        Value::Name(name) => variables[name][0],
+        Value::Element(name, index) => variables[name][index_of(index, variables)],
+        Value::Unary(Unary::Negative, operand) => -value(operand),
+        Value::Unary(Unary::Absolute, operand) => value(operand).abs(),
+        Value::Unary(Unary::Root, operand) => value(operand).sqrt(),
+        Value::Binary(operator, operands) => {
+            let [a, b] = operands.each_ref().map(value);
+            match operator {
+                Binary::Add => a + b,
+                Binary::Sub => a - b,
+                Binary::Mul => a * b,
+                Binary::Div => a / b,
+                Binary::Arctangent => a.atan2(b),
+            }
+        }
+        Value::Clamped(operands) => {
+            let [number, lower, upper] = operands.each_ref().map(value);
+            number.max(lower).min(upper)
+        }
+        Value::Dot { .. } => panic!("sums are loops"),
+    }
+}
+
+fn holds(condition: &Condition, variables: &Variables) -> bool {
+    let number = |expression: &Value| value(expression, variables);
+    match condition {
+        Condition::Greater(a, b) => number(a) > number(b),
+        Condition::AtLeast(a, b) => number(a) >= number(b),
+        Condition::Is(name, counter) => variables[name] == variables[counter.name()],
+        Condition::Flag(name) => match variables[name][0] {
+            flag if flag.is_nan() => panic!("{name} is not assigned"),
+            flag => flag > 0.0,
+        },
+        Condition::And(both) => holds(&both[0], variables) && holds(&both[1], variables),
+        Condition::Or(both) => holds(&both[0], variables) || holds(&both[1], variables),
+    }
+}
+
+/// Returns numbers in [0, 1) that fill it evenly.
+fn share(k: usize) -> f64 {
+    (k as f64 * 0.618_033_988_749_894_9).fract()
+}
+
+/// Compares the results at some configurations, a third of them beyond the limits, with bounds and
+/// without. Returns the statuses.
+fn check(spec: Spec, count: usize) -> Vec<Status> {
+    let model = Model::new(&spec);
+    let description = Routines::new(&spec, &model).description;
+    let procedures = compensated(&spec, Precision::Double).into_iter().map(Procedure::with_loops).collect();
+    let machine = Machine { spec, model, procedures };
+    let variables = &machine.spec.variables;
+    let one = |index: usize| {
+        let reach = if index % 3 == 2 { 1.1 } else { 1.0 };
+        let joints = variables.iter().enumerate();
+        let mut q: Vec<f64> = joints
+            .map(|(j, variable)| {
+                let [lower, upper] = variable.limits.map(|end| end.clamp(-3.0e3, 3.0e3));
+                lower + (upper - lower) * (0.5 + reach * (share(7 * index + j + 1) - 0.5))
+            })
+            .collect();
+        if index % 5 == 3 && q.len() > 5 {
+            // A wrist is singular where its second joint is 0.
+            q[4] = 0.01 * share(index);
+        }
+        let first = Cycle::<[f64; 7]>::first(&description);
+        let bounded = |bounds: [f64; 7]| bounds[..q.len()].to_vec();
+        let mut cycle = Cycle {
+            last: bounded(first.change)
+                .iter()
+                .enumerate()
+                .map(|(j, most)| most * (share(index + j) - 0.5))
+                .collect(),
+            change: bounded(first.change),
+            largest: bounded(first.largest),
+            rotations: if index % 4 == 1 { [1.0, 1.0, 0.0] } else { [1.0; 3] },
+        };
+        if index.is_multiple_of(2) {
+            cycle.last.fill(0.0);
+            cycle.change.fill(f64::INFINITY);
+            cycle.largest.fill(f64::INFINITY);
+        }
+        let expected = machine.expected(&description, &q, &cycle);
+        let rotations = cycle.rotations.to_vec();
+        let found = machine.call("compensated", &[q, cycle.last, cycle.change, cycle.largest, rotations]);
+        let status = vec![f64::from(expected.status.code())];
+        let results =
+            [expected.q, expected.correction, expected.before.to_vec(), expected.after.to_vec(), status];
+        assert_eq!(found, results, "{}, {index}", description.name);
+        expected.status
+    };
+    (0..count).map(one).collect()
+}
+
+/// Fails if a branch assigns what no statement before it assigns: where configurations are computed
+/// together, those that do not take the branch keep the value.
+fn check_branches<'p>(statements: &'p [Statement], assigned: &mut HashSet<&'p str>, in_branch: bool) {
+    for statement in statements {
+        let names: Vec<&str> = match statement {
+            Statement::Set(Value::Name(name), _)
+            | Statement::SetFlag(name, _)
+            | Statement::SetWhole(name, _)
+            | Statement::Copy { to: name, .. } => vec![name],
+            Statement::Call { result, .. } => vec![result.name],
+            Statement::Evaluate { results, .. } => results.clone(),
+            Statement::For { body, .. } => {
+                check_branches(body, assigned, in_branch);
+                continue;
+            }
+            Statement::If { body, .. } => {
+                check_branches(body, assigned, true);
+                continue;
+            }
+            _ => continue,
+        };
+        for name in names {
+            let is_new = assigned.insert(name);
+            assert!(!(is_new && in_branch), "{name} has no value before the branch");
+        }
+    }
+}
+
+#[test]
+fn branches_assign_what_has_a_value() {
+    for (file, text) in shipped() {
+        let spec = Spec::parse(&file, &text).unwrap();
+        for procedure in [Precision::Double, Precision::Single].map(|p| compensated(&spec, p)).concat() {
+            check_branches(&procedure.body, &mut HashSet::new(), false);
+        }
+    }
+}
+
+#[test]
+fn the_description_has_the_bits_of_the_compensator() {
+    let mut statuses = Vec::new();
+    for (file, text) in shipped() {
+        let spec = Spec::parse(&file, &text).unwrap();
+        // Machines with closed loops find their passive variables by iterations.
+        if spec.passive.is_empty() {
+            statuses.extend(check(spec, 40));
+        }
+    }
+    for status in [Status::Reached, Status::Held, Status::OutsideLimits, Status::NotReached] {
+        assert!(statuses.contains(&status), "{status:?} does not occur");
+    }
+}
