@@ -5,10 +5,8 @@ use core::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::closed_form::ClosedForm;
 use super::generated;
 use super::inverse::inverse;
-use super::joint_chain::{JointChain, scaled};
 use super::search::Search;
 use super::target_search::{AT_LIMIT, Problem, REACHED};
 use super::{ReachError, Target};
@@ -26,30 +24,15 @@ const STEPS: usize = 4;
 
 /// Inverse kinematics of a manipulator with all of its solutions.
 ///
-/// Chains of six lower pairs have a closed form if they consist of an arm and a wrist whose three
-/// axes intersect, where the arm has three revolute joints, or two whose axes intersect or are
-/// parallel and a slide; of three parallel axes between the first joint and the
-/// last two, whose axes intersect; of one of these from the tool to the base; or of three slides
-/// and three revolute joints. The function of the manipulator is used if it has one
-/// ([`Manipulator::inverse`]); otherwise the structure is found in the numbers of the chain. Every
-/// solution is verified, and where needed improved, by the manipulator itself. Errors of a
-/// calibration, which tilt and shift axes, leave no such structure.
+/// Arms whose axes intersect or are parallel where the arms of industry have them so, and gantries,
+/// have a closed form as a function of their own ([`Manipulator::inverse`]). Of all others the
+/// solutions are those of many searches. Every solution is verified, and where needed improved, by
+/// the manipulator itself. Errors of a calibration, which tilt and shift axes, leave no closed form.
 ///
 /// Lengths are in the manipulator's unit, angles in rad; poses are those of the tool point in
 /// `F_0`.
 pub struct InverseKinematics<'a> {
     problem: Problem<'a>,
-    form: Form,
-}
-
-/// Origin of the solutions.
-enum Form {
-    /// Function of the manipulator.
-    Generated,
-    /// Closed form found in the numbers of the chain.
-    Found(Box<ClosedForm>),
-    /// No closed form: searches.
-    None,
 }
 
 impl<'a> InverseKinematics<'a> {
@@ -57,19 +40,13 @@ impl<'a> InverseKinematics<'a> {
     pub fn new(manipulator: &'a dyn Manipulator, s: &[f64]) -> Result<Self, ReachError> {
         let home = sampling::home(manipulator.description());
         let all: Vec<usize> = (0..home.len()).collect();
-        let problem = Problem::new(manipulator, s, &home, &all)?;
-        let found = || JointChain::new(&problem).and_then(|chain| ClosedForm::new(&chain));
-        let form = match manipulator.description().solutions {
-            0 => found().map_or(Form::None, |form| Form::Found(Box::new(form))),
-            _ => Form::Generated,
-        };
-        Ok(Self { problem, form })
+        Ok(Self { problem: Problem::new(manipulator, s, &home, &all)? })
     }
 
     /// Returns `true` if the solutions are found in closed form. Then none is missing, except where
     /// a joint is free to move: see [`solve`](Self::solve).
     pub fn is_closed_form(&self) -> bool {
-        !matches!(self.form, Form::None)
+        self.problem.description().solutions > 0
     }
 
     /// Returns all solutions within the limits that bring the tool point to a pose, the one nearest
@@ -102,10 +79,9 @@ impl<'a> InverseKinematics<'a> {
         let start: &[f64] = &start.iter().zip(variables.iter()).map(nearest).collect::<Vec<_>>();
         let mut found: Vec<(f64, Vec<f64>)> = Vec::with_capacity(8);
         let mut columns = vec![[0.0; 6]; free.len()];
-        let candidates = match &self.form {
-            Form::Generated => generated::solutions(&self.problem, start, target)?.unwrap_or_default(),
-            Form::Found(form) => self.closed(form, start, target),
-            Form::None => self.searched(start, target)?,
+        let candidates = match self.is_closed_form() {
+            true => generated::solutions(&self.problem, start, target)?.unwrap_or_default(),
+            false => self.searched(start, target)?,
         };
         for candidate in candidates {
             let polished = self.polished(candidate, target, &mut columns);
@@ -128,12 +104,6 @@ impl<'a> InverseKinematics<'a> {
         }
         found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         Ok(found.into_iter().map(|(_, q)| q).collect())
-    }
-
-    fn closed(&self, form: &ClosedForm, start: &[f64], target: &Pose) -> Vec<Vec<f64>> {
-        let start = core::array::from_fn(|i| start[i] / self.problem.unit(i));
-        let in_units = |q: [f64; 6]| (0..6).map(|i| q[i] * self.problem.unit(i)).collect();
-        form.solve(&scaled(target, self.problem.arm), start).into_iter().map(in_units).collect()
     }
 
     fn searched(&self, start: &[f64], target: &Pose) -> Result<Vec<Vec<f64>>, ReachError> {

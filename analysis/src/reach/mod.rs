@@ -2,7 +2,6 @@
 
 mod bounded;
 mod bounds;
-mod closed_form;
 mod compensate;
 mod curvature;
 mod descents;

@@ -329,7 +329,12 @@ fn random_robot(structure: Structure, seed: u64) -> String {
     let is_regular = seed.is_multiple_of(3);
     for i in 0..6 {
         let [x, y, z, a, b] = core::array::from_fn(|_| number());
-        let angle = if is_regular { (a * 2.0).round() * TAU / 4.0 } else { 3.0 * a };
+        let quarters = match ((a * 2.0).round(), structure) {
+            // Three parallel axes would not bring the wrist to all places around it.
+            (even, Structure::Wrist | Structure::WristAtBase) if even % 2.0 == 0.0 => 1.0,
+            (quarters, _) => quarters,
+        };
+        let angle = if is_regular { quarters * TAU / 4.0 } else { 3.0 * a };
         let apart = format!(
             "Tx({x:.3}) Ty({y:.3}) Tz({z:.3}) Rx({angle:?}) Ry({:?})",
             if is_regular { 0.0 } else { b }
@@ -339,6 +344,11 @@ fn random_robot(structure: Structure, seed: u64) -> String {
         let behind = match (structure, i) {
             (Structure::Wrist | Structure::Slide, 3 | 4) | (Structure::WristAtBase, 0 | 1) => tilted,
             (Structure::Slide, 0) if seed.is_multiple_of(2) => tilted,
+            // Of the axes of the arm two are parallel, or two intersect.
+            (Structure::Wrist, 0) if seed.is_multiple_of(2) => tilted,
+            (Structure::Wrist, 1) if !seed.is_multiple_of(2) => shifted,
+            (Structure::WristAtBase, 4) if seed.is_multiple_of(2) => tilted,
+            (Structure::WristAtBase, 3) if !seed.is_multiple_of(2) => shifted,
             (Structure::Parallel, 1 | 2) | (Structure::Slide, 0) => shifted,
             (Structure::Parallel, 0 | 3) => format!("{shifted} {tilted}"),
             (Structure::Parallel, 4) => tilted,
