@@ -44,6 +44,21 @@ const KINDS: [(&str, &str, &str); 12] = [
     ("maximum", "max(", "min("),
 ];
 
+/// Mutants of the corrected command that no run tells from the source: procedure and kind. The same
+/// in all languages, which print one description.
+pub const WITHOUT_EFFECT: [(&str, &str); 5] = [
+    // The command is a better start than the last correction only where no step improves it.
+    ("compensated", "greater"),
+    // Costs are only compared with each other.
+    ("cost", "number"),
+    // The loop ends before the first value of what is held is read.
+    ("departure", "negation"),
+    // The rotation vector of an angle below 1e-150, whatever its scale, is as small.
+    ("deviation", "number"),
+    // Both sides of the equation of a rotation change their sign.
+    ("weighted", "sum in place"),
+];
+
 /// Returns the mutants of a source in C, JavaScript, Python or Matlab: for each function and kind
 /// of operation at most `most`, evenly distributed. `is_mutated` selects functions by name.
 pub fn mutants(text: &str, most: usize, is_mutated: impl Fn(&str) -> bool) -> Vec<Mutant> {

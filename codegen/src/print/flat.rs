@@ -1,7 +1,7 @@
 //! Flat arrays of a routine, for languages without arrays of arrays.
 
 use super::layout::{NARROW, Writer, width};
-use crate::program::{ArrayRows, Routine, Routines, Row};
+use crate::program::{ArrayRows, Block, Role, Routine, Routines, Row, Stage};
 
 /// The arrays of one routine.
 #[derive(Clone, Copy)]
@@ -14,6 +14,29 @@ impl Flat<'_> {
     /// Returns the number of elements of an array.
     pub(super) fn len(&self, array: usize) -> usize {
         self.routine.arrays[array].len(&self.routines.description)
+    }
+
+    /// Returns `true` if an array need not be cleared, and zeros need not be assigned to it: a
+    /// result keeps its numbers from call to call, so that entries which nothing but a zero is
+    /// assigned to are always 0.
+    pub(super) fn keeps_zeros(&self, array: usize) -> bool {
+        let Routine { arrays, stages, .. } = self.routine;
+        let repeats = |stage: &Stage| {
+            matches!(stage, Stage::Block(Block { repeated: Some(_), .. })) && stage.writes(array)
+        };
+        let is_written_once = self.routine.writes(array) == 1;
+        arrays[array].role == Role::Result && is_written_once && !stages.iter().any(repeats)
+    }
+
+    /// Returns `true` if the first stage that writes a result writes all of it.
+    pub(super) fn begins_whole(&self, array: usize) -> bool {
+        let Routine { arrays, stages, .. } = self.routine;
+        let is_whole = |stage: &Stage| match stage {
+            Stage::Block(block) => block.repeated.is_none() && block.writes.contains(&ArrayRows::all(array)),
+            _ => true,
+        };
+        let first = stages.iter().find(|stage| stage.writes(array));
+        arrays[array].role == Role::Result && first.is_some_and(is_whole)
     }
 
     /// Returns the start and end of fixed rows, or of the whole array for rows that a loop counts.

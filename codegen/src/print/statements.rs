@@ -198,12 +198,11 @@ impl Writer<'_> {
                 statements.push(Statement::Sums { sums, terms, entries });
             }
             Stage::Copy { from, to } => {
-                let fresh = !self.begin([*to].into_iter()).is_empty();
-                let is_local = self.routine.arrays[*to].role == Role::Zeros;
-                if fresh && !is_local {
-                    statements.push(Statement::Declare(*to));
-                }
-                statements.push(Statement::Copy { from: *from, to: *to, fresh: fresh && is_local });
+                let fresh = self.begin([*to].into_iter()).into_iter();
+                let (local, others): (Vec<_>, _) =
+                    fresh.partition(|array| self.routine.arrays[*array].role == Role::Zeros);
+                self.declare(others, statements);
+                statements.push(Statement::Copy { from: *from, to: *to, fresh: !local.is_empty() });
             }
             // An empty array needs no clearing.
             Stage::Clear(array) if self.routine.arrays[*array].is_empty(self.description) => {}

@@ -19,6 +19,7 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
 use self::functions::{RESTRICT, comment, documentation, function, head};
+use self::operators::HEADERS;
 pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
@@ -28,10 +29,6 @@ use super::source_file::SourceFile;
 use super::text::escaped;
 use crate::chain::Model;
 use crate::program::{Operand, Routines, Sums};
-
-/// Headers of the language, which would include a file of the same name instead of their own.
-const HEADERS: &str = "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg \
-     stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype";
 
 /// Returns the header and the source of a manipulator.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {

@@ -28,6 +28,10 @@ const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imagin
          tgamma this thread_local throw true trunc try typedef typeid typename union unsigned using virtual void \
          volatile wchar_t while xor xor_eq y0 y1 yn";
 
+/// Headers of the language, which would include a file of the same name instead of their own.
+pub(super) const HEADERS: &str = "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg \
+     stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype";
+
 impl Syntax for C<'_> {
     /// Keywords of C and C++, names of `math.h`, and the functions, values and status codes of the
     /// file.

@@ -13,7 +13,7 @@ use crate::print::flat::{Flat, filled};
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
-use crate::program::{Array, ArrayRows, Block, Role, Routine, Routines, Row, Stage};
+use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row, Stage};
 
 /// Prints one function block.
 pub(super) fn block(
@@ -258,29 +258,6 @@ impl Printer<'_> {
         self.writer.begin(&format!("FOR {counter} := 0 TO {} DO", count - 1));
     }
 
-    /// Returns `true` if an array need not be cleared, and zeros need not be assigned to it: a
-    /// result keeps its numbers from call to call, so that entries which nothing but a zero is
-    /// assigned to are always 0.
-    fn keeps_zeros(&self, array: usize) -> bool {
-        let Routine { arrays, stages, .. } = self.flat.routine;
-        let repeats = |stage: &Stage| {
-            matches!(stage, Stage::Block(Block { repeated: Some(_), .. })) && stage.writes(array)
-        };
-        let is_written_once = self.flat.routine.writes(array) == 1;
-        arrays[array].role == Role::Result && is_written_once && !stages.iter().any(repeats)
-    }
-
-    /// Returns `true` if the first stage that writes a result writes all of it.
-    fn begins_whole(&self, array: usize) -> bool {
-        let Routine { arrays, stages, .. } = self.flat.routine;
-        let is_whole = |stage: &Stage| match stage {
-            Stage::Block(block) => block.repeated.is_none() && block.writes.contains(&ArrayRows::all(array)),
-            _ => true,
-        };
-        let first = stages.iter().find(|stage| stage.writes(array));
-        arrays[array].role == Role::Result && first.is_some_and(is_whole)
-    }
-
     fn clear(&mut self, array: usize) {
         let (name, count) = (self.name(array), self.flat.len(array));
         self.count("k", count);
@@ -309,7 +286,9 @@ impl Printer<'_> {
                     self.writer.lines(&format!("{cosine} := {prefix}_cosine_and_sine({angle}, {sine});"));
                 }
             }
-            Statement::Declare(array) if !self.keeps_zeros(*array) && !self.begins_whole(*array) => {
+            Statement::Declare(array)
+                if !self.flat.keeps_zeros(*array) && !self.flat.begins_whole(*array) =>
+            {
                 self.clear(*array);
             }
             Statement::Declare(_) => {}
@@ -325,7 +304,7 @@ impl Printer<'_> {
                 self.writer.close("END_FOR;");
             }
             Statement::Assign { to, index, values, .. } => {
-                let keeps_zeros = self.keeps_zeros(to.array);
+                let keeps_zeros = self.flat.keeps_zeros(to.array);
                 let values = values.iter().enumerate().filter(|(_, value)| !(keeps_zeros && value.is_zero));
                 let entry = |(k, value): (usize, &crate::print::expression::Value)| {
                     format!("{} := {}", self.place(*to, *index, k), value.text)
