@@ -27,7 +27,8 @@ const STEPS: usize = 4;
 /// Arms whose axes intersect or are parallel where the arms of industry have them so, and gantries,
 /// have a closed form as a function of their own ([`Manipulator::inverse`]). Of all others the
 /// solutions are those of many searches. Every solution is verified, and where needed improved, by
-/// the manipulator itself. Errors of a calibration, which tilt and shift axes, leave no closed form.
+/// the manipulator itself. Errors of a calibration, which tilt and shift axes, leave no closed
+/// form.
 ///
 /// Lengths are in the manipulator's unit, angles in rad; poses are those of the tool point in
 /// `F_0`.

@@ -4,9 +4,6 @@
 use crate::document::{Block, Depth, Document, Section, Table};
 use crate::text::{self, Detail, aligned, fact, wrapped};
 
-/// Characters of the longest name of a row that is not wrapped.
-const LONGEST_NAME: usize = 42;
-
 impl Document {
     /// Returns the first screen, or all of the report, which begins with the first screen.
     pub fn text(&self, detail: Detail) -> String {
@@ -62,8 +59,6 @@ fn ruled(table: &Table) -> String {
     table.rows.iter().for_each(|row| ruled.row(row.clone()));
     let numbers = table.columns.iter().enumerate().filter(|(_, column)| column.is_number);
     let ruled = ruled.right(&numbers.map(|(i, _)| i).collect::<Vec<_>>());
-    let is_short = |row: &Vec<String>| row.first().is_none_or(|name| name.chars().count() <= LONGEST_NAME);
-    let ruled = if table.rows.iter().all(is_short) { ruled.unwrapped(&[0]) } else { ruled };
     let caption = match table.caption.as_str() {
         "" => String::new(),
         caption => wrapped(caption, 0) + "\n",

@@ -1,7 +1,6 @@
 //! Tables of an error budget.
 
 use abbe::analysis::{Figures, MonteCarlo};
-use abbe::{Class, Distribution};
 use abbe_study::analyze::{Report, SourceReport};
 use abbe_study::number::{self as numbers, fixed, percent, short};
 use abbe_study::study_file::{CombinedFigure, Metric, Subject};
@@ -17,7 +16,9 @@ pub(super) fn sources(report: &Report) -> Table {
     sources.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
     let mut rows = Vec::new();
     for source in sources {
-        let about = [source.name.clone(), class(source.class).to_owned(), source.at.clone()];
+        let (class, distribution) = numbers::class(source.class);
+        let class = distribution.map_or(class.to_owned(), |distribution| format!("{class}, {distribution}"));
+        let about = [source.name.clone(), class, source.at.clone()];
         let of = Metric::ALL.into_iter().flat_map(|(name, metric)| {
             let Figures { x, y, z, norm } = source.figures(metric);
             let subject = Subject::Source(source.name.clone(), metric);
@@ -34,7 +35,7 @@ pub(super) fn sources(report: &Report) -> Table {
 pub(super) fn combined(report: &Report) -> Table {
     let names = [
         (CombinedFigure::Repeatable, "repeatable: signed sum"),
-        (CombinedFigure::Random, "random: root sum of squares of the bounds"),
+        (CombinedFigure::Random, "random: root sum of squares"),
         (CombinedFigure::Both, "total: repeatable + random"),
     ];
     let tolerance = report.study.tolerance;
@@ -89,25 +90,12 @@ fn lines(
         let publisher = format!("  {}", report.publisher());
         let figures = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
         let skipped = tolerance.map(|_| String::new());
-        let agreement = match published.reference.as_str() {
-            "" => agreement_text(published.agreement, report),
-            reference => format!("{} ({reference})", agreement_text(published.agreement, report)),
-        };
+        let agreement = agreement_text(published.agreement, report);
         lines.push(
             std::iter::once(publisher).chain(figures).chain(skipped).chain([agreement]).collect::<Vec<_>>(),
         );
     }
     lines
-}
-
-fn class(class: Class) -> &'static str {
-    match class {
-        Class::Repeatable => "repeatable",
-        Class::Random(Distribution::Uniform) => "random, uniform: half-width",
-        Class::Random(Distribution::Normal) => "random, normal: 3σ",
-        Class::Random(Distribution::Triangular) => "random, triangular: half-width",
-        Class::Random(Distribution::Arcsine) => "random, arcsine: amplitude",
-    }
 }
 
 /// Tabulates the Monte Carlo results, if there are draws.
