@@ -65,8 +65,8 @@ pub(crate) fn are_found() -> Result<(), Missing> {
     Ok(())
 }
 
-/// Mutants that no run tells from the source, in C only. A truth value of 0.5 is 0. The last part of
-/// π/2 has an effect only next to its multiples.
+/// Mutants that no run tells from the source, in C only. A truth value of 0.5 is 0. The last part
+/// of π/2 has an effect only next to its multiples.
 const WITHOUT_EFFECT_IN_C: [(&str, &str); 2] = [("compensated", "number"), ("sin_cos_2", "number")];
 
 /// Source of a manipulator, and a folder with its header and a program that calls its functions.
