@@ -5,8 +5,8 @@ mod told;
 
 use std::sync::LazyLock;
 
-use abbe_study::Machine;
 use abbe_metrology::plan::Sets;
+use abbe_study::Machine;
 use libfuzzer_sys::fuzz_target;
 
 static MACHINE: LazyLock<Machine> = LazyLock::new(|| Machine::find("machine3").expect("it is shipped"));

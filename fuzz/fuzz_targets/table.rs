@@ -5,9 +5,9 @@ mod told;
 
 use std::sync::LazyLock;
 
+use abbe_metrology::Acceptance;
 use abbe_metrology::data::{Data, Map};
 use abbe_metrology::measure::Measure;
-use abbe_metrology::Acceptance;
 use abbe_study::Machine;
 use libfuzzer_sys::fuzz_target;
 

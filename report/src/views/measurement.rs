@@ -191,7 +191,7 @@ fn cards(report: &Report) -> Vec<Card> {
 
 /// States what was fitted to the rows, and is therefore not among their errors.
 fn fitted(report: &Report) -> Section {
-    let station = report.base_fitted.then(|| match report.instruments.is_empty() {
+    let station = report.base_fitted.then_some(match report.instruments.is_empty() {
         true => {
             "The station of the instrument was fitted to these rows, for the machine of the spec: errors \
              common to all rows are not included."

@@ -55,10 +55,10 @@ pub(super) fn first_notes(notes: &[String]) -> Vec<(&'static str, String)> {
 /// Lists notes, if there are more than the first screen shows.
 pub(super) fn notes(notes: &[String], shown: usize) -> Section {
     let all = if notes.len() > shown { notes } else { &[] };
-    Section::full("Notes").list("notes", "", all.iter().map(plain).collect())
+    Section::full("Notes").list("notes", "", all.iter().map(|note| plain(note)).collect())
 }
 
-fn plain(note: &String) -> String {
+fn plain(note: &str) -> String {
     note.strip_prefix("note: ").unwrap_or(note).to_owned()
 }
 
