@@ -27,6 +27,6 @@ pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
     Ok(Outcome::passed(if arguments.running.json {
         json(&report)?
     } else {
-        views::bound(&report).text(arguments.showing.detail()) + &arguments.showing.next(next)
+        arguments.showing.text(views::bound(&report)) + &arguments.showing.next(next)
     }))
 }

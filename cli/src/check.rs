@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let shown = if arguments.json {
         json(&report)?
     } else {
-        views::check(&report).text(arguments.showing.detail()) + &arguments.showing.next(&next)
+        arguments.showing.text(views::check(&report)) + &arguments.showing.next(&next)
     };
     Ok(Outcome::checked(shown, report.passed()))
 }

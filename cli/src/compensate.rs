@@ -66,9 +66,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
                 None => "--out FILE writes the corrected commands, --full shows the first of them",
                 Some(_) => "--full shows the first corrected commands",
             };
-            document().text(arguments.showing.detail())
-                + &arguments.showing.next(next)
-                + &file.unwrap_or_default()
+            arguments.showing.text(document()) + &arguments.showing.next(next) + &file.unwrap_or_default()
         }
     };
     Ok(Outcome::checked(text, report.complete()).beside(printed))

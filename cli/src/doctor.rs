@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
     let text = if arguments.json {
         json(&report)?
     } else {
-        views::doctor(&report).text(arguments.showing.detail()) + &arguments.showing.next(next)
+        arguments.showing.text(views::doctor(&report)) + &arguments.showing.next(next)
     };
     let outcome = Outcome::checked(text, report.fits);
     Ok(match printed {

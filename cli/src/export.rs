@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
         json(&report)?
     } else {
         {
-            views::exported(&report).text(showing.detail())
+            showing.text(views::exported(&report))
                 + &showing.next("--full lists all differences and what the format cannot store")
         }
     };

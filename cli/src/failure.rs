@@ -7,6 +7,8 @@ use std::process::ExitCode;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::mistake;
 
+use crate::signs::shown;
+
 /// Wrong usage or input: exit status 2.
 #[derive(Debug)]
 pub(crate) struct Failure(Box<Diagnostics>);
@@ -27,8 +29,8 @@ impl Failure {
 
     /// Prints the diagnostics to stderr, in colour on a terminal unless `NO_COLOR` is set.
     pub(crate) fn report(&self) -> ExitCode {
-        let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-        let text = self.0.render(!plain && stderr().is_terminal());
+        let no_colour = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        let text = shown(self.0.render(!no_colour && stderr().is_terminal()), &stderr());
         // A failed write to stderr cannot be reported anywhere.
         let _ = writeln!(stderr(), "{text}");
         ExitCode::from(2)

@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
                 Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
             };
             let written = written.map(|written| format!("\n{written}"));
-            document().text(detail) + &arguments.showing.next(next) + &written.unwrap_or_default()
+            arguments.showing.text(document()) + &arguments.showing.next(next) + &written.unwrap_or_default()
         }
     };
     Ok(Outcome::checked(text, accepted).beside(printed))

@@ -32,6 +32,7 @@ mod output;
 mod plan;
 mod positioning;
 mod schema;
+mod signs;
 mod simulate;
 
 use std::process::ExitCode;

@@ -63,7 +63,7 @@ fn outcome(
                 _ => "--full for all figures of ISO 9283",
             };
             let document = views::measurement(spec, map, report);
-            document.text(arguments.showing.detail()) + &arguments.showing.next(next)
+            arguments.showing.text(document) + &arguments.showing.next(next)
         }
     };
     Ok(Outcome::checked(text, accepted))

@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
         json(&report)?
     } else {
         {
-            let text = document().text(arguments.showing.detail());
+            let text = arguments.showing.text(document());
             let next = match &arguments.page.report {
                 None => "--report FILE for a page with the charts, --full for all charts",
                 Some(_) => "--full for all charts",

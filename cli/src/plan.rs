@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
                 None => "--out FILE writes the configurations, --full lists indistinguishable errors",
                 Some(_) => "--full lists indistinguishable errors",
             };
-            views::plan(&job.machine.spec, &job.map, &report).text(arguments.showing.detail())
+            arguments.showing.text(views::plan(&job.machine.spec, &job.map, &report))
                 + &arguments.showing.next(next)
         }
     };

@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
     };
     let text = match is_json {
         true => json(&report)?,
-        false => views::positioning(&report).text(showing.detail()) + &showing.next(next),
+        false => showing.text(views::positioning(&report)) + &showing.next(next),
     };
     let Some(file) = file else { return Ok(Outcome::passed(text)) };
     let Some(table) = report.table() else {

@@ -190,7 +190,7 @@ def test_what_is_exported(tmp_path):
         report = machine.export(to)
         assert len(report.files) == files and sorted(report.report(tmp_path / to)) == sorted(os.listdir(tmp_path / to))
         assert all((tmp_path / to / file.name).read_text() == file.text for file in report.files)
-        assert report.remains.position.largest < report.before.position.largest and "Sign convention" in report.full()
+        assert report.remains.position.largest < report.before.position.largest and "\nSign      " in report.full()
     cell = tmp_path / "cell.urdf"
     cell.write_text(CELL)
     nominal = abbe.import_urdf(cell, tip="tool").load()

@@ -96,7 +96,7 @@ pub(crate) fn outcome(
     let text = if json {
         output::json(report)?
     } else {
-        abbe_report::budget(report).text(showing.detail()) + &showing.next(next)
+        showing.text(abbe_report::budget(report)) + &showing.next(next)
     };
     match (check, report.verdict()) {
         (true, None) => Err(Failure::new("--check", "the study has no tolerance")

@@ -3,8 +3,10 @@
 // Flattened structs have no doc comments: clap would show them in place of the command's own.
 
 use std::ffi::OsString;
+use std::io::stdout;
 use std::path::{Path, PathBuf};
 
+use abbe_report::Document;
 use abbe_report::text::{Detail, next};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
@@ -12,6 +14,8 @@ use abbe_study::analyze::parts::Change;
 use abbe_study::options::THREADS;
 use abbe_study::{Machine, RunRecord, Study, check_date};
 use clap::{Args, ValueHint};
+
+use crate::signs::has_plain_signs;
 
 use super::values::whole;
 use crate::failure::Failure;
@@ -136,6 +140,13 @@ pub(crate) struct Showing {
 }
 
 impl Showing {
+    /// Returns the text of a report, in signs that the terminal has.
+    pub(crate) fn text(&self, document: Document) -> String {
+        let is_plain = has_plain_signs(&stdout());
+        let document = if is_plain { document.in_plain_signs() } else { document };
+        document.text(self.detail())
+    }
+
     pub(crate) fn detail(&self) -> Detail {
         Detail::new(self.full)
     }

@@ -18,6 +18,7 @@ use abbe_spec::visible::visible;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::signs::shown;
 
 pub(crate) use outputs::Outputs;
 pub(crate) use pending::Pending;
@@ -53,7 +54,7 @@ impl Outcome {
     pub(crate) fn print(&self) -> Result<ExitCode, Failure> {
         match self.aside {
             true => note(self.text.trim_end()),
-            false => print(&mut visible(&self.text).as_bytes())?,
+            false => print(&mut shown(visible(&self.text).into_owned(), &stdout()).as_bytes())?,
         }
         Ok(ExitCode::from(u8::from(!self.passed)))
     }
@@ -97,7 +98,7 @@ pub(crate) fn json(value: &impl Serialize) -> Result<String, Failure> {
 /// Prints a message to stderr.
 pub(crate) fn note(message: &str) {
     // A failed write to stderr cannot be reported anywhere.
-    let _ = writeln!(stderr(), "{}", visible(message));
+    let _ = writeln!(stderr(), "{}", shown(visible(message).into_owned(), &stderr()));
 }
 
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {

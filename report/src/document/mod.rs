@@ -2,15 +2,17 @@
 //!
 //! A view (`views`) builds the document of a job from its numbers, and knows no renderer. A
 //! renderer (`terminal`, `html`) shows any document, and knows no job. `section` has the parts,
-//! `table` tables, and `list` short lists of names.
+//! `table` tables, `list` short lists of names, and `plain` signs in ASCII.
 
 mod list;
+mod plain;
 mod section;
 mod table;
 
 use abbe_study::RunRecord;
 
 pub(crate) use list::{first, joined};
+pub use plain::plain;
 pub(crate) use section::{Block, Card, Depth, Figure, Section};
 pub(crate) use table::{Column, Table, number, words};
 

@@ -43,6 +43,7 @@ mod mutants;
 mod operations;
 mod other_tool;
 mod paths;
+mod plain_signs;
 mod proof;
 mod random;
 mod reach;

@@ -13,7 +13,7 @@ const BANNED: [&str; 16] = [
 const WIDTH: usize = 100;
 
 /// Collects the Rust sources below a folder, except build artifacts.
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+pub(crate) fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder of sources").flatten() {
         let (path, name) = (entry.path(), entry.file_name());
         if path.is_dir() && name != "target" && !name.to_string_lossy().starts_with('.') {

@@ -1,0 +1,199 @@
+//! The first screen: accuracy on held-out rows, most significant errors, and gaps.
+
+use abbe_metrology::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes};
+use abbe_spec::Spec;
+use abbe_study::number::{counted, digits, error_unit, fixed};
+
+use crate::document::{Section, Table, first, number, words};
+use crate::views::shared::{angle_in_mrad, first_notes, first_rows, residual_verdict};
+
+/// Number of errors on the first screen.
+const SHOWN: usize = 5;
+
+/// States the mean error on rows that were not used to fit.
+pub(super) fn headline(report: &Report) -> String {
+    let (factor, unit) = error_unit(report.length);
+    let mean = |sizes: &Sizes| format!("{} {unit}", fixed(factor * sizes.mean, 4));
+    let what = if report.instruments.is_empty() { "error" } else { "residual" };
+    let (after, before, rows) = match &report.test {
+        Some(test) => (mean(&test.after), mean(&test.before), format!("{} test rows", test.rows)),
+        None => (
+            mean(&report.cross_validation.after),
+            mean(&report.fit.before),
+            format!("held-out rows ({}-fold cross-validation)", report.cross_validation.folds),
+        ),
+    };
+    let accepted =
+        report.accepted.as_ref().map(|accepted| if accepted.met { "ACCEPTED, " } else { "NOT ACCEPTED, " });
+    format!("{}mean {what} {after} on {rows}, {before} as delivered", accepted.unwrap_or_default())
+}
+
+pub(super) fn answer(spec: &Spec, report: &Report) -> Section {
+    Section::answer()
+        .table(sizes(report))
+        .table(significant(report))
+        .state("no_significant_error", no_significant_error(report))
+        .facts(facts(spec, report))
+}
+
+/// Tabulates errors as delivered, with base and tool fitted, and identified.
+fn sizes(report: &Report) -> Table {
+    let (factor, unit) = error_unit(report.length);
+    let what = if report.instruments.is_empty() { "position error" } else { "residual" };
+    let columns = [
+        words(what),
+        number("rows"),
+        number(format!("mean {unit}")),
+        number("std. error"),
+        number("rms"),
+        number("95 %"),
+        number("max"),
+    ];
+    let row = |(name, rows, sizes): (String, usize, &Sizes)| {
+        let error = sizes.standard_error.map_or("?".to_owned(), |error| fixed(factor * error, 4));
+        let [mean, rms, p95, max] =
+            [sizes.mean, sizes.rms, sizes.p95, sizes.max].map(|value| fixed(factor * value, 4));
+        [name, rows.to_string(), mean, error, rms, p95, max]
+    };
+    let mut rows = Vec::new();
+    let cross = &report.cross_validation;
+    for (set, compared) in [("fit", Some(&report.fit)), ("test", report.test.as_ref())] {
+        let Some(compared) = compared else { continue };
+        rows.push((format!("{set}: as delivered"), compared.rows, &compared.before));
+        if set == "fit" {
+            rows.push((format!("{set}: base and tool fitted"), compared.rows, &compared.base_and_tool));
+        }
+        rows.extend(
+            compared.constant.iter().map(|one| (format!("{set}: constants alone"), compared.rows, one)),
+        );
+        rows.push((format!("{set}: identified"), compared.rows, &compared.after));
+        if set == "fit" {
+            rows.push((format!("{}-fold cross-validation", cross.folds), compared.rows, &cross.after));
+        }
+    }
+    Table::new("", columns).rows(rows.into_iter().map(row))
+}
+
+pub(super) fn significance(parameter: &Parameter) -> f64 {
+    parameter.value.abs() / parameter.standard_deviation.max(f64::MIN_POSITIVE)
+}
+
+pub(super) fn of_machine(report: &Report) -> impl Iterator<Item = &Parameter> {
+    report.parameters.iter().filter(|parameter| parameter.kind == Kind::Machine)
+}
+
+/// Returns the errors that differ from zero with 95 % confidence for all of them together, the most
+/// significant first.
+fn significant_errors(report: &Report) -> Vec<&Parameter> {
+    let limit = report.certainty.factor_of_all(of_machine(report).count());
+    let mut all: Vec<&Parameter> =
+        of_machine(report).filter(|parameter| significance(parameter) > limit).collect();
+    all.sort_by(|a, b| significance(b).total_cmp(&significance(a)));
+    all
+}
+
+fn no_significant_error(report: &Report) -> Option<String> {
+    let count = of_machine(report).count();
+    significant_errors(report)
+        .is_empty()
+        .then(|| format!("None of the {count} errors of the machine differs from zero with 95 % confidence."))
+}
+
+fn significant(report: &Report) -> Table {
+    let all = significant_errors(report);
+    let columns =
+        [words("significant errors"), number("value"), number("± 1 σ"), words(""), words("in the chain")];
+    let row = |parameter: &&Parameter| {
+        let meaning = report.meanings.iter().find(|meaning| meaning.in_place_of == parameter.name);
+        let name = match &parameter.frame_name {
+            Some(frame) => format!("{} ({frame})", parameter.name),
+            None => parameter.name.clone(),
+        };
+        let [value, deviation, unit] = estimate(report, parameter);
+        [name, value, deviation, unit, meaning.map(JointError::names).unwrap_or_default()]
+    };
+    let mut table = Table::new("", columns).rows(all.iter().take(SHOWN).map(row));
+    table.rest = match (all.len().saturating_sub(SHOWN), of_machine(report).count() - all.len()) {
+        (0, 0) => String::new(),
+        (0, others) => format!("… {others} not significant (95 %)"),
+        (more, others) => format!("… {more} more, {others} not significant (95 %)"),
+    };
+    table
+}
+
+/// Formats a value, its standard deviation and their unit.
+pub(super) fn estimate(report: &Report, parameter: &Parameter) -> [String; 3] {
+    let (factor, unit) = match parameter.unit {
+        unit if unit == report.length => error_unit(report.length),
+        unit => angle_in_mrad(unit),
+    };
+    let show = |value: f64| match parameter.unit {
+        "" => digits(value, 4),
+        _ => fixed(factor * value, 4),
+    };
+    [show(parameter.value), show(parameter.standard_deviation), unit.to_owned()]
+}
+
+fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
+    let (factor, unit) = error_unit(report.length);
+    let mut facts = vec![("Residual", residuals(report))];
+    facts.extend(report.accepted.iter().map(|accepted| ("Limits", accepted.sentence(spec.length))));
+    if !report.terms.is_empty() {
+        let names: Vec<&str> = report.terms.iter().map(|term| term.name.as_str()).collect();
+        let text =
+            format!("{} of {} groups of terms accepted: {}", names.len(), report.tried, first(&names, 3));
+        facts.push(("Terms", text));
+    }
+    if let Some(profiles) = &report.profiles {
+        let joints: Vec<&str> = profiles.joints.iter().map(|one| one.joint.as_str()).collect();
+        let [before, after] = [&profiles.before, &profiles.after].map(|sizes| fixed(factor * sizes.mean, 4));
+        let text = format!(
+            "{}: cross-validation {before} → {after} {unit}, σ of the tool point + {} {unit}",
+            first(&joints, 7),
+            digits(factor * profiles.standard_deviation, 2)
+        );
+        facts.push(("Profiles", text));
+    }
+    let mut known = format!("{} of {} unknowns identifiable", report.rank, report.unknowns);
+    if !report.not_known.is_empty() {
+        let names: Vec<&str> = report.not_known.iter().map(|one| one.name.as_str()).collect();
+        known += &format!("; poorly determined and fixed at zero: {}", first(&names, 4));
+    }
+    facts.push(("Rank", known));
+    if !report.rejected.is_empty() {
+        facts.push(("Outliers", format!("{} left out", counted(report.rejected.len(), "row", "rows"))));
+    }
+    facts.extend(report.train_test_overlap_warning().map(|sentence| ("Overlap", sentence)));
+    facts.extend(extrapolation(report).map(|sentence| ("Outside", sentence)));
+    let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.p_of_lag_1 <= drift.false_alarms;
+    let drift = report.drift.iter().filter(is_found);
+    facts.extend(drift.map(|drift| ("Drift", format!("{}; see --full", drift.summary))));
+    facts.extend(first_rows(&report.files));
+    facts.extend(first_notes(&report.notes));
+    facts
+}
+
+/// Returns the number of test rows beyond the fitted ranges, with the uncertainty there.
+fn extrapolation(report: &Report) -> Option<String> {
+    let outside = report.outside.as_ref()?;
+    let (factor, unit) = error_unit(report.length);
+    let mut fact =
+        counted(outside.rows, "test row beyond the fitted ranges", "test rows beyond the fitted ranges");
+    if let (Some(there), Some(within)) = (outside.known_outside, outside.known_within) {
+        let [there, within] = [there, within].map(|value| digits(factor * value, 2));
+        fact += &format!(": σ of the tool point {there} {unit} there, {within} {unit} within");
+    }
+    Some(fact)
+}
+
+/// Compares the residuals with the uncertainty of the instrument.
+fn residuals(report: &Report) -> String {
+    let mut parts = report.instruments.iter().chain(&report.coordinates).peekable();
+    let estimated = parts.peek().is_some() && parts.all(|part| part.estimated);
+    if estimated {
+        return "The uncertainty of the instruments was estimated from the residuals, so the residuals \
+                cannot show errors that the model does not have."
+            .to_owned();
+    }
+    residual_verdict(report.uncertainty_factor, report.certainty.p_of_factor, "the model does not have", "")
+}

@@ -1,0 +1,210 @@
+//! Identification: accuracy on held-out rows, errors of the machine, and what the data determine.
+
+mod accuracy;
+mod answer;
+
+use abbe_metrology::data::Map;
+use abbe_metrology::identify::{Indistinguishable, Kind, Parameter, Report, Sizes};
+use abbe_spec::Spec;
+use abbe_study::number::{digits, error_unit, fixed};
+
+use super::shared::{NOTES, accepted, angle_in_mrad, data_rows, instrument, notes};
+use crate::document::{Card, Document, Section, Table, joined, number, words};
+use crate::figures::residuals::{ErrorNames, Residual, scenes};
+use accuracy::{accuracy, profiles, terms};
+use answer::{answer, estimate, headline, of_machine, significance};
+
+/// Describes an identification; `spec` and `map` are those of the job.
+pub fn identification(spec: &Spec, map: &Map, report: &Report) -> Document {
+    Document {
+        kind: "Errors from measurements",
+        machine: spec.title.clone(),
+        title: report.title.clone(),
+        headline: headline(report),
+        verdict: report.accepted.as_ref().map(|verdict| accepted(verdict, spec.length)),
+        panel: "Residuals at a configuration",
+        sections: [
+            vec![answer(spec, report), Section::page("").cards(cards(report))],
+            figures(spec, report),
+            vec![
+                machine(report),
+                placement(report),
+                identifiable(report),
+                accuracy(spec, report),
+                terms(report),
+                profiles(spec, report),
+                Section::page("Instrument").facts(instrument(spec, map)),
+                data_rows(&report.files),
+                notes(&report.notes, NOTES),
+            ],
+        ]
+        .concat(),
+        is_signed: report.accepted.is_some(),
+        record: report.record.clone(),
+    }
+}
+
+fn cards(report: &Report) -> Vec<Card> {
+    let (factor, unit) = error_unit(report.length);
+    let show = |sizes: &Sizes| format!("{} {unit}", fixed(factor * sizes.mean, 4));
+    let card = |name, value, note: &str| Card { name, value, note: note.to_owned() };
+    let fitted = "mean position error of the fitted rows";
+    let folds = format!("{}-fold", report.cross_validation.folds);
+    let mut all = vec![
+        card("Base and tool fitted", show(&report.fit.base_and_tool), fitted),
+        card("Identified", show(&report.fit.after), "the same rows"),
+        card("Cross-validation", show(&report.cross_validation.after), &folds),
+    ];
+    if let Some(test) = &report.test {
+        let note = match report.test_rows_of_the_fit {
+            0 => format!("{} rows, used for validation only", test.rows),
+            known => format!("{} rows, {known} of them also in the fit", test.rows),
+        };
+        all.push(card("Test rows", show(&test.after), &note));
+    }
+    let known = format!("{} of {}", report.rank, report.unknowns);
+    all.push(card("Identifiable", known, "combinations of unknowns"));
+    all
+}
+
+fn figures(spec: &Spec, report: &Report) -> Vec<Section> {
+    let names = ErrorNames { before: "base and tool fitted", after: "identified" };
+    let section = |title, is_test: bool| {
+        let points = report.points.iter().filter(|point| point.is_test == is_test && !point.is_rejected);
+        let residuals = points.map(|point| Residual {
+            q: &point.q,
+            point: point.point,
+            before: Some(point.before),
+            after: point.after,
+        });
+        let residuals: Vec<Residual<'_>> = residuals.collect();
+        let drawn = if residuals.is_empty() { Vec::new() } else { scenes(&residuals, &names, spec) };
+        Section::page(title).figures(drawn)
+    };
+    vec![section("Rows of the fit, without outliers", false), section("Test rows", true)]
+}
+
+fn machine(report: &Report) -> Section {
+    let correlated = report.correlations.iter().take(8);
+    let correlated =
+        correlated.map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)));
+    let more = match report.correlations.len().saturating_sub(8) {
+        0 => String::new(),
+        more => format!("; {more} more pairs"),
+    };
+    let correlated = (!report.correlations.is_empty())
+        .then(|| format!("Correlated by more than 0.9: {}{more}.", joined(correlated)));
+    let prior = report.parameters.iter().any(|parameter| parameter.hardly_known).then(|| {
+        "Prior-dominated: the prior has more influence on these errors than the data (`--prior`).".to_owned()
+    });
+    let meanings = report.meanings.iter().map(|meaning| meaning.sentence.clone());
+    let magnitudes = report.magnitudes.iter().map(|one| one.sentence.clone());
+    Section::full("Errors of the machine")
+        .table(estimates(report, "All others are fixed at zero", of_machine(report)))
+        .list(
+            "equivalent_errors",
+            "Equivalent joint offsets and DH errors (in place of the error in brackets)",
+            meanings.collect(),
+        )
+        .list("magnitudes", "Estimated magnitudes of sources of the spec", magnitudes.collect())
+        .state("prior_dominated", prior)
+        .state("poorly_determined", poorly_determined(report))
+        .state("correlated", correlated)
+}
+
+/// Lists estimates with their standard deviations.
+fn estimates<'r>(report: &Report, caption: &str, parameters: impl Iterator<Item = &'r Parameter>) -> Table {
+    let columns =
+        [words("error"), words("of"), number("value"), number("σ"), words(""), number("value/σ"), words("")];
+    Table::new(caption, columns).rows(parameters.map(|parameter| {
+        let [value, deviation, unit] = estimate(report, parameter);
+        let name = match &parameter.iso {
+            Some(iso) => format!("{} ({iso})", parameter.name),
+            None => parameter.name.clone(),
+        };
+        let significance = fixed(significance(parameter).min(9999.0), 1);
+        let remark = if parameter.hardly_known { "prior-dominated" } else { "" };
+        let frame = parameter.frame_name.clone().unwrap_or_default();
+        [name, frame, value, deviation, unit, significance, remark.to_owned()]
+    }))
+}
+
+/// Lists errors that are fixed at zero because the data determine them poorly.
+fn poorly_determined(report: &Report) -> Option<String> {
+    let all = report.not_known.iter().map(|one| {
+        let (factor, unit) = angle_in_mrad(one.unit);
+        let [deviation, expected] =
+            [one.standard_deviation, one.expected].map(|value| digits(value * factor, 2));
+        format!("{} (± {deviation} {unit}, expected ± {expected} {unit})", one.name)
+    });
+    (!report.not_known.is_empty()).then(|| {
+        format!(
+            "Poorly determined by these data; fixed at zero and not written: {}. In brackets the \
+             standard deviation from the data, which is more than half of the expected one. Other \
+             configurations, a target farther from the axes or a better instrument determine them: \
+             `abbe plan {}` predicts how well.",
+            joined(all),
+            report.name
+        )
+    })
+}
+
+/// Lists the placement of the machine and of what is mounted on its tool.
+fn placement(report: &Report) -> Section {
+    let placed = report.parameters.iter().filter(|parameter| parameter.kind != Kind::Machine);
+    let table = estimates(report, "", placed);
+    let words = match table.rows.is_empty() {
+        true => "The placement of the machine and of its tool is fixed to the values of the map.",
+        false => {
+            "Errors before the first joint cannot be distinguished from the placement of the machine, \
+             nor errors after the last joint from the mounting of targets; they count as placement. A \
+             placement is no error of the machine: it is not written to the spec and not compensated."
+        }
+    };
+    Section::full("Placement of the machine and of its tool")
+        .table(table)
+        .state("placement", words.to_owned())
+}
+
+/// Lists what the data determine, and what they cannot distinguish.
+fn identifiable(report: &Report) -> Section {
+    let o = report.observability;
+    let [condition, o1, o2, o3, o4, o5] =
+        [report.condition, o.o1, o.o2, o.o3, o.o4, o.o5].map(|value| digits(value, 3));
+    let unexplained = (report.unexplained > 0).then(|| {
+        format!(
+            "{} more combinations have no effect at these configurations; other configurations may \
+             reveal them.",
+            report.unexplained
+        )
+    });
+    Section::full("Indistinguishable errors")
+        .state(
+            "identifiable",
+            format!(
+                "Identifiable: {} combinations of {} unknowns, {}.",
+                report.rank, report.unknowns, report.machine
+            ),
+        )
+        .table(indistinguishable(&report.groups))
+        .state("unexplained_combinations", unexplained)
+        .state(
+            "observability",
+            format!(
+                "Condition number {condition}; observability O1 {o1}, O2 {o2}, O3 {o3}, O4 {o4}, O5 {o5} \
+                 (columns of unit length)."
+            ),
+        )
+}
+
+/// Lists unknowns that cannot be distinguished, by the reason.
+pub(super) fn indistinguishable(groups: &[Indistinguishable]) -> Table {
+    let mut reasons: Vec<[String; 2]> = Vec::new();
+    for group in groups {
+        match reasons.last_mut() {
+            Some([reason, all]) if *reason == group.reason => *all += &format!("\n{}", group.sentence()),
+            _ => reasons.push([group.reason.clone(), group.sentence()]),
+        }
+    }
+    Table::new("", [words("because"), words("indistinguishable errors")]).rows(reasons)
+}
