@@ -55,14 +55,18 @@ impl Document {
         }
     }
 
-    /// Returns the words of the statement with a name; `None` if the report does not state it.
+    /// Returns the words of the first statement with a name; `None` if there is none.
     ///
-    /// ```no_run
-    /// # fn shown(document: &abbe_report::Document) -> Option<()> {
-    /// let sentence = document.statement("residuals")?;
-    /// assert!(sentence.contains("agree with the stated uncertainty"));
-    /// # Some(())
-    /// # }
+    /// ```
+    /// use abbe_study::{Machine, Study, analyze::Analyze};
+    ///
+    /// let machine = Machine::find("pps")?;
+    /// let study = Study::find(None, &machine)?;
+    /// let document = abbe_report::budget(&Analyze::new(machine, study).run(&mut ())?);
+    /// assert_eq!(document.verdict(), Some("Verdict: not met"));
+    /// let verdict = document.statement("verdict").unwrap_or_default();
+    /// assert_eq!(verdict, "The verdict is on the machine as built, without compensation.");
+    /// # Ok::<(), abbe_spec::diagnostic::Diagnostics>(())
     /// ```
     pub fn statement(&self, name: &str) -> Option<&str> {
         let mut statements = self.sections.iter().flat_map(Section::statements);

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use abbe_study::number::NO_BREAK;
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle, Width};
 
 /// Width of text in columns, except within [`at_width`]: files and pages do not depend on a
 /// terminal.
@@ -45,6 +45,13 @@ impl Table {
             .set_content_arrangement(ContentArrangement::Dynamic)
             .set_width(COLUMNS.get() as u16);
         table.set_header(header.to_vec());
+        // A heading is wrapped between words only.
+        for (column, name) in table.column_iter_mut().zip(header) {
+            let longest = name.split(' ').map(|word| word.chars().count()).max().unwrap_or_default();
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(
+                longest as u16 + column.padding_width(),
+            )));
+        }
         Self(table)
     }
 
@@ -139,6 +146,28 @@ mod tests {
             );
         }
         assert_eq!(COLUMNS.get(), WIDTH);
+    }
+
+    #[test]
+    fn words_of_headings_are_whole() {
+        let header =
+            ["error", "indistinguishable from", "value", "distribution of it", "degrees of freedom", ""];
+        let text = at_width(60, || {
+            let mut table = Table::new(&header);
+            let long = "several words that need much room".to_owned();
+            table.row([
+                "a name".to_owned(),
+                long.clone(),
+                "1.0".to_owned(),
+                long.clone(),
+                "2".to_owned(),
+                long,
+            ]);
+            table.right(&[2, 4]).to_string()
+        });
+        let head: Vec<&str> = text.split('─').next().unwrap().split_whitespace().collect();
+        let words = header.iter().flat_map(|name| name.split_whitespace());
+        words.for_each(|word| assert!(head.contains(&word), "{word}\n{text}"));
     }
 
     #[test]

@@ -138,7 +138,7 @@ fn commands(machine: &Description, report: &Report) -> Table {
             let unit = if variable.kind == VariableKind::Revolute { "°" } else { report.length };
             number(format!("{} ({unit})", variable.name))
         }))
-        .chain(["before", "after"].map(|name| number(format!("{name} ({unit})"))))
+        .chain(["before", "after"].map(number))
         .collect();
     let first = &report.row_summary.first;
     let rows = first.iter().map(|row| {
@@ -154,7 +154,12 @@ fn commands(machine: &Description, report: &Report) -> Table {
         0 => String::new(),
         more => format!("… and {more} more"),
     };
-    Table { caption: String::new(), columns, rows: rows.collect(), rest }
+    Table {
+        caption: format!("Before and after: error of the tool point ({unit})"),
+        columns,
+        rows: rows.collect(),
+        rest,
+    }
 }
 
 /// Lists the reasons of rows that are not corrected, if the first screen does not have them all.

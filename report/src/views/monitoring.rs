@@ -75,13 +75,14 @@ fn charts(report: &Report) -> Table {
         words("indistinguishable from"),
         number("last value"),
         words(""),
-        number("average as share of the limit"),
+        number("of the limit"),
         words("alarm"),
     ];
     let all = report.nearest_first();
     let hidden = all.len().saturating_sub(LISTED);
     let shown = all.into_iter().take(LISTED).chain([&report.left]);
-    let mut table = Table::new("", columns).rows(shown.map(|chart| {
+    let caption = "Of the limit: the weighted average of the chart";
+    let mut table = Table::new(caption, columns).rows(shown.map(|chart| {
         let [value, unit, share, alarm] = values(report, chart);
         [chart.name.clone(), first(&chart.indistinguishable, NAMED), value, unit, share, alarm]
     }));
