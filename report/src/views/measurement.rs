@@ -106,7 +106,7 @@ fn stated(one: &InstrumentErrors) -> String {
 /// Tabulates all instruments, with the standard errors of their means.
 fn all_instruments(report: &Report) -> Section {
     let columns = [
-        words("instrument"),
+        words("name"),
         words("unit"),
         number("read"),
         number("mean"),
