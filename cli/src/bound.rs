@@ -7,7 +7,7 @@ use abbe_study::bound::Bound;
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, json};
+use crate::output::Outcome;
 
 pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -24,9 +24,6 @@ pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
         true => "--full for x, y, z and every kind of error",
         false => "--boxes or --time for a closer bound, --full for x, y, z and every kind of error",
     };
-    Ok(Outcome::passed(if arguments.running.json {
-        json(&report)?
-    } else {
-        arguments.showing.text(views::bound(&report)) + &arguments.showing.next(next)
-    }))
+    let is_json = arguments.running.json;
+    Ok(Outcome::passed(arguments.showing.answer(is_json, &report, views::bound(&report), next)?))
 }

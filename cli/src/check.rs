@@ -7,7 +7,7 @@ use abbe_study::check;
 use crate::arguments::Check;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, json, quoted};
+use crate::output::{Outcome, quoted};
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let job = check::Check { machine: arguments.subject.machine()? };
@@ -24,10 +24,6 @@ pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
         ),
         false => "--full for matrices, sources and laws".to_owned(),
     };
-    let shown = if arguments.json {
-        json(&report)?
-    } else {
-        arguments.showing.text(views::check(&report)) + &arguments.showing.next(&next)
-    };
+    let shown = arguments.showing.answer(arguments.json, &report, views::check(&report), &next)?;
     Ok(Outcome::checked(shown, report.passed()))
 }

@@ -13,7 +13,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, Outputs, cannot_write, json};
+use crate::output::{Outcome, Outputs, cannot_write};
 
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -58,17 +58,15 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         file.fill(&document().page(&provenance, live.as_ref()))
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
-    let text = match arguments.running.json {
-        true => json(&report)?,
-        false => {
-            let file = out.map(|file| format!("\n{}: {} rows\n", file.display(), report.row_summary.rows));
-            let next = match out {
-                None => "--out FILE writes the corrected commands, --full shows the first of them",
-                Some(_) => "--full shows the first corrected commands",
-            };
-            arguments.showing.text(document()) + &arguments.showing.next(next) + &file.unwrap_or_default()
-        }
+    let next = match out {
+        None => "--out FILE writes the corrected commands, --full shows the first of them",
+        Some(_) => "--full shows the first corrected commands",
     };
+    let is_json = arguments.running.json;
+    let mut text = arguments.showing.answer(is_json, &report, document(), next)?;
+    if let (Some(file), false) = (out, is_json) {
+        text += &format!("\n{}: {} rows\n", file.display(), report.row_summary.rows);
+    }
     Ok(Outcome::checked(text, report.complete()).beside(printed))
 }
 

@@ -11,7 +11,7 @@ use abbe_study::Notes;
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, Outputs, json};
+use crate::output::{Outcome, Outputs};
 
 pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
     let machine = arguments.subject.machine()?;
@@ -57,11 +57,7 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
         (None, true) => "--out MAP writes the map, --full for all interpretations",
         _ => "--full for all interpretations",
     };
-    let text = if arguments.json {
-        json(&report)?
-    } else {
-        arguments.showing.text(views::doctor(&report)) + &arguments.showing.next(next)
-    };
+    let text = arguments.showing.answer(arguments.json, &report, views::doctor(&report), next)?;
     let outcome = Outcome::checked(text, report.fits);
     Ok(match printed {
         Some(printed) => outcome.beside(printed),

@@ -8,7 +8,7 @@ use abbe_study::export;
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, Outputs, Pending, json};
+use crate::output::{Outcome, Outputs, Pending};
 
 pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
     let arguments::Export { subject, out, samples, seed, writing, showing, json: is_json, .. } = arguments;
@@ -34,14 +34,8 @@ pub(crate) fn run(arguments: &arguments::Export) -> Result<Outcome, Failure> {
     let pending: Result<Vec<Pending>, Failure> =
         files.map(|(path, file)| outputs.file(path)?.fill(&file.text)).collect();
     let printed = outputs.finish(pending?)?;
-    let mut text = if *is_json {
-        json(&report)?
-    } else {
-        {
-            showing.text(views::exported(&report))
-                + &showing.next("--full lists all differences and what the format cannot store")
-        }
-    };
+    let next = "--full lists all differences and what the format cannot store";
+    let mut text = showing.answer(*is_json, &report, views::exported(&report), next)?;
     if out.is_some() && !*is_json {
         text += &paths.iter().map(|path| format!("\nWritten to {}.\n", path.display())).collect::<String>();
     }

@@ -14,7 +14,7 @@ use abbe_study::explore::Explore;
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, Outputs, Pending, json, note};
+use crate::output::{Outcome, Outputs, Pending, note};
 
 pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -68,20 +68,16 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    let text = match arguments.running.json {
-        true => {
-            report.notes.iter().for_each(|line| note(line));
-            json(&report)?
-        }
-        false => {
-            let next = match &arguments.out {
-                None => "--out SPEC writes the identified machine, --full lists every error",
-                Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
-            };
-            let written = written.map(|written| format!("\n{written}"));
-            arguments.showing.text(document()) + &arguments.showing.next(next) + &written.unwrap_or_default()
-        }
+    let next = match &arguments.out {
+        None => "--out SPEC writes the identified machine, --full lists every error",
+        Some(_) => "abbe compensate with both files corrects commands, --full lists every error",
     };
+    let is_json = arguments.running.json;
+    let mut text = arguments.showing.answer(is_json, &report, document(), next)?;
+    match is_json {
+        true => report.notes.iter().for_each(|line| note(line)),
+        false => text.extend(written.map(|written| format!("\n{written}"))),
+    }
     Ok(Outcome::checked(text, accepted).beside(printed))
 }
 

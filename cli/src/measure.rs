@@ -10,7 +10,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::accept;
-use crate::output::{Outcome, Outputs, json};
+use crate::output::{Outcome, Outputs};
 
 pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -49,22 +49,12 @@ fn outcome(
     report: &Report,
 ) -> Result<Outcome, Failure> {
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    let text = if arguments.running.json {
-        json(report)?
-    } else {
-        {
-            let next = match (report.explained.repeatable, &arguments.out) {
-                (0, _) => {
-                    "abbe identify finds the errors of this machine; --full for all figures of ISO 9283"
-                }
-                (_, None) => {
-                    "--out DIR for a page and the errors of each row, --full for all figures of ISO 9283"
-                }
-                _ => "--full for all figures of ISO 9283",
-            };
-            let document = views::measurement(spec, map, report);
-            arguments.showing.text(document) + &arguments.showing.next(next)
-        }
+    let next = match (report.explained.repeatable, &arguments.out) {
+        (0, _) => "abbe identify finds the errors of this machine; --full for all figures of ISO 9283",
+        (_, None) => "--out DIR for a page and the errors of each row, --full for all figures of ISO 9283",
+        _ => "--full for all figures of ISO 9283",
     };
+    let document = views::measurement(spec, map, report);
+    let text = arguments.showing.answer(arguments.running.json, report, document, next)?;
     Ok(Outcome::checked(text, accepted))
 }

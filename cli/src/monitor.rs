@@ -9,7 +9,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, Outputs, json};
+use crate::output::{Outcome, Outputs};
 
 pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -38,17 +38,10 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     });
     let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();
-    let text = if arguments.running.json {
-        json(&report)?
-    } else {
-        {
-            let text = arguments.showing.text(document());
-            let next = match &arguments.page.report {
-                None => "--report FILE for a page with the charts, --full for all charts",
-                Some(_) => "--full for all charts",
-            };
-            text + &arguments.showing.next(next)
-        }
+    let next = match &arguments.page.report {
+        None => "--report FILE for a page with the charts, --full for all charts",
+        Some(_) => "--full for all charts",
     };
+    let text = arguments.showing.answer(arguments.running.json, &report, document(), next)?;
     Ok(Outcome::checked(text, passed).beside(printed))
 }

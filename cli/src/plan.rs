@@ -9,7 +9,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, Outputs, json};
+use crate::output::{Outcome, Outputs};
 
 pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -31,18 +31,14 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let out = out.map(|file| file.fill(&report.table(&job.map).csv())).transpose()?;
     let printed = outputs.finish(out)?;
-    let mut text = match arguments.running.json {
-        true => json(&report)?,
-        false => {
-            let next = match &arguments.out {
-                None => "--out FILE writes the configurations, --full lists indistinguishable errors",
-                Some(_) => "--full lists indistinguishable errors",
-            };
-            arguments.showing.text(views::plan(&job.machine.spec, &job.map, &report))
-                + &arguments.showing.next(next)
-        }
+    let next = match &arguments.out {
+        None => "--out FILE writes the configurations, --full lists indistinguishable errors",
+        Some(_) => "--full lists indistinguishable errors",
     };
-    if let (Some(file), false) = (&arguments.out, arguments.running.json) {
+    let is_json = arguments.running.json;
+    let document = views::plan(&job.machine.spec, &job.map, &report);
+    let mut text = arguments.showing.answer(is_json, &report, document, next)?;
+    if let (Some(file), false) = (&arguments.out, is_json) {
         text += &format!("Written to {}.\n", file.display());
     }
     Ok(Outcome::passed(text).beside(printed))

@@ -6,7 +6,7 @@ use abbe_report::views;
 use crate::arguments::Positioning;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, Outputs, json};
+use crate::output::{Outcome, Outputs};
 
 pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
     let Positioning { data, reading_uncertainty, scale_uncertainty, out, writing, showing, json: is_json } =
@@ -23,10 +23,7 @@ pub(crate) fn run(arguments: &Positioning) -> Result<Outcome, Failure> {
         Some(_) => "--full for every position",
         None => "--out FILE writes the mean deviations for a table of a spec, --full shows every position",
     };
-    let text = match is_json {
-        true => json(&report)?,
-        false => showing.text(views::positioning(&report)) + &showing.next(next),
-    };
+    let text = showing.answer(*is_json, &report, views::positioning(&report), next)?;
     let Some(file) = file else { return Ok(Outcome::passed(text)) };
     let Some(table) = report.table() else {
         let message = "the deviations of several diagonals are not a table of one axis";

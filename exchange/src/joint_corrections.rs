@@ -1,6 +1,7 @@
 //! Corrections of the joints on a grid over their limits (CSV), for controllers that interpolate
 //! between the nodes.
 
+use abbe_spec::option::{NODES, SET};
 use std::io;
 
 use abbe::analysis::{compensated, sampling};
@@ -22,7 +23,7 @@ const MOST_NODES: usize = 1_000_000;
 const MARGIN: f64 = 0.01;
 
 /// Approximate number of nodes in all by default.
-const NODES: f64 = 10_000.0;
+const DEFAULT_NODES: f64 = 10_000.0;
 
 /// Writes the table, with `nodes` values of each joint; by default about 10,000 nodes in all.
 ///
@@ -44,14 +45,14 @@ pub fn write(
         return Err(mistake::with_help(&machine.origin, message, "add `limits` to the variable"));
     }
     let dimensions = i32::try_from(joints).unwrap_or(i32::MAX);
-    let count =
-        nodes.unwrap_or_else(|| (NODES.powf(1.0 / f64::from(dimensions.max(1))) as usize).clamp(2, 101));
+    let count = nodes
+        .unwrap_or_else(|| (DEFAULT_NODES.powf(1.0 / f64::from(dimensions.max(1))) as usize).clamp(2, 101));
     let total =
         count.checked_pow(u32::try_from(joints).unwrap_or(u32::MAX)).filter(|total| *total <= MOST_NODES);
     let Some(total) = total else {
         let message =
             format!("{count} nodes for each of {joints} joints exceed the maximum of {MOST_NODES} in all");
-        return Err(mistake::with_help("--nodes", message, "choose fewer nodes"));
+        return Err(mistake::with_help(NODES, message, "choose fewer nodes"));
     };
     let axes: Vec<Vec<f64>> =
         spec.variables.iter().map(|variable| sampling::grid(variable.limits, count)).collect();
@@ -106,14 +107,14 @@ pub fn write(
     if !spec.inputs.is_empty() {
         let inputs: Vec<String> = spec.inputs.iter().map(|input| format!("`{}`", input.name)).collect();
         left_out.push(format!(
-            "The table holds for the current values of the inputs ({}); `--set` changes them.",
+            "The table holds for the current values of the inputs ({}); `{SET}` changes them.",
             inputs.join(", ")
         ));
     }
     left_out.push(format!(
         "Between the nodes the corrections are interpolated linearly along each joint. \
          \"corrected\": residual error at random configurations; \"at the nodes\": residual error \
-         at the {total} nodes. `--nodes` sets the number of nodes per joint, here {count}."
+         at the {total} nodes. `{NODES}` sets the number of nodes per joint, here {count}."
     ));
     left_out.push(
         "Near joint limits, corrected commands may exceed the limits by the size of the \

@@ -5,6 +5,7 @@
 //! Rx(roll)`; the joint turns about z after it. The nominal frames are those of Craig: z along the
 //! joint, x along the common normal with the previous joint, and `d` of a row within its joint.
 
+use abbe_spec::option::TO_URDF;
 use std::fmt::Write;
 
 use abbe::{Manipulator, Pose};
@@ -39,8 +40,10 @@ const KEYS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 /// The chain is not that of an arm of Universal Robots.
 pub fn write(machine: &RealMachine) -> Result<ExportReport, Diagnostics> {
     let refused = |message: String| {
-        let help = "this format is for arms of Universal Robots, whose chain begins at `base` \
-            (F_0); use `--to urdf` for other robots";
+        let help = format!(
+            "this format is for arms of Universal Robots, whose chain begins at `base` \
+            (F_0); use `{TO_URDF}` for other robots"
+        );
         mistake::with_help(&machine.origin, message, help)
     };
     let table = DhTable::nominal(machine)?;

@@ -632,6 +632,9 @@ class Report:
     @property
     def messages(self) -> list[str]:
         """Notes and warnings of the job, in the order in which it gave them."""
+    @property
+    def statements(self) -> dict[str, str]:
+        """Sentences of the report by their names, which stay: `answer` is the first line of its text."""
     def to_dict(self) -> dict[str, Any]:
         """Returns all fields as plain dicts, lists, numbers and texts."""
     def full(self) -> str:

@@ -69,7 +69,6 @@ impl Machine {
             job.time = time;
             job.run(notes)
         })?;
-        Report::new("bound", &Arc::new(report), notes, |report, detail| views::bound(report).text(detail))?
-            .create(py)
+        Report::of("bound", &Arc::new(report), notes, views::bound)?.create(py)
     }
 }

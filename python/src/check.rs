@@ -23,7 +23,6 @@ impl Machine {
     fn check(&self, py: Python<'_>) -> PyResult<Py<Report>> {
         let job = Check { machine: self.machine.clone() };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
-        Report::new("check", &Arc::new(report), notes, |report, detail| views::check(report).text(detail))?
-            .create(py)
+        Report::of("check", &Arc::new(report), notes, views::check)?.create(py)
     }
 }

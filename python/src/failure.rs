@@ -8,8 +8,6 @@ use pyo3::create_exception;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::words::in_python;
-
 create_exception!(
     abbe,
     SpecError,
@@ -22,16 +20,15 @@ create_exception!(
 /// Creates a SpecError from the diagnostics of a file.
 pub(crate) fn spec_error(py: Python<'_>, diagnostics: &Diagnostics) -> PyErr {
     let text = diagnostics.render(false);
-    let text = in_python(&text);
     let first = diagnostics.list.first();
     let is_missing = first.is_some_and(|first| first.message.starts_with("cannot read this file"))
         && !Path::new(&diagnostics.path).exists();
     let missing = || -> PyResult<Bound<'_, PyAny>> {
-        py.import("abbe._errors")?.getattr("MissingFileError")?.call1((&*text,))
+        py.import("abbe._errors")?.getattr("MissingFileError")?.call1((&text,))
     };
     let error = match is_missing {
         true => missing().map_or_else(|error| error, PyErr::from_value),
-        false => SpecError::new_err(text.into_owned()),
+        false => SpecError::new_err(text),
     };
     let place = first.and_then(|first| first.span.as_ref()).map(|span| {
         let before = &diagnostics.text[..diagnostics.text.floor_char_boundary(span.start)];
@@ -40,10 +37,10 @@ pub(crate) fn spec_error(py: Python<'_>, diagnostics: &Diagnostics) -> PyErr {
     });
     let value = error.value(py);
     let set = || {
-        value.setattr("file", in_python(&diagnostics.path))?;
+        value.setattr("file", &diagnostics.path)?;
         value.setattr("line", place.map(|(line, _)| line))?;
         value.setattr("column", place.map(|(_, column)| column))?;
-        value.setattr("help", first.and_then(|first| first.help.as_deref()).map(in_python))
+        value.setattr("help", first.and_then(|first| first.help.as_deref()))
     };
     set().err().unwrap_or(error)
 }

@@ -80,8 +80,8 @@ impl Machine {
             && self.changes().is_ok_and(|changes| changes.is_empty());
         let spec_text = self.text();
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
-        let text = move |report: &_, detail| views::identification(&spec, &map, report).text(detail);
-        let found = Report::new("identify", &report, notes, text)?.with_spec("found.toml");
+        let document = move |report: &_| views::identification(&spec, &map, report);
+        let found = Report::of("identify", &report, notes, document)?.with_spec("found.toml");
         let found = found.with_pages(move || {
             let Identify { machine, map, .. } = &job;
             let test = unseen.iter().map(|test| ("test", test.source()));

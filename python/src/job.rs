@@ -15,7 +15,6 @@ use pyo3::prelude::*;
 
 use crate::failure::{panicked, spec_error};
 use crate::options::within;
-use crate::words::in_python;
 
 /// Interval at which signals are checked and progress is reported.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
@@ -91,11 +90,10 @@ pub(crate) fn run<R: Send>(
                 Err(RecvTimeoutError::Disconnected) => break,
                 Err(RecvTimeoutError::Timeout) => py.check_signals(),
                 Ok(Message::Note(note)) => {
-                    notes.push(in_python(&note).into_owned());
+                    notes.push(note);
                     Ok(())
                 }
                 Ok(Message::Warning(warning)) => {
-                    let warning = in_python(&warning).into_owned();
                     let warned = warn(py, &warning);
                     notes.push(warning);
                     warned

@@ -38,7 +38,6 @@ mod positioning;
 mod report;
 mod simulate;
 mod table;
-mod words;
 
 /// Compiled part of the package `abbe`.
 #[pyo3::pymodule(gil_used = false)]
@@ -63,7 +62,8 @@ mod _abbe {
     use super::table::{Table, restore as restore_table};
 
     #[pymodule_init]
-    fn version(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    fn begin(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        abbe_spec::option::word_for_python();
         // The commit is set by `build_backend.py`.
         abbe_study::set_version(match option_env!("ABBE_COMMIT") {
             Some(commit) => format!("{} ({commit})", env!("CARGO_PKG_VERSION")).leak(),

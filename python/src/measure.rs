@@ -52,8 +52,8 @@ impl Machine {
             Ok((job, report))
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
-        let text = move |report: &_, detail| views::measurement(&spec, &map, report).text(detail);
-        let found = Report::new("measure", &report, notes, text)?.with_rows(report.table());
+        let document = move |report: &_| views::measurement(&spec, &map, report);
+        let found = Report::of("measure", &report, notes, document)?.with_rows(report.table());
         let found = found.with_pages(move || {
             let spec = &job.machine.spec;
             let provenance = Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;

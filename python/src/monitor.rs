@@ -51,8 +51,8 @@ impl Machine {
             Ok((job, report))
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
-        let text = move |report: &_, detail| views::monitoring(&spec, &map, report).text(detail);
-        let found = Report::new("monitor", &report, notes, text)?.with_pages(move || {
+        let document = move |report: &_| views::monitoring(&spec, &map, report);
+        let found = Report::of("monitor", &report, notes, document)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
             let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files)?;
             let live = Explore::measured(job.machine.clone(), report.residuals.clone()).run(&mut ())?;

@@ -60,8 +60,8 @@ impl Machine {
             Ok((job, report))
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec, job.map.clone());
-        let text = move |report: &_, detail| views::plan(&spec, &map, report).text(detail);
-        let found = Report::new("plan", &report, notes, text)?.with_rows(report.table(&job.map));
+        let document = move |report: &_| views::plan(&spec, &map, report);
+        let found = Report::of("plan", &report, notes, document)?.with_rows(report.table(&job.map));
         let found = found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())]));
         found.create(py)
     }

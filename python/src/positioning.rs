@@ -40,9 +40,7 @@ pub(crate) fn positioning(
         Positioning { data: measured.source(), reading, scale }.run(notes)
     })?;
     let rows = report.table();
-    let found = Report::new("positioning", &Arc::new(report), notes, |report, detail| {
-        views::positioning(report).text(detail)
-    })?;
+    let found = Report::of("positioning", &Arc::new(report), notes, views::positioning)?;
     match rows {
         Some(rows) => found.with_rows(rows),
         None => found,

@@ -1,14 +1,14 @@
 //! Report of a job as a Python object.
 
-use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe_metrology::data;
-use abbe_report::Picture;
 use abbe_report::text::Detail;
+use abbe_report::{Document, Picture};
 use abbe_spec::diagnostic::Diagnostics;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -21,7 +21,6 @@ use crate::explore::page;
 use crate::failure::{guarded, spec_error};
 use crate::machine::{Machine, restore as restore_machine};
 use crate::table::Table;
-use crate::words::{in_python, in_texts};
 
 /// Files of a report: names and texts.
 pub(crate) type Pages = Vec<(String, String)>;
@@ -57,6 +56,18 @@ pub(crate) struct Report {
 }
 
 impl Report {
+    /// Returns a report with its fields, and the text and the sentences of its document.
+    pub(crate) fn of<R: Serialize + Send + Sync + 'static>(
+        kind: &str,
+        report: &Arc<R>,
+        messages: Vec<String>,
+        document: impl Fn(&R) -> Document + Send + Sync + 'static,
+    ) -> PyResult<Self> {
+        let json = serde_json::to_string(&document(report).worded(&**report)).map_err(failed)?;
+        let text = move |report: &R, detail| document(report).text(detail);
+        Ok(Self { json, ..Self::new(kind, report, messages, text)? })
+    }
+
     /// Creates a report with its fields and its text.
     pub(crate) fn new<R: Serialize + Send + Sync + 'static>(
         kind: &str,
@@ -67,7 +78,7 @@ impl Report {
         let json = serde_json::to_string(&**report);
         let json = json.map_err(failed)?;
         let report = Arc::clone(report);
-        let text = Box::new(move |detail| in_python(&text(&report, detail)).into_owned());
+        let text = Box::new(move |detail| text(&report, detail));
         let fields = PyOnceLock::new();
         let (pages, figures, rows, spec) = (None, None, None, None);
         Ok(Self { kind: kind.to_owned(), json, text, messages, pages, figures, rows, spec, fields })
@@ -121,13 +132,7 @@ impl Report {
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyAny>> {
         let read = || {
             let read = py.import("abbe._fields")?.getattr("fields")?;
-            let mut json = Cow::Borrowed(&*self.json);
-            if json.contains("--") {
-                let mut fields: Value = serde_json::from_str(&json).map_err(failed)?;
-                in_texts(&mut fields);
-                json = Cow::Owned(fields.to_string());
-            }
-            PyResult::Ok(read.call1((&*json, class(py, &self.kind)?))?.unbind())
+            PyResult::Ok(read.call1((&self.json, class(py, &self.kind)?))?.unbind())
         };
         Ok(self.fields.get_or_try_init(py, read)?.bind(py))
     }
@@ -146,6 +151,13 @@ impl Report {
     #[getter]
     fn messages(&self) -> Vec<String> {
         self.messages.clone()
+    }
+
+    /// Sentences of the report by their names, which stay: `answer` is the first line of its text.
+    #[getter]
+    fn statements(&self) -> PyResult<BTreeMap<String, String>> {
+        let fields: Value = serde_json::from_str(&self.json).map_err(failed)?;
+        serde_json::from_value(fields.get("statements").cloned().unwrap_or_default()).or(Ok(BTreeMap::new()))
     }
 
     /// Returns all fields as plain dicts, lists, numbers and texts.

@@ -22,7 +22,7 @@ pub mod text;
 mod unit;
 pub mod views;
 
-pub use document::{Document, plain};
+pub use document::{Document, Worded, plain};
 pub use explore::explore;
 pub use gallery::{INDEX, gallery};
 pub use html::{Provenance, notebook};

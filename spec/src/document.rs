@@ -2,6 +2,7 @@
 //! read.
 
 use std::collections::HashSet;
+use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -44,9 +45,9 @@ pub struct Document {
 
 impl Document {
     /// Creates a document from text.
-    pub fn new(path: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
+    pub fn new(path: impl Display, text: impl Into<Arc<str>>) -> Self {
         Self {
-            path: path.into(),
+            path: path.to_string(),
             text: text.into(),
             found: Vec::new(),
             folder: None,

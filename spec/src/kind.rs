@@ -2,13 +2,14 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Section};
+use crate::option::{MAP_FILE, NamedOption, SETS_FILE, STUDY_FILE};
 
 /// Kinds of files: the table that only they have, their name, and how to pass them.
-const KINDS: [(&str, &str, &str); 4] = [
-    ("manipulator", "a spec", "pass a spec as the first argument: `abbe check SPEC`"),
-    ("study", "a study", "pass a study with `--study FILE`"),
-    ("data", "a map", "pass a map with `--map FILE`"),
-    ("plan", "a plan", "pass a plan with `--sets FILE`"),
+const KINDS: [(&str, &str, Option<NamedOption>); 4] = [
+    ("manipulator", "a spec", None),
+    ("study", "a study", Some(STUDY_FILE)),
+    ("data", "a map", Some(MAP_FILE)),
+    ("plan", "a plan", Some(SETS_FILE)),
 ];
 
 impl Document {
@@ -19,12 +20,15 @@ impl Document {
         if root.get(own).is_some() {
             return true;
         }
-        let other = KINDS.iter().find_map(|(table, what, help)| Some((root.get(table)?, what, help)));
-        let Some((item, what, help)) = other else { return true };
+        let other = KINDS.iter().find_map(|(table, what, option)| Some((root.get(table)?, what, option)));
+        let Some((item, what, option)) = other else { return true };
         self.mistake(
             Diagnostic::new(item.key_span, format!("this file is {what}, not {expected}"))
                 .label(format!("only {what} has this table"))
-                .help(*help),
+                .help(match option {
+                    Some(option) => format!("pass {what} with `{option}`"),
+                    None => "pass a spec as the first argument: `abbe check SPEC`".to_owned(),
+                }),
         );
         false
     }

@@ -35,6 +35,7 @@ pub mod literal;
 pub mod mistake;
 pub mod notes;
 pub mod number;
+pub mod option;
 pub mod value;
 pub mod visible;
 

@@ -1,5 +1,6 @@
 //! Diagnostics of a file, spec or option as a whole, without a span.
 
+use crate::option::DISABLE_NAME;
 use std::fmt::Display;
 use std::sync::Arc;
 
@@ -29,10 +30,11 @@ pub fn not_evaluated(
 ) -> Diagnostics {
     let blamed = blamed(error, description);
     let help = match blamed.is_empty() {
-        true => error.remedy(),
+        true => error.remedy().to_owned(),
         false => {
-            "check its expression and the values set; or disable it: `--disable NAME`, `enabled = \
-             false`"
+            format!(
+                "check its expression and the values set; or disable it: `{DISABLE_NAME}`, `enabled = false`"
+            )
         }
     };
     let message = match blamed.as_slice() {

@@ -1,6 +1,7 @@
 //! Recognizes files that are not TOML.
 
 use crate::diagnostic::Diagnostic;
+use crate::option::{GENERATE, IMPORT_URDF, MEASURE};
 
 /// Number of syntax errors before the first table header beyond which a file is not TOML.
 const MISTAKES: usize = 5;
@@ -18,20 +19,20 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
     };
     let heading = |line: &str| line.starts_with('[') && line.ends_with(']') && !line.contains(',');
     let (what, help) = if start.starts_with('<') {
-        ("XML", "convert a URDF file to a spec: `abbe import FILE.urdf --tip LINK -o SPEC`")
+        ("XML", format!("convert a URDF file to a spec: `{IMPORT_URDF}`"))
     } else if start.starts_with('{') {
-        ("JSON", "in TOML, `\"key\": value` is `key = value`, and a group is a `[table]`")
+        ("JSON", "in TOML, `\"key\": value` is `key = value`, and a group is a `[table]`".to_owned())
     } else if lines().take(3).all(separated) {
-        ("a table of data", "pass data after the spec, with a map: `abbe measure SPEC DATA --map MAP`")
+        ("a table of data", format!("pass data after the spec, with a map: `{MEASURE}`"))
     } else if let Some(language) = language(start) {
-        (language, "specs are TOML files; `abbe generate SPEC --out FILE` generates code from them")
+        (language, format!("specs are TOML files; `{GENERATE}` generates code from them"))
     } else if lines()
         .take(3)
         .all(|line| line.split_once(':').is_some_and(|(key, _)| !key.contains(['=', '"'])))
     {
-        ("YAML", "in TOML, `key: value` is `key = value`, and a group is a `[table]`")
+        ("YAML", "in TOML, `key: value` is `key = value`, and a group is a `[table]`".to_owned())
     } else if found.len() > MISTAKES && !before(&found[MISTAKES]).lines().any(|line| heading(line.trim())) {
-        ("something else", "expected TOML: `key = value`, `[table]`")
+        ("something else", "expected TOML: `key = value`, `[table]`".to_owned())
     } else {
         return None;
     };

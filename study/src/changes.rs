@@ -5,6 +5,7 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
 use abbe_spec::document::Document;
 use abbe_spec::expr::{Dimension, Symbol};
+use abbe_spec::option::{DISABLE, ENABLE, NamedOption, Q, SCALE, SCALE_GEAR, SET, SET_X};
 use abbe_spec::value::{find_name, parse_value};
 
 use crate::number;
@@ -28,10 +29,10 @@ impl Changes {
         let named = [("set", set), ("enable", enable), ("disable", disable), ("scale", scale)];
         let stated = named.iter().flat_map(|(name, texts)| texts.iter().map(|text| (*name, text.clone())));
         let mut changes = Self { stated: stated.collect(), ..Self::default() };
-        each_line("--set", set, |document, span| {
+        each_line(SET, set, |document, span| {
             let line = document.text[span.clone()].to_owned();
             let Some((name, _)) = line.split_once('=') else {
-                let mistake = Diagnostic::new(span, "expected NAME=VALUE").help("write `--set x=250mm`");
+                let mistake = Diagnostic::new(span, "expected NAME=VALUE").help(format!("write `{SET_X}`"));
                 return document.mistake(mistake);
             };
             let value = span.start + name.len() + 1..span.end;
@@ -42,13 +43,13 @@ impl Changes {
                 changes.set(document, value, spec, symbol, number);
             }
         })?;
-        for (option, names, on) in [("--enable", enable, true), ("--disable", disable, false)] {
+        for (option, names, on) in [(ENABLE, enable, true), (DISABLE, disable, false)] {
             each_line(option, names, |document, span| {
                 let name = document.text[span.clone()].to_owned();
                 changes.switch(document, span, &name, spec, on);
             })?;
         }
-        each_line("--scale", scale, |document, span| changes.scale(document, span, spec))?;
+        each_line(SCALE, scale, |document, span| changes.scale(document, span, spec))?;
         Ok(changes)
     }
 
@@ -56,7 +57,7 @@ impl Changes {
     pub fn parse_number(change: &str, spec: &Spec) -> Result<Self, Diagnostics> {
         let stated = vec![("set", change.to_owned())];
         let mut changes = Self { stated, ..Self::default() };
-        let mut document = Document::new("--set", change);
+        let mut document = Document::new(SET, change);
         let Some((name, value)) = change.split_once('=') else {
             document.mistake(Diagnostic::new(0..change.len(), "expected NAME=VALUE"));
             return document.finish(None);
@@ -132,7 +133,8 @@ impl Changes {
         let line = document.text[span.clone()].to_owned();
         // A name can contain `=`, a factor cannot.
         let Some((name, _)) = line.rsplit_once('=') else {
-            let mistake = Diagnostic::new(span, "expected SOURCE=FACTOR").help("write `--scale gear=0.5`");
+            let mistake =
+                Diagnostic::new(span, "expected SOURCE=FACTOR").help(format!("write `{SCALE_GEAR}`"));
             return document.mistake(mistake);
         };
         let named = span.start..span.start + name.len();
@@ -204,7 +206,7 @@ pub fn find_symbol(
 ) -> Option<(Symbol, Dimension)> {
     if spec.variables.iter().any(|variable| variable.name == name) {
         let message = format!("`{name}` is a joint variable, not a parameter or input");
-        let help = "`abbe jacobian` sets joint variables by `--q`; a workspace moves them";
+        let help = format!("`abbe jacobian` sets joint variables by `{Q}`; a workspace moves them");
         document.mistake(Diagnostic::new(span, message).help(help));
         return None;
     }
@@ -222,7 +224,7 @@ pub fn find_symbol(
 /// Parses all values of an option as lines of one document, so that all mistakes are reported at
 /// once.
 fn each_line(
-    option: &str,
+    option: NamedOption,
     values: &[String],
     mut read: impl FnMut(&mut Document, Span),
 ) -> Result<(), Diagnostics> {

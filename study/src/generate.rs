@@ -1,5 +1,6 @@
 //! Closed form of a manipulator as source code.
 
+use abbe_spec::option::{NAME, ONLY, REAL_FLOAT};
 use std::borrow::Cow;
 
 pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
@@ -53,7 +54,7 @@ impl Generate {
     pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>, Diagnostics> {
         let mut spec = Cow::Borrowed(&*self.machine.spec);
         if let Some(name) = &self.name {
-            check_name("--name", name)?;
+            check_name(NAME, name)?;
             spec.to_mut().name.clone_from(name);
         }
         if let Some(number) = self.language.lost(&spec) {
@@ -63,7 +64,7 @@ impl Generate {
                     "the code contains the number {number:e}, which single precision cannot \
                     represent"
                 ),
-                "remove `--real float`, or check the units of the spec",
+                format!("remove `{REAL_FLOAT}`, or check the units of the spec"),
             ));
         }
         match &self.only {
@@ -76,11 +77,11 @@ impl Generate {
     fn selected(&self, only: &str, spec: &Spec) -> Result<Vec<&'static str>, Diagnostics> {
         let possible = self.language.functions(spec);
         if possible.is_empty() {
-            let message = format!("`--only` has no effect on {}", self.language.name());
-            let help = "choose another language, or leave `--only` out";
-            return Err(mistake::with_help("--only", message, help));
+            let message = format!("`{ONLY}` has no effect on {}", self.language.name());
+            let help = format!("choose another language, or leave `{ONLY}` out");
+            return Err(mistake::with_help(ONLY, message, help));
         }
-        let mut document = Document::new("--only", only);
+        let mut document = Document::new(ONLY, only);
         let mut found = Vec::new();
         let mut start = 0;
         for name in only.split(',') {

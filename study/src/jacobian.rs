@@ -1,5 +1,6 @@
 //! Pose, error Jacobian, generalized errors and their displacement at one configuration.
 
+use abbe_spec::option::Q;
 use std::sync::Arc;
 
 use abbe::analysis::sampling;
@@ -164,13 +165,16 @@ fn note_beyond_limits(variable: &Variable, value: f64, spec: &Spec, notes: &mut 
 
 /// Parses the values of `--q`, one per variable: `500,0.2m,0,-90deg,pi/180,0`.
 pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnostics> {
-    let mut document = Document::new("--q", text);
+    let mut document = Document::new(Q, text);
     let spans = value_spans(text);
     if spans.len() != spec.variables.len() {
         let names = spec.variables.iter().map(|variable| variable.name.as_str()).collect::<Vec<_>>();
         let message = format!("expected {} joint variables, found {}", names.len(), spans.len());
-        let help =
-            if names.is_empty() { "omit --q".into() } else { format!("the order is {}", names.join(",")) };
+        let help = if names.is_empty() {
+            format!("omit {Q}").into()
+        } else {
+            format!("the order is {}", names.join(","))
+        };
         document.mistake(Diagnostic::new(0..text.len(), message).help(help));
         return document.finish(None);
     }

@@ -68,7 +68,7 @@ pub mod calibration;
 mod changed_text;
 mod changes;
 pub mod extrapolation;
-mod finite;
+pub mod finite;
 mod iso230;
 pub mod lines;
 mod loop_units;

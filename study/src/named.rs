@@ -4,6 +4,7 @@ use std::path::Path;
 
 use abbe_spec::diagnostic::{Diagnostic, Diagnostics, nearest_file};
 use abbe_spec::document::Document;
+use abbe_spec::option::NamedOption;
 use abbe_spec::value::find_name;
 
 /// Returns true if an argument is a path: the file exists, or the text looks like one.
@@ -17,7 +18,7 @@ pub fn is_path(argument: &Path) -> bool {
 /// Reads a file, or the shipped document with that name. `folder` is the folder of the shipped
 /// documents, `what` their kind in messages.
 pub fn document(
-    option: &str,
+    option: NamedOption,
     argument: &Path,
     shipped: &[(&str, &str)],
     folder: &str,
@@ -31,7 +32,7 @@ pub fn document(
         Some((name, text)) => Ok(Document::new(format!("{folder}/{name}.toml"), *text)),
         None => {
             let names = shipped.iter().map(|(name, _)| *name).collect::<Vec<_>>();
-            Err(unknown(option, &name, &names, what))
+            Err(unknown(&option.to_string(), &name, &names, what))
         }
     }
 }

@@ -73,8 +73,8 @@ impl Remedy for Failure {
             Self::TooFew { .. } => "measure at more configurations, or set `base = \"known\"` in the map",
             Self::Untouched { .. } => "leave the row out, or widen the limits of the joints",
             Self::NotConverged { .. } => {
-                "check for outliers, wrong units and reversed joints in the map (`abbe doctor`); \
-                 or try `--robust tukey`"
+                "check for outliers, wrong units and reversed joints in the map (`abbe doctor`), \
+                 or weight the rows robustly"
             }
         }
     }

@@ -20,7 +20,7 @@ use abbe_study::jacobian::read_joint_variables;
 use crate::arguments::{self, Showing};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{self, Outcome, Outputs, cannot_write, note};
+use crate::output::{Outcome, Outputs, cannot_write, note};
 
 pub(crate) use files::{Files, VaryingColumns};
 
@@ -93,11 +93,7 @@ pub(crate) fn outcome(
     showing: &Showing,
     next: &str,
 ) -> Result<Outcome, Failure> {
-    let text = if json {
-        output::json(report)?
-    } else {
-        showing.text(abbe_report::budget(report)) + &showing.next(next)
-    };
+    let text = showing.answer(json, report, abbe_report::budget(report), next)?;
     match (check, report.verdict()) {
         (true, None) => Err(Failure::new("--check", "the study has no tolerance")
             .help("add one: tolerance = \"0.5 mm\" in its [study]")),

@@ -14,12 +14,13 @@ use abbe_study::analyze::parts::Change;
 use abbe_study::options::THREADS;
 use abbe_study::{Machine, RunRecord, Study, check_date};
 use clap::{Args, ValueHint};
+use serde::Serialize;
 
 use crate::signs::has_plain_signs;
 
 use super::values::whole;
 use crate::failure::Failure;
-use crate::output::note;
+use crate::output::{json, note};
 
 // Machine to work on.
 #[derive(Args, Debug)]
@@ -151,8 +152,23 @@ impl Showing {
         Detail::new(self.full)
     }
 
+    /// Returns what a command prints: as JSON the numbers and the sentences, otherwise the text and
+    /// what to do next.
+    pub(crate) fn answer<R: Serialize>(
+        &self,
+        is_json: bool,
+        report: &R,
+        document: Document,
+        next: &str,
+    ) -> Result<String, Failure> {
+        match is_json {
+            true => json(&document.worded(report)),
+            false => Ok(self.text(document) + &self.next(next)),
+        }
+    }
+
     /// Returns the line that says what to do next; nothing below a full report.
-    pub(crate) fn next(&self, text: &str) -> String {
+    fn next(&self, text: &str) -> String {
         match self.detail() {
             Detail::Answer => next(text),
             Detail::Full => String::new(),

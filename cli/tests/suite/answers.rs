@@ -1,6 +1,7 @@
 //! The first screen of each command: at most 25 lines of 100 columns, the answer first.
 
 use abbe_manipulators::SHIPPED;
+use serde_json::Value;
 
 use super::running::{abbe, json, narrow, prints, write};
 use super::workshop::Workshop;
@@ -43,6 +44,10 @@ fn every_command_fits_one_screen() {
         let run = abbe(&words);
         assert!(run.status < 2, "{line}: {}", run.stderr);
         is_one_screen(&run.stdout, line);
+        let found: Value = serde_json::from_str(&abbe(&[&words[..], &["--json"]].concat()).stdout).unwrap();
+        let answer = found["statements"]["answer"].as_str().unwrap();
+        let one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(one_line(&run.stdout).contains(&one_line(answer)), "{line}: {answer}\n{}", run.stdout);
         let all = abbe(&[&words[..], &["--full"]].concat());
         assert!(all.stdout.lines().count() >= run.stdout.lines().count() - 2, "{line}\n{}", all.stdout);
     }

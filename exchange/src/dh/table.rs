@@ -2,6 +2,7 @@
 
 use abbe::{Manipulator, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::TO_URDF;
 use abbe_spec::{DhConvention, DhNumber, mistake};
 
 use crate::export::{RealMachine, about_x, about_z};
@@ -83,8 +84,9 @@ impl DhTable {
         Err(mistake::with_help(
             &machine.origin,
             format!("the frame \"{name}\" has no Denavit-Hartenberg numbers: {reason}"),
-            "write all frames with `dh`, or all with `mdh`; or export to another format: `--to \
-             urdf`",
+            format!(
+                "write all frames with `dh`, or all with `mdh`; or export to another format: `{TO_URDF}`"
+            ),
         ))
     }
 

@@ -3,6 +3,7 @@
 //! Most formats hold constant numbers. Errors that vary with the configuration are replaced by
 //! their mean over the workspace, to which the constant part is closest.
 
+use abbe_spec::option::SET;
 use std::sync::Arc;
 
 use abbe::analysis::{Configuration, Workspace, random_joint_samples, sampling};
@@ -263,7 +264,7 @@ impl RealMachine {
         (!names.is_empty()).then(|| {
             format!(
                 "These sources depend on more than the position of their own axis; they are \
-                 evaluated with the other axes at home and the inputs at their values (`--set`): \
+                 evaluated with the other axes at home and the inputs at their values (`{SET}`): \
                  {}.",
                 names.join(", ")
             )

@@ -6,6 +6,7 @@
 use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation, real_pose};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::mistake;
+use abbe_spec::option::TO_TABLE;
 
 use super::chain_errors::{ChainErrors, product};
 use super::real_machine::RealMachine;
@@ -49,8 +50,10 @@ impl Axes {
     pub(crate) fn find(machine: &RealMachine) -> Result<Self, Diagnostics> {
         let spec = &machine.spec;
         let refused = |name: &str, reason: &str| {
-            let help = "these tables need slides along X, Y and Z of F_0 that carry the tool; \
-                rotary axes must carry the workpiece. `--to table` exports any machine";
+            let help = format!(
+                "these tables need slides along X, Y and Z of F_0 that carry the tool; \
+                rotary axes must carry the workpiece. `{TO_TABLE}` exports any machine"
+            );
             Err(mistake::with_help(&machine.origin, format!("`{name}` {reason}"), help))
         };
         let evaluated = |error: Error| mistake::whole(&machine.origin, &error);

@@ -1,5 +1,6 @@
 //! Multiples of 45° that a file has with too few digits.
 
+use abbe_spec::option::ROUND_ANGLES;
 use std::f64::consts::FRAC_PI_4;
 
 use abbe_spec::notes::Notes;
@@ -53,7 +54,7 @@ impl AngleRounding {
                 let angles = if one { "angle is a multiple" } else { "angles are multiples" };
                 let them = if one { "it" } else { "them" };
                 format!(
-                    "{count} {angles} of 45° within {farthest:.0e} rad; `--round-angles` rounds \
+                    "{count} {angles} of 45° within {farthest:.0e} rad; `{ROUND_ANGLES}` rounds \
                      {them}, which makes generated code shorter"
                 )
             }

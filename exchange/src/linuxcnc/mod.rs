@@ -12,6 +12,7 @@
 mod joint;
 mod matrix;
 
+use abbe_spec::option::{NODES, TO_LINUXCNC, option};
 use std::fmt::Write;
 
 use abbe::Error;
@@ -42,9 +43,9 @@ pub fn write(machine: &mut RealMachine, nodes: usize, has_matrix: bool) -> Resul
     if nodes > MOST_NODES {
         let message = format!("a compensation file of LinuxCNC has at most {MOST_NODES} lines");
         return Err(mistake::with_help(
-            "--nodes",
+            NODES,
             message,
-            format!("choose fewer nodes: `--nodes {MOST_NODES}`"),
+            format!("choose fewer nodes: `{nodes}`", nodes = option("nodes", MOST_NODES)),
         ));
     }
     let axes = Axes::find(machine)?;
@@ -53,7 +54,7 @@ pub fn write(machine: &mut RealMachine, nodes: usize, has_matrix: bool) -> Resul
     if let Some(variable) = axes.rotary.first().filter(|_| has_matrix) {
         let message =
             format!("`{}` is a rotary axis, and matrixkins has none", machine.spec.variables[*variable].name);
-        let help = "`--to linuxcnc` writes files for other kinematics";
+        let help = format!("`{TO_LINUXCNC}` writes files for other kinematics");
         return Err(mistake::with_help(&machine.origin, message, help));
     }
     let joints = CompensatedJoint::all(machine, &axes);

@@ -3,6 +3,7 @@
 use abbe::Pose;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::Document;
+use abbe_spec::option::BASE;
 use nalgebra::Isometry3;
 
 use super::read::{Ends, read};
@@ -36,7 +37,7 @@ impl NominalChain {
             let message =
                 format!("the tip is no descendant of the base: the chain goes up at `{}`", frame.joint);
             document.mistake(Diagnostic::whole_file(message).help(
-                "errors of such a chain cannot be written as origins of the file; choose a base link above the tip by `--base`",
+                format!("errors of such a chain cannot be written as origins of the file; choose a base link above the tip by `{BASE}`"),
             ));
             return None;
         }

@@ -7,6 +7,7 @@ mod reason;
 mod rows;
 
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::POSES;
 use serde::Serialize;
 
 use crate::data::{Base, Data, Heading, Layout, Map, Summary, Table, Unusable};
@@ -248,8 +249,8 @@ pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
     if matches!(map.layout, Layout::Pose(..)) && is_base_known {
         return Ok(());
     }
-    let help = "name the columns of position and orientation; or omit `--poses` to correct joints";
-    Err(mistake::with_help(map.path(), "`--poses` needs a map with `[pose]`, in F_0", help))
+    let help = format!("name the columns of position and orientation; or omit `{POSES}` to correct joints");
+    Err(mistake::with_help(map.path(), format!("`{POSES}` needs a map with `[pose]`, in F_0"), help))
 }
 
 impl Report {

@@ -1,5 +1,6 @@
 //! CSV files: a heading, and records with line numbers, read on demand.
 
+use abbe_spec::option::MAP;
 use std::io::{self, Cursor, Read};
 use std::path::Path;
 use std::sync::Arc;
@@ -93,11 +94,14 @@ fn other_text(head: &[u8]) -> Option<Unfit> {
     let mut lines = text.lines().map(str::trim);
     let line = lines.find(|line| !line.is_empty() && !line.starts_with('#'))?;
     let (what, help) = if line.starts_with('[') && line.ends_with(']') {
-        ("TOML", "data are a CSV file; the spec is the argument before it, and a map follows `--map`")
+        (
+            "TOML",
+            format!("data are a CSV file; the spec is the argument before it, and a map follows `{MAP}`"),
+        )
     } else if line.starts_with('<') {
-        ("XML", WANTED)
+        ("XML", WANTED.to_owned())
     } else if line.starts_with('{') || line == "[" {
-        ("JSON", WANTED)
+        ("JSON", WANTED.to_owned())
     } else {
         return None;
     };

@@ -3,6 +3,7 @@
 use abbe::LengthUnit;
 use abbe::identify::Model;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::TERMS;
 
 use super::report::Compared;
 use super::solve::Solved;
@@ -56,7 +57,7 @@ impl Compared {
         (gain.mean < 0.0 && gain.p <= WORSE).then(|| {
             format!(
                 "note: on the test rows, constant errors alone leave {} in the mean, and {} with the \
-                 terms: for such configurations, identify without `--terms`",
+                 terms: for such configurations, identify without `{TERMS}`",
                 length(constant.mean),
                 length(self.after.mean)
             )

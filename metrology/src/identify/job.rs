@@ -1,5 +1,6 @@
 //! Identification job, from data to report.
 
+use abbe_spec::option::{MEASURE_NEW_STATION, TEST};
 use std::borrow::Cow;
 use std::collections::HashSet;
 
@@ -116,7 +117,7 @@ impl Identify {
             test.as_deref().and_then(|test| overlap_warning(overlap, test.observations.len()))
         {
             notes.warn(&format!(
-                "{warning}; measure separate test data, or omit --test and rely on \
+                "{warning}; measure separate test data, or omit {TEST} and rely on \
                  cross-validation"
             ));
         }
@@ -428,7 +429,7 @@ fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<Point
 
 fn unknown_station(test: &Data, name: &str) -> Diagnostics {
     let message = format!("there is no station `{}` in the fitted data", name.escape_debug());
-    let help = "fit a station of the identified machine by `abbe measure --station new`";
+    let help = format!("fit a station of the identified machine by `{MEASURE_NEW_STATION}`");
     mistake::with_help(&test.file, message, help)
 }
 
@@ -442,7 +443,8 @@ fn comparable<'d>(test: &'d Data, data: &Data, model: &Model) -> Result<Cow<'d, 
 /// Returns the error that the test rows read only instruments that the fitted rows do not read.
 fn nothing_placed(file: &str) -> Diagnostics {
     let message = "the fitted rows read none of the instruments of these rows, whose places are unknown";
-    let help = "fit rows that read the same instruments, or omit --test and rely on cross-validation";
+    let help =
+        format!("fit rows that read the same instruments, or omit {TEST} and rely on cross-validation");
     mistake::with_help(file, message, help)
 }
 

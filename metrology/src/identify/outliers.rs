@@ -1,6 +1,7 @@
 //! Gross errors: rows far from a robust fit.
 
 use abbe::identify::{Fit, Loss, Measurement, Model, Observation, Options, fit, robust_scale};
+use abbe_spec::option::ROBUST_TUKEY;
 
 use crate::data::Data;
 
@@ -39,7 +40,7 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
     }
     Some(format!(
         "{} of {} rows lie more than ten standard deviations from a fit without them (lines {}); \
-         `--robust tukey` rejects outliers",
+         `{ROBUST_TUKEY}` rejects outliers",
         wrong.len(),
         rows.len(),
         shown_lines(&wrong)

@@ -3,6 +3,7 @@
 
 use abbe::identify::{Failure, Fit, Loss, Model, Options, Unknown, fit};
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::PRIOR;
 
 use super::interpretation_check::{ROWS, subsample};
 use super::priors::Prior;
@@ -115,9 +116,11 @@ pub(super) fn check_lengths(
         number::digits(times, 2),
         length(deviation),
     );
-    let help = "check the units in the map, the dimensions in the spec, and that these are measurements of \
-         this machine; `abbe doctor` tries other interpretations, and a larger `--prior` permits \
-         larger errors";
+    let help = format!(
+        "check the units in the map, the dimensions in the spec, and that these are measurements of \
+         this machine; `abbe doctor` tries other interpretations, and a larger `{PRIOR}` permits \
+         larger errors"
+    );
     if times > REFUSED {
         return Err(mistake::with_help(&data.file, statement, help));
     }

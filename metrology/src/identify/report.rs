@@ -41,6 +41,7 @@ pub struct Report {
     /// all are significant.
     pub gap: Option<f64>,
     /// Condition number of the kept columns of the design matrix, each scaled to unit length.
+    #[serde(serialize_with = "abbe_study::finite::or_null")]
     pub condition: f64,
     /// Observability indices.
     pub observability: Indices,
@@ -312,6 +313,7 @@ pub struct TermGain {
     /// unit.
     pub after: f64,
     /// F statistic of the group, with configurations as independent samples.
+    #[serde(serialize_with = "abbe_study::finite::or_null")]
     pub f: f64,
     /// Probability of an F at least as large by chance.
     pub p: f64,

@@ -4,6 +4,7 @@ use abbe::analysis::sampling;
 use abbe::identify::{Failure, Model, Observation, Role, Station, Unknown};
 use abbe::{Class, Description, Manipulator, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::{IDENTIFY_OUT, STATION_NEW};
 
 use super::board_check::check_board;
 use super::known_distances::check_known_distances;
@@ -106,8 +107,10 @@ impl<'a> Setup<'a> {
         let unknown = names.iter().find_map(|name| map.unknown_targets_at(name).iter().position(|one| *one));
         if let Some(target) = unknown {
             let message = format!("the position of target {} on the tool is unknown", target + 1);
-            let help = "without measured rows it must be stated: write three lengths in the frame of the tool \
-                 as its `position`, or take the map that `abbe identify --out` writes";
+            let help = format!(
+                "without measured rows it must be stated: write three lengths in the frame of the tool \
+                 as its `position`, or take the map that `{IDENTIFY_OUT}` writes"
+            );
             return Err(mistake::with_help(map.path(), message, help));
         }
         let mut setup = Self::without_stations(manipulator, map, 0)?;
@@ -321,7 +324,7 @@ fn missing_station(map: &Map, data: &Data, name: &str) -> Diagnostics {
     };
     let help = format!(
         "add a [[station]] to those of the map ({stated}), or fit it to these rows by `base = \
-         \"unknown\"` (in `abbe measure` by `--station new`)"
+         \"unknown\"` (in `abbe measure` by `{STATION_NEW}`)"
     );
     mistake::with_help(&data.file, message, help)
 }
@@ -329,8 +332,10 @@ fn missing_station(map: &Map, data: &Data, name: &str) -> Diagnostics {
 /// Returns the error that a map does not state where its camera and its board are.
 fn unplaced(map: &Map) -> Diagnostics {
     let message = "this map does not state where the camera and the board are";
-    let help = "add `[[station]]` and `[placement]`, or take the map that `abbe identify --out` writes from \
-        about ten first views";
+    let help = format!(
+        "add `[[station]]` and `[placement]`, or take the map that `{IDENTIFY_OUT}` writes from \
+        about ten first views"
+    );
     mistake::with_help(map.path(), message, help)
 }
 

@@ -5,6 +5,7 @@ use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cro
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
+use abbe_spec::option::ROBUST_TUKEY;
 
 use super::joint_profiles::JointProfiles;
 use super::magnitude::OwnMagnitude;
@@ -177,8 +178,10 @@ pub(super) fn diagnose(failure: &Failure, data: &Data) -> Diagnostics {
             mistake::with_help(&data.file, message, help)
         }
         Failure::NotConverged { .. } => {
-            let help = "if the data have outliers, try `--robust tukey`; if joint zeros or units may be \
-             wrong, try `abbe doctor`";
+            let help = format!(
+                "if the data have outliers, try `{ROBUST_TUKEY}`; if joint zeros or units may be \
+             wrong, try `abbe doctor`"
+            );
             mistake::with_help(&data.file, failure, help)
         }
     }

@@ -16,6 +16,7 @@ use abbe::identify::{
 use abbe::{Description, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::{CANDIDATES, SETS};
 
 use crate::data::{Instruments, Map};
 use crate::identify::{
@@ -204,7 +205,7 @@ impl Plan {
                 if self.map.instruments().is_some_and(Instruments::depend_on_previous_row) {
                     let message = "this instrument reads relative to the row before, so single \
                         configurations cannot be chosen";
-                    let help = "plan ordered rows with `--sets`";
+                    let help = format!("plan ordered rows with `{SETS}`");
                     return Err(mistake::with_help(self.map.path(), message, help));
                 }
                 let moved: Vec<usize> = self.map.moved().collect();
@@ -220,8 +221,10 @@ impl Plan {
                 let list = self.readable(setup, list.collect())?;
                 if *count > list.len() {
                     let message = format!("cannot choose {count} configurations from {} samples", list.len());
-                    let help = "each sample is chosen at most once: increase `--candidates`, or \
-                        choose fewer configurations";
+                    let help = format!(
+                        "each sample is chosen at most once: increase `{CANDIDATES}`, or \
+                        choose fewer configurations"
+                    );
                     return Err(mistake::with_help(&self.machine.origin, message, help));
                 }
                 let list = with_nominal_measurements(model, list.into_iter()).map_err(fail)?;

@@ -32,6 +32,7 @@ pub struct Report {
     /// Errors that these rows will determine poorly compared with their prior.
     pub not_known: Vec<WeaklyDetermined>,
     /// Condition number of the kept columns of the design matrix, each scaled to unit length.
+    #[serde(serialize_with = "abbe_study::finite::or_null")]
     pub condition: f64,
     /// `ln det` of the information matrix of columns scaled to unit length.
     pub log_det: f64,

@@ -2,6 +2,7 @@
 
 pub mod options;
 
+use abbe_spec::option::SAMPLES;
 use std::borrow::Cow;
 
 use abbe::Manipulator;
@@ -126,8 +127,8 @@ impl Simulate {
         }
         let planned = self.planned(&interpreter, &setup)?;
         let file = match &self.at {
-            Places::Rows(data) => &data.file,
-            Places::Samples(_) => "--samples",
+            Places::Rows(data) => data.file.clone(),
+            Places::Samples(_) => SAMPLES.to_string(),
         };
         let Uncertainty { length, angle } = map.uncertainty;
         let noise = self.noise.unwrap_or(length);
@@ -144,9 +145,9 @@ impl Simulate {
         };
         let fail = |failure: Failure| match failure {
             Failure::Observation { line, error } => {
-                mistake::not_evaluated(file, &place(line), &error, description)
+                mistake::not_evaluated(&file, &place(line), &error, description)
             }
-            failure => mistake::whole(file, &failure),
+            failure => mistake::whole(&file, &failure),
         };
         if let Some(all) = map.instruments()
             && all.depend_on_previous_row()
@@ -259,7 +260,7 @@ impl Simulate {
         if observations.is_empty() {
             return Err(nothing_readable(self.map.path()));
         }
-        let file = "--samples".to_owned();
+        let file = SAMPLES.to_string();
         Ok(Data { file, observations, stations: stations.clone(), ..Data::default() })
     }
 }

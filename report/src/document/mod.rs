@@ -2,12 +2,14 @@
 //!
 //! A view (`views`) builds the document of a job from its numbers, and knows no renderer. A
 //! renderer (`terminal`, `html`) shows any document, and knows no job. `section` has the parts,
-//! `table` tables, `list` short lists of names, and `plain` signs in ASCII.
+//! `table` tables, `list` short lists of names, `plain` signs in ASCII, and `worded` the sentences
+//! beside the numbers.
 
 mod list;
 mod plain;
 mod section;
 mod table;
+mod worded;
 
 use abbe_study::RunRecord;
 
@@ -15,6 +17,7 @@ pub(crate) use list::{first, joined};
 pub use plain::plain;
 pub(crate) use section::{Block, Card, Depth, Figure, Section};
 pub(crate) use table::{Column, Table, number, words};
+pub use worded::Worded;
 
 /// Report of a job, in sections.
 #[derive(Clone, Debug, Default)]

@@ -1,6 +1,7 @@
 //! Diagnosis of data: the interpretation that fits, and its alternatives.
 
 use abbe_metrology::doctor::{Finding, Report};
+use abbe_spec::option::{CORRECTED_SPEC, WITHIN};
 use abbe_study::number::digits;
 
 use super::shared::some;
@@ -35,7 +36,7 @@ fn details(report: &Report) -> Section {
     let simpler = simpler.as_ref().map(|Finding { words, residual, both, .. }| {
         format!(
             "A simpler interpretation leaves {} {length}, more than noise, but possibly errors of this \
-             machine: {words}. If its errors may be that large: `--within \"{} {length}\"`.",
+             machine: {words}. If its errors may be that large: `{WITHIN} \"{} {length}\"`.",
             digits(*residual, 3),
             digits(1.2 * both, 2)
         )
@@ -52,8 +53,10 @@ fn details(report: &Report) -> Section {
         .list("next_best", "Next best interpretations:", listed(others, length))
         .list(
             "in_the_spec",
-            "A map cannot express this; change the spec (`--corrected SPEC` does it where possible) or the \
-             file:",
+            &format!(
+                "A map cannot express this; change the spec (`{CORRECTED_SPEC}` does it where possible) or \
+                 the file:"
+            ),
             of_spec.clone(),
         )
 }

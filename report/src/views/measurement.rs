@@ -3,6 +3,7 @@
 use abbe_metrology::data::Map;
 use abbe_metrology::measure::{InstrumentErrors, MeanAndMax, Report};
 use abbe_spec::Spec;
+use abbe_spec::option::IDENTIFY_OUT;
 use abbe_study::number::{counted, digits, error_unit, fixed, percent};
 
 use super::shared::{
@@ -195,21 +196,20 @@ fn fitted(report: &Report) -> Section {
         true => {
             "The station of the instrument was fitted to these rows, for the machine of the spec: errors \
              common to all rows are not included."
+                .to_owned()
         }
-        false => {
+        false => format!(
             "The stations of the instruments were fitted to these rows, for the machine of the spec: \
-             errors that they explain are not included. The map of `identify --out` has the identified \
+             errors that they explain are not included. The map of `{IDENTIFY_OUT}` has the identified \
              stations."
-        }
+        ),
     });
     let target = report.tool_fitted.then(|| {
         "The place on the tool that the map does not state was fitted to these rows, for the machine of \
          the spec: errors that it absorbs are not included."
             .to_owned()
     });
-    Section::full("Fitted to these rows")
-        .state("fitted_station", station.map(str::to_owned))
-        .state("fitted_target", target)
+    Section::full("Fitted to these rows").state("fitted_station", station).state("fitted_target", target)
 }
 
 fn show(report: &Report, value: f64) -> String {

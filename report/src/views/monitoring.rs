@@ -3,6 +3,7 @@
 use abbe_metrology::data::Map;
 use abbe_metrology::monitor::{Chart, Finding, Report};
 use abbe_spec::Spec;
+use abbe_spec::option::SINCE;
 use abbe_study::number::{digits, fixed, percent, trimmed};
 
 use super::shared::{angle_in_mrad, instrument};
@@ -209,7 +210,7 @@ fn changed(section: Section, report: &Report, finding: &Finding) -> Section {
         _ => format!(
             "{name} jumped by {value} at {since_date} ({between}). At the most sensitive configuration the \
              tool point moved by {size_there} ± {sigma_there} µm. If the machine was serviced then, restart \
-             with `--since`."
+             with `{SINCE}`."
         ),
     };
     let as_well = (!finding.as_well.is_empty())

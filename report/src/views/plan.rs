@@ -3,6 +3,7 @@
 use abbe_metrology::data::Map;
 use abbe_metrology::plan::{Input, Report};
 use abbe_spec::Spec;
+use abbe_spec::option::MODEL_ERROR_LENGTH;
 use abbe_study::number::{digits, error_unit, quantity};
 
 use super::identification::indistinguishable;
@@ -86,11 +87,11 @@ fn about(report: &Report) -> Section {
     });
     let inputs = (!report.inputs.is_empty()).then(|| format!("Inputs: {}.", joined(inputs)));
     let noise = match report.model_error {
-        0.0 => {
-            "The prediction covers the noise of the instrument only; `--model-error LENGTH` adds the errors \
+        0.0 => format!(
+            "The prediction covers the noise of the instrument only; `{MODEL_ERROR_LENGTH}` adds the errors \
              that the model does not have, from an earlier fit."
-        }
-        _ => "The model error is a root mean square, independent between configurations.",
+        ),
+        _ => "The model error is a root mean square, independent between configurations.".to_owned(),
     };
     let unseen: Vec<String> = report
         .unseen

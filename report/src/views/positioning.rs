@@ -3,6 +3,7 @@
 use abbe_metrology::positioning::{
     Bidirectional, Characteristic, PositionResult, PositioningLine, Report, Unidirectional,
 };
+use abbe_spec::option::{READING_UNCERTAINTY, SCALE_UNCERTAINTY};
 use abbe_study::number::digits;
 
 use crate::document::{Document, Section, Table, joined, number, words};
@@ -173,10 +174,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     facts.push((
         "±",
         match report.instrument {
-            None => {
-                "not known: `--reading-uncertainty` and `--scale-uncertainty` state those of the instrument"
-                    .to_owned()
-            }
+            None => format!(
+                "not known: `{READING_UNCERTAINTY}` and `{SCALE_UNCERTAINTY}` state those of the instrument"
+            ),
             Some([reading, scale]) => format!(
                 "expanded uncertainty, k = 2, to first order: {} {unit} of a reading, {} {unit}/{} of the \
                  scale (standard uncertainties)",

@@ -1,5 +1,7 @@
 //! Rules for names.
 
+use std::fmt::Display;
+
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, Item};
 use crate::expr::{FUNCTION_NAMES, UNIT_NAMES};
@@ -37,7 +39,7 @@ pub(super) fn check_manipulator_name(name: &str, at: crate::diagnostic::Span, do
 }
 
 /// Checks the name of a manipulator that is not in a file; diagnostics name `path`.
-pub fn check_name(path: &str, name: &str) -> Result<(), Diagnostics> {
+pub fn check_name(path: impl Display, name: &str) -> Result<(), Diagnostics> {
     let mut document = Document::new(path, name);
     check_manipulator_name(name, 0..name.len(), &mut document);
     document.finish(Some(()))

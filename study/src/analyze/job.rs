@@ -1,5 +1,6 @@
 //! The job: options, and how the report is computed.
 
+use abbe_spec::option::{DISABLE, ENABLE, Q, SCALE, SET};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -54,10 +55,10 @@ impl Analyze {
     /// Makes further changes. Published figures belong to the unchanged machine and are dropped.
     pub fn change(&mut self, changes: &Changes, notes: &mut dyn Notes) {
         if !changes.is_empty() && self.study.remove_published() {
-            notes.note(
-                "published figures are not compared: --set, --enable, --disable and --scale define \
-                 a different machine",
-            );
+            notes.note(&format!(
+                "published figures are not compared: {SET}, {ENABLE}, {DISABLE} and {SCALE} define \
+                 a different machine"
+            ));
         }
         self.machine.change(changes);
         self.machine.add_uncertainties();
@@ -69,7 +70,7 @@ impl Analyze {
     pub fn restrict(&mut self, q: Vec<f64>, notes: &mut dyn Notes) {
         self.q = Some(number::exact_variables(&q, &self.machine.spec));
         if self.study.restrict(q) {
-            notes.note("published figures are not compared: --q defines another workspace");
+            notes.note(&format!("published figures are not compared: {Q} defines another workspace"));
         }
     }
 

@@ -1,5 +1,6 @@
 //! The sweep over the workspace: data gathered chunk by chunk, and the report on all of it.
 
+use abbe_spec::option::{MONTE_CARLO, Q};
 use std::ops::Range;
 
 use abbe::analysis::{
@@ -344,10 +345,10 @@ impl Sweep<'_> {
         let reasons = unreachable::unreachable_summary(&budget.unreachable, &self.machine.spec);
         let (what, help) = match self.study.region.form {
             Form::One(_) => {
-                ("the configuration of --q is not", "change it, or widen the limits of the joints")
+                (format!("the configuration of {Q} is not"), "change it, or widen the limits of the joints")
             }
             _ => (
-                "no configuration of the workspace is",
+                "no configuration of the workspace is".to_owned(),
                 "move or shrink the workspace of the study, or widen the limits of the joints",
             ),
         };
@@ -372,7 +373,7 @@ impl Sweep<'_> {
         if let Some(tolerance) = self.study.tolerance.filter(|tolerance| neglected > tolerance / 10.0) {
             notes.warn(&format!(
                 "first order differs from the exact chain by up to {}, more than a tenth of the \
-                 tolerance of {}; see --monte-carlo",
+                 tolerance of {}; see {MONTE_CARLO}",
                 length(neglected),
                 length(tolerance),
             ));

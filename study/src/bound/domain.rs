@@ -1,5 +1,6 @@
 //! The enclosing box of a workspace.
 
+use abbe_spec::option::SET;
 use std::sync::Arc;
 
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
@@ -44,8 +45,10 @@ impl Domain {
                     "{moving} joints, parameters and inputs vary; a bound can be computed for up \
                      to {MOST_NAMES}"
                 ),
-                "fix some of them: use a study whose workspace is a `grid`, which varies only the \
-                 joints that it names, or fix inputs by `--set`",
+                format!(
+                    "fix some of them: use a study whose workspace is a `grid`, which varies only the \
+                 joints that it names, or fix inputs by `{SET}`"
+                ),
             ));
         }
         Ok(domain)

@@ -1,5 +1,6 @@
 //! Report of a bound.
 
+use abbe_spec::option::{BOXES, TIME};
 use std::sync::Arc;
 
 use abbe::{Class, Orientation};
@@ -344,7 +345,7 @@ impl Report {
         if !self.complete {
             notes.warn(&format!(
                 "the gap of {} was not reached everywhere: the bounds hold, but may be far above \
-                 the maximum; --boxes and --time allow more work",
+                 the maximum; {BOXES} and {TIME} allow more work",
                 number::percent(self.gap, 1.0)
             ));
         }

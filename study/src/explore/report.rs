@@ -109,6 +109,7 @@ pub struct LiveVariable {
     /// `revolute` or `prismatic`.
     pub kind: &'static str,
     /// Lower and upper limit, in the length unit or rad; infinite without one.
+    #[serde(serialize_with = "crate::finite::or_null")]
     pub limits: [f64; 2],
     /// Value at home, in the length unit or rad.
     pub home: f64,
@@ -124,6 +125,7 @@ pub struct LiveInput {
     /// Nominal value, in coherent units.
     pub nominal: f64,
     /// Lower and upper end of its range, in coherent units; infinite without one.
+    #[serde(serialize_with = "crate::finite::or_null")]
     pub range: [f64; 2],
     /// Coherent unit; empty for a pure number or an angle.
     pub unit: String,

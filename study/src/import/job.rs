@@ -1,5 +1,6 @@
 //! Job of `abbe import`.
 
+use abbe_spec::option::{DH_MODIFIED, DH_STANDARD};
 use std::path::PathBuf;
 
 use abbe_exchange::import::AngleRounding;
@@ -29,8 +30,10 @@ impl Import {
         let is_table = self.file.extension().is_some_and(|ending| ending == "csv" || ending == "tsv");
         if is_table && matches!(self.format, Format::Urdf { .. }) {
             let message = "the convention of these Denavit-Hartenberg numbers is unknown";
-            let help = "give it: `--dh standard`, Rz(theta) Tz(d) Tx(a) Rx(alpha), or `--dh \
-                modified`, Rx(alpha) Tx(a) Rz(theta) Tz(d)";
+            let help = format!(
+                "give it: `{DH_STANDARD}`, Rz(theta) Tz(d) Tx(a) Rx(alpha), or `{DH_MODIFIED}`, Rx(alpha) \
+                 Tx(a) Rz(theta) Tz(d)"
+            );
             return Err(mistake::with_help(self.file.display(), message, help));
         }
         self.read(Document::read(&self.file)?, notes)

@@ -41,6 +41,7 @@ mod machine_tool;
 mod mounting;
 mod mutants;
 mod operations;
+mod options;
 mod other_tool;
 mod paths;
 mod plain_signs;

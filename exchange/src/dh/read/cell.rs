@@ -4,6 +4,7 @@ use abbe::LengthUnit;
 use abbe_spec::diagnostic::{Diagnostic, Span};
 use abbe_spec::document::Document;
 use abbe_spec::expr::{Dimension, LARGEST, UNIT_NAMES};
+use abbe_spec::option::{UNITS_MM_DEG, option};
 use abbe_spec::value::parse_value;
 
 use super::columns::{Column, Columns};
@@ -89,14 +90,15 @@ impl Cells<'_> {
             Some(Unit::Length(LengthUnit::Metre)) => Some(number * 1e3),
             Some(Unit::Length(LengthUnit::Millimetre)) => Some(number / 1e3),
             None => {
-                let (what, option) = if is_length { ("length", "mm") } else { ("angle", "deg") };
+                let (what, unit) = if is_length { ("length", "mm") } else { ("angle", "deg") };
                 // Reported once, not for every cell.
                 let message = format!("the unit of this {what} is unknown");
                 if document.found.iter().all(|mistake| mistake.message != message) {
                     let help = format!(
-                        "give it: `--units {option}`, or both as in `--units mm,deg`; or write it \
-                         in the heading: `{} ({option})`",
-                        &whole[column.span.clone()]
+                        "give it: `{units}`, or both as in `{UNITS_MM_DEG}`; or write it \
+                         in the heading: `{} ({unit})`",
+                        &whole[column.span.clone()],
+                        units = option("units", unit)
                     );
                     document.mistake(Diagnostic::new(cell, message).help(help));
                 }

@@ -4,6 +4,7 @@ use abbe::LengthUnit;
 use abbe_spec::DhConvention;
 use abbe_spec::diagnostic::{Diagnostic, Span};
 use abbe_spec::document::Document;
+use abbe_spec::option::DH_MODIFIED;
 
 use super::heading::{Heading, Quantity, Unit};
 use super::text::Text;
@@ -56,7 +57,7 @@ impl Columns {
                 let message = format!("`{name}` is a column of the modified convention");
                 document.mistake(
                     Diagnostic::new(span.clone(), message)
-                        .help("read the table in that convention: `--dh modified`"),
+                        .help(format!("read the table in that convention: `{DH_MODIFIED}`")),
                 );
                 return None;
             }

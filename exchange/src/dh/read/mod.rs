@@ -16,6 +16,7 @@ use abbe_spec::DhConvention;
 use abbe_spec::diagnostic::{Diagnostic, listed};
 use abbe_spec::document::Document;
 use abbe_spec::notes::Notes;
+use abbe_spec::option::option;
 
 use self::cell::Cells;
 use self::columns::Columns;
@@ -94,6 +95,6 @@ fn check_convention(text: &Text, convention: DhConvention, document: &mut Docume
     }
     let other = stated.name();
     let mistake = Diagnostic::new(span.clone(), format!("this table declares the convention {other}"));
-    document.mistake(mistake.help(format!("read it in that convention: `--dh {other}`")));
+    document.mistake(mistake.help(format!("read it in that convention: `{dh}`", dh = option("dh", other))));
     None
 }

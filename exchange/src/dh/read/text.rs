@@ -1,5 +1,6 @@
 //! Finds a table in a text: its heading, its rows, and remarks around it.
 
+use abbe_spec::option::DH;
 use std::path::Path;
 
 use abbe_spec::DhConvention;
@@ -203,6 +204,6 @@ fn no_table(text: &str) -> Diagnostic {
         true => "this is XML, not a table",
         false => "this file has no table of Denavit-Hartenberg numbers",
     };
-    let help = if start.starts_with('<') { "leave out `--dh` for URDF" } else { help };
+    let help = if start.starts_with('<') { &format!("leave out `{DH}` for URDF") } else { help };
     Diagnostic::new(line, message).label("expected a heading").help(help)
 }

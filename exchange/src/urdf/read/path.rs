@@ -5,6 +5,7 @@ use abbe_spec::as_identifier;
 use abbe_spec::diagnostic::{Diagnostic, listed};
 use abbe_spec::document::Document;
 use abbe_spec::notes::Notes;
+use abbe_spec::option::{BASE, BASE_LINK, FOLD, NamedOption, TIP, TIP_LINK};
 use abbe_spec::value::find_name;
 
 use super::robot::{Joint, JointKind, Link, Robot};
@@ -35,11 +36,11 @@ pub(super) fn chain(
 ) -> Option<Chain> {
     let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
     let base = match &ends.base {
-        Some(name) => find_link("--base", name, &names, document)?,
+        Some(name) => find_link(BASE, name, &names, document)?,
         None => tree.root(),
     };
     let tip = match &ends.tip {
-        Some(name) => find_link("--tip", name, &names, document)?,
+        Some(name) => find_link(TIP, name, &names, document)?,
         None => only_tip(tree, &names, document)?,
     };
     let path = tree.path(base, tip);
@@ -51,8 +52,8 @@ pub(super) fn chain(
     if frames.is_empty() {
         let message = format!("there is no moving joint between `{}` and `{}`", names[base], names[tip]);
         let help = match path.is_empty() {
-            true => "choose a tip after a moving joint",
-            false => "choose a tip after a moving joint, or leave out `--fold`",
+            true => "choose a tip after a moving joint".to_owned(),
+            false => format!("choose a tip after a moving joint, or leave out `{FOLD}`"),
         };
         document.mistake(Diagnostic::new(tree.link(tip).span.clone(), message).help(help));
         return None;
@@ -82,11 +83,11 @@ pub(super) fn chain(
 }
 
 /// Returns the index of the link that an option names; another name is a mistake.
-fn find_link(option: &str, name: &str, names: &[&str], document: &mut Document) -> Option<usize> {
+fn find_link(option: NamedOption, name: &str, names: &[&str], document: &mut Document) -> Option<usize> {
     let found = names.iter().position(|link| *link == name);
     if found.is_none() {
         // The mistake is in the option, and has no span in the file.
-        let mut argument = Document::new(option, name);
+        let mut argument = Document::new(option.to_string(), name);
         find_name(&mut argument, 0..name.len(), name, names, "link");
         let help = argument.found.into_iter().find_map(|mistake| mistake.help).unwrap_or_default();
         let message = format!("`{option}`: there is no link `{}`", name.escape_debug());
@@ -102,7 +103,7 @@ fn only_tip(tree: &Tree<'_>, names: &[&str], document: &mut Document) -> Option<
         ref several => {
             let several: Vec<&str> = several.iter().map(|&tip| names[tip]).collect();
             document.mistake(Diagnostic::whole_file("this robot has more than one tip link").help(format!(
-                "choose the link of the tool point: `--tip LINK`, one of {}",
+                "choose the link of the tool point: `{TIP_LINK}`, one of {}",
                 listed(&several)
             )));
             None
@@ -144,10 +145,10 @@ impl<'r> Builder<'r> {
                 JointKind::Fixed => continue,
                 JointKind::Planar | JointKind::Floating => {
                     let message = format!("the joint `{}` moves in several directions", joint.name);
-                    document.mistake(Diagnostic::new(joint.span.clone(), message).help(
+                    document.mistake(Diagnostic::new(joint.span.clone(), message).help(format!(
                         "write it as several joints, or begin the chain after it: \
-                                `--base LINK`",
-                    ));
+                                `{BASE_LINK}`"
+                    )));
                     return None;
                 }
                 JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {}

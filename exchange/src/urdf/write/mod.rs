@@ -2,6 +2,7 @@
 
 mod edit;
 
+use abbe_spec::option::{BASE, BASE_LINK, TIP, TIP_LINK};
 use std::path::Path;
 
 use abbe::analysis::sampling;
@@ -55,12 +56,11 @@ pub fn write(machine: &RealMachine, file: &Path, ends: &Ends) -> Result<ExportRe
     let read = document.finish(read)?;
     let mut left_out: Vec<String> = machine.held_at_mean().into_iter().collect();
     if joints.last().is_some_and(|joint| joint.axis.is_some()) {
-        left_out.push(
+        left_out.push(format!(
             "The last link is the child of a moving joint, so the file has no origin after it: of \
              the errors there it holds the rotation about the joint axis and the translation \
-             along it. To represent all, choose with `--tip` a link that is fixed to the last one."
-                .to_owned(),
-        );
+             along it. To represent all, choose with `{TIP}` a link that is fixed to the last one."
+        ));
     }
     left_out.push(
         "Shapes, masses and branches beside the chain stay unchanged relative to their links.".to_owned(),
@@ -113,7 +113,10 @@ impl Model {
                 names.len(),
                 spec.variables.len()
             );
-            return refused(message, "choose the ends of the chain of the spec: `--base LINK --tip LINK`");
+            return refused(
+                message,
+                &format!("choose the ends of the chain of the spec: `{BASE_LINK} {TIP_LINK}`"),
+            );
         }
         let variable = |(i, name): (usize, &&str)| {
             let index = spec.variables.iter().position(|variable| variable.name == *name).unwrap_or(i);
@@ -165,8 +168,10 @@ impl Model {
             );
             return refused(
                 message,
-                "check that `--base` and `--tip` name the ends of the spec's chain, and that the \
-                 zeros of the joints are the same",
+                &format!(
+                    "check that `{BASE}` and `{TIP}` name the ends of the spec's chain, and that the \
+                 zeros of the joints are the same"
+                ),
             );
         }
         Ok(model)

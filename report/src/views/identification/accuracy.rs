@@ -2,6 +2,7 @@
 
 use abbe_metrology::identify::{Gain, Report, shown_lines};
 use abbe_spec::expr::Symbol;
+use abbe_spec::option::TEST_FILE;
 use abbe_spec::{Fitted, Spec};
 use abbe_study::number::{self, counted, digits, error_unit, fixed, percent};
 
@@ -12,9 +13,9 @@ pub(super) fn accuracy(spec: &Spec, report: &Report) -> Section {
     let validation = match &report.test {
         Some(_) if report.test_rows_of_the_fit > 0 => None,
         Some(_) => Some("The test rows were used for validation only.".to_owned()),
-        None => Some(
-            "On held-out rows: the cross-validation; `--test FILE` validates on separate data.".to_owned(),
-        ),
+        None => {
+            Some(format!("On held-out rows: the cross-validation; `{TEST_FILE}` validates on separate data."))
+        }
     };
     let outliers = (!report.rejected.is_empty()).then(|| {
         format!("Outliers left out: {} rows, lines {}.", report.rejected.len(), shown_lines(&report.rejected))

@@ -2,6 +2,7 @@
 
 use abbe_metrology::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes};
 use abbe_spec::Spec;
+use abbe_spec::option::FULL;
 use abbe_study::number::{counted, digits, error_unit, fixed};
 
 use crate::document::{Section, Table, first, number, words};
@@ -167,7 +168,7 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
     facts.extend(extrapolation(report).map(|sentence| ("Outside", sentence)));
     let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.p_of_lag_1 <= drift.false_alarms;
     let drift = report.drift.iter().filter(is_found);
-    facts.extend(drift.map(|drift| ("Drift", format!("{}; see --full", drift.summary))));
+    facts.extend(drift.map(|drift| ("Drift", format!("{}; see {FULL}", drift.summary))));
     facts.extend(first_rows(&report.files));
     facts.extend(first_notes(&report.notes));
     facts

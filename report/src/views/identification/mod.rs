@@ -6,6 +6,7 @@ mod answer;
 use abbe_metrology::data::Map;
 use abbe_metrology::identify::{Indistinguishable, Kind, Parameter, Report, Sizes};
 use abbe_spec::Spec;
+use abbe_spec::option::PRIOR;
 use abbe_study::number::{digits, error_unit, fixed};
 
 use super::shared::{NOTES, accepted, angle_in_mrad, data_rows, instrument, notes};
@@ -95,7 +96,7 @@ fn machine(report: &Report) -> Section {
     let correlated = (!report.correlations.is_empty())
         .then(|| format!("Correlated by more than 0.9: {}{more}.", joined(correlated)));
     let prior = report.parameters.iter().any(|parameter| parameter.hardly_known).then(|| {
-        "Prior-dominated: the prior has more influence on these errors than the data (`--prior`).".to_owned()
+        format!("Prior-dominated: the prior has more influence on these errors than the data (`{PRIOR}`).")
     });
     let meanings = report.meanings.iter().map(|meaning| meaning.sentence.clone());
     let magnitudes = report.magnitudes.iter().map(|one| one.sentence.clone());

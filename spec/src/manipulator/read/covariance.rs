@@ -1,5 +1,6 @@
 //! `[covariance]`: the covariance of the errors of an identified machine.
 
+use crate::option::IDENTIFY_OUT;
 use abbe_core::Component;
 
 use super::keys::{COVARIANCE, COVARIANCE_OF};
@@ -47,7 +48,7 @@ pub(super) fn read_covariance(
     } else {
         return Some(Covariance { of: all, rows });
     };
-    let help = "`abbe identify --out` writes this table; remove it if the covariance is unknown";
+    let help = format!("`{IDENTIFY_OUT}` writes this table; remove it if the covariance is unknown");
     document.mistake(Diagnostic::new(rows_item.span(), message).help(help));
     None
 }

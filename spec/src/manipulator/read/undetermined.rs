@@ -1,5 +1,6 @@
 //! `[undetermined]`: the errors of an identified machine that its measurements could not determine.
 
+use crate::option::IDENTIFY_OUT;
 use abbe_core::Component;
 
 use super::keys::{UNDETERMINED, UNDETERMINED_OF};
@@ -30,7 +31,7 @@ pub(super) fn read_undetermined(
         all.push(undetermined(&item, frames, sources, document)?);
     }
     let count = all.len();
-    let help = "`abbe identify --out` writes this table; remove it if everything is determined";
+    let help = format!("`{IDENTIFY_OUT}` writes this table; remove it if everything is determined");
     if rows.iter().any(|row| row.len() != count) {
         let message = format!("each of these directions must have {count} numbers");
         document.mistake(Diagnostic::new(rows_item.span(), message).help(help));

@@ -1,5 +1,6 @@
 //! File format of parts, described in `docs/scale.md`.
 
+use abbe_spec::option::SHARD;
 use std::path::Path;
 
 use abbe_spec::bounded::{Bounded, Unfit};
@@ -31,10 +32,7 @@ impl Part {
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Diagnostics> {
         let wrong = |message: &str, help: &str| mistake::with_help(name, message, help);
         let Some(rest) = bytes.strip_prefix(BEGINNING.as_bytes()) else {
-            return Err(wrong(
-                "this is not a part of an analysis",
-                "`abbe analyze SPEC --shard I/N --out FILE` writes one",
-            ));
+            return Err(wrong("this is not a part of an analysis", &format!("`{SHARD}` writes one")));
         };
         let damaged =
             || wrong("this part is damaged: its checksum differs", "create it again, or copy it again");

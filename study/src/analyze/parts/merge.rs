@@ -1,5 +1,6 @@
 //! Merges parts.
 
+use abbe_spec::option::{DISABLE, ENABLE, SCALE, SET, SHARD_NUMBER, shard_command};
 use std::sync::Arc;
 
 use abbe_spec::diagnostic::Diagnostics;
@@ -95,7 +96,7 @@ fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Pa
         } else if part.shard.count() != first.shard.count() {
             let [one, other] = [first.shard.count(), part.shard.count()];
             let message = format!("this is one of {other} parts, but {first_name} is one of {one}");
-            (message, "merge the parts of one division: use the same N in `--shard I/N`".to_owned())
+            (message, format!("merge the parts of one division: use the same N in `{SHARD_NUMBER}`"))
         } else {
             continue;
         };
@@ -117,8 +118,8 @@ fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Pa
         let is = if missing.len() == 1 { "part" } else { "parts" };
         let message = format!("missing: {is} {shown}{more}");
         let help = format!(
-            "create it: `abbe analyze {} --shard {shard} --out FILE`, with the same options",
-            first.request.spec
+            "create it: `{}`, with the same options",
+            shard_command(&first.request.spec, shard.number(), shard.count())
         );
         return Err(mistake::with_help("merge", message, help));
     }
@@ -126,17 +127,17 @@ fn sorted_and_complete(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Pa
 }
 
 /// Describes the first difference between two questions.
-fn difference(one: &Part, other: &Part) -> &'static str {
+fn difference(one: &Part, other: &Part) -> String {
     let (a, b) = (&one.request, &other.request);
     let text = |file: &Option<super::FileText>| file.as_ref().map(|file| file.text.clone());
-    if a.spec_text.is_none() && b.spec_text.is_none() && a.spec != b.spec
+    let difference = if a.spec_text.is_none() && b.spec_text.is_none() && a.spec != b.spec
         || text(&a.spec_text) != text(&b.spec_text)
     {
         "the specs differ"
     } else if text(&a.study) != text(&b.study) {
         "the studies differ"
     } else if a.changes != b.changes {
-        "the changes by --set, --enable, --disable or --scale differ"
+        return format!("the changes by {SET}, {ENABLE}, {DISABLE} or {SCALE} differ");
     } else if a.seed != b.seed {
         "the seeds differ"
     } else if a.monte_carlo != b.monte_carlo {
@@ -147,5 +148,6 @@ fn difference(one: &Part, other: &Part) -> &'static str {
         "one was computed by the interpreter, the other by generated code"
     } else {
         "other input files differ"
-    }
+    };
+    difference.to_owned()
 }

@@ -31,6 +31,7 @@ pub struct UncertaintyBudget {
     /// Combined standard uncertainties u.
     pub standard_uncertainty: [f64; 4],
     /// Effective degrees of freedom; infinite if all standard uncertainties are exact.
+    #[serde(serialize_with = "crate::finite::or_null")]
     pub effective_degrees_of_freedom: [f64; 4],
     /// Coverage probability of U.
     pub coverage_probability: f64,
@@ -65,6 +66,7 @@ pub struct SourceUncertainty {
     /// Standard uncertainties u.
     pub standard_uncertainty: [f64; 4],
     /// Degrees of freedom of the standard uncertainty; infinite if it is exact.
+    #[serde(serialize_with = "crate::finite::or_null")]
     pub degrees_of_freedom: f64,
     /// Share of the variance of the norm, from 0 to 1.
     pub share: f64,

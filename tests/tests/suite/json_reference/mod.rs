@@ -110,8 +110,7 @@ fn compare(shapes: &Shapes, shape: &Shape, value: &Value, path: &str, problems: 
     let fits = match (shape, value) {
         (Shape::Boolean, value) => value.is_boolean(),
         (Shape::Integer, value) => value.is_u64() || value.is_i64(),
-        // Infinite numbers are null.
-        (Shape::Number, value) => value.is_number() || value.is_null(),
+        (Shape::Number, value) => value.is_number(),
         (Shape::Text, value) => value.is_string(),
         (Shape::Choice(choices), value) => choices.iter().any(|(name, _)| value == name),
         (Shape::List(inner, length), Value::Array(list)) => {

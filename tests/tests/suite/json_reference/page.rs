@@ -18,8 +18,9 @@ same names are fields: `report.combined.radius`, `report.ledger.sources[0].max`;
 
 - Objects with fixed keys are groups, with a section each. In other objects the keys are names of the machine, such as
   those of its joint variables: `{\"q1\": 0.5, \"q2\": 0.0}`.
-- `optional` keys are left out where they do not apply; `or null` values are null there. A number that is infinite is
-  null.
+- `optional` keys are left out where they do not apply; `or null` values are null there, or where they are infinite.
+- `statements` are the sentences of a report by name: `answer` is the first line of its text. Names stay; words may
+  change, and a sentence that does not apply is left out.
 - The unit `length unit` is that of the spec, which most reports name as `length`: `\"mm\"`. `coherent` is the length
   unit for lengths, rad for angles, and the unit that the spec names for parameters and inputs. `1` is a number
   without a unit. Names in code, such as `` `unit` ``, are keys of the same group that hold the unit. Vectors are

@@ -128,6 +128,12 @@ impl<'s> Shapes<'s> {
             None => self.shape(of_type, within),
             Some("class" | "distribution") => Shape::Text,
             Some("is_met") => Shape::Boolean,
+            Some("crate::finite::or_null" | "abbe_study::finite::or_null") => {
+                match self.shape(of_type, within) {
+                    Shape::List(inner, length) => Shape::List(Box::new(Shape::Optional(inner)), length),
+                    number => Shape::Optional(Box::new(number)),
+                }
+            }
             Some("serialize_values") => Shape::Map(Box::new(Shape::Number)),
             Some(other) => panic!("{}: {other} is not in the table", within.name),
         };
