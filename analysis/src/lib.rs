@@ -3,13 +3,14 @@
 //!
 //! | folder | contents |
 //! |---|---|
-//! | `workspace` | [`Workspace`]: configurations by index, as grids and samples of joints, a presented volume, a box, a list |
-//! | `reach` | [`inverse()`] brings the tool to a target, [`InverseKinematics`] finds all solutions, [`compensated()`] the real tool; [`obstacle()`] explains a remaining error |
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and visits every [`Row`] in order; nothing is stored |
 //! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), of all together ([`Combined`]), and the admissible sizes for a tolerance ([`Admissible`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
 //! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met |
 //! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |
+//!
+//! The configurations are those of [`abbe_kinematics`], which is a part of this module: workspaces
+//! and inverse kinematics.
 //!
 //! [`identifiable()`] counts the generalized errors that measurements can identify,
 //! [`identifiable_in_parts`] those of a chain of any length.
@@ -37,16 +38,12 @@
 //! ```
 
 mod budget;
-pub mod decompose;
 mod identifiable;
 mod measurand;
 mod normal;
 mod random;
-mod reach;
-pub mod sampling;
 mod sweep;
 mod uncertainty;
-mod workspace;
 
 #[cfg(test)]
 #[path = "../../runtime/core/src/by_hand/mod.rs"]
@@ -58,6 +55,7 @@ mod tests;
 mod thorough;
 
 pub use abbe_core::lanes::Sweepable;
+pub use abbe_kinematics::*;
 pub use budget::{
     Admissible, Budget, BudgetOptions, BudgetSweep, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures,
     Gap, OrientationErrors, PartialBudget, SourceErrors, Sphere, Watch, covariance, error_budget, variance,
@@ -68,18 +66,8 @@ pub use identifiable::{
 pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
-use reach::Inverse;
-pub use reach::{
-    InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
-};
-pub use sweep::{BLOCK, Row, Unevaluated, in_order, in_order_until, sweep};
+pub use sweep::{BLOCK, Row, Unevaluated, UnreachableSummary, in_order, in_order_until, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Residual, Statement,
     compliance, errors_at, normal_compliance, student_95,
-};
-pub use workspace::{
-    Axis, BaseBox, Configuration, JointGrid, JointSamples, Legs, Listed, PlatformGrid, Presentation,
-    PresentedVolume, ReachedBox, Subset, ToolOrientation, Unreachable, UnreachableSummary, WithInputs,
-    Workspace, base_box, joint_grid, joint_samples, listed, platform_grid, presented_volume,
-    random_joint_samples, with_inputs,
 };

@@ -3,10 +3,10 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::by_hand::{Pps, Puma};
-use super::sampling::grid;
 use super::*;
 use abbe_core::Manipulator;
 use abbe_core::lanes::OneByOne;
+use abbe_kinematics::sampling::grid;
 
 mod blocks;
 mod combined;

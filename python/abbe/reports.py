@@ -1337,7 +1337,7 @@ class IdentifyReport(Report):
     gap: float | None
     """Ratio of the smallest significant singular value to the largest insignificant one; none if all are significant."""
 
-    condition: float
+    condition: float | None
     """Condition number of the kept columns of the design matrix, each scaled to unit length."""
 
     observability: Indices
@@ -2465,7 +2465,7 @@ class PlanReport(Report):
     not_known: list[WeaklyDetermined]
     """Errors that these rows will determine poorly compared with their prior."""
 
-    condition: float
+    condition: float | None
     """Condition number of the kept columns of the design matrix, each scaled to unit length."""
 
     log_det: float
@@ -3080,7 +3080,7 @@ class SourceUncertainty(Fields):
     Unit: length unit or rad.
     """
 
-    degrees_of_freedom: float
+    degrees_of_freedom: float | None
     """Degrees of freedom of the standard uncertainty; infinite if it is exact."""
 
     share: float
@@ -3184,7 +3184,7 @@ class TermGain(Fields):
     after: float
     """Root mean square residual of a coordinate in cross-validation with the group, in the length unit."""
 
-    f: float
+    f: float | None
     """F statistic of the group, with configurations as independent samples."""
 
     p: float
@@ -3335,7 +3335,7 @@ class UncertaintyBudget(Fields):
     Unit: length unit or rad.
     """
 
-    effective_degrees_of_freedom: list[float]
+    effective_degrees_of_freedom: list[float | None]
     """Effective degrees of freedom; infinite if all standard uncertainties are exact."""
 
     coverage_probability: float

@@ -19,7 +19,7 @@ pub(crate) fn analysis(
 ) -> PyResult<Py<Report>> {
     let report = Arc::new(report);
     let drawn = Arc::clone(&report);
-    let found = Report::of("analyze", &report, notes, budget)?;
+    let found = Report::from_document("analyze", &report, notes, budget)?;
     let found = found.with_figures(move || abbe_report::figures(&drawn));
     let found = found.with_pages(move || {
         let live = live.as_ref().map(|live| live.run(&mut ())).transpose()?;

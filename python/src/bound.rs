@@ -69,6 +69,6 @@ impl Machine {
             job.time = time;
             job.run(notes)
         })?;
-        Report::of("bound", &Arc::new(report), notes, views::bound)?.create(py)
+        Report::from_document("bound", &Arc::new(report), notes, views::bound)?.create(py)
     }
 }

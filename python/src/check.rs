@@ -23,6 +23,6 @@ impl Machine {
     fn check(&self, py: Python<'_>) -> PyResult<Py<Report>> {
         let job = Check { machine: self.machine.clone() };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
-        Report::of("check", &Arc::new(report), notes, views::check)?.create(py)
+        Report::from_document("check", &Arc::new(report), notes, views::check)?.create(py)
     }
 }

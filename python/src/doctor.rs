@@ -66,7 +66,7 @@ impl Machine {
         let corrected = || report.corrected(&self.unchanged.spec, &self.text()?, CORRECTED);
         let corrected = guarded(|| corrected().map_err(|mistakes| spec_error(py, &mistakes)))?;
         pages.extend(corrected.map(|spec| (CORRECTED.to_owned(), spec)));
-        let found = Report::of("doctor", &Arc::new(report), notes, views::doctor)?;
+        let found = Report::from_document("doctor", &Arc::new(report), notes, views::doctor)?;
         found.with_spec(CORRECTED).with_pages(move || Ok(pages.clone())).create(py)
     }
 }

@@ -168,7 +168,7 @@ impl Machine {
         let job = Export { machine: self.machine.clone(), format, samples, seed };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
         let files: Vec<_> = report.files.iter().map(|file| (file.name.clone(), file.text.clone())).collect();
-        let found = Report::of("export", &Arc::new(report), notes, views::exported)?;
+        let found = Report::from_document("export", &Arc::new(report), notes, views::exported)?;
         found.with_pages(move || Ok(files.clone())).create(py)
     }
 }

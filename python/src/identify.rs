@@ -81,7 +81,7 @@ impl Machine {
         let spec_text = self.text();
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
         let document = move |report: &_| views::identification(&spec, &map, report);
-        let found = Report::of("identify", &report, notes, document)?.with_spec("found.toml");
+        let found = Report::from_document("identify", &report, notes, document)?.with_spec("found.toml");
         let found = found.with_pages(move || {
             let Identify { machine, map, .. } = &job;
             let test = unseen.iter().map(|test| ("test", test.source()));

@@ -53,7 +53,7 @@ impl Machine {
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
         let document = move |report: &_| views::measurement(&spec, &map, report);
-        let found = Report::of("measure", &report, notes, document)?.with_rows(report.table());
+        let found = Report::from_document("measure", &report, notes, document)?.with_rows(report.table());
         let found = found.with_pages(move || {
             let spec = &job.machine.spec;
             let provenance = Provenance::new(spec, Some(&job.map), [("measurements", measured.source())])?;

@@ -52,7 +52,7 @@ impl Machine {
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec.clone(), job.map.clone());
         let document = move |report: &_| views::monitoring(&spec, &map, report);
-        let found = Report::of("monitor", &report, notes, document)?.with_pages(move || {
+        let found = Report::from_document("monitor", &report, notes, document)?.with_pages(move || {
             let files = measured.iter().map(|check| ("check", check.source()));
             let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files)?;
             let live = Explore::measured(job.machine.clone(), report.residuals.clone()).run(&mut ())?;

@@ -61,7 +61,8 @@ impl Machine {
         })?;
         let (report, spec, map) = (Arc::new(report), job.machine.spec, job.map.clone());
         let document = move |report: &_| views::plan(&spec, &map, report);
-        let found = Report::of("plan", &report, notes, document)?.with_rows(report.table(&job.map));
+        let found =
+            Report::from_document("plan", &report, notes, document)?.with_rows(report.table(&job.map));
         let found = found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())]));
         found.create(py)
     }

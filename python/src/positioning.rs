@@ -40,7 +40,7 @@ pub(crate) fn positioning(
         Positioning { data: measured.source(), reading, scale }.run(notes)
     })?;
     let rows = report.table();
-    let found = Report::of("positioning", &Arc::new(report), notes, views::positioning)?;
+    let found = Report::from_document("positioning", &Arc::new(report), notes, views::positioning)?;
     match rows {
         Some(rows) => found.with_rows(rows),
         None => found,

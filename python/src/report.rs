@@ -56,8 +56,8 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    /// Returns a report with its fields, and the text and the sentences of its document.
-    pub(crate) fn of<R: Serialize + Send + Sync + 'static>(
+    /// Creates a report with its fields, and the text and the sentences of its document.
+    pub(crate) fn from_document<R: Serialize + Send + Sync + 'static>(
         kind: &str,
         report: &Arc<R>,
         messages: Vec<String>,

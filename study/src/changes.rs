@@ -29,7 +29,7 @@ impl Changes {
         let named = [("set", set), ("enable", enable), ("disable", disable), ("scale", scale)];
         let stated = named.iter().flat_map(|(name, texts)| texts.iter().map(|text| (*name, text.clone())));
         let mut changes = Self { stated: stated.collect(), ..Self::default() };
-        each_line(SET, set, |document, span| {
+        each_line(&SET, set, |document, span| {
             let line = document.text[span.clone()].to_owned();
             let Some((name, _)) = line.split_once('=') else {
                 let mistake = Diagnostic::new(span, "expected NAME=VALUE").help(format!("write `{SET_X}`"));
@@ -43,13 +43,13 @@ impl Changes {
                 changes.set(document, value, spec, symbol, number);
             }
         })?;
-        for (option, names, on) in [(ENABLE, enable, true), (DISABLE, disable, false)] {
+        for (option, names, on) in [(&ENABLE, enable, true), (&DISABLE, disable, false)] {
             each_line(option, names, |document, span| {
                 let name = document.text[span.clone()].to_owned();
                 changes.switch(document, span, &name, spec, on);
             })?;
         }
-        each_line(SCALE, scale, |document, span| changes.scale(document, span, spec))?;
+        each_line(&SCALE, scale, |document, span| changes.scale(document, span, spec))?;
         Ok(changes)
     }
 
@@ -224,7 +224,7 @@ pub fn find_symbol(
 /// Parses all values of an option as lines of one document, so that all mistakes are reported at
 /// once.
 fn each_line(
-    option: NamedOption,
+    option: &NamedOption,
     values: &[String],
     mut read: impl FnMut(&mut Document, Span),
 ) -> Result<(), Diagnostics> {

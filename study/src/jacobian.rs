@@ -170,11 +170,8 @@ pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnos
     if spans.len() != spec.variables.len() {
         let names = spec.variables.iter().map(|variable| variable.name.as_str()).collect::<Vec<_>>();
         let message = format!("expected {} joint variables, found {}", names.len(), spans.len());
-        let help = if names.is_empty() {
-            format!("omit {Q}").into()
-        } else {
-            format!("the order is {}", names.join(","))
-        };
+        let help =
+            if names.is_empty() { format!("omit {Q}") } else { format!("the order is {}", names.join(",")) };
         document.mistake(Diagnostic::new(0..text.len(), message).help(help));
         return document.finish(None);
     }

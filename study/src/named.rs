@@ -18,7 +18,7 @@ pub fn is_path(argument: &Path) -> bool {
 /// Reads a file, or the shipped document with that name. `folder` is the folder of the shipped
 /// documents, `what` their kind in messages.
 pub fn document(
-    option: NamedOption,
+    option: &NamedOption,
     argument: &Path,
     shipped: &[(&str, &str)],
     folder: &str,

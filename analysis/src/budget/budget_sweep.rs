@@ -6,10 +6,10 @@ use super::partial_budget::PartialBudget;
 use super::partial_errors::{self, InitialErrors, PartialErrors, SampleErrors};
 use super::{Budget, BudgetOptions, OrientationErrors, Watch};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
-use crate::workspace::One;
 use crate::{Measurand, ReachError, Subset, Workspace};
 use abbe_core::Class;
 use abbe_core::lanes::{InstructionSet, Kernel, Register, Sweepable};
+use abbe_kinematics::One;
 
 /// Smallest and largest number of configurations from which the error sphere and ellipsoid are
 /// initialized, about one of 256.

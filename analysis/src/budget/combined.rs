@@ -284,7 +284,7 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::sampling::halton;
+    use abbe_kinematics::sampling::halton;
 
     /// Counts covariances whose largest eigenvalue the criterion misjudges.
     struct Misjudged;

@@ -325,7 +325,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::sampling::{halton, norm};
+    use abbe_kinematics::sampling::{halton, norm};
 
     fn cloud(count: usize) -> Vec<[f64; 3]> {
         let point = |i| core::array::from_fn(|k| (k + 1) as f64 * (halton(i, k) - 0.5) + 10.0);

@@ -5,10 +5,10 @@ mod parts;
 
 use nalgebra::DMatrix;
 
-use super::decompose::singular_values;
 use super::{Configuration, Unevaluated, sampling};
 use abbe_core::twist;
 use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
+use abbe_kinematics::decompose::singular_values;
 
 pub use in_parts::identifiable_in_parts;
 pub use parts::Parts;

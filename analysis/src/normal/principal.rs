@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SymmetricEigen};
 
-use crate::decompose::symmetric_eigen;
+use abbe_kinematics::decompose::symmetric_eigen;
 
 /// Relative variance below which an axis counts as constant: the error lies in a plane or on a
 /// line.

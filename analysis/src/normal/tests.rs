@@ -6,8 +6,8 @@ use rand::RngExt;
 use rand_distr::StandardNormal;
 
 use super::{NormalVector, PROBABILITY_ERROR, StudentVector};
-use crate::sampling::stream;
 use crate::thorough::{sample_size, thorough};
+use abbe_kinematics::sampling::stream;
 
 fn vector(mean: [f64; 3], [x, y, z]: [f64; 3]) -> NormalVector {
     NormalVector::new(mean, [[x * x, 0.0, 0.0], [0.0, y * y, 0.0], [0.0, 0.0, z * z]])

@@ -1,11 +1,11 @@
 //! Monte Carlo simulation at one configuration, on the exact chain with exact rotations.
 
 use super::Quantile;
-use crate::sampling::{draw, norm, stream};
 use crate::sweep::in_order;
-use crate::workspace::One;
 use crate::{Configuration, Ellipsoid, Measurand, Sweepable, Unevaluated, covariance, sweep};
 use abbe_core::{Class, Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
+use abbe_kinematics::One;
+use abbe_kinematics::sampling::{draw, norm, stream};
 
 /// Number of draws per stream of random numbers and per block.
 const DRAWS: usize = 4096;

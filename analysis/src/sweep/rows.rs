@@ -3,10 +3,10 @@
 use super::block::Block;
 use super::in_order::in_order;
 use super::{Row, Unevaluated};
-use crate::workspace::STREAM;
 use crate::{Configuration, UnreachableSummary, Workspace};
 use abbe_core::lanes::Sweepable;
 use abbe_core::{Error, Quantity, checks};
+use abbe_kinematics::STREAM;
 
 /// Number of configurations evaluated at once: few enough for the displacements to stay in the
 /// cache, and as many as share one stream of random numbers.

@@ -7,9 +7,9 @@ use super::correction::{Correction, Residual};
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
 use crate::Measurand;
 use crate::normal::{NormalVector, ONE_SIDED_95, PROBABILITY_ERROR};
-use crate::sampling::{norm, stream};
 use crate::sweep::in_order;
 use abbe_core::{Class, Description};
+use abbe_kinematics::sampling::{norm, stream};
 
 /// Coverage probability of an expanded uncertainty.
 pub const COVERAGE: f64 = 0.95;

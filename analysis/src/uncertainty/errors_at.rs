@@ -3,12 +3,12 @@
 use rand::{Rng, RngExt};
 use rand_distr::StudentT;
 
-use crate::sampling::draw;
 use crate::sweep::sweep;
-use crate::workspace::One;
 use crate::{Configuration, Measurand, Unevaluated};
 use abbe_core::lanes::Sweepable;
 use abbe_core::{Class, Description, Distribution, Error, Source};
+use abbe_kinematics::One;
+use abbe_kinematics::sampling::draw;
 
 /// Errors of every source at one configuration, to first order.
 #[derive(Clone, Debug, PartialEq)]

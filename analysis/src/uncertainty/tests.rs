@@ -6,10 +6,10 @@ use rand_distr::ChiSquared;
 use super::errors_at::{RandomError, covariance};
 use super::statement::degrees_of_freedom;
 use super::*;
-use crate::sampling::{draw, norm, stream};
 use crate::thorough::{sample_size, thorough};
 use crate::{Measurand, NormalVector, StudentVector};
 use abbe_core::{Class, Description, Distribution, LengthUnit, List, Orientation, Source, Text};
+use abbe_kinematics::sampling::{draw, norm, stream};
 
 /// Returns a machine without frames that has these sources.
 fn machine(sources: Vec<Source>) -> Description {

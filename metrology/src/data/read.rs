@@ -28,7 +28,7 @@ use abbe_study::{RunRecord, check_date, named};
 impl Map {
     /// Reads the map in a file, or the shipped map of that name.
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
-        let document = named::document(MAP, argument, abbe_manipulators::MAPS, "maps", "shipped map")?;
+        let document = named::document(&MAP, argument, abbe_manipulators::MAPS, "maps", "shipped map")?;
         Self::from_document(document, spec)
     }
 

@@ -57,7 +57,7 @@ impl Sets {
     /// Reads the plan in a file, or the shipped one with that name.
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
         let mut document =
-            named::document(SETS, argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
+            named::document(&SETS, argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
         let sets = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));

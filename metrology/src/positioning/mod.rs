@@ -122,9 +122,9 @@ impl Positioning<'_> {
         if self.reading.is_none() && self.scale.is_none() {
             return Ok(None);
         }
-        let value = |option: NamedOption, text: &Option<String>, dimension: Dimension| {
+        let value = |option: &NamedOption, text: &Option<String>, dimension: Dimension| {
             let Some(text) = text else { return Ok(0.0) };
-            let mut document = Document::new(&option, text.as_str());
+            let mut document = Document::new(option, text.as_str());
             let name = format!("`{option}`");
             let value = parse_value(&mut document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
             let value = document.finish(value)?;
@@ -138,8 +138,8 @@ impl Positioning<'_> {
             Ok(value)
         };
         let dimension = if is_rotary { Dimension::NONE } else { Dimension::LENGTH };
-        let reading = value(READING_UNCERTAINTY, &self.reading, dimension)?;
-        let scale = value(SCALE_UNCERTAINTY, &self.scale, Dimension::NONE)?;
+        let reading = value(&READING_UNCERTAINTY, &self.reading, dimension)?;
+        let scale = value(&SCALE_UNCERTAINTY, &self.scale, Dimension::NONE)?;
         Ok(Some(match is_rotary {
             true => InstrumentUncertainty { reading: 3600.0 * reading.to_degrees(), scale: 3600.0 * scale },
             false => InstrumentUncertainty { reading: 1e3 * reading, scale: 1e3 * scale },

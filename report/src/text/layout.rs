@@ -1,5 +1,6 @@
 //! Facts beside their names, and aligned columns.
 
+use super::table::columns;
 use super::wrapped;
 
 /// Column at which the text of a fact begins.
@@ -16,19 +17,48 @@ pub(crate) fn fact(name: &str, text: &str) -> String {
 }
 
 /// Aligns cells in columns, two spaces from the margin and three apart. The columns `right` are
-/// flush right; empty columns are left out.
+/// flush right; empty columns are left out. What has no room stands below, from the second column
+/// on.
 pub(crate) fn aligned(rows: &[Vec<String>], right: &[bool]) -> String {
     let length = |cell: &String| cell.chars().count();
     let widest = |j| rows.iter().filter_map(|row| row.get(j)).map(length).max().unwrap_or_default();
     let width: Vec<usize> = (0..right.len()).map(widest).collect();
+    let below = format!("\n{:1$}", "", 5 + width.first().copied().unwrap_or_default());
     let line = |row: &Vec<String>| {
-        let mut line = String::new();
+        let (mut line, mut end) = (String::new(), 0);
         for (j, cell) in row.iter().enumerate().filter(|(j, _)| width[*j] > 0) {
+            let gap = if end == 0 { 2 } else { 3 };
+            end += gap + width[j];
+            if end > columns() && !line.is_empty() {
+                end = below.len() - 1 + width[j];
+                line.truncate(line.trim_end().len());
+                line += if cell.is_empty() { "" } else { &below };
+            } else {
+                line += &" ".repeat(gap);
+            }
             let fill = " ".repeat(width[j] - length(cell));
-            let gap = if line.is_empty() { "  " } else { "   " };
-            line += &if right[j] { format!("{gap}{fill}{cell}") } else { format!("{gap}{cell}{fill}") };
+            line += &if right[j] { fill + cell } else { format!("{cell}{fill}") };
         }
         line.trim_end().to_owned() + "\n"
     };
     rows.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::table::at_width;
+    use super::aligned;
+
+    #[test]
+    fn what_has_no_room_stands_below() {
+        let row = |cells: [&str; 4]| cells.map(str::to_owned).to_vec();
+        let long = "a sentence of forty letters and no more";
+        let rows = [row(["one", "1.0", long, long]), row(["two", "12.0", "", "short"])];
+        let text = at_width(100, || aligned(&rows, &[false, true, false, false]));
+        assert!(text.lines().count() == 2 && text.lines().all(|line| line.len() <= 100), "{text}");
+        let text = at_width(60, || aligned(&rows, &[false, true, false, false]));
+        let expected =
+            ["  one    1.0   ", long, "\n        ", long, "\n  two   12.0\n        short\n"].concat();
+        assert_eq!(text, expected);
+    }
 }

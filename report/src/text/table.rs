@@ -14,6 +14,11 @@ pub const WIDTH: usize = 100;
 /// Widths that text can have: in fewer columns tables are unreadable, in more sentences are.
 const WIDTHS: RangeInclusive<usize> = 60..=160;
 
+/// Returns the width of text in columns.
+pub(super) fn columns() -> usize {
+    COLUMNS.get()
+}
+
 thread_local! {
     static COLUMNS: Cell<usize> = const { Cell::new(WIDTH) };
 }

@@ -38,7 +38,7 @@ impl Study {
 
     /// Reads the study in a file, or the shipped one with that name.
     pub(crate) fn document(argument: &Path) -> Result<Document, Diagnostics> {
-        named::document(STUDY, argument, abbe_manipulators::STUDIES, "studies", "shipped study")
+        named::document(&STUDY, argument, abbe_manipulators::STUDIES, "studies", "shipped study")
     }
 
     /// Returns the study file beside a user's spec, if it exists: `arm.study.toml` beside

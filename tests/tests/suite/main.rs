@@ -44,7 +44,7 @@ mod operations;
 mod options;
 mod other_tool;
 mod paths;
-mod plain_signs;
+
 mod proof;
 mod random;
 mod reach;
@@ -55,5 +55,6 @@ mod schemas;
 mod selected_models;
 mod structured_text;
 mod tables;
+mod terminals;
 mod verdict;
 mod voice;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::voice::sources;
 
-/// Returns `true` if a line of code has the text of an option: two dashes and a letter after a quote,
-/// a backquote, a parenthesis or a space.
+/// Returns `true` if a line of code has the text of an option: two dashes and a letter after a
+/// quote, a backquote, a parenthesis or a space.
 fn has_option(line: &str) -> bool {
     let code = line.trim_start();
     let mut rest = if code.starts_with("//") { "" } else { code };

@@ -36,11 +36,11 @@ pub(super) fn chain(
 ) -> Option<Chain> {
     let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
     let base = match &ends.base {
-        Some(name) => find_link(BASE, name, &names, document)?,
+        Some(name) => find_link(&BASE, name, &names, document)?,
         None => tree.root(),
     };
     let tip = match &ends.tip {
-        Some(name) => find_link(TIP, name, &names, document)?,
+        Some(name) => find_link(&TIP, name, &names, document)?,
         None => only_tip(tree, &names, document)?,
     };
     let path = tree.path(base, tip);
@@ -83,7 +83,7 @@ pub(super) fn chain(
 }
 
 /// Returns the index of the link that an option names; another name is a mistake.
-fn find_link(option: NamedOption, name: &str, names: &[&str], document: &mut Document) -> Option<usize> {
+fn find_link(option: &NamedOption, name: &str, names: &[&str], document: &mut Document) -> Option<usize> {
     let found = names.iter().position(|link| *link == name);
     if found.is_none() {
         // The mistake is in the option, and has no span in the file.

@@ -213,7 +213,7 @@ impl Kernel for Even<'_> {
 }
 
 /// Number of configurations whose values of a variable come from one stream.
-pub(crate) const STREAM: usize = 64;
+pub const STREAM: usize = 64;
 
 /// Returns a random number within limits.
 #[inline]

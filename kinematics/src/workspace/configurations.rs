@@ -75,7 +75,8 @@ pub trait Workspace: Sync {
 }
 
 /// Workspace of a single configuration.
-pub(crate) struct One<'a>(pub(crate) &'a Configuration);
+#[derive(Debug)]
+pub struct One<'a>(pub &'a Configuration);
 
 impl Workspace for One<'_> {
     fn len(&self) -> usize {

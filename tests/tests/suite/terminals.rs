@@ -1,10 +1,11 @@
-//! Plain signs: every sign in a text of a report has one in ASCII.
+//! What terminals have: every sign in a text of a report has one in ASCII, and answers fit 80
+//! columns.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use abbe_report::text::Detail;
+use abbe_report::text::{Detail, at_width};
 use abbe_report::{budget, plain, views};
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
@@ -45,5 +46,19 @@ fn plain_reports_are_ascii() {
         let faults: Vec<&str> =
             faults.chain(text.lines().filter(|line| line.chars().count() > 100)).collect();
         assert!(faults.is_empty() && !usual.is_ascii(), "{faults:?}");
+    }
+}
+
+#[test]
+fn answers_fit_a_terminal_of_80_columns() {
+    for name in ["pps", "ur5", "machine3", "hexapod"] {
+        let machine = Machine::find(name).unwrap();
+        let checked = Check { machine: machine.clone() }.run(&mut ()).unwrap();
+        let study = Study::find(None, &machine).unwrap();
+        let analyzed = Analyze::new(machine, study).run(&mut ()).unwrap();
+        for document in [views::check(&checked), budget(&analyzed)] {
+            let text = at_width(80, || document.text(Detail::Answer));
+            assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+        }
     }
 }

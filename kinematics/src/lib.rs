@@ -1,0 +1,29 @@
+//! Configurations of a manipulator: workspaces and their samples, and the joint variables that
+//! bring the tool to a target, for any [`Manipulator`](abbe_core::Manipulator).
+//!
+//! | module | contents |
+//! |---|---|
+//! | `workspace` | [`Workspace`]: configurations by index, as grids and samples of joints, a presented volume, a box, a list |
+//! | `reach` | [`inverse()`] brings the tool to a target, [`InverseKinematics`] finds all solutions, [`compensated()`] the real tool; [`obstacle()`] explains a remaining error |
+//! | [`sampling`] | sample points and random errors, the same on every machine |
+//! | [`decompose`] | singular values and eigenvectors |
+
+pub mod decompose;
+mod reach;
+pub mod sampling;
+mod workspace;
+
+#[cfg(test)]
+#[path = "../../runtime/core/src/by_hand/mod.rs"]
+mod by_hand;
+
+use reach::Inverse;
+pub use reach::{
+    InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
+};
+pub use workspace::{
+    Axis, BaseBox, Configuration, JointGrid, JointSamples, Legs, Listed, One, PlatformGrid, Presentation,
+    PresentedVolume, ReachedBox, STREAM, Subset, ToolOrientation, Unreachable, WithInputs, Workspace,
+    base_box, joint_grid, joint_samples, listed, platform_grid, presented_volume, random_joint_samples,
+    with_inputs,
+};
