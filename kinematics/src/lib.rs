@@ -4,10 +4,12 @@
 //! | module | contents |
 //! |---|---|
 //! | `workspace` | [`Workspace`]: configurations by index, as grids and samples of joints, a presented volume, a box, a list |
+//! | `configuration` | [`Configuration`]: joint variables, structural parameters and inputs |
 //! | `reach` | [`inverse()`] brings the tool to a target, [`InverseKinematics`] finds all solutions, [`compensated()`] the real tool; [`obstacle()`] explains a remaining error |
 //! | [`sampling`] | sample points and random errors, the same on every machine |
 //! | [`decompose`] | singular values and eigenvectors |
 
+mod configuration;
 pub mod decompose;
 mod reach;
 pub mod sampling;
@@ -17,13 +19,13 @@ mod workspace;
 #[path = "../../runtime/core/src/by_hand/mod.rs"]
 mod by_hand;
 
+pub use configuration::Configuration;
 use reach::Inverse;
 pub use reach::{
     InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
 };
 pub use workspace::{
-    Axis, BaseBox, Configuration, JointGrid, JointSamples, Legs, Listed, One, PlatformGrid, Presentation,
-    PresentedVolume, ReachedBox, STREAM, Subset, ToolOrientation, Unreachable, WithInputs, Workspace,
-    base_box, joint_grid, joint_samples, listed, platform_grid, presented_volume, random_joint_samples,
-    with_inputs,
+    Axis, BaseBox, JointGrid, JointSamples, Legs, Listed, One, PlatformGrid, Presentation, PresentedVolume,
+    ReachedBox, STREAM, Subset, ToolOrientation, Unreachable, WithInputs, Workspace, base_box, joint_grid,
+    joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
 };

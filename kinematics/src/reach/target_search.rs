@@ -115,7 +115,7 @@ impl<'a> Problem<'a> {
         free: &[usize],
     ) -> Result<Self, ReachError> {
         let variables = &manipulator.description().variables;
-        crate::workspace::in_range(free.iter().copied(), Quantity::Variables, variables.len())?;
+        crate::configuration::in_range(free.iter().copied(), Quantity::Variables, variables.len())?;
         if start.len() != variables.len() {
             let (expected, found) = (variables.len(), start.len());
             return Err(Error::Count { quantity: Quantity::Variables, expected, found }.into());

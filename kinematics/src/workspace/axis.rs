@@ -1,7 +1,5 @@
 //! Axes of a grid: values of variables, parameters or inputs, and their combinations.
 
-use abbe_core::{Error, Quantity};
-
 /// Values of one variable, parameter or input along an axis of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -27,18 +25,4 @@ pub(super) fn combine(mut number: usize, axes: &[Axis], values: &mut [f64]) -> u
         number /= count;
     }
     number
-}
-
-/// Returns [`Error::Count`] if an index is `count` or more.
-pub(crate) fn in_range(
-    indices: impl Iterator<Item = usize>,
-    quantity: Quantity,
-    count: usize,
-) -> Result<(), Error> {
-    match indices.max() {
-        Some(largest) if largest >= count => {
-            Err(Error::Count { quantity, expected: count, found: largest + 1 })
-        }
-        _ => Ok(()),
-    }
 }

@@ -1,7 +1,9 @@
 //! A box of points in the base frame, each reached by inverse kinematics.
 
-use super::axis::{combinations, combine, in_range};
-use super::{Axis, Configuration, Workspace};
+use super::axis::{combinations, combine};
+use super::{Axis, Workspace};
+use crate::Configuration;
+use crate::configuration::in_range;
 use crate::{Inverse, ReachError, Target};
 use abbe_core::{Error, Manipulator, Pose, Quantity};
 

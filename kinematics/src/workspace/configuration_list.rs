@@ -1,6 +1,7 @@
 //! A list of configurations.
 
-use super::{Configuration, Workspace};
+use super::Workspace;
+use crate::Configuration;
 use crate::ReachError;
 use abbe_core::{Error, Manipulator, Quantity};
 

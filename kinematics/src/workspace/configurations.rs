@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::Configuration;
+use crate::Configuration;
 use crate::ReachError;
 use abbe_core::lanes::Tiles;
 

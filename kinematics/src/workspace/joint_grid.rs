@@ -1,8 +1,10 @@
 //! Grids of joint variables.
 
-use super::axis::{combinations, combine, in_range};
-use super::{Axis, Configuration, Workspace};
+use super::axis::{combinations, combine};
+use super::{Axis, Workspace};
+use crate::Configuration;
 use crate::ReachError;
+use crate::configuration::in_range;
 use abbe_core::{Error, Manipulator, Quantity};
 
 /// Workspace of a grid of joint variables; see [`joint_grid`].

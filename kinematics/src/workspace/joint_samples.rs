@@ -4,9 +4,10 @@ use core::ops::Range;
 
 use rand::{Rng, RngExt};
 
-use super::axis::in_range;
-use super::{Configuration, Workspace};
+use super::Workspace;
+use crate::Configuration;
 use crate::ReachError;
+use crate::configuration::in_range;
 use crate::sampling::{self, RadicalInverses, stream};
 use abbe_core::lanes::{Kernel, Register, Tiles};
 use abbe_core::{Error, Manipulator, Quantity};

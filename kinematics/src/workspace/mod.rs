@@ -6,7 +6,6 @@
 
 mod axis;
 mod base_box;
-mod configuration;
 mod configuration_list;
 mod configurations;
 mod joint_grid;
@@ -18,9 +17,7 @@ mod unreachable;
 mod with_inputs;
 
 pub use axis::Axis;
-pub(crate) use axis::in_range;
 pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
-pub use configuration::Configuration;
 pub use configuration_list::{Listed, listed};
 pub use configurations::{One, Workspace};
 pub use joint_grid::{JointGrid, joint_grid};

@@ -3,9 +3,11 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::axis::{combinations, combine, in_range};
-use super::{Axis, Configuration, Workspace};
+use super::axis::{combinations, combine};
+use super::{Axis, Workspace};
+use crate::Configuration;
 use crate::ReachError;
+use crate::configuration::in_range;
 use abbe_core::{Error, Manipulator, Quantity};
 
 type Lengths = dyn Fn(&[f64], &[f64]) -> Vec<f64> + Send + Sync;

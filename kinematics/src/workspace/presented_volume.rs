@@ -1,7 +1,9 @@
 //! The paper's workspace: a volume of tool points, each presented at a fixed point of the room.
 
-use super::axis::{combinations, combine, in_range};
-use super::{Axis, Configuration, Workspace};
+use super::axis::{combinations, combine};
+use super::{Axis, Workspace};
+use crate::Configuration;
+use crate::configuration::in_range;
 use crate::{ReachError, Target, inverse, sampling};
 use abbe_core::{Error, Manipulator, Quantity};
 

@@ -1,6 +1,7 @@
 //! Evenly spread subsets of a workspace.
 
-use super::{Configuration, Workspace};
+use super::Workspace;
+use crate::Configuration;
 use crate::ReachError;
 
 /// `1/φ`: its multiples modulo 1 are evenly spread, and align with no grid.

@@ -1,6 +1,6 @@
 //! Unreachable configurations of a workspace.
 
-use super::Configuration;
+use crate::Configuration;
 use crate::ReachError;
 
 /// Unreachable configuration of a workspace.

@@ -2,9 +2,11 @@
 
 use core::ops::Range;
 
-use super::axis::{combinations, combine, in_range};
-use super::{Axis, Configuration, Workspace};
+use super::axis::{combinations, combine};
+use super::{Axis, Workspace};
+use crate::Configuration;
 use crate::ReachError;
+use crate::configuration::in_range;
 use abbe_core::lanes::Tiles;
 use abbe_core::{Error, Manipulator, Quantity};
 

@@ -52,3 +52,6 @@ pub(crate) const CRATES: &[(&str, &str, &[&str])] = &[
 
 /// Cycles between files. Only remove entries from this list.
 pub(crate) const CIRCLES: &[&[&str]] = &[];
+
+/// Cycles between folders. Only remove entries from this list.
+pub(crate) const CIRCLES_OF_FOLDERS: &[&str] = &[];

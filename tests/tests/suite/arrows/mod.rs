@@ -4,6 +4,7 @@ mod circles;
 mod crates;
 mod files;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -105,4 +106,32 @@ fn files_of_a_crate_have_no_circles() {
         let is_there = found.iter().any(|found| found.iter().all(|file| circle.contains(&&**file)));
         assert!(is_there, "take this circle out of the list: it is no more\n  {}", circle.join("\n  "));
     }
+}
+
+/// The folders and files at the top of a crate: each is one, with all that it contains.
+#[test]
+fn folders_of_a_crate_have_no_circles() {
+    let mut found = Vec::new();
+    for (folder, ..) in CRATES {
+        let files = files(&root().join(folder).join("src"));
+        let rooms: Vec<&str> =
+            files.iter().filter_map(|file| file.module.first()).map(String::as_str).collect();
+        let rooms: Vec<&str> = rooms.into_iter().collect::<BTreeSet<_>>().into_iter().collect();
+        let room = |file: usize| {
+            rooms.iter().position(|room| files[file].module.first().is_some_and(|first| first == room))
+        };
+        let mut between = vec![Vec::new(); rooms.len()];
+        for (file, used) in files::arrows(&files).into_iter().enumerate() {
+            let others = used.into_iter().filter_map(room);
+            if let Some(own) = room(file) {
+                between[own].extend(others.filter(|other| *other != own));
+            }
+        }
+        let names =
+            |circle: Vec<usize>| circle.into_iter().map(|one| rooms[one]).collect::<Vec<_>>().join(", ");
+        found.extend(
+            circles::circles(&between).into_iter().map(|circle| format!("{folder}/src: {}", names(circle))),
+        );
+    }
+    assert_eq!(found, crates::CIRCLES_OF_FOLDERS, "these folders use each other");
 }

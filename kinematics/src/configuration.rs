@@ -1,7 +1,8 @@
-//! A configuration of a manipulator.
+//! A configuration of a manipulator, and the range of its indices.
+
+use abbe_core::{Description, Error, Quantity};
 
 use crate::sampling;
-use abbe_core::Description;
 
 /// Configuration: joint variables, structural parameters (which include the tool point), and
 /// inputs.
@@ -47,5 +48,19 @@ impl Configuration {
         self.q.copy_from_slice(&other.q);
         self.s.copy_from_slice(&other.s);
         self.u.copy_from_slice(&other.u);
+    }
+}
+
+/// Returns [`Error::Count`] if an index is `count` or more.
+pub(crate) fn in_range(
+    indices: impl Iterator<Item = usize>,
+    quantity: Quantity,
+    count: usize,
+) -> Result<(), Error> {
+    match indices.max() {
+        Some(largest) if largest >= count => {
+            Err(Error::Count { quantity, expected: count, found: largest + 1 })
+        }
+        _ => Ok(()),
     }
 }
