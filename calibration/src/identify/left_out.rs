@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::fit::REJECTED;
 use super::statistics::Scores;
-use super::{Factored, Failure, Fit, Folds, Model, Observation, Offer};
+use super::{CandidateTerms, Failure, Fit, Folds, Model, ModelTerm, Observation};
 
 /// Largest number of stored values: 48 MB.
 const NUMBERS: usize = 6_000_000;
@@ -59,14 +59,14 @@ impl LeftOut {
         data: &[Observation],
         fit: &Fit,
         folds: &Folds,
-        offer: &Offer,
+        candidates: &CandidateTerms,
     ) -> Result<Self, Failure> {
-        let plain = |unknown: &usize| Factored { unknown: *unknown, factor: None };
-        let mut terms: Vec<Factored> = fit.identifiable.kept.iter().map(plain).collect();
-        terms.extend(offer.taken);
+        let plain = |unknown: &usize| ModelTerm { unknown: *unknown, factor: None };
+        let mut terms: Vec<ModelTerm> = fit.identifiable.kept.iter().map(plain).collect();
+        terms.extend(candidates.taken);
         let taken = terms.len();
         let mut groups = Vec::new();
-        for group in offer.groups {
+        for group in candidates.groups {
             groups.push(terms.len()..terms.len() + group.len());
             terms.extend(group);
         }
@@ -81,11 +81,11 @@ impl LeftOut {
             let first = at;
             for &i in fold {
                 let weight = fit.weights[i].sqrt();
-                let factors = (offer.factors)(&data[i]);
+                let factors = (candidates.factors)(&data[i]);
                 // f(here) ∂g(here) − f(there) ∂g(there), for a number that refers to another row.
-                let there = data[i].from().map(offer.factors);
+                let there = data[i].from().map(candidates.factors);
                 model.linear_by_row(&mut scratch, &data[i], &x, |residual, derivatives, of_there| {
-                    for (j, Factored { unknown, factor }) in terms.iter().enumerate() {
+                    for (j, ModelTerm { unknown, factor }) in terms.iter().enumerate() {
                         let here = factor.map_or(1.0, |factor| factors[factor]);
                         let mut derivative = derivatives[*unknown] * here;
                         if let (Some(factor), Some(there), false) = (factor, &there, of_there.is_empty()) {

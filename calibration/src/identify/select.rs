@@ -1,7 +1,7 @@
 //! Forward selection of terms by cross-validation.
 
 use super::left_out::LeftOut;
-use super::{FTest, Failure, Fit, Folds, Model, Observation, Offer};
+use super::{CandidateTerms, FTest, Failure, Fit, Folds, Model, Observation};
 
 /// A selected group of terms.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,10 +32,10 @@ pub fn select(
     data: &[Observation],
     fit: &Fit,
     folds: &Folds,
-    offer: &Offer,
+    candidates: &CandidateTerms,
     proceed: &mut dyn FnMut() -> bool,
 ) -> Result<Vec<Selection>, Failure> {
-    let mut left_out = LeftOut::new(model, data, fit, folds, offer)?;
+    let mut left_out = LeftOut::new(model, data, fit, folds, candidates)?;
     let mut selections: Vec<Selection> = Vec::new();
     while proceed() {
         let before = left_out.squares();
@@ -44,7 +44,7 @@ pub fn select(
             break;
         }
         let test = left_out.scores(group).test(left_out.freedom());
-        if test.p * offer.groups.len() as f64 > offer.chance {
+        if test.p * candidates.groups.len() as f64 > candidates.chance {
             break;
         }
         let rms = |squares: f64| (squares / left_out.numbers().max(1) as f64).sqrt();

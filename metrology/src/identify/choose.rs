@@ -2,7 +2,9 @@
 
 use std::time::Instant;
 
-use abbe::identify::{Comparison, Factored, Folds, Model, Observation, Offer, Selection, Unknown, select};
+use abbe::identify::{
+    CandidateTerms, Comparison, Folds, Model, ModelTerm, Observation, Selection, Unknown, select,
+};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 
@@ -159,21 +161,21 @@ impl Selector<'_> {
             self.tried += stage.len();
             notes.go_on()?;
             let factored = |group: &Vec<Term>| group.iter().filter_map(|term| self.factored(term)).collect();
-            let taken: Vec<Factored> = chosen
+            let taken: Vec<ModelTerm> = chosen
                 .groups
                 .iter()
                 .flat_map(|(group, _)| group)
                 .filter_map(|term| self.factored(term))
                 .collect();
-            let groups: Vec<Vec<Factored>> = stage.iter().map(factored).collect();
-            let offer = Offer {
+            let groups: Vec<Vec<ModelTerm>> = stage.iter().map(factored).collect();
+            let candidates = CandidateTerms {
                 taken: &taken,
                 groups: &groups,
                 factors: &values,
                 chance: CHANCE / stages.len() as f64,
             };
             let mut proceed = || !self.is_over();
-            let selected = select(&self.model, rows, &self.solved.fit, &folds, &offer, &mut proceed);
+            let selected = select(&self.model, rows, &self.solved.fit, &folds, &candidates, &mut proceed);
             let selected = selected.map_err(|failure| diagnose(&failure, data))?;
             let group = |selection: Selection| (stage[selection.group].clone(), selection);
             chosen.groups.extend(selected.into_iter().map(group));
@@ -182,7 +184,7 @@ impl Selector<'_> {
     }
 
     /// Returns the unknown and the factor of a term.
-    fn factored(&self, term: &Term) -> Option<Factored> {
+    fn factored(&self, term: &Term) -> Option<ModelTerm> {
         let Offered { carriers, factors } = &self.offered;
         let carrier = term.carrier();
         let unknown = match unknown_error(carrier) {
@@ -193,7 +195,7 @@ impl Selector<'_> {
             }
         };
         let factor = factors.iter().position(|basis| *basis == term.basis);
-        unknown.map(|unknown| Factored { unknown, factor })
+        unknown.map(|unknown| ModelTerm { unknown, factor })
     }
 }
 
