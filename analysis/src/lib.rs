@@ -46,7 +46,7 @@ mod sweep;
 mod uncertainty;
 
 #[cfg(test)]
-#[path = "../../runtime/core/src/by_hand/mod.rs"]
+#[path = "../../runtime/core/src/laws/tests/by_hand/mod.rs"]
 mod by_hand;
 #[cfg(test)]
 mod tests;

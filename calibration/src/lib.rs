@@ -10,5 +10,5 @@ pub mod control;
 pub mod identify;
 
 #[cfg(test)]
-#[path = "../../runtime/core/src/by_hand/mod.rs"]
+#[path = "../../runtime/core/src/laws/tests/by_hand/mod.rs"]
 mod by_hand;

@@ -48,8 +48,6 @@ pub mod sampling;
 
 #[cfg(test)]
 extern crate self as abbe_core;
-#[cfg(test)]
-mod by_hand;
 
 #[cfg(feature = "std")]
 pub use chain::open_pose;

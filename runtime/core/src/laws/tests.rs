@@ -1,7 +1,9 @@
 //! Laws hold for correct robots by a wide margin, and fail for wrong ones.
 
+mod by_hand;
+
+use self::by_hand::{Pps, Puma};
 use super::*;
-use crate::by_hand::{Pps, Puma};
 use crate::lanes::OneByOne;
 use crate::{Description, Error, Manipulator, Pose};
 
