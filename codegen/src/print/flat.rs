@@ -33,6 +33,7 @@ impl Flat<'_> {
         let Routine { arrays, stages, .. } = self.routine;
         let is_whole = |stage: &Stage| match stage {
             Stage::Block(block) => block.repeated.is_none() && block.writes.contains(&ArrayRows::all(array)),
+            Stage::Clear(_) => false,
             _ => true,
         };
         let first = stages.iter().find(|stage| stage.writes(array));

@@ -1,13 +1,16 @@
 //! Prints procedures: what is the same in every language.
 //!
-//! A language implements [`Printer`]: its assignments, loops, branches and calls.
+//! A language implements [`Printer`]: its assignments, loops, branches and calls, by which
+//! `routine` prints the statements of routines as well.
 
-use super::expression::{Binding, Expression, infix};
+use super::expression::{Binding, Expression, Value as Entry, infix};
+use super::flat::filled;
 use super::layout::Writer;
+use super::routine::Results;
 use crate::procedure::{
     Binary, Condition, Counter, Index, Kind, Procedure, Statement, Unary, Value, Variable, Whole,
 };
-use crate::program::{Array, Role, Routines};
+use crate::program::{Array, Role, Routine, Routines};
 
 /// A function of real numbers that a language spells in its own way.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -16,6 +19,20 @@ pub(super) enum Called {
     Root,
     Arctangent,
     Clamped,
+    Sine,
+    Cosine,
+}
+
+/// A call of a generated function, or of a helper of several functions.
+pub(super) struct Invocation {
+    pub(super) routine: &'static str,
+    pub(super) is_function: bool,
+    /// Names of the arguments: those of the routine, and those of the caller.
+    pub(super) given: Vec<(&'static str, String)>,
+    /// Names and sizes of the results, and the variables of the caller that take them.
+    pub(super) filled: Vec<(&'static str, usize, String)>,
+    /// `true` if variables of a procedure take the results.
+    pub(super) in_procedure: bool,
 }
 
 /// A language. Expressions have no branches.
@@ -28,6 +45,12 @@ pub(super) trait Printer {
     const HAS_LESS: bool = true;
     /// The statement that ends a loop before its time.
     const LEAVE: &'static str = "break;";
+    /// The sign of assignments, and the end of a statement.
+    const ASSIGN: [&'static str; 2] = ["=", ";"];
+    /// `true` if arrays without elements are no arguments.
+    const SKIPS_EMPTY: bool = false;
+    /// Memory of the results of functions.
+    const RESULTS: Results = Results::Created;
 
     fn writer(&mut self) -> &mut Writer;
 
@@ -43,8 +66,23 @@ pub(super) trait Printer {
     }
 
     /// Returns an element of an array.
-    fn element(&self, array: &str, index: &Index) -> String {
+    fn at(&self, array: &str, index: &str) -> String {
         format!("{array}[{index}]")
+    }
+
+    /// Returns the name of a table of the file.
+    fn constant(&self, name: &str) -> String {
+        name.to_owned()
+    }
+
+    /// Returns the name of an array of a routine.
+    fn array(&self, _: &Routine, name: &'static str) -> String {
+        name.to_owned()
+    }
+
+    /// Returns an element of an array as the value of a name.
+    fn read(&self, place: String, _: Role) -> String {
+        place
     }
 
     /// Returns a variable as a condition.
@@ -71,10 +109,68 @@ pub(super) trait Printer {
     fn comment(&mut self, text: &str);
 
     /// Prints an assignment. `sum` is the other term if the value is the place plus a term.
-    fn assign(&mut self, place: &str, value: &str, sum: Option<&str>);
+    fn assign(&mut self, place: &str, value: &str, _sum: Option<&str>) {
+        let [sign, end] = Self::ASSIGN;
+        self.writer().lines(&format!("{place} {sign} {value}{end}"));
+    }
+
+    /// Prints assignments of entries.
+    fn assign_all(&mut self, entries: &[(String, &Entry)]) {
+        let sign = Self::ASSIGN[0];
+        let entries = entries.iter().map(|(place, value)| format!("{place} {sign} {}", value.text));
+        filled(self.writer(), "", &entries.collect::<Vec<_>>(), "; ");
+    }
+
+    /// Binds names to values.
+    fn bind(&mut self, bindings: &[(String, String)]) {
+        bindings.iter().for_each(|(name, value)| self.assign(name, value, None));
+    }
+
+    /// Binds names to sines and cosines.
+    fn sines(&mut self, pairs: &[([String; 2], Expression)]) {
+        for ([sine, cosine], angle) in pairs {
+            let [s, c] = [Called::Sine, Called::Cosine]
+                .map(|called| Expression::call(&self.function(called), std::slice::from_ref(angle)).text);
+            self.bind(&[(sine.clone(), s), (cosine.clone(), c)]);
+        }
+    }
+
+    /// Declares a local array of zeros.
+    fn zeros(&mut self, name: &str, len: usize) {
+        self.clear(name, len);
+    }
+
+    /// Declares a local array without values, where the language has such declarations.
+    fn declare(&mut self, _name: &str, _len: usize) {}
+
+    /// Fills an array with zeros.
+    fn clear(&mut self, name: &str, len: usize) {
+        let (place, zero) = (self.at(name, "k"), self.number(0.0).text);
+        self.repeat("k", &[0.into(), len.into()], false, |printer| printer.assign(&place, &zero, None));
+    }
+
+    /// Declares a local array with values, given as its entries.
+    fn create(&mut self, name: &str, entries: &[(String, &Entry)]) {
+        self.zeros(name, entries.len());
+        let others = entries.iter().filter(|(_, value)| !value.is_zero).cloned();
+        self.assign_all(&others.collect::<Vec<_>>());
+    }
 
     /// Prints a copy of an array.
-    fn copy(&mut self, to: &str, from: &str, len: usize);
+    fn copy(&mut self, to: &str, from: &str, len: usize) {
+        self.copy_rows(to, from, [0, len], len, false);
+    }
+
+    /// Prints a copy of a range of an array that has `len` elements; a `fresh` array is declared.
+    fn copy_rows(&mut self, to: &str, from: &str, [first, behind]: [usize; 2], _len: usize, fresh: bool) {
+        if fresh {
+            self.declare(to, behind - first);
+        }
+        let at = if first == 0 { "k".to_owned() } else { format!("k + {first}") };
+        let [to, from] = [self.at(to, "k"), self.at(from, &at)];
+        let range = [0.into(), (behind - first).into()];
+        self.repeat("k", &range, false, |printer| printer.assign(&to, &from, None));
+    }
 
     /// Returns the head of a loop over a range.
     fn loop_head(&self, counter: &str, range: &[Index; 2], is_descending: bool) -> String;
@@ -100,8 +196,28 @@ pub(super) trait Printer {
     /// Prints the call of a procedure.
     fn call(&mut self, procedure: &'static str, arguments: &[&'static str], result: &Variable);
 
-    /// Prints the call of a generated function, which ends the procedure where it has no value.
-    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]);
+    /// Prints the call of a generated function, which ends the caller where it has no value.
+    fn invoke(&mut self, call: &Invocation);
+
+    /// Returns the routines of the file.
+    fn routines(&self) -> &Routines;
+
+    /// Prints a loop over a range.
+    fn repeat(
+        &mut self,
+        counter: &str,
+        range: &[Index; 2],
+        is_descending: bool,
+        body: impl FnOnce(&mut Self),
+    ) {
+        let head = self.loop_head(counter, range, is_descending);
+        self.writer().begin(&head);
+        body(self);
+        self.writer().end();
+        if !Self::LOOP_END.is_empty() {
+            self.writer().lines(Self::LOOP_END);
+        }
+    }
 
     fn statements(&mut self, list: &[Statement]) {
         list.iter().for_each(|statement| self.statement(statement));
@@ -134,18 +250,16 @@ pub(super) trait Printer {
             }
             Statement::Copy { to, from, len } => self.copy(to, from, *len),
             Statement::For { counter, range, is_descending, body } => {
-                let head = self.loop_head(counter.name(), range, *is_descending);
-                self.writer().begin(&head);
-                self.statements(body);
-                self.writer().end();
-                if !Self::LOOP_END.is_empty() {
-                    self.writer().lines(Self::LOOP_END);
-                }
+                let print = |printer: &mut Self| printer.statements(body);
+                self.repeat(counter.name(), range, *is_descending, print);
             }
             Statement::If { condition, body } => self.branch(condition, body),
             Statement::Leave(condition) => self.leave(condition),
             Statement::Call { procedure, arguments, result } => self.call(procedure, arguments, result),
-            Statement::Evaluate { function, q, results } => self.evaluate(function, q, results),
+            Statement::Evaluate { function, q, results } => {
+                let call = evaluated(self.routines(), function, q, results, Self::SKIPS_EMPTY);
+                self.invoke(&call);
+            }
         }
     }
 
@@ -157,7 +271,7 @@ pub(super) trait Printer {
         match value {
             Value::Number(value) => self.number(*value),
             Value::Name(name) => Expression::name((*name).to_owned()),
-            Value::Element(array, index) => Expression::name(self.element(array, index)),
+            Value::Element(array, index) => Expression::name(self.at(array, &index.to_string())),
             Value::Unary(Unary::Negative, operand) => {
                 // `-` binds less than `*` in some languages.
                 let text = format!("-{}", self.value(operand).at_least(Binding::Atom));
@@ -207,20 +321,26 @@ pub(super) trait Printer {
     }
 }
 
-/// Returns the arguments of a generated function that is called at joint variables `q`, and its
-/// results with the variables that take them: without empty arrays if `skips_empty`.
-pub(super) fn evaluated<'a>(
-    routines: &'a Routines,
-    function: &str,
+/// Returns the call of a generated function at joint variables `q`: without empty arrays if
+/// `skips_empty`.
+fn evaluated(
+    Routines { description, list, .. }: &Routines,
+    function: &'static str,
     q: &'static str,
-    results: &'a [&'static str],
+    results: &[&'static str],
     skips_empty: bool,
-) -> (Vec<&'static str>, Vec<(&'a Array, &'static str)>) {
-    let arrays = routines.named(function).arrays.iter();
-    let arrays = arrays.filter(|array| !(skips_empty && array.is_empty(&routines.description)));
+) -> Invocation {
+    let arrays = list.iter().filter(|routine| routine.name == function).flat_map(|routine| &routine.arrays);
+    let arrays = arrays.filter(|array| !(skips_empty && array.is_empty(description)));
     let of_role = |role| arrays.clone().filter(move |array| array.role == role);
-    let given = of_role(Role::Argument).map(|array| if array.name == "q" { q } else { array.name });
-    (given.collect(), of_role(Role::Result).zip(results.iter().copied()).collect())
+    let given = of_role(Role::Argument).map(|Array { name, .. }| {
+        let own = if *name == "q" { q } else { name };
+        (*name, own.to_owned())
+    });
+    let filled = of_role(Role::Result).zip(results);
+    let filled = filled.map(|(array, own)| (array.name, array.len(description), str::to_owned(own)));
+    let (given, filled) = (given.collect(), filled.collect());
+    Invocation { routine: function, is_function: true, given, filled, in_procedure: true }
 }
 
 /// Returns the arrays of some variables, with their sizes.

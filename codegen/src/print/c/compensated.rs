@@ -5,7 +5,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::{SIZE, documentation, head};
-use super::procedures::{CProcedure, helper};
+use super::procedures::{CPrinter, helper};
 use super::real::Real;
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
@@ -40,7 +40,7 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, routines: &Routines, 
     writer.blank();
     writer.lines(&head(routines, &COMPENSATED, real, SIZE));
     writer.open_alone();
-    let mut printer = CProcedure { writer, routines, real };
+    let mut printer = CPrinter { writer, routines, real };
     printer.declarations(&cycle);
     let upper = spec.name.to_ascii_uppercase();
     let infinity = real.number(f64::INFINITY);

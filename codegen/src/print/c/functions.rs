@@ -5,14 +5,13 @@ use abbe_core::function::Signature;
 use abbe_spec::Spec;
 
 use super::operators::C;
+use super::procedures::CPrinter;
 use super::real::Real;
-use crate::print::expression::{Expression, Value};
-use crate::print::flat::{Flat, filled};
+use crate::print::flat::Flat;
 use crate::print::layout::{LINE, Writer, width};
-use crate::print::statement::Statement;
+use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::print::text::harmless;
-use crate::program::{Array, ArrayRows, Checks, Role, Routine, Routines, Row, Stage};
+use crate::program::{Array, Checks, Role, Routine, Routines};
 
 /// Macro of the sizes of arrays that must not overlap others.
 pub(super) const RESTRICT: &str = "ABBE_RESTRICT";
@@ -114,16 +113,13 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
         None => helper_head(routines, routine, real),
     });
     writer.open_alone();
-    let mut printer = Printer { writer, flat: Flat { routines, routine }, prefix, real };
+    let flat = Flat { routines, routine };
     let checks = routines.checks(routine, real.largest());
-    printer.begin(&used, !list.is_empty(), &checks);
-    list.iter().for_each(|statement| printer.statement(statement));
-    let margin = list.iter().find_map(|statement| match statement {
-        // The status code of the called function covers its margin.
-        Statement::Return(value) if value != "margin" => Some(value.as_str()),
-        _ => None,
-    });
-    printer.end(margin, &checks);
+    let mut function = Function { writer, flat, prefix, real };
+    function.begin(&used, !list.is_empty(), &checks);
+    let margin = statements(&mut CPrinter { writer: function.writer, routines, real }, flat, &list);
+    // The status code of the called function covers its margin.
+    function.end(margin.filter(|margin| *margin != "margin"), &checks);
     writer.close("}");
 }
 
@@ -134,19 +130,15 @@ pub(super) fn comment(writer: &mut Writer, text: &str) {
     writer.lines(" */");
 }
 
-struct Printer<'p> {
+/// The checks of a function.
+struct Function<'p> {
     writer: &'p mut Writer,
     flat: Flat<'p>,
     prefix: &'p str,
     real: Real,
 }
 
-impl Printer<'_> {
-    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
-        let listed = |table: &str, column| format!("{table}[i][{column}]");
-        format!("{}[{}]", self.name(place.array), self.flat.index(place, index, k, listed))
-    }
-
+impl Function<'_> {
     fn name(&self, array: usize) -> &'static str {
         self.flat.routine.arrays[array].name
     }
@@ -246,167 +238,5 @@ impl Printer<'_> {
                 self.writer.lines(&format!("return ({all}) ? {upper}_OK : {upper}_NOT_FINITE;"));
             }
         }
-    }
-
-    /// Prints a loop that fills an array with zeros.
-    fn clear(&mut self, array: usize) {
-        self.writer.open(&format!("for (int k = 0; k < {}; k++)", self.flat.len(array)));
-        self.writer.lines(&format!("{}[k] = {};", self.name(array), self.real.number(0.0)));
-        self.writer.close("}");
-    }
-
-    fn statement(&mut self, statement: &Statement) {
-        let real = self.real;
-        match statement {
-            Statement::Unpack { names, from } => {
-                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
-                for (k, name) in named {
-                    self.writer.lines(&format!("const {real} {name} = {};", self.place(*from, 0, k)));
-                }
-            }
-            Statement::Comment(text) => {
-                self.writer.lines(&format!("/* {} */", harmless(text)));
-            }
-            Statement::Let { name, value } => self.writer.lines(&format!("const {real} {name} = {value};")),
-            Statement::SinCos(pairs) => self.sines(pairs),
-            Statement::Declare(array) => self.declare(*array),
-            // Arrays are cleared where they are declared.
-            Statement::Clear(_) => {}
-            Statement::Copy { from, to, fresh } => {
-                let [first, _] = self.flat.range(*from);
-                let (from, to, len) = (self.name(from.array), self.name(*to), self.flat.len(*to));
-                if *fresh {
-                    self.writer.lines(&format!("{real} {to}[{len}];"));
-                }
-                let at = if first == 0 { "k".to_owned() } else { format!("{first} + k") };
-                self.writer.open(&format!("for (int k = 0; k < {len}; k++)"));
-                self.writer.lines(&format!("{to}[k] = {from}[{at}];"));
-                self.writer.close("}");
-            }
-            Statement::Assign { to, values, fresh: true, .. } => {
-                let values: Vec<&str> = values.iter().map(|value| value.text.as_str()).collect();
-                let name = self.name(to.array);
-                self.writer.braces(&format!("{real} {name}[{}] = ", values.len()), &values, ";");
-            }
-            Statement::Assign { to, index, values, fresh: false } => {
-                // Results that are not written as a whole have been cleared.
-                let is_cleared =
-                    self.flat.routine.arrays[to.array].role == Role::Result && !self.is_whole(to.array);
-                let values = values.iter().enumerate().filter(|(_, value)| !(is_cleared && value.is_zero));
-                let entry =
-                    |(k, value): (usize, &Value)| format!("{} = {}", self.place(*to, *index, k), value.text);
-                let entries: Vec<String> = values.map(entry).collect();
-                filled(self.writer, "", &entries, "; ");
-            }
-            Statement::Call { routine, arrays, fresh } => self.call(routine, arrays, fresh),
-            Statement::Sums { sums, terms, entries } => {
-                let sums = &self.flat.routines.sums[*sums];
-                let [terms, entries] = [terms, entries].map(|array| self.name(*array));
-                let (name, constants, factors) = (sums.name, sums.constants.len(), sums.factors.len());
-                if constants > 0 {
-                    self.writer.open(&format!("for (int k = 0; k < {constants}; k++)"));
-                    self.writer.lines(&format!("{entries}[k] = {name}_CONSTANTS[k];"));
-                    self.writer.close("}");
-                }
-                if factors > 0 {
-                    self.writer.open(&format!("for (int k = 0; k < {factors}; k++)"));
-                    let factor = format!("{name}_FACTORS[k] * {terms}[{name}_TERMS[k][1]]");
-                    self.writer.lines(&format!("{entries}[{name}_TERMS[k][0]] += {factor};"));
-                    self.writer.close("}");
-                }
-            }
-            Statement::For { repeated, body } => {
-                let count = repeated.count.value(&self.flat.routines.description);
-                let head = match repeated.backwards {
-                    false => format!("for (int i = 0; i < {count}; i++)"),
-                    true => format!("for (int i = {}; i >= 0; i--)", count as i64 - 1),
-                };
-                self.writer.open(&head);
-                body.iter().for_each(|statement| self.statement(statement));
-                self.writer.close("}");
-            }
-            // `end` prints the return; columns go to arrays.
-            Statement::Return(_) | Statement::Column { .. } => {}
-        }
-    }
-
-    /// Prints sines and cosines: of four or two angles together, or of one.
-    fn sines(&mut self, pairs: &[([String; 2], Expression)]) {
-        let real = self.real;
-        for name in pairs.iter().flat_map(|(names, _)| names) {
-            self.writer.lines(&format!("{real} {name};"));
-        }
-        if let [([sine, cosine], angle)] = pairs {
-            return self.writer.lines(&format!("sin_cos({}, &{sine}, &{cosine});", angle.text));
-        }
-        let len = pairs.len();
-        let angles: Vec<&str> = pairs.iter().map(|(_, angle)| angle.text.as_str()).collect();
-        self.writer.open_alone();
-        self.writer.braces(&format!("const {real} angles[{len}] = "), &angles, ";");
-        self.writer.lines(&format!("{real} sines[{len}];\n{real} cosines[{len}];"));
-        let mut first = 0;
-        while first < len {
-            let count = [4, 2, 1].into_iter().find(|count| first + count <= len).unwrap_or(1);
-            let at = |name: &str| if first == 0 { name.to_owned() } else { format!("&{name}[{first}]") };
-            let (function, angles) = match count {
-                1 => ("sin_cos".to_owned(), format!("angles[{first}]")),
-                count => (format!("sin_cos_{count}"), at("angles")),
-            };
-            self.writer.lines(&format!("{function}({angles}, {}, {});", at("sines"), at("cosines")));
-            first += count;
-        }
-        let assigned = pairs.iter().enumerate().flat_map(|(k, ([sine, cosine], _))| {
-            [format!("{sine} = sines[{k}]"), format!("{cosine} = cosines[{k}]")]
-        });
-        filled(self.writer, "", &assigned.collect::<Vec<_>>(), "; ");
-        self.writer.close("}");
-    }
-
-    /// Declares a local array, or clears a result that has entries that are not written.
-    fn declare(&mut self, array: usize) {
-        match self.flat.routine.arrays[array].role {
-            Role::Zeros => self.zeros(array),
-            _ if self.is_whole(array) => {}
-            _ => self.clear(array),
-        }
-    }
-
-    /// Declares a local array of zeros.
-    fn zeros(&mut self, array: usize) {
-        let (real, name, len) = (self.real, self.name(array), self.flat.len(array));
-        self.writer.lines(&format!("{real} {name}[{len}] = {{ {} }};", real.number(0.0)));
-    }
-
-    /// Returns `true` if a stage writes all entries of a result.
-    fn is_whole(&self, array: usize) -> bool {
-        let whole = ArrayRows { array, row: Row::All };
-        self.flat.routine.stages.iter().any(|stage| match stage {
-            Stage::Block(block) => block.repeated.is_none() && block.writes.contains(&whole),
-            Stage::Sums { entries, .. } => *entries == array,
-            Stage::Copy { to, .. } => *to == array,
-            _ => false,
-        })
-    }
-
-    fn call(&mut self, routine: &str, arrays: &[usize], fresh: &[usize]) {
-        let callee = self.flat.routines.named(routine);
-        for array in fresh.iter().filter(|array| self.flat.routine.arrays[**array].role == Role::Zeros) {
-            self.zeros(*array);
-        }
-        let given = arrays.iter().zip(&callee.arrays).filter(|(_, array)| array.role != Role::Margin);
-        let given = given.filter(|(array, _)| self.flat.len(**array) > 0);
-        let given: Vec<String> = given.map(|(array, _)| self.name(*array).to_owned()).collect();
-        let given = given.join(", ");
-        if callee.function.is_none() {
-            self.writer.lines(&format!("{}_{routine}({given});", self.prefix));
-            return;
-        }
-        let ok = format!("{}_OK", self.upper());
-        self.writer.open_alone();
-        self.writer.lines(&format!("const int status = {}_{routine}({given});", self.prefix));
-        self.writer.open(&format!("if (status != {ok})"));
-        self.writer.lines("return status;");
-        self.writer.close("}");
-        self.writer.close("}");
     }
 }

@@ -24,11 +24,12 @@ pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
 use super::layout::Writer;
+use super::lists::lists;
 use super::names::{file_name, renamed};
 use super::source_file::SourceFile;
 use super::text::escaped;
 use crate::chain::Model;
-use crate::program::{Operand, Routines, Sums};
+use crate::program::{Operand, Routines};
 
 /// Returns the header and the source of a manipulator.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {
@@ -123,14 +124,14 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real, file
     );
     writer.lines(&format!("#include \"{file}.h\"\n\n#include <math.h>\n\n{REFUSED}\n{SIZES}"));
     values(&mut writer, spec, routines, real, "", true);
-    for table in routines.used_tables() {
+    for list in lists(routines.used_tables(), routines.used_sums()) {
         writer.blank();
-        comment(&mut writer, table.documentation);
-        let rows: Vec<String> =
-            table.rows.iter().map(|[first, second]| format!("{{ {first}, {second} }}")).collect();
-        writer.braces(&format!("static const int {}[{}][2] = ", table.name, rows.len()), &rows, ";");
+        comment(&mut writer, list.documentation);
+        let entries = list.entries(|value| real.number(value));
+        let element = if list.is_whole { "int" } else { real.name() };
+        let head = format!("static const {element} {}[{}] = ", list.name, entries.len());
+        writer.braces(&head, &entries, ";");
     }
-    routines.used_sums().for_each(|sums| sums_of_terms(&mut writer, sums, real));
     let (functions, helpers): (Vec<_>, Vec<_>) =
         routines.list.iter().partition(|routine| routine.function.is_some());
     let mut body = Writer::new(" *");
@@ -210,24 +211,6 @@ fn enumeration(writer: &mut Writer, documentation: &str, entries: &[(String, &st
         writer.lines(&format!("{entry}{}", if k + 1 < entries.len() { "," } else { "" }));
     }
     writer.close("};");
-}
-
-/// Prints the tables of sums. C has no empty arrays.
-fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums, real: Real) {
-    if !constants.is_empty() {
-        writer.blank();
-        comment(writer, "Constant term of each entry.");
-        numbers(writer, &format!("{name}_CONSTANTS"), constants, real);
-    }
-    if !factors.is_empty() {
-        writer.blank();
-        comment(writer, "Entry and term of each factor, and the factors of the terms.");
-        let rows: Vec<String> =
-            factors.iter().map(|(entry, term, _)| format!("{{ {entry}, {term} }}")).collect();
-        writer.braces(&format!("static const int {name}_TERMS[{}][2] = ", rows.len()), &rows, ";");
-        let factors: Vec<f64> = factors.iter().map(|(.., factor)| *factor).collect();
-        numbers(writer, &format!("{name}_FACTORS"), &factors, real);
-    }
 }
 
 /// Prints the numbers of frames, variables and so on.

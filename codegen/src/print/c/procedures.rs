@@ -1,12 +1,14 @@
-//! Procedures in C.
+//! Statements and procedures in C.
 
 use abbe_core::compensator::Status;
 
 use super::functions::{RESTRICT, comment, head_of};
 use super::real::Real;
-use crate::print::expression::Expression;
+use crate::print::expression::{Expression, Value};
+use crate::print::flat::filled;
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Printer, arrays, evaluated};
+use crate::print::procedure::{Called, Invocation, Printer, arrays};
+use crate::print::routine::Results;
 use crate::print::text::harmless;
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Role, Routines};
@@ -21,7 +23,7 @@ pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Proce
     comment(writer, &procedure.documentation);
     writer.lines(&head_of(&format!("static {kind} {}", procedure.name), given.chain(filled), real, RESTRICT));
     writer.open_alone();
-    let mut printer = CProcedure { writer, routines, real };
+    let mut printer = CPrinter { writer, routines, real };
     printer.declarations(procedure);
     number.iter().for_each(|result| printer.declare(result));
     printer.statements(&procedure.body);
@@ -31,14 +33,14 @@ pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Proce
     writer.close("}");
 }
 
-/// Printer of a procedure.
-pub(super) struct CProcedure<'p> {
+/// Printer of statements.
+pub(super) struct CPrinter<'p> {
     pub(super) writer: &'p mut Writer,
     pub(super) routines: &'p Routines,
     pub(super) real: Real,
 }
 
-impl CProcedure<'_> {
+impl CPrinter<'_> {
     /// Prints the declarations of constants and local variables.
     pub(super) fn declarations(&mut self, procedure: &Procedure) {
         let real = self.real;
@@ -65,8 +67,10 @@ impl CProcedure<'_> {
     }
 }
 
-impl Printer for CProcedure<'_> {
+impl Printer for CPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
+    const SKIPS_EMPTY: bool = true;
+    const RESULTS: Results = Results::Given;
 
     fn writer(&mut self) -> &mut Writer {
         self.writer
@@ -82,6 +86,8 @@ impl Printer for CProcedure<'_> {
             Called::Root => self.real.function("sqrt"),
             Called::Arctangent => self.real.function("atan2"),
             Called::Clamped => "clamped".to_owned(),
+            Called::Sine => "sine".to_owned(),
+            Called::Cosine => "cosine".to_owned(),
         }
     }
 
@@ -108,10 +114,57 @@ impl Printer for CProcedure<'_> {
         });
     }
 
-    fn copy(&mut self, to: &str, from: &str, len: usize) {
-        self.writer.open(&format!("for (int k = 0; k < {len}; k++)"));
-        self.writer.lines(&format!("{to}[k] = {from}[k];"));
+    fn bind(&mut self, bindings: &[(String, String)]) {
+        let real = self.real;
+        bindings
+            .iter()
+            .for_each(|(name, value)| self.writer.lines(&format!("const {real} {name} = {value};")));
+    }
+
+    /// Prints sines and cosines: of four or two angles together, or of one.
+    fn sines(&mut self, pairs: &[([String; 2], Expression)]) {
+        let real = self.real;
+        for name in pairs.iter().flat_map(|(names, _)| names) {
+            self.writer.lines(&format!("{real} {name};"));
+        }
+        if let [([sine, cosine], angle)] = pairs {
+            return self.writer.lines(&format!("sin_cos({}, &{sine}, &{cosine});", angle.text));
+        }
+        let len = pairs.len();
+        let angles: Vec<&str> = pairs.iter().map(|(_, angle)| angle.text.as_str()).collect();
+        self.writer.open_alone();
+        self.writer.braces(&format!("const {real} angles[{len}] = "), &angles, ";");
+        self.writer.lines(&format!("{real} sines[{len}];\n{real} cosines[{len}];"));
+        let mut first = 0;
+        while first < len {
+            let count = [4, 2, 1].into_iter().find(|count| first + count <= len).unwrap_or(1);
+            let at = |name: &str| if first == 0 { name.to_owned() } else { format!("&{name}[{first}]") };
+            let (function, angles) = match count {
+                1 => ("sin_cos".to_owned(), format!("angles[{first}]")),
+                count => (format!("sin_cos_{count}"), at("angles")),
+            };
+            self.writer.lines(&format!("{function}({angles}, {}, {});", at("sines"), at("cosines")));
+            first += count;
+        }
+        let assigned = pairs.iter().enumerate().flat_map(|(k, ([sine, cosine], _))| {
+            [format!("{sine} = sines[{k}]"), format!("{cosine} = cosines[{k}]")]
+        });
+        filled(self.writer, "", &assigned.collect::<Vec<_>>(), "; ");
         self.writer.close("}");
+    }
+
+    fn zeros(&mut self, name: &str, len: usize) {
+        let real = self.real;
+        self.writer.lines(&format!("{real} {name}[{len}] = {{ {} }};", real.number(0.0)));
+    }
+
+    fn create(&mut self, name: &str, entries: &[(String, &Value)]) {
+        let values: Vec<&str> = entries.iter().map(|(_, value)| value.text.as_str()).collect();
+        self.writer.braces(&format!("{} {name}[{}] = ", self.real, values.len()), &values, ";");
+    }
+
+    fn declare(&mut self, name: &str, len: usize) {
+        self.writer.lines(&format!("{} {name}[{len}];", self.real));
     }
 
     fn loop_head(&self, counter: &str, [from, to]: &[Index; 2], is_descending: bool) -> String {
@@ -129,13 +182,29 @@ impl Printer for CProcedure<'_> {
         });
     }
 
-    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
-        let (given, _) = evaluated(self.routines, function, q, results, true);
-        let arrays = [&given[..], results].concat().join(", ");
-        let call = format!("{}_{function}({arrays})", self.routines.description.name);
-        self.writer.lines(&format!("status = {call};"));
+    fn routines(&self) -> &Routines {
+        self.routines
+    }
+
+    fn invoke(&mut self, Invocation { routine, is_function, given, filled, in_procedure }: &Invocation) {
+        let filled = filled.iter().map(|(.., own)| own);
+        let arrays: Vec<&str> = given.iter().map(|(_, own)| own).chain(filled).map(String::as_str).collect();
+        let call = format!("{}_{routine}({});", self.routines.description.name, arrays.join(", "));
+        if !is_function {
+            return self.writer.lines(&call);
+        }
+        match in_procedure {
+            true => self.writer.lines(&format!("status = {call}")),
+            false => {
+                self.writer.open_alone();
+                self.writer.lines(&format!("const int status = {call}"));
+            }
+        }
         self.writer.open(&format!("if (status != {})", self.code(Status::Reached.name())));
         self.writer.lines("return status;");
         self.writer.close("}");
+        if !in_procedure {
+            self.writer.close("}");
+        }
     }
 }

@@ -4,7 +4,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::documentation;
-use super::procedures::{JavaScriptProcedure, helper};
+use super::procedures::{JavaScriptPrinter, helper};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Precision, Procedure, compensated as described};
@@ -28,7 +28,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     writer.lines(" */");
     writer.open("export function compensated(q, s, u, last, change, largest, rotations = [1, 1, 1])");
     writer.lines(CHECKS);
-    let mut printer = JavaScriptProcedure { writer, routines };
+    let mut printer = JavaScriptPrinter { writer, routines };
     printer.declarations(&cycle);
     printer.statements(&cycle.body);
     writer.lines("return { corrected, correction, before, after, status };");

@@ -16,9 +16,10 @@ use self::functions::{comment, function};
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
+use super::lists::lists;
 use super::records::records;
 use super::text::escaped;
-use crate::program::{Routines, Sums};
+use crate::program::Routines;
 
 /// Returns the source of a manipulator's module.
 pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
@@ -31,19 +32,8 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     writer.open("export const description =");
     records(&mut writer, &routines.description, str::to_owned, number);
     writer.close("};");
-    for table in routines.used_tables() {
-        let rows: Vec<String> =
-            table.rows.iter().map(|[first, second]| format!("{first}, {second}")).collect();
-        constant(&mut writer, table.documentation, table.name, &rows);
-    }
-    for Sums { name, constants, factors } in routines.used_sums() {
-        let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
-        constant(&mut writer, "Constant term of each entry.", &format!("{name}_CONSTANTS"), &values);
-        let row =
-            |(entry, term, factor): &(usize, usize, f64)| format!("{entry}, {term}, {}", number(*factor));
-        let rows: Vec<String> = factors.iter().map(row).collect();
-        let what = "Entry, term, and factor of the term.";
-        constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
+    for list in lists(routines.used_tables(), routines.used_sums()) {
+        constant(&mut writer, list.documentation, &list.name, &list.entries(number));
     }
     for table in routines.used_lookup_tables() {
         lookup_table(&mut writer, table);

@@ -1,15 +1,15 @@
-//! Procedures in JavaScript.
+//! Statements and procedures in JavaScript.
 
 use abbe_core::compensator::Status;
 
-use super::functions::comment;
+use super::functions::{comment, one_or_object};
 use super::operators::number;
-use crate::print::expression::Expression;
+use crate::print::expression::{Expression, Value};
 use crate::print::flat::filled;
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Printer, evaluated};
+use crate::print::procedure::{Called, Invocation, Printer};
 use crate::procedure::{Index, Kind, Procedure, Variable};
-use crate::program::Routines;
+use crate::program::{Routine, Routines, Stage};
 
 /// Prints a procedure that another one calls.
 pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Procedure) {
@@ -17,20 +17,20 @@ pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Proce
     writer.blank();
     comment(writer, &procedure.documentation);
     writer.open(&format!("function {}({})", procedure.name, arguments.join(", ")));
-    let mut printer = JavaScriptProcedure { writer, routines };
+    let mut printer = JavaScriptPrinter { writer, routines };
     printer.declarations(procedure);
     printer.statements(&procedure.body);
     writer.lines(&format!("return {};", procedure.results[0].name));
     writer.close("}");
 }
 
-/// Printer of a procedure.
-pub(super) struct JavaScriptProcedure<'p> {
+/// Printer of statements.
+pub(super) struct JavaScriptPrinter<'p> {
     pub(super) writer: &'p mut Writer,
     pub(super) routines: &'p Routines,
 }
 
-impl JavaScriptProcedure<'_> {
+impl JavaScriptPrinter<'_> {
     /// Prints the declarations of constants, results and local variables.
     pub(super) fn declarations(&mut self, procedure: &Procedure) {
         for (name, values) in &procedure.constants {
@@ -51,7 +51,7 @@ impl JavaScriptProcedure<'_> {
     }
 }
 
-impl Printer for JavaScriptProcedure<'_> {
+impl Printer for JavaScriptPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
 
     fn writer(&mut self) -> &mut Writer {
@@ -68,6 +68,8 @@ impl Printer for JavaScriptProcedure<'_> {
             Called::Root => "Math.sqrt",
             Called::Arctangent => "Math.atan2",
             Called::Clamped => "clamped",
+            Called::Sine => "Math.sin",
+            Called::Cosine => "Math.cos",
         }
         .to_owned()
     }
@@ -91,6 +93,34 @@ impl Printer for JavaScriptProcedure<'_> {
         });
     }
 
+    /// The name of an array differs from functions called in its scope.
+    fn array(&self, routine: &Routine, name: &'static str) -> String {
+        let is_called = |stage: &Stage| matches!(stage, Stage::Call { routine, .. } if *routine == name);
+        format!("{name}{}", if routine.stages.iter().any(is_called) { "_" } else { "" })
+    }
+
+    fn bind(&mut self, bindings: &[(String, String)]) {
+        let bindings: Vec<String> =
+            bindings.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        filled(self.writer, "const ", &bindings, ", ");
+    }
+
+    fn zeros(&mut self, name: &str, len: usize) {
+        self.writer.lines(&format!("const {name} = new Float64Array({len});"));
+    }
+
+    fn create(&mut self, name: &str, entries: &[(String, &Value)]) {
+        let values: Vec<&str> = entries.iter().map(|(_, value)| value.text.as_str()).collect();
+        self.writer.lines(&format!("const {name} = Float64Array.of({});", values.join(", ")));
+    }
+
+    fn copy_rows(&mut self, to: &str, from: &str, [first, behind]: [usize; 2], _: usize, fresh: bool) {
+        self.writer.lines(&match fresh {
+            true => format!("const {to} = {from}.slice({first}, {behind});"),
+            false => format!("{to}.set({from}.subarray({first}, {behind}));"),
+        });
+    }
+
     fn copy(&mut self, to: &str, from: &str, _: usize) {
         self.writer.lines(&format!("{to} = Float64Array.from({from});"));
     }
@@ -106,18 +136,21 @@ impl Printer for JavaScriptProcedure<'_> {
         self.writer.lines(&format!("{} = {procedure}({});", result.name, arguments.join(", ")));
     }
 
-    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
-        let (given, filled) = evaluated(self.routines, function, q, results, false);
-        let call = format!("{function}({})", given.join(", "));
-        let named: Vec<String> =
-            filled.iter().map(|(array, name)| format!("{}: {name}", array.name)).collect();
-        self.writer.lines(&match results {
-            [result] => format!("{result} = {call};"),
-            _ => format!("({{ {} }} = {call});", named.join(", ")),
+    fn routines(&self) -> &Routines {
+        self.routines
+    }
+
+    fn invoke(&mut self, Invocation { routine, given, filled, in_procedure, .. }: &Invocation) {
+        let given: Vec<&str> = given.iter().map(|(_, own)| own.as_str()).collect();
+        let results: Vec<_> = filled.iter().map(|(name, _, own)| (*name, own.clone())).collect();
+        let (results, call) = (one_or_object(&results), format!("{routine}({})", given.join(", ")));
+        self.writer.lines(&match in_procedure {
+            false => format!("const {results} = {call};"),
+            true if filled.len() == 1 => format!("{results} = {call};"),
+            true => format!("({results} = {call});"),
         });
-        for (array, name) in filled {
-            let len = array.len(&self.routines.description);
-            self.writer.lines(&format!("given('result', {name}, {len});"));
+        for (_, len, own) in filled.iter().filter(|_| *in_procedure) {
+            self.writer.lines(&format!("given('result', {own}, {len});"));
         }
     }
 }

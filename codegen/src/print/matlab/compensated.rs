@@ -4,7 +4,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::{checks, documentation};
-use super::procedures::{MatlabProcedure, helper};
+use super::procedures::{MatlabPrinter, helper};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Precision, compensated as described};
@@ -26,7 +26,7 @@ pub(super) fn compensated(writer: &mut Writer, class: &str, spec: &Spec, routine
     writer.lines(&DEFAULTS.replace("COUNT", &spec.variables.len().to_string()).replace("CLASS", class));
     checks(writer, class, COMPENSATED.arguments.iter().map(|array| (array.name, array.len(description))));
     writer.lines(FINITE.trim_end());
-    let mut printer = MatlabProcedure { writer, class, routines };
+    let mut printer = MatlabPrinter { writer, class, routines };
     printer.declarations(&cycle);
     printer.statements(&cycle.body);
     writer.close("end");

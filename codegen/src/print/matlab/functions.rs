@@ -4,13 +4,13 @@ use abbe_core::function::{self, Signature};
 use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
-use super::operators::{Matlab, number};
+use super::operators::Matlab;
+use super::procedures::MatlabPrinter;
 use crate::print::flat::Flat;
 use crate::print::layout::Writer;
-use crate::print::statement::Statement;
+use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::print::text::harmless;
-use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row};
+use crate::program::{Role, Routine, Routines};
 
 /// Prints one function.
 pub(super) fn function(
@@ -40,10 +40,30 @@ pub(super) fn function(
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
         checks(writer, class, given.map(|array| (array.name, array.len(&routines.description))));
     }
-    let mut printer = Printer { writer, class, flat: Flat { routines, routine } };
-    list.iter().for_each(|statement| printer.statement(statement));
-    printer.end();
+    let flat = Flat { routines, routine };
+    let margin = statements(&mut MatlabPrinter { writer, class, routines }, flat, &list);
+    if let Some(margin) = margin.filter(|margin| *margin != "margin") {
+        writer.lines(&format!("margin = {margin};"));
+    }
+    matrices(writer, flat);
     writer.close("end");
+}
+
+/// Prints the conversion of results to matrices.
+fn matrices(writer: &mut Writer, flat: Flat<'_>) {
+    let arrays = flat.routine.arrays.iter().enumerate();
+    for (index, array) in arrays.filter(|(_, array)| array.role == Role::Result) {
+        let counts = array.shape.iter().rev();
+        let shape: Vec<String> =
+            counts.map(|count| count.value(&flat.routines.description).to_string()).collect();
+        let (name, is_empty) = (array.name, flat.len(index) == 0);
+        match &shape[..] {
+            [_] if !is_empty => {}
+            [_] => writer.lines(&format!("{name} = zeros(1, 0);")),
+            _ if is_empty => writer.lines(&format!("{name} = zeros({});", shape.join(", "))),
+            _ => writer.lines(&format!("{name} = reshape({name}, {});", shape.join(", "))),
+        }
+    }
 }
 
 /// Prints the arguments and results of a function, and an additional result if given.
@@ -105,140 +125,4 @@ pub(super) fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], en
     writer.lines(&format!("{name} = {open} ..."));
     entries.chunks(4).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
     writer.lines(&format!("{close};"));
-}
-
-struct Printer<'p> {
-    writer: &'p mut Writer,
-    class: &'p str,
-    flat: Flat<'p>,
-}
-
-impl Printer<'_> {
-    fn name(&self, array: usize) -> &'static str {
-        self.flat.routine.arrays[array].name
-    }
-
-    /// Returns element k of row `index` of a place. Loops count from 0, matrices from 1.
-    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
-        let listed = |table: &str, column| format!("{}.{table}(i + 1, {})", self.class, column + 1);
-        let flat = self.flat.index(place, index, k, listed);
-        let from_1 = match (flat.parse::<usize>(), flat.rsplit_once(" + ")) {
-            (Ok(flat), _) => (flat + 1).to_string(),
-            (_, Some((before, last))) if last.parse::<usize>().is_ok() => {
-                format!("{before} + {}", last.parse::<usize>().map_or(1, |last| last + 1))
-            }
-            _ => format!("{flat} + 1"),
-        };
-        format!("{}({from_1})", self.name(place.array))
-    }
-
-    /// Returns the expression of some rows.
-    fn part(&self, place: ArrayRows) -> String {
-        let name = self.name(place.array);
-        match (place.row, self.flat.range(place)) {
-            (Row::First | Row::Last | Row::AllButFirst, [begin, end]) => {
-                format!("{name}({}:{end})", begin + 1)
-            }
-            (_, [_, end]) => format!("{name}(1:{end})"),
-        }
-    }
-
-    fn declare(&mut self, array: usize) {
-        self.writer.lines(&format!("{} = zeros(1, {});", self.name(array), self.flat.len(array)));
-    }
-
-    fn statement(&mut self, statement: &Statement) {
-        match statement {
-            Statement::Unpack { names, from } => {
-                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
-                for (k, name) in named {
-                    self.writer.lines(&format!("{name} = {};", self.place(*from, 0, k)));
-                }
-            }
-            Statement::Comment(text) => self.writer.lines(format!("% {}", harmless(text)).trim_end()),
-            Statement::Let { name, value } => self.writer.lines(&format!("{name} = {value};")),
-            Statement::SinCos(pairs) => {
-                for ([sine, cosine], angle) in pairs {
-                    let angle = &angle.text;
-                    self.writer.lines(&format!("{sine} = sin({angle});"));
-                    self.writer.lines(&format!("{cosine} = cos({angle});"));
-                }
-            }
-            Statement::Declare(array) => self.declare(*array),
-            // Arrays are cleared where they are declared.
-            Statement::Clear(_) => {}
-            Statement::Copy { from, to, .. } => {
-                self.writer.lines(&format!("{} = {};", self.name(*to), self.part(*from)));
-            }
-            Statement::Assign { to, index, values, fresh } => {
-                // A newly declared array has one row.
-                if *fresh {
-                    self.declare(to.array);
-                }
-                let began = *fresh || self.flat.routine.arrays[to.array].role == Role::Result;
-                let values = values.iter().enumerate().filter(|(_, value)| !(began && value.is_zero));
-                for (k, value) in values {
-                    self.writer.lines(&format!("{} = {};", self.place(*to, *index, k), value.text));
-                }
-            }
-            Statement::Call { routine, arrays, .. } => self.call(routine, arrays),
-            Statement::Sums { sums, terms, entries } => {
-                let (name, class) = (self.flat.routines.sums[*sums].name, self.class);
-                let [terms, entries] = [terms, entries].map(|array| self.name(*array));
-                self.writer.lines(&format!("{entries} = {class}.{name}_CONSTANTS;"));
-                self.writer.begin(&format!("for k = 1:size({class}.{name}_FACTORS, 1)"));
-                let column = |column| format!("{class}.{name}_FACTORS(k, {column})");
-                let sum = format!("{entries}({}) + {} * {terms}({})", column(1), column(3), column(2));
-                self.writer.lines(&format!("{entries}({}) = {sum};", column(1)));
-                self.writer.close("end");
-            }
-            Statement::For { repeated, body } => {
-                let count = repeated.count.value(&self.flat.routines.description);
-                let head = match repeated.backwards {
-                    false => format!("for i = 0:{}", number(count as f64 - 1.0)),
-                    true => format!("for i = {}:-1:0", number(count as f64 - 1.0)),
-                };
-                self.writer.begin(&head);
-                body.iter().for_each(|statement| self.statement(statement));
-                self.writer.close("end");
-            }
-            Statement::Return(margin) if margin != "margin" => {
-                self.writer.lines(&format!("margin = {margin};"));
-            }
-            // Columns go to arrays.
-            Statement::Return(_) | Statement::Column { .. } => {}
-        }
-    }
-
-    fn call(&mut self, routine: &str, arrays: &[usize]) {
-        let callee = self.flat.routines.named(routine);
-        let is_given = |(_, array): &(&usize, &Array)| array.role == Role::Argument;
-        let (given, filled): (Vec<_>, Vec<_>) = arrays.iter().zip(&callee.arrays).partition(is_given);
-        let names = |arrays: &[(&usize, &Array)]| {
-            arrays.iter().map(|(array, _)| self.name(**array)).collect::<Vec<_>>().join(", ")
-        };
-        let (results, class) = (names(&filled), self.class);
-        self.writer.lines(&format!("[{results}] = {class}.{routine}({});", names(&given)));
-    }
-
-    /// Prints the conversion of results to matrices.
-    fn end(&mut self) {
-        for (index, array) in self.flat.routine.arrays.iter().enumerate() {
-            if array.role != Role::Result {
-                continue;
-            }
-            let counts = array.shape.iter().rev();
-            let shape: Vec<String> =
-                counts.map(|count| count.value(&self.flat.routines.description).to_string()).collect();
-            let name = array.name;
-            match &shape[..] {
-                [_] if self.flat.len(index) > 0 => {}
-                [_] => self.writer.lines(&format!("{name} = zeros(1, 0);")),
-                _ if self.flat.len(index) == 0 => {
-                    self.writer.lines(&format!("{name} = zeros({});", shape.join(", ")));
-                }
-                _ => self.writer.lines(&format!("{name} = reshape({name}, {});", shape.join(", "))),
-            }
-        }
-    }
 }

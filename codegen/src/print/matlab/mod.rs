@@ -20,11 +20,12 @@ use self::functions::{function, list};
 use self::operators::{WORDS, number, spelled};
 use super::header::header;
 use super::layout::Writer;
+use super::lists::lists;
 use super::names::{distinct, renamed};
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
 use crate::procedure::{Precision, Procedure, compensated as described};
-use crate::program::{Routines, Sums};
+use crate::program::Routines;
 
 /// Returns the file of a manipulator's class. Matlab requires the file to have the name of the
 /// class.
@@ -151,19 +152,9 @@ fn properties(writer: &mut Writer, routines: &Routines) {
     list(writer, "input_names", ["{", "}"], &names(inputs().map(|one| &one.name[..]).collect()));
     list(writer, "inputs", ["[", "]"], &numbers(inputs().map(|one| one.nominal).collect()));
     list(writer, "ranges", ["[", "]"], &inputs().map(|one| pair(one.range)).collect::<Vec<_>>());
-    for table in routines.used_tables() {
-        comment(writer, table.documentation);
-        let rows = table.rows.iter().map(|[first, second]| format!("{first} {second};"));
-        list(writer, table.name, ["[", "]"], &rows.collect::<Vec<_>>());
-    }
-    for Sums { name, constants, factors } in routines.used_sums() {
-        comment(writer, "Constant term of each entry.");
-        list(writer, &format!("{name}_CONSTANTS"), ["[", "]"], &numbers(constants.clone()));
-        comment(writer, "Entry, term, and factor of the term.");
-        let row = |(entry, term, factor): &(usize, usize, f64)| {
-            format!("{} {} {};", entry + 1, term + 1, number(*factor))
-        };
-        list(writer, &format!("{name}_FACTORS"), ["[", "]"], &factors.iter().map(row).collect::<Vec<_>>());
+    for numbers in lists(routines.used_tables(), routines.used_sums()) {
+        comment(writer, numbers.documentation);
+        list(writer, &numbers.name, ["[", "]"], &numbers.entries(number));
     }
     for table in routines.used_lookup_tables() {
         lookup_table(writer, table);

@@ -1,10 +1,10 @@
-//! Procedures in Matlab.
+//! Statements and procedures in Matlab.
 
 use super::functions::list;
 use super::operators::number;
 use crate::print::expression::{Binding, Expression};
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Printer, arrays, evaluated};
+use crate::print::procedure::{Called, Invocation, Printer, arrays};
 use crate::print::text::harmless;
 use crate::procedure::{Counter, Index, Procedure, Variable};
 use crate::program::Routines;
@@ -16,20 +16,20 @@ pub(super) fn helper(writer: &mut Writer, class: &str, routines: &Routines, proc
     writer.blank();
     writer.begin(&format!("function {result} = {}({})", procedure.name, arguments.join(", ")));
     writer.documentation(&procedure.documentation);
-    let mut printer = MatlabProcedure { writer, class, routines };
+    let mut printer = MatlabPrinter { writer, class, routines };
     printer.declarations(procedure);
     printer.statements(&procedure.body);
     writer.close("end");
 }
 
-/// Printer of a procedure.
-pub(super) struct MatlabProcedure<'p> {
+/// Printer of statements.
+pub(super) struct MatlabPrinter<'p> {
     pub(super) writer: &'p mut Writer,
     pub(super) class: &'p str,
     pub(super) routines: &'p Routines,
 }
 
-impl MatlabProcedure<'_> {
+impl MatlabPrinter<'_> {
     /// Prints constants, and arrays that are filled element by element.
     pub(super) fn declarations(&mut self, procedure: &Procedure) {
         for (name, values) in &procedure.constants {
@@ -44,7 +44,7 @@ impl MatlabProcedure<'_> {
     }
 }
 
-impl Printer for MatlabProcedure<'_> {
+impl Printer for MatlabPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if ", "", "end"];
     const LOOP_END: &'static str = "end";
     const LEAVE: &'static str = "break";
@@ -63,12 +63,23 @@ impl Printer for MatlabProcedure<'_> {
             Called::Root => "sqrt".to_owned(),
             Called::Arctangent => "atan2".to_owned(),
             Called::Clamped => format!("{}.clamped", self.class),
+            Called::Sine => "sin".to_owned(),
+            Called::Cosine => "cos".to_owned(),
         }
     }
 
     /// Matrices begin at 1.
-    fn element(&self, array: &str, index: &Index) -> String {
-        format!("{array}({})", index.clone() + 1)
+    fn at(&self, array: &str, index: &str) -> String {
+        let (before, last) = index.rsplit_once(" + ").map_or(("", index), |(before, last)| (before, last));
+        match (before, last.parse::<usize>()) {
+            ("", Ok(last)) => format!("{array}({})", last + 1),
+            (before, Ok(last)) => format!("{array}({before} + {})", last + 1),
+            _ => format!("{array}({index} + 1)"),
+        }
+    }
+
+    fn constant(&self, name: &str) -> String {
+        format!("{}.{name}", self.class)
     }
 
     fn dot(&self, counter: Counter, range: &[Index; 2], factors: &[(&'static str, Index); 2]) -> Expression {
@@ -85,15 +96,17 @@ impl Printer for MatlabProcedure<'_> {
     }
 
     fn comment(&mut self, text: &str) {
-        self.writer.lines(&format!("% {}", harmless(text)));
+        self.writer.lines(format!("% {}", harmless(text)).trim_end());
     }
 
-    fn assign(&mut self, place: &str, value: &str, _: Option<&str>) {
-        self.writer.lines(&format!("{place} = {value};"));
+    fn zeros(&mut self, name: &str, len: usize) {
+        self.writer.lines(&format!("{name} = zeros(1, {len});"));
     }
 
-    fn copy(&mut self, to: &str, from: &str, _: usize) {
-        self.assign(to, from, None);
+    fn copy_rows(&mut self, to: &str, from: &str, [first, behind]: [usize; 2], len: usize, _: bool) {
+        let is_whole = behind - first == len;
+        let rows = if is_whole { String::new() } else { format!("({}:{behind})", first + 1) };
+        self.assign(to, &format!("{from}{rows}"), None);
     }
 
     fn loop_head(&self, counter: &str, [from, to]: &[Index; 2], is_descending: bool) -> String {
@@ -109,13 +122,21 @@ impl Printer for MatlabProcedure<'_> {
         self.assign(result.name, &call, None);
     }
 
-    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
-        let (given, _) = evaluated(self.routines, function, q, results, false);
-        let (class, results) = (self.class, results.join(", "));
-        self.writer.lines(&format!("[{results}] = {class}.{function}({});", given.join(", ")));
-        let finite = results.split(", ").map(|name| format!("all(isfinite({name}(:)))"));
-        self.writer.begin(&format!("if ~({})", finite.collect::<Vec<_>>().join(" && ")));
-        self.writer.lines("error('abbe:finite', 'a result is not finite');");
-        self.writer.close("end");
+    fn routines(&self) -> &Routines {
+        self.routines
+    }
+
+    fn invoke(&mut self, Invocation { routine, given, filled, in_procedure, .. }: &Invocation) {
+        let given: Vec<&str> = given.iter().map(|(_, own)| own.as_str()).collect();
+        let results: Vec<&str> = filled.iter().map(|(.., own)| own.as_str()).collect();
+        let call = format!("{}.{routine}({})", self.class, given.join(", "));
+        self.writer.lines(&format!("[{}] = {call};", results.join(", ")));
+        if *in_procedure {
+            let finite: Vec<String> =
+                results.iter().map(|name| format!("all(isfinite({name}(:)))")).collect();
+            self.writer.begin(&format!("if ~({})", finite.join(" && ")));
+            self.writer.lines("error('abbe:finite', 'a result is not finite');");
+            self.writer.close("end");
+        }
     }
 }

@@ -4,7 +4,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::face;
-use super::procedures::{PythonProcedure, helper};
+use super::procedures::{PythonPrinter, helper};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Precision, compensated as described};
@@ -26,7 +26,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     writer.lines("@np.errstate(divide=\"ignore\", invalid=\"ignore\")");
     writer.begin("def _compensated(batch, *given):");
     writer.lines(CHECKS.trim_end());
-    let mut printer = PythonProcedure { writer, routines, cases: Vec::new() };
+    let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
     printer.declarations(&cycle);
     printer.statements(&cycle.body);
     writer.lines("return corrected, correction, before, after, status");

@@ -4,13 +4,13 @@ use abbe_core::function::{self, Signature};
 use abbe_core::{Description, Quantity};
 use abbe_spec::Spec;
 
-use super::operators::{Python, number};
+use super::operators::Python;
+use super::procedures::PythonPrinter;
 use crate::print::flat::Flat;
 use crate::print::layout::Writer;
-use crate::print::statement::Statement;
+use crate::print::routine::statements;
 use crate::print::statements::Statements;
-use crate::print::text::harmless;
-use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row};
+use crate::program::{Role, Routine, Routines};
 
 /// Prints the public function, which checks shapes and gives the results their documented shapes.
 /// `behind` is the name and documentation of an additional result.
@@ -127,150 +127,18 @@ pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, rout
         writer.documentation(routine.documentation);
         writer.lines("\"\"\"");
     }
-    let mut printer = Printer { writer, flat: Flat { routines, routine } };
-    list.iter().for_each(|statement| printer.statement(statement));
-    let margin = list.iter().find_map(|statement| match statement {
-        Statement::Return(value) => Some(value.as_str()),
-        _ => None,
+    let flat = Flat { routines, routine };
+    let margin = statements(&mut PythonPrinter { writer, routines, cases: Vec::new() }, flat, &list);
+    // A constant margin has no axes for configurations.
+    let margin = margin.map(|value| match value {
+        "margin" => value.to_owned(),
+        value => format!("np.broadcast_to({value}, batch)"),
     });
-    printer.results(margin);
+    let arrays = routine.arrays.iter().enumerate().filter(|(_, array)| array.role == Role::Result);
+    let results = arrays.map(|(index, array)| match flat.len(index) {
+        0 => "np.zeros((0,) + batch)".to_owned(),
+        _ => array.name.to_owned(),
+    });
+    writer.lines(&format!("return {}", results.chain(margin).collect::<Vec<_>>().join(", ")));
     writer.end();
-}
-
-struct Printer<'p> {
-    writer: &'p mut Writer,
-    flat: Flat<'p>,
-}
-
-impl Printer<'_> {
-    fn name(&self, array: usize) -> &'static str {
-        self.flat.routine.arrays[array].name
-    }
-
-    /// Returns element k of row `index` of a place, in every configuration.
-    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
-        let listed = |table: &str, column| format!("{table}[i][{column}]");
-        format!("{}[{}]", self.name(place.array), self.flat.index(place, index, k, listed))
-    }
-
-    /// Returns the expression of some rows, in every configuration.
-    fn part(&self, place: ArrayRows) -> String {
-        let name = self.name(place.array);
-        match (place.row, self.flat.range(place)) {
-            (Row::First, [_, end]) => format!("{name}[:{end}]"),
-            (Row::Last | Row::AllButFirst, [begin, _]) => format!("{name}[{begin}:]"),
-            _ => name.to_owned(),
-        }
-    }
-
-    fn declare(&mut self, array: usize) {
-        self.writer.lines(&format!("{} = np.zeros(({},) + batch)", self.name(array), self.flat.len(array)));
-    }
-
-    fn statement(&mut self, statement: &Statement) {
-        match statement {
-            Statement::Unpack { names, from } => {
-                // A view of a local array would change with it.
-                let is_given = self.flat.routine.arrays[from.array].role == Role::Argument;
-                let copied = if is_given { "" } else { ".copy()" };
-                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
-                for (k, name) in named {
-                    self.writer.lines(&format!("{name} = {}{copied}", self.place(*from, 0, k)));
-                }
-            }
-            Statement::Comment(text) => self.writer.lines(format!("# {}", harmless(text)).trim_end()),
-            Statement::Let { name, value } => self.writer.lines(&format!("{name} = {value}")),
-            Statement::SinCos(pairs) => {
-                for ([sine, cosine], angle) in pairs {
-                    let angle = &angle.text;
-                    self.writer.lines(&format!("{sine}, {cosine} = np.sin({angle}), np.cos({angle})"));
-                }
-            }
-            Statement::Declare(array) => self.declare(*array),
-            // Arrays are cleared where they are declared.
-            Statement::Clear(_) => {}
-            Statement::Copy { from, to, fresh } => {
-                let (to, from) = (self.name(*to), self.part(*from));
-                let line =
-                    if *fresh { format!("{to} = {from}.copy()") } else { format!("{to}[...] = {from}") };
-                self.writer.lines(&line);
-            }
-            Statement::Assign { to, index, values, fresh } => {
-                // A newly declared array has one row.
-                if *fresh {
-                    self.declare(to.array);
-                }
-                // Zeros need no assignment to an array that has just been initialized; a loop may
-                // have changed any other.
-                let began = *fresh || self.flat.routine.arrays[to.array].role == Role::Result;
-                let values = values.iter().enumerate().filter(|(_, value)| !(began && value.is_zero));
-                for (k, value) in values {
-                    self.writer.lines(&format!("{} = {}", self.place(*to, *index, k), value.text));
-                }
-            }
-            Statement::Call { routine, arrays, .. } => self.call(routine, arrays),
-            Statement::Sums { sums, terms, entries } => {
-                let name = self.flat.routines.sums[*sums].name;
-                let [terms, entries] = [terms, entries].map(|array| self.name(*array));
-                self.writer.begin(&format!("for entry, constant in enumerate({name}_CONSTANTS):"));
-                self.writer.lines(&format!("{entries}[entry] = constant"));
-                self.writer.end();
-                self.writer.begin(&format!("for entry, term, factor in {name}_FACTORS:"));
-                self.writer.lines(&format!("{entries}[entry] += factor * {terms}[term]"));
-                self.writer.end();
-            }
-            Statement::For { repeated, body } => {
-                let count = repeated.count.value(&self.flat.routines.description);
-                let head = match repeated.backwards {
-                    false => format!("for i in range({count}):"),
-                    true => format!(
-                        "for i in range({}, -1, -1):",
-                        number(count as f64 - 1.0).trim_end_matches(".0")
-                    ),
-                };
-                self.writer.begin(&head);
-                if body.is_empty() {
-                    self.writer.lines("pass");
-                }
-                body.iter().for_each(|statement| self.statement(statement));
-                self.writer.end();
-            }
-            // `results` prints the return; columns go to arrays.
-            Statement::Return(_) | Statement::Column { .. } => {}
-        }
-    }
-
-    fn call(&mut self, routine: &str, arrays: &[usize]) {
-        let callee = self.flat.routines.named(routine);
-        let is_given = |(_, array): &(&usize, &Array)| array.role == Role::Argument;
-        let (given, filled): (Vec<_>, Vec<_>) = arrays
-            .iter()
-            .zip(&callee.arrays)
-            .filter(|(_, array)| array.role != Role::Zeros)
-            .partition(is_given);
-        let names = |arrays: Vec<(&usize, &Array)>| {
-            arrays.into_iter().map(|(array, _)| self.name(*array)).collect::<Vec<_>>()
-        };
-        let (given, filled) = (names(given), names(filled));
-        let given: Vec<&str> = ["batch"].into_iter().chain(given).collect();
-        self.writer.lines(&format!("{} = _{routine}({})", filled.join(", "), given.join(", ")));
-    }
-
-    /// Prints the return statement: the only result, or all in their order.
-    fn results(&mut self, margin: Option<&str>) {
-        let arrays = self.flat.routine.arrays.iter().enumerate();
-        let results = arrays.filter(|(_, array)| array.role == Role::Result).map(|(index, _)| {
-            match self.flat.len(index) {
-                0 => "np.zeros((0,) + batch)".to_owned(),
-                _ => self.name(index).to_owned(),
-            }
-        });
-        // A constant margin has no axes for configurations.
-        let margin = margin.map(|value| match value {
-            "margin" => value.to_owned(),
-            value => format!("np.broadcast_to({value}, batch)"),
-        });
-        let results: Vec<String> = results.chain(margin).collect();
-        self.writer.lines(&format!("return {}", results.join(", ")));
-    }
 }

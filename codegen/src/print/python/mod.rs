@@ -18,11 +18,12 @@ use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
+use super::lists::lists;
 use super::names::{file_name, renamed};
 use super::records::records;
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless};
-use crate::program::{Routines, Sums};
+use crate::program::Routines;
 
 /// Modules that NumPy imports: a file of the same name would hide them.
 const MODULES: &str = "abc ast asyncio builtins codecs collections concurrent contextlib copy csv ctypes datetime decimal enum \
@@ -60,19 +61,8 @@ fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
     records(&mut writer, &routines.description, quoted, number);
     writer.end();
     writer.lines("}");
-    for table in routines.used_tables() {
-        let rows: Vec<String> =
-            table.rows.iter().map(|[first, second]| format!("[{first}, {second}]")).collect();
-        constant(&mut writer, table.documentation, table.name, &rows);
-    }
-    for Sums { name, constants, factors } in routines.used_sums() {
-        let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
-        constant(&mut writer, "Constant term of each entry.", &format!("{name}_CONSTANTS"), &values);
-        let row =
-            |(entry, term, factor): &(usize, usize, f64)| format!("({entry}, {term}, {})", number(*factor));
-        let rows: Vec<String> = factors.iter().map(row).collect();
-        let what = "Entry, term, and factor of the term.";
-        constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
+    for list in lists(routines.used_tables(), routines.used_sums()) {
+        constant(&mut writer, list.documentation, &list.name, &list.entries(number));
     }
     routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, table));
     writer.blank();

@@ -1,4 +1,4 @@
-//! Procedures on NumPy arrays of configurations.
+//! Statements and procedures on NumPy arrays of configurations.
 //!
 //! A number is an array with one entry for each configuration. A branch therefore executes the
 //! statements of every case, and assigns where its condition holds.
@@ -6,12 +6,12 @@
 use abbe_core::compensator::Status;
 
 use super::operators::number;
-use crate::print::expression::{Binding, Expression};
+use crate::print::expression::{Binding, Expression, Value};
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Printer, arrays, evaluated};
+use crate::print::procedure::{Called, Invocation, Printer, arrays};
 use crate::print::text::harmless;
 use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
-use crate::program::Routines;
+use crate::program::{Role, Routines};
 
 /// Prints a procedure that another one calls.
 pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Procedure) {
@@ -22,22 +22,22 @@ pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Proce
     writer.lines("r\"\"\"");
     writer.documentation(&procedure.documentation);
     writer.lines("\"\"\"");
-    let mut printer = PythonProcedure { writer, routines, cases: Vec::new() };
+    let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
     printer.declarations(procedure);
     printer.statements(&procedure.body);
     writer.lines(&format!("return {}", procedure.results[0].name));
     writer.end();
 }
 
-/// Printer of a procedure.
-pub(super) struct PythonProcedure<'p> {
+/// Printer of statements.
+pub(super) struct PythonPrinter<'p> {
     pub(super) writer: &'p mut Writer,
     pub(super) routines: &'p Routines,
     /// Conditions of the branches around the statement.
     pub(super) cases: Vec<String>,
 }
 
-impl PythonProcedure<'_> {
+impl PythonPrinter<'_> {
     /// Prints constants, and arrays that are filled element by element.
     pub(super) fn declarations(&mut self, procedure: &Procedure) {
         for (name, values) in &procedure.constants {
@@ -60,7 +60,7 @@ impl PythonProcedure<'_> {
     }
 }
 
-impl Printer for PythonProcedure<'_> {
+impl Printer for PythonPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if np.all(", "):", ""];
     const LOOP_END: &'static str = "";
     const LEAVE: &'static str = "break";
@@ -79,6 +79,8 @@ impl Printer for PythonProcedure<'_> {
             Called::Root => "np.sqrt",
             Called::Arctangent => "np.arctan2",
             Called::Clamped => "_clamped",
+            Called::Sine => "np.sin",
+            Called::Cosine => "np.cos",
         }
         .to_owned()
     }
@@ -107,12 +109,34 @@ impl Printer for PythonProcedure<'_> {
     }
 
     fn comment(&mut self, text: &str) {
-        self.writer.lines(&format!("# {}", harmless(text)));
+        self.writer.lines(format!("# {}", harmless(text)).trim_end());
     }
 
     fn assign(&mut self, place: &str, value: &str, _: Option<&str>) {
         let value = self.chosen(value, place);
         self.writer.lines(&format!("{place} = {value}"));
+    }
+
+    /// A view of a local array would change with it.
+    fn read(&self, place: String, role: Role) -> String {
+        if role == Role::Argument { place } else { place + ".copy()" }
+    }
+
+    fn assign_all(&mut self, entries: &[(String, &Value)]) {
+        entries.iter().for_each(|(place, value)| self.assign(place, &value.text, None));
+    }
+
+    fn zeros(&mut self, name: &str, len: usize) {
+        self.writer.lines(&format!("{name} = np.zeros(({len},) + batch)"));
+    }
+
+    fn copy_rows(&mut self, to: &str, from: &str, [first, behind]: [usize; 2], len: usize, fresh: bool) {
+        let is_whole = behind - first == len;
+        let rows = if is_whole { String::new() } else { format!("[{first}:{behind}]") };
+        self.writer.lines(&match fresh {
+            true => format!("{to} = {from}{rows}.copy()"),
+            false => format!("{to}[...] = {from}{rows}"),
+        });
     }
 
     fn copy(&mut self, to: &str, from: &str, _: usize) {
@@ -152,19 +176,27 @@ impl Printer for PythonProcedure<'_> {
         self.assign(result.name, &format!("_{procedure}(batch, {})", arguments.join(", ")), None);
     }
 
-    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
-        let (given, _) = evaluated(self.routines, function, q, results, false);
-        let call = format!("_{function}(batch, {})", given.join(", "));
-        let results = results.join(", ");
+    fn routines(&self) -> &Routines {
+        self.routines
+    }
+
+    fn invoke(&mut self, Invocation { routine, given, filled, in_procedure, .. }: &Invocation) {
+        let given: Vec<&str> = ["batch"].into_iter().chain(given.iter().map(|(_, own)| &own[..])).collect();
+        let call = format!("_{routine}({})", given.join(", "));
+        let names: Vec<&str> = filled.iter().map(|(.., own)| own.as_str()).collect();
+        let results = names.join(", ");
         self.writer.lines(&match self.cases.last() {
             None => format!("{results} = {call}"),
             Some(case) => {
                 format!("{results} = (np.where({case}, *pair) for pair in zip({call}, ({results})))")
             }
         });
-        let finite = results.split(", ").map(|name| format!("np.all(np.isfinite({name}))"));
-        self.writer.begin(&format!("if not ({}):", finite.collect::<Vec<_>>().join(" and ")));
-        self.writer.lines("raise ValueError(\"a result is not finite\")");
-        self.writer.end();
+        if *in_procedure {
+            let finite: Vec<String> =
+                names.iter().map(|name| format!("np.all(np.isfinite({name}))")).collect();
+            self.writer.begin(&format!("if not ({}):", finite.join(" and ")));
+            self.writer.lines("raise ValueError(\"a result is not finite\")");
+            self.writer.end();
+        }
     }
 }

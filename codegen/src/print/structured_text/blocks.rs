@@ -8,12 +8,15 @@ use abbe_spec::Spec;
 use super::declarations::{
     argument, array, array_name, array_type, comment, document, numbers, section, variables,
 };
-use super::operators::{StructuredText, instance, number};
-use crate::print::flat::{Flat, filled};
+use super::operators::{StructuredText, initial, instance, number};
+use super::procedures::BlockPrinter;
+use crate::print::flat::Flat;
 use crate::print::layout::Writer;
+use crate::print::lists::lists;
+use crate::print::routine::statements;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
-use crate::program::{Array, ArrayRows, Role, Routine, Routines, Row, Stage};
+use crate::program::{Role, Routine, Routines, Row, Stage};
 
 /// Prints one function block.
 pub(super) fn block(
@@ -24,7 +27,8 @@ pub(super) fn block(
     syntax: &StructuredText,
 ) {
     let Statements { list, .. } = Statements::new(spec, &routines.description, routine, syntax);
-    let mut printer = Printer { writer, spec, flat: Flat { routines, routine }, prefix: &syntax.prefix };
+    let (flat, prefix) = (Flat { routines, routine }, &syntax.prefix[..]);
+    let mut printer = Block { writer, spec, flat, prefix };
     printer.writer.blank();
     comment(printer.writer, routine.documentation);
     printer.writer.lines(&format!("FUNCTION_BLOCK {}_{}", syntax.prefix, routine.name));
@@ -33,19 +37,21 @@ pub(super) fn block(
     printer.locals(&list);
     printer.constants();
     printer.begin();
-    list.iter().for_each(|statement| printer.statement(statement));
-    printer.end();
+    let mut body = BlockPrinter { writer: printer.writer, routines, prefix, procedures: &[] };
+    let margin = statements(&mut body, flat, &list);
+    printer.end(margin);
     printer.writer.lines("END_FUNCTION_BLOCK");
 }
 
-struct Printer<'p> {
+/// The declarations and checks of a block.
+struct Block<'p> {
     writer: &'p mut Writer,
     spec: &'p Spec,
     flat: Flat<'p>,
     prefix: &'p str,
 }
 
-impl Printer<'_> {
+impl Block<'_> {
     fn name(&self, array: usize) -> &'static str {
         array_name(self.flat.routine.arrays[array].name)
     }
@@ -158,28 +164,13 @@ impl Printer<'_> {
                 numbers(writer, "lower_ranges", &ends(0));
                 numbers(writer, "upper_ranges", &ends(1));
             }
-            for table in tables {
-                let table = &self.flat.routines.tables[table];
-                comment(writer, table.documentation);
-                for column in 0..2 {
-                    let values: Vec<String> = table.rows.iter().map(|row| row[column].to_string()).collect();
-                    array(writer, &format!("{}_{column}", table.name), "DINT", &values);
-                }
-            }
-            for sums in sums.into_iter().map(|index| &self.flat.routines.sums[index]) {
-                let name = sums.name;
-                if !sums.constants.is_empty() {
-                    numbers(writer, &format!("{name}_CONSTANTS"), &sums.constants);
-                }
-                if !sums.factors.is_empty() {
-                    let column = |take: fn(&(usize, usize, f64)) -> usize| {
-                        sums.factors.iter().map(|row| take(row).to_string()).collect::<Vec<_>>()
-                    };
-                    array(writer, &format!("{name}_ENTRIES"), "DINT", &column(|row| row.0));
-                    array(writer, &format!("{name}_TERMS"), "DINT", &column(|row| row.1));
-                    let factors: Vec<f64> = sums.factors.iter().map(|row| row.2).collect();
-                    numbers(writer, &format!("{name}_FACTORS"), &factors);
-                }
+            let Routines { tables: all, sums: all_sums, .. } = self.flat.routines;
+            let (tables, sums) =
+                (tables.iter().map(|index| &all[*index]), sums.iter().map(|k| &all_sums[*k]));
+            for list in lists(tables, sums) {
+                comment(writer, list.documentation);
+                let element = if list.is_whole { "DINT" } else { "LREAL" };
+                array(writer, &list.name, element, &list.entries(initial));
             }
         });
     }
@@ -233,7 +224,10 @@ impl Printer<'_> {
     }
 
     /// Prints the checks of the results and the status.
-    fn end(&mut self) {
+    fn end(&mut self, margin: Option<&str>) {
+        if let Some(margin) = margin.filter(|margin| *margin != "margin") {
+            self.writer.lines(&format!("margin := {margin};"));
+        }
         if self.flat.routine.function.is_some() {
             if self.has_margin() {
                 let least = number(abbe_core::MINIMUM_MARGIN);
@@ -256,120 +250,6 @@ impl Printer<'_> {
 
     fn count(&mut self, counter: &str, count: usize) {
         self.writer.begin(&format!("FOR {counter} := 0 TO {} DO", count - 1));
-    }
-
-    fn clear(&mut self, array: usize) {
-        let (name, count) = (self.name(array), self.flat.len(array));
-        self.count("k", count);
-        self.writer.lines(&format!("{name}[k] := LREAL#0.0;"));
-        self.writer.close("END_FOR;");
-    }
-
-    fn place(&self, place: ArrayRows, index: usize, k: usize) -> String {
-        let listed = |table: &str, column| format!("{table}_{column}[i]");
-        format!("{}[{}]", self.name(place.array), self.flat.index(place, index, k, listed))
-    }
-
-    fn statement(&mut self, statement: &Statement) {
-        match statement {
-            Statement::Unpack { names, from } => {
-                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
-                for (k, name) in named {
-                    self.writer.lines(&format!("{name} := {};", self.place(*from, 0, k)));
-                }
-            }
-            Statement::Comment(text) => comment(self.writer, text),
-            Statement::Let { name, value } => self.writer.lines(&format!("{name} := {value};")),
-            Statement::SinCos(pairs) => {
-                for ([sine, cosine], angle) in pairs {
-                    let (prefix, angle) = (self.prefix, &angle.text);
-                    self.writer.lines(&format!("{cosine} := {prefix}_cosine_and_sine({angle}, {sine});"));
-                }
-            }
-            Statement::Declare(array)
-                if !self.flat.keeps_zeros(*array) && !self.flat.begins_whole(*array) =>
-            {
-                self.clear(*array);
-            }
-            Statement::Declare(_) => {}
-            // Local arrays are cleared where they are declared.
-            Statement::Clear(array) if self.flat.routine.arrays[*array].role == Role::Zeros => {}
-            Statement::Clear(array) => self.clear(*array),
-            Statement::Copy { from, to, .. } => {
-                let [first, _] = self.flat.range(*from);
-                let (from, to, count) = (self.name(from.array), self.name(*to), self.flat.len(*to));
-                let at = if first == 0 { "k".to_owned() } else { format!("k + {first}") };
-                self.count("k", count);
-                self.writer.lines(&format!("{to}[k] := {from}[{at}];"));
-                self.writer.close("END_FOR;");
-            }
-            Statement::Assign { to, index, values, .. } => {
-                let keeps_zeros = self.flat.keeps_zeros(to.array);
-                let values = values.iter().enumerate().filter(|(_, value)| !(keeps_zeros && value.is_zero));
-                let entry = |(k, value): (usize, &crate::print::expression::Value)| {
-                    format!("{} := {}", self.place(*to, *index, k), value.text)
-                };
-                let entries: Vec<String> = values.map(entry).collect();
-                filled(self.writer, "", &entries, "; ");
-            }
-            Statement::Call { routine, arrays, .. } => self.call(routine, arrays),
-            Statement::Sums { sums, terms, entries } => self.sums(*sums, *terms, *entries),
-            Statement::For { repeated, body } => {
-                let count = repeated.count.value(&self.flat.routines.description);
-                match repeated.backwards {
-                    _ if count == 0 => return,
-                    false => self.count("i", count),
-                    true => self.writer.begin(&format!("FOR i := {} TO 0 BY -1 DO", count - 1)),
-                }
-                body.iter().for_each(|statement| self.statement(statement));
-                self.writer.close("END_FOR;");
-            }
-            Statement::Return(margin) if margin != "margin" => {
-                self.writer.lines(&format!("margin := {margin};"));
-            }
-            // Columns go to arrays.
-            Statement::Return(_) | Statement::Column { .. } => {}
-        }
-    }
-
-    fn sums(&mut self, sums: usize, terms: usize, entries: usize) {
-        let sums = &self.flat.routines.sums[sums];
-        let [terms, entries] = [terms, entries].map(|array| self.name(array));
-        let name = sums.name;
-        if !sums.constants.is_empty() {
-            self.count("k", sums.constants.len());
-            self.writer.lines(&format!("{entries}[k] := {name}_CONSTANTS[k];"));
-            self.writer.close("END_FOR;");
-        }
-        if !sums.factors.is_empty() {
-            self.count("k", sums.factors.len());
-            let entry = format!("{entries}[{name}_ENTRIES[k]]");
-            let product = format!("{name}_FACTORS[k] * {terms}[{name}_TERMS[k]]");
-            self.writer.lines(&format!("{entry} := {entry} + {product};"));
-            self.writer.close("END_FOR;");
-        }
-    }
-
-    fn call(&mut self, routine: &str, arrays: &[usize]) {
-        let callee = self.flat.routines.named(routine);
-        let run = instance(routine);
-        let both = || {
-            let both = arrays.iter().zip(&callee.arrays);
-            both.filter(|(array, _)| self.flat.len(**array) > 0).map(|(array, other)| (*array, other))
-        };
-        let given =
-            |(array, other): (usize, &Array)| format!("{} := {}", array_name(other.name), self.name(array));
-        let given: Vec<String> =
-            both().filter(|(_, other)| other.role == Role::Argument).map(given).collect();
-        let mut lines = vec![format!("{run}({});", given.join(", "))];
-        for (array, other) in both().filter(|(_, other)| other.role != Role::Argument) {
-            lines.push(format!("{} := {run}.{};", self.name(array), array_name(other.name)));
-        }
-        lines.iter().for_each(|line| self.writer.lines(line));
-        self.writer.begin(&format!("IF {run}.status <> 0 THEN"));
-        self.writer.lines(&format!("status := {run}.status;"));
-        self.writer.lines("RETURN;");
-        self.writer.close("END_IF;");
     }
 }
 

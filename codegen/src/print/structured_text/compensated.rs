@@ -8,7 +8,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::declarations::{argument, comment, document, numbers, section};
-use super::procedures::{BlockProcedure, declarations, helper};
+use super::procedures::{BlockPrinter, declarations, helper};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Kind, Precision, Procedure, Variable, compensated};
@@ -30,7 +30,7 @@ pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, pref
     declarations(writer, &cycle, prefix, &[kept, sum]);
     let last = spec.variables.len() - 1;
     writer.lines(BEGIN.replace("LAST", &last.to_string()).replace("PREFIX", prefix).trim_end());
-    BlockProcedure { writer, routines, prefix, procedures: &helpers }.statements(&cycle.body);
+    BlockPrinter { writer, routines, prefix, procedures: &helpers }.statements(&cycle.body);
     writer.lines("last := correction;");
     writer.lines("END_FUNCTION_BLOCK");
 }

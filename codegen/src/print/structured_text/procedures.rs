@@ -1,13 +1,14 @@
-//! Procedures in Structured Text: function blocks.
+//! Statements in Structured Text, and procedures as function blocks.
 
 use super::declarations::{array_name, array_type, comment, numbers, section, variables};
 use super::operators::{instance, number};
 use super::support::Support;
-use crate::print::expression::{Binding, Expression};
+use crate::print::expression::{Binding, Expression, Value};
 use crate::print::layout::{LINE, Writer, width};
-use crate::print::procedure::{Called, Printer, arrays, evaluated};
+use crate::print::procedure::{Called, Invocation, Printer, arrays};
+use crate::print::routine::Results;
 use crate::procedure::{Index, Kind, Procedure, Variable};
-use crate::program::Routines;
+use crate::program::{Routine, Routines};
 
 /// Prints a procedure that another one calls.
 pub(super) fn helper(
@@ -23,7 +24,7 @@ pub(super) fn helper(
     section(writer, "VAR_INPUT", |writer| declare(writer, &procedure.arguments));
     section(writer, "VAR_OUTPUT", |writer| declare(writer, &procedure.results));
     declarations(writer, procedure, prefix, &[]);
-    BlockProcedure { writer, routines, prefix, procedures }.statements(&procedure.body);
+    BlockPrinter { writer, routines, prefix, procedures }.statements(&procedure.body);
     writer.lines("END_FUNCTION_BLOCK");
 }
 
@@ -79,7 +80,7 @@ fn call(writer: &mut Writer, run: &str, given: &[String]) {
 }
 
 /// Printer of the statements of a procedure.
-pub(super) struct BlockProcedure<'p> {
+pub(super) struct BlockPrinter<'p> {
     pub(super) writer: &'p mut Writer,
     pub(super) routines: &'p Routines,
     pub(super) prefix: &'p str,
@@ -87,21 +88,14 @@ pub(super) struct BlockProcedure<'p> {
     pub(super) procedures: &'p [Procedure],
 }
 
-impl BlockProcedure<'_> {
-    /// Prints the end of the block with the status of another one that has no result.
-    fn fail_with(&mut self, run: &str) {
-        self.writer.begin(&format!("IF {run}.status <> 0 THEN"));
-        self.writer.lines(&format!("status := {run}.status;"));
-        self.writer.lines("RETURN;");
-        self.writer.close("END_IF;");
-    }
-}
-
-impl Printer for BlockProcedure<'_> {
+impl Printer for BlockPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["IF ", " THEN", "END_IF;"];
     const LOOP_END: &'static str = "END_FOR;";
     const HAS_LESS: bool = false;
     const LEAVE: &'static str = "EXIT;";
+    const ASSIGN: [&'static str; 2] = [":=", ";"];
+    const SKIPS_EMPTY: bool = true;
+    const RESULTS: Results = Results::Kept;
 
     fn writer(&mut self) -> &mut Writer {
         self.writer
@@ -112,12 +106,15 @@ impl Printer for BlockProcedure<'_> {
     }
 
     fn function(&self, called: Called) -> String {
-        match called {
-            Called::Absolute => "ABS".to_owned(),
-            Called::Root => "SQRT".to_owned(),
-            Called::Arctangent => format!("{}_{}", self.prefix, Support::Arctangent.name()),
-            Called::Clamped => format!("{}_{}", self.prefix, Support::Clamped.name()),
-        }
+        let support = match called {
+            Called::Absolute => return "ABS".to_owned(),
+            Called::Root => return "SQRT".to_owned(),
+            Called::Arctangent => Support::Arctangent,
+            Called::Clamped => Support::Clamped,
+            Called::Sine => Support::Sine,
+            Called::Cosine => Support::Cosine,
+        };
+        format!("{}_{}", self.prefix, support.name())
     }
 
     fn operators(&self) -> [&'static str; 3] {
@@ -132,8 +129,20 @@ impl Printer for BlockProcedure<'_> {
         comment(self.writer, text);
     }
 
-    fn assign(&mut self, place: &str, value: &str, _: Option<&str>) {
-        self.writer.lines(&format!("{place} := {value};"));
+    fn array(&self, _: &Routine, name: &'static str) -> String {
+        array_name(name).to_owned()
+    }
+
+    fn sines(&mut self, pairs: &[([String; 2], Expression)]) {
+        for ([sine, cosine], angle) in pairs {
+            let call = format!("{}_cosine_and_sine({}, {sine})", self.prefix, angle.text);
+            self.assign(cosine, &call, None);
+        }
+    }
+
+    /// Local arrays are declared above the statements.
+    fn create(&mut self, _: &str, entries: &[(String, &Value)]) {
+        self.assign_all(entries);
     }
 
     fn copy(&mut self, to: &str, from: &str, _: usize) {
@@ -157,17 +166,26 @@ impl Printer for BlockProcedure<'_> {
         self.writer.lines(&format!("{} := {run}.{};", result.name, callee.results[0].name));
     }
 
-    fn evaluate(&mut self, function: &'static str, q: &'static str, results: &[&'static str]) {
-        let (given, filled) = evaluated(self.routines, function, q, results, true);
+    fn routines(&self) -> &Routines {
+        self.routines
+    }
+
+    fn invoke(&mut self, Invocation { routine, given, filled, .. }: &Invocation) {
+        let run = instance(routine);
         let given: Vec<String> = given
-            .into_iter()
-            .map(|name| format!("{} := {}", if name == q { "q" } else { array_name(name) }, array_name(name)))
+            .iter()
+            .map(|(name, own)| {
+                let name = array_name(name);
+                format!("{name} := {}", if own == "s" || own == "u" { name } else { own })
+            })
             .collect();
-        let run = instance(function);
         call(self.writer, &run, &given);
-        self.fail_with(&run);
-        for (array, result) in filled {
-            self.writer.lines(&format!("{result} := {run}.{};", array.name));
+        self.writer.begin(&format!("IF {run}.status <> 0 THEN"));
+        self.writer.lines(&format!("status := {run}.status;"));
+        self.writer.lines("RETURN;");
+        self.writer.close("END_IF;");
+        for (name, _, own) in filled {
+            self.assign(own, &format!("{run}.{}", array_name(name)), None);
         }
     }
 }
