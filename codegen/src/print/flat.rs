@@ -3,6 +3,17 @@
 use super::layout::{NARROW, Writer, width};
 use crate::program::{ArrayRows, Block, Role, Routine, Routines, Row, Stage};
 
+/// Memory of the results of a function.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Results {
+    /// The function creates them, filled with zeros.
+    Created,
+    /// The caller gives them, with any numbers.
+    Given,
+    /// They keep their numbers from call to call.
+    Kept,
+}
+
 /// The arrays of one routine.
 #[derive(Clone, Copy)]
 pub(super) struct Flat<'p> {

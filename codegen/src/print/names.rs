@@ -59,6 +59,7 @@ impl<'s> Names<'s> {
             _ => None,
         });
         let tables = spec.tables.iter().map(|table| table.constant_name());
+        let tables = tables.flat_map(|name| [function_of(&name), name]);
         let taken = reserved.split_whitespace().chain(arrays).map(str::to_owned);
         let taken = taken.chain(called.flatten()).chain(tables);
         let used = taken.map(|name| (identifiers.key)(&name)).collect();
@@ -212,6 +213,11 @@ impl<'s> Names<'s> {
         self.used.insert(key(&name));
         name
     }
+}
+
+/// Returns the name of the function of a lookup table.
+pub(super) fn function_of(table: &str) -> String {
+    format!("look_up_{table}")
 }
 
 /// Returns a name with as many suffixes as it takes to be free.

@@ -4,9 +4,8 @@
 //! `routine` prints the statements of routines as well.
 
 use super::expression::{Binding, Expression, Value as Entry, infix};
-use super::flat::filled;
+use super::flat::{Results, filled};
 use super::layout::Writer;
-use super::routine::Results;
 use crate::procedure::{
     Binary, Condition, Counter, Index, Kind, Procedure, Statement, Unary, Value, Variable, Whole,
 };
@@ -98,6 +97,19 @@ pub(super) trait Printer {
     /// Returns a status.
     fn status(&self, status: abbe_core::compensator::Status) -> String {
         status.code().to_string()
+    }
+
+    /// Returns a whole number as a real one.
+    fn real(&self, whole: &Index) -> Expression {
+        let text = whole.to_string();
+        let binding = if text.contains(' ') { Binding::Choice } else { Binding::Atom };
+        Expression::new(text, binding)
+    }
+
+    /// Returns the nearest whole number: adding 1.5 · 2⁵² rounds.
+    fn nearest(&self, value: &Expression) -> String {
+        let round = self.number(6_755_399_441_055_744.0);
+        infix(&infix(value, "+", &round), "-", &round).text
     }
 
     /// Returns a sum of products over a range; languages without sums of arrays have loops instead.
@@ -242,8 +254,8 @@ pub(super) trait Printer {
             }
             Statement::SetWhole(name, value) => {
                 let value = match value {
-                    Whole::Number(number) => number.to_string(),
-                    Whole::Counter(counter) => counter.name().to_owned(),
+                    Whole::Index(index) => index.to_string(),
+                    Whole::Nearest(value) => self.nearest(&self.value(value)),
                     Whole::Status(status) => self.status(*status),
                 };
                 self.assign(name, &value, None);
@@ -271,6 +283,7 @@ pub(super) trait Printer {
         match value {
             Value::Number(value) => self.number(*value),
             Value::Name(name) => Expression::name((*name).to_owned()),
+            Value::Whole(index) => self.real(index),
             Value::Element(array, index) => Expression::name(self.at(array, &index.to_string())),
             Value::Unary(Unary::Negative, operand) => {
                 // `-` binds less than `*` in some languages.
@@ -313,7 +326,7 @@ pub(super) trait Printer {
         match condition {
             Condition::Greater(a, b) => self.compared(a, [">", "<"], b),
             Condition::AtLeast(a, b) => self.compared(a, [">=", "<="], b),
-            Condition::Is(name, counter) => format!("{name} {is} {}", counter.name()),
+            Condition::Is(name, index) => format!("{name} {is} {index}"),
             Condition::Flag(name) => self.flag(name),
             Condition::And(operands) => both(and, operands),
             Condition::Or(operands) => both(or, operands),

@@ -1,21 +1,10 @@
 //! Prints the statements of routines: what is the same in every language with flat arrays.
 
 use super::expression::Value;
-use super::flat::Flat;
+use super::flat::{Flat, Results};
 use super::procedure::{Invocation, Printer};
 use super::statement::Statement;
 use crate::program::{ArrayRows, Role, Sums};
-
-/// Memory of the results of a function.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Results {
-    /// The function creates them, filled with zeros.
-    Created,
-    /// The caller gives them, with any numbers.
-    Given,
-    /// They keep their numbers from call to call.
-    Kept,
-}
 
 /// Prints statements, and returns the margin if it is returned.
 pub(super) fn statements<'s, L: Printer>(

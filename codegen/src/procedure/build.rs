@@ -48,6 +48,18 @@ impl Body<'_> {
         Array { name, len }
     }
 
+    /// Declares a number as argument.
+    pub(super) fn argument_real(&mut self, name: &'static str) -> Real {
+        self.procedure.arguments.push(Variable { name, kind: Kind::Real });
+        Real(name)
+    }
+
+    /// Declares a whole number as argument.
+    pub(super) fn argument_whole(&mut self, name: &'static str) -> Counter {
+        self.procedure.arguments.push(Variable { name, kind: Kind::Whole });
+        Counter(name)
+    }
+
     /// Declares an array as result.
     pub(super) fn result(&mut self, name: &'static str, len: usize) -> Array {
         self.procedure.results.push(Variable { name, kind: Kind::Array(len) });
@@ -61,8 +73,9 @@ impl Body<'_> {
     }
 
     /// Declares a whole number as result.
-    pub(super) fn result_whole(&mut self, name: &'static str) {
+    pub(super) fn result_whole(&mut self, name: &'static str) -> Counter {
         self.procedure.results.push(Variable { name, kind: Kind::Whole });
+        Counter(name)
     }
 
     /// Declares an array of fixed numbers.
@@ -91,8 +104,9 @@ impl Body<'_> {
     }
 
     /// Declares a local whole number.
-    pub(super) fn whole(&mut self, name: &'static str) {
+    pub(super) fn whole(&mut self, name: &'static str) -> Counter {
         self.local(name, Kind::Whole);
+        Counter(name)
     }
 
     fn local(&mut self, name: &'static str, kind: Kind) {
@@ -118,7 +132,7 @@ impl Body<'_> {
     }
 
     /// Assigns a whole number.
-    pub(super) fn set_whole(&mut self, name: &'static str, value: Whole) {
+    pub(super) fn set_whole(&mut self, Counter(name): Counter, value: Whole) {
         self.statements.push(Statement::SetWhole(name, value));
     }
 
@@ -250,9 +264,9 @@ impl From<Flag> for Condition {
     }
 }
 
-impl Condition {
-    /// Returns the condition that a whole number is a counter.
-    pub(super) fn is(name: &'static str, counter: Counter) -> Self {
-        Self::Is(name, counter)
+impl Counter {
+    /// Returns the condition that a whole number is another one.
+    pub(super) fn is(self, other: impl Into<Index>) -> Condition {
+        Condition::Is(self.0, other.into())
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::{Add, Mul, Sub};
 
-/// Counter of a loop.
+/// Counter of a loop, or another whole variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counter(pub(super) &'static str);
 

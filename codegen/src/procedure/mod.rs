@@ -4,17 +4,19 @@
 //! count loops by fixed ranges and index arrays by sums of loop counters, so that a language whose
 //! numbers are arrays of configurations can print every branch as a choice by a mask. `value` has
 //! expressions, `build` the builder that descriptions are written with, `lower` replaces sums by
-//! loops, and `compensated` describes the corrected command.
+//! loops, `look_up` describes lookups of tables, and `compensated` the corrected command.
 
 mod build;
 mod compensated;
 mod index;
+mod look_up;
 mod lower;
 mod value;
 
 pub use build::Body;
 pub use compensated::{Precision, compensated};
 pub use index::{Counter, Index};
+pub use look_up::look_up;
 pub use value::{Binary, Condition, Unary, Value};
 
 use abbe_core::compensator::Status;
@@ -124,12 +126,12 @@ pub enum Statement {
 }
 
 /// A whole number to be assigned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Whole {
-    /// A number.
-    Number(i64),
-    /// The counter of a loop.
-    Counter(Counter),
+    /// A sum of counters, whole variables and a number.
+    Index(Index),
+    /// The nearest whole number.
+    Nearest(Value),
     /// The number of a status.
     Status(Status),
 }

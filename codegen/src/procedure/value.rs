@@ -11,6 +11,8 @@ pub enum Value {
     Number(f64),
     /// A variable.
     Name(&'static str),
+    /// A whole number as a real one.
+    Whole(Index),
     /// An element of an array.
     Element(&'static str, Index),
     /// An operation on one operand.
@@ -64,8 +66,9 @@ pub enum Condition {
     Greater(Value, Value),
     /// The first number is greater or equal.
     AtLeast(Value, Value),
-    /// A whole number is the counter of a loop.
-    Is(&'static str, Counter),
+    /// A whole number is another one. An argument that is compared with a number has the same value
+    /// in all configurations.
+    Is(&'static str, Index),
     /// A truth value.
     Flag(&'static str),
     /// Both conditions hold.

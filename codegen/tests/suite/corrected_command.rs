@@ -7,12 +7,13 @@ use std::collections::{HashMap, HashSet};
 use abbe_codegen::chain::Model;
 use abbe_codegen::procedure::{
     Binary, Condition, Index, Kind, Precision, Procedure, Statement, Unary, Value, Whole, compensated,
+    look_up,
 };
 use abbe_codegen::program::{Routines, results};
 use abbe_core::compensator::{Compensated, Cycle, Status, compensate};
 use abbe_core::{Function, Pose};
 use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
+use abbe_spec::expr::{Dimension, Extrapolation, Interpolation, Symbol, Table};
 
 use crate::readable_rust::shipped;
 
@@ -74,8 +75,8 @@ impl Machine {
                 Statement::SetFlag(name, flag) => drop(variables.insert(name, vec![f64::from(*flag)])),
                 Statement::SetWhole(name, whole) => {
                     let number = match whole {
-                        Whole::Number(number) => *number as f64,
-                        Whole::Counter(counter) => variables[counter.name()][0],
+                        Whole::Index(index) => whole(index, variables) as f64,
+                        Whole::Nearest(number) => value(number, variables).round_ties_even(),
                         Whole::Status(status) => f64::from(status.code()),
                     };
                     variables.insert(name, vec![number]);
@@ -135,8 +136,12 @@ impl Machine {
     }
 }
 
+fn whole(index: &Index, variables: &Variables) -> i64 {
+    index.value(|counter| variables[counter.name()][0] as i64)
+}
+
 fn index_of(index: &Index, variables: &Variables) -> usize {
-    usize::try_from(index.value(|counter| variables[counter.name()][0] as i64)).unwrap()
+    usize::try_from(whole(index, variables)).unwrap()
 }
 
 fn value(expression: &Value, variables: &Variables) -> f64 {
@@ -144,6 +149,7 @@ fn value(expression: &Value, variables: &Variables) -> f64 {
     match expression {
         Value::Number(number) => *number,
         Value::Name(name) => variables[name][0],
+        Value::Whole(index) => whole(index, variables) as f64,
         Value::Element(name, index) => variables[name][index_of(index, variables)],
         Value::Unary(Unary::Negative, operand) => -value(operand),
         Value::Unary(Unary::Absolute, operand) => value(operand).abs(),
@@ -171,7 +177,7 @@ fn holds(condition: &Condition, variables: &Variables) -> bool {
     match condition {
         Condition::Greater(a, b) => number(a) > number(b),
         Condition::AtLeast(a, b) => number(a) >= number(b),
-        Condition::Is(name, counter) => variables[name] == variables[counter.name()],
+        Condition::Is(name, index) => variables[name] == [whole(index, variables) as f64],
         Condition::Flag(name) => match variables[name][0] {
             flag if flag.is_nan() => panic!("{name} is not assigned"),
             flag => flag > 0.0,
@@ -262,6 +268,42 @@ fn check_branches<'p>(statements: &'p [Statement], assigned: &mut HashSet<&'p st
             assert!(!(is_new && in_branch), "{name} has no value before the branch");
         }
     }
+}
+
+/// Tables of equidistant and of other points, with and without values beyond their ends.
+#[test]
+fn lookups_have_the_bits_of_tables() {
+    let (mut machine, mut compared) = (None, 0);
+    for (file, text) in shipped() {
+        let spec = Spec::parse(&file, &text).unwrap();
+        machine = Some(Machine { model: Model::new(&spec), spec, procedures: vec![] });
+    }
+    let mut machine = machine.unwrap();
+    let points = |x: [f64; 7]| x.iter().enumerate().map(|(k, x)| [*x, share(k)]).collect::<Vec<_>>();
+    let all = [[-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0], [-2.0, -1.9, 0.0, 0.1, 0.15, 4.0, 9.0]];
+    for (x, interpolation, outside) in all.iter().flat_map(|x| {
+        let kinds = [Interpolation::Linear, Interpolation::Cubic];
+        kinds.into_iter().flat_map(move |kind| {
+            [Extrapolation::Nothing, Extrapolation::Hold].map(|outside| (*x, kind, outside))
+        })
+    }) {
+        let dimensions = [Dimension::NONE; 2];
+        let table = Table::new(String::new(), String::new(), dimensions, points(x), interpolation, outside);
+        let lookup = table.lookup();
+        machine.procedures = vec![look_up(&lookup, lookup.scale, String::new())];
+        let span = 1.2 * (x[6] - x[0]);
+        let between = (0..400).map(|k| x[0] - 0.1 * span + span * share(k));
+        for x in between.chain(x).chain([f64::NAN, f64::INFINITY, f64::NEG_INFINITY]) {
+            for order in 0..4 {
+                let found = machine.call("look_up", &[vec![f64::from(order)], vec![x]])[0][0];
+                let expected = table.derivative(order, x);
+                let is_same = found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan();
+                assert!(is_same, "derivative {order} at {x}: {found}, {expected}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 10_000);
 }
 
 #[test]

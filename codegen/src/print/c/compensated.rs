@@ -36,7 +36,7 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, routines: &Routines, 
     }
     let procedures = compensated(spec, real.precision()).into_iter().map(Procedure::with_loops);
     let (helpers, cycle) = split(procedures.collect());
-    helpers.iter().for_each(|procedure| helper(writer, routines, procedure, real));
+    helpers.iter().for_each(|procedure| helper(writer, routines, procedure, procedure.name, real));
     writer.blank();
     writer.lines(&head(routines, &COMPENSATED, real, SIZE));
     writer.open_alone();

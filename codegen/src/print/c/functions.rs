@@ -39,7 +39,7 @@ fn helper_head(routines: &Routines, routine: &Routine, real: Real) -> String {
 
 /// Returns a head with the declarations of its arrays, on several lines if it is long. An array
 /// without elements is no argument.
-pub(super) fn head_of(
+fn head_of(
     name: &str,
     arrays: impl Iterator<Item = (&'static str, Role, usize)>,
     real: Real,
@@ -51,8 +51,13 @@ pub(super) fn head_of(
         Role::Margin | Role::Zeros => None,
     });
     let declared: Vec<String> = declared.collect();
-    let line = format!("{name}({})", declared.join(", "));
-    if width(&line) < LINE { line } else { format!("{name}(\n    {})", declared.join(",\n    ")) }
+    broken(name, &declared)
+}
+
+/// Returns a head with its arguments, on several lines if it is long.
+pub(super) fn broken(name: &str, arguments: &[String]) -> String {
+    let line = format!("{name}({})", arguments.join(", "));
+    if width(&line) < LINE { line } else { format!("{name}(\n    {})", arguments.join(",\n    ")) }
 }
 
 /// Prints the documentation of a declaration, with additional status codes and a closing paragraph

@@ -20,15 +20,17 @@ use abbe_spec::expr::Table;
 
 use self::functions::{RESTRICT, comment, documentation, function, head};
 use self::operators::HEADERS;
+use self::procedures::helper;
 pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
-use super::names::{file_name, renamed};
+use super::names::{file_name, function_of, renamed};
 use super::source_file::SourceFile;
 use super::text::escaped;
 use crate::chain::Model;
+use crate::procedure::look_up;
 use crate::program::{Operand, Routines};
 
 /// Returns the header and the source of a manipulator.
@@ -144,7 +146,7 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real, file
         writer.blank();
         writer.lines(text.trim_end());
     }
-    routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, table, real));
+    routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, routines, table, real));
     ranges(&mut writer, spec, routines, real);
     writer.lines(body.trim_end());
     compensated::definition(&mut writer, spec, routines, real);
@@ -321,11 +323,6 @@ fn values(
     one("Lower and upper ends of the ranges of the inputs.", "ranges", true, ranges);
 }
 
-fn numbers(writer: &mut Writer, name: &str, values: &[f64], real: Real) {
-    let entries: Vec<String> = values.iter().map(|value| real.number(*value)).collect();
-    writer.braces(&format!("static const {real} {name}[{}] = ", values.len()), &entries, ";");
-}
-
 /// Returns `true` if a function takes inputs.
 fn takes_inputs(routines: &Routines) -> bool {
     let functions = routines.list.iter().filter(|routine| routine.function.is_some());
@@ -353,29 +350,11 @@ fn ranges(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
     writer.close("}");
 }
 
-/// Prints a lookup table.
-fn lookup_table(writer: &mut Writer, table: &Table, real: Real) {
-    let number = |value: f64| real.number(value);
-    let (name, lookup) = (table.constant_name(), table.lookup());
-    let even = lookup.starts.is_empty();
-    writer.blank();
-    comment(writer, &table.documentation(&escaped(&table.description)));
-    if !even {
-        let starts: Vec<String> = lookup.starts.iter().map(u32::to_string).collect();
-        writer.braces(&format!("static const int {name}_STARTS[{}] = ", starts.len()), &starts, ";");
-        numbers(writer, &format!("{name}_KNOTS"), lookup.knots, real);
-    }
-    let row = |piece: &[f64; 4]| format!("{{ {} }}", piece.map(number).join(", "));
-    let rows: Vec<String> = lookup.pieces.iter().map(row).collect();
-    writer.braces(&format!("static const {real} {name}_PIECES[{}][4] = ", rows.len()), &rows, ";");
-    let buckets = if even { lookup.pieces.len() } else { lookup.starts.len() } - 2;
-    let or_null = |what: &str| if even { "0".to_owned() } else { format!("{name}_{what}") };
-    writer.open(&format!("static const lookup_table {name} ="));
-    writer.lines(&format!("{}, {},", number(lookup.first), number(real.scale(table, buckets))));
-    // The first stride of the bisection to a piece.
-    let stride = if lookup.steps == 0 { 0 } else { 1 << (lookup.steps - 1) };
-    writer.lines(&format!("{buckets}, {stride},"));
-    writer.lines(&format!("{}, {}, {},", or_null("STARTS"), or_null("KNOTS"), lookup.knots.len()));
-    writer.lines(&format!("{name}_PIECES"));
-    writer.close("};");
+/// Prints the function of a lookup table.
+fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table, real: Real) {
+    let (lookup, name) = (table.lookup(), function_of(&table.constant_name()));
+    let buckets = if lookup.starts.is_empty() { lookup.pieces.len() } else { lookup.starts.len() } - 2;
+    let documentation = table.documentation(&escaped(&table.description));
+    let procedure = look_up(&lookup, real.scale(table, buckets), documentation);
+    helper(writer, routines, &procedure, &name, real);
 }

@@ -8,6 +8,7 @@ use abbe_spec::expr::{Function as Operator, Lookup};
 
 use super::real::Real;
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
+use crate::print::names::function_of;
 use crate::program::Action;
 
 /// The syntax of C for a spec, whose names and tables occur in the file.
@@ -21,7 +22,7 @@ const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imagin
          const_cast constexpr continue copysign cos cosf cosh cosine decltype default delete do double dynamic_cast else enum \
          erf erfc exp exp2 expf explicit export expm1 extern fabs fabsf false fdim float floor fma fmax fmin fmod for friend frexp \
          goto greater hypot i if ilogb inline inputs_are_in_range int is_within isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
-         llround log log10 log1p log2 logb logf long look_up lrint lround margin modf mutable namespace nan nearbyint new \
+         llround log log10 log1p log2 logb logf long lrint lround margin modf mutable namespace nan nearbyint new \
          nextafter nexttoward noexcept not not_eq nullptr operator or or_eq pow powf private protected public real register \
          reinterpret_cast remainder remquo requires restrict return rint round scalbln scalbn short side sign signbit sine sines cosine cosines \
          signed sin sin_cos sin_cos_2 sin_cos_4 sinf sinh sizeof sqrt sqrtf static static_assert static_cast status struct switch tan tanf tanh template \
@@ -71,8 +72,8 @@ impl Syntax for C<'_> {
             Called::Function(function @ (Operator::Sign | Operator::Side)) => own(function.name()),
             Called::Function(function) => call(function.name()),
             Called::Lookup(Lookup { table, order }) => {
-                let (name, x) = (self.spec.tables[usize::from(table)].constant_name(), &operands[0].text);
-                Expression::new(format!("look_up(&{name}, {order}, {x})"), Binding::Atom)
+                let name = function_of(&self.spec.tables[usize::from(table)].constant_name());
+                Expression::new(format!("{name}({order}, {})", operands[0].text), Binding::Atom)
             }
         })
     }

@@ -2,30 +2,40 @@
 
 use abbe_core::compensator::Status;
 
-use super::functions::{RESTRICT, comment, head_of};
+use super::functions::{RESTRICT, broken, comment};
 use super::real::Real;
-use crate::print::expression::{Expression, Value};
-use crate::print::flat::filled;
+use crate::print::expression::{Binding, Expression, Value};
+use crate::print::flat::{Results, filled};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Called, Invocation, Printer, arrays};
-use crate::print::routine::Results;
 use crate::print::text::harmless;
 use crate::procedure::{Index, Kind, Procedure, Variable};
-use crate::program::{Role, Routines};
+use crate::program::Routines;
 
 /// Prints a procedure that another one calls.
-pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Procedure, real: Real) {
-    let given = arrays(&procedure.arguments).map(|(name, len)| (name, Role::Argument, len));
-    let filled = arrays(&procedure.results).map(|(name, len)| (name, Role::Result, len));
+pub(super) fn helper(
+    writer: &mut Writer,
+    routines: &Routines,
+    procedure: &Procedure,
+    name: &str,
+    real: Real,
+) {
+    let given = |Variable { name, kind }: &Variable| match kind {
+        Kind::Array(len) => format!("const {real} {name}[{RESTRICT}({len})]"),
+        Kind::Real => format!("{real} {name}"),
+        Kind::Whole | Kind::Flag => format!("int {name}"),
+    };
+    let filled = arrays(&procedure.results).map(|(name, len)| format!("{real} {name}[{RESTRICT}({len})]"));
     let number = procedure.results.iter().find(|result| result.kind == Kind::Real);
     let kind = if number.is_some() { real.name() } else { "void" };
+    let arguments: Vec<String> = procedure.arguments.iter().map(given).chain(filled).collect();
     writer.blank();
     comment(writer, &procedure.documentation);
-    writer.lines(&head_of(&format!("static {kind} {}", procedure.name), given.chain(filled), real, RESTRICT));
+    writer.lines(&broken(&format!("static {kind} {name}"), &arguments));
     writer.open_alone();
     let mut printer = CPrinter { writer, routines, real };
     printer.declarations(procedure);
-    number.iter().for_each(|result| printer.declare(result));
+    number.iter().for_each(|result| printer.declare_variable(result));
     printer.statements(&procedure.body);
     if let Some(result) = number {
         writer.lines(&format!("return {};", result.name));
@@ -49,10 +59,10 @@ impl CPrinter<'_> {
             let head = format!("static const {real} {name}[{}] = ", entries.len());
             self.writer.braces(&head, &entries, ";");
         }
-        procedure.locals.iter().for_each(|variable| self.declare(variable));
+        procedure.locals.iter().for_each(|variable| self.declare_variable(variable));
     }
 
-    fn declare(&mut self, Variable { name, kind }: &Variable) {
+    fn declare_variable(&mut self, Variable { name, kind }: &Variable) {
         let real = self.real;
         self.writer.lines(&match kind {
             Kind::Array(len) => format!("{real} {name}[{len}];"),
@@ -101,6 +111,15 @@ impl Printer for CPrinter<'_> {
 
     fn status(&self, status: Status) -> String {
         self.code(status.name())
+    }
+
+    fn real(&self, whole: &Index) -> Expression {
+        Expression::new(format!("({}){whole}", self.real), Binding::Atom)
+    }
+
+    fn nearest(&self, value: &Expression) -> String {
+        let round = self.real.rounder();
+        format!("(int)(({} + {round}) - {round})", value.text)
     }
 
     fn comment(&mut self, text: &str) {

@@ -20,7 +20,6 @@ pub(super) enum Support {
     Greater,
     Sign,
     Side,
-    LookUp,
     Clamped,
 }
 
@@ -30,7 +29,8 @@ impl Support {
         let programs = routines.programs();
         let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
         let mut used: BTreeSet<Self> = actions.filter_map(Self::for_action).collect();
-        used.extend(Some(Self::Clamped).filter(|_| routines.has_compensated()));
+        let is_clamped = routines.has_compensated() || routines.used_lookup_tables().next().is_some();
+        used.extend(Some(Self::Clamped).filter(|_| is_clamped));
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
             used.insert(Self::SinCos);
         }
@@ -49,7 +49,6 @@ impl Support {
             Action::Call(Function::Side, _) => Some(Self::Side),
             Action::Min(..) => Some(Self::Least),
             Action::Max(..) => Some(Self::Greater),
-            Action::Lookup(..) => Some(Self::LookUp),
             _ => None,
         }
     }
@@ -66,7 +65,6 @@ impl Support {
             Self::Greater => GREATER,
             Self::Sign => SIGN,
             Self::Side => SIDE,
-            Self::LookUp => LOOK_UP,
             Self::Clamped => CLAMPED,
         };
         real.text(text).replace("ROUND", &real.rounder())
@@ -144,58 +142,5 @@ static double clamped(double value, double lower, double upper)
 {
     const double above = (value > lower) ? value : lower;
     return (above < upper) ? above : upper;
-}
-";
-
-const LOOK_UP: &str = "\
-/* A function defined by points: piecewise polynomials, found by buckets of equal width. */
-typedef struct {
-    double first;
-    double scale;
-    int buckets;
-    int stride;
-    const int *starts;
-    const double *knots;
-    int knots_count;
-    const double (*pieces)[4];
-} lookup_table;
-
-/* Returns a derivative of a table at x; order 0 is the table itself. */
-static double look_up(const lookup_table *table, int order, double x)
-{
-    const double round = ROUND;
-    const double u = (x - table->first) * table->scale;
-    double bucket = u - 0.5;
-    if (isnan(u) != 0) {
-        return u;
-    }
-    bucket = (bucket > -1.0) ? bucket : -1.0;
-    bucket = (bucket < (double)table->buckets) ? bucket : (double)table->buckets;
-    bucket = (bucket + round) - round;
-    int piece = (int)bucket + 1;
-    double t = u - bucket;
-    double unit = table->scale;
-    if (table->knots_count > 0) {
-        piece = table->starts[piece];
-        for (int stride = table->stride; stride > 0; stride /= 2) {
-            const int next = piece + stride;
-            if (next < table->knots_count && x > table->knots[next]) {
-                piece = next;
-            }
-        }
-        t = x - table->knots[piece];
-        unit = 1.0;
-    }
-    const double *p = table->pieces[piece];
-    switch (order) {
-    case 0:
-        return t * (t * (t * p[3] + p[2]) + p[1]) + p[0];
-    case 1:
-        return unit * (t * (t * (3.0 * p[3]) + 2.0 * p[2]) + p[1]);
-    case 2:
-        return unit * (unit * (t * (6.0 * p[3]) + 2.0 * p[2]));
-    default:
-        return unit * (unit * (unit * (6.0 * p[3])));
-    }
 }
 ";

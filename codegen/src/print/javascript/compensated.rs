@@ -18,7 +18,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     let (helpers, cycle) = split(procedures.collect());
     writer.blank();
     writer.paragraphs(HELPERS);
-    helpers.iter().for_each(|procedure| helper(writer, routines, procedure));
+    helpers.iter().for_each(|procedure| helper(writer, routines, procedure, procedure.name, None));
     writer.blank();
     writer.lines("/**");
     let statuses = Precision::Double.statuses();
@@ -29,7 +29,7 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     writer.open("export function compensated(q, s, u, last, change, largest, rotations = [1, 1, 1])");
     writer.lines(CHECKS);
     let mut printer = JavaScriptPrinter { writer, routines };
-    printer.declarations(&cycle);
+    printer.declarations(&cycle, None);
     printer.statements(&cycle.body);
     writer.lines("return { corrected, correction, before, after, status };");
     writer.close("}");
@@ -40,12 +40,6 @@ const HELPERS: &str = "\
 function given(name, numbers, count, mayBeInfinite) {
     if (numbers.length !== count) throw new RangeError(`${name}: expected ${count} numbers, found ${numbers.length}`);
     if (!mayBeInfinite && !numbers.every(Number.isFinite)) throw new RangeError(`${name}: a number is not finite`);
-}
-
-/** Returns the nearest value of an interval, and its lower end for NaN. */
-function clamped(value, lower, upper) {
-    const above = value > lower ? value : lower;
-    return above < upper ? above : upper;
 }
 ";
 

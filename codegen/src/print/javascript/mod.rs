@@ -14,11 +14,14 @@ use abbe_spec::expr::Table;
 
 use self::functions::{comment, function};
 use self::operators::number;
+use self::procedures::helper;
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
+use super::names::function_of;
 use super::records::records;
 use super::text::escaped;
+use crate::procedure::look_up;
 use crate::program::Routines;
 
 /// Returns the source of a manipulator's module.
@@ -36,11 +39,11 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         constant(&mut writer, list.documentation, &list.name, &list.entries(number));
     }
     for table in routines.used_lookup_tables() {
-        lookup_table(&mut writer, table);
+        lookup_table(&mut writer, routines, table);
     }
-    if routines.used_lookup_tables().next().is_some() {
+    if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
         writer.blank();
-        writer.lines(LOOKUP.trim_end());
+        writer.lines(CLAMPED.trim_end());
     }
     for routine in &routines.list {
         function(&mut writer, spec, routines, routine);
@@ -49,60 +52,30 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     writer.finish()
 }
 
-/// Prints a lookup table.
-fn lookup_table(writer: &mut Writer, table: &Table) {
-    let lookup = table.lookup();
+/// Prints a lookup table and its function.
+fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table) {
+    let (name, lookup) = (table.constant_name(), table.lookup());
+    let procedure = look_up(&lookup, lookup.scale, table.documentation(&escaped(&table.description)));
     writer.blank();
-    comment(writer, &table.documentation(&escaped(&table.description)));
-    writer.open(&format!("const {} =", table.constant_name()));
-    writer.lines(&format!(
-        "first: {}, scale: {}, steps: {},",
-        number(lookup.first),
-        number(lookup.scale),
-        lookup.steps
-    ));
-    let numbers = |values: &[f64]| values.iter().map(|value| number(*value)).collect::<Vec<_>>();
-    writer.array("starts: ", &lookup.starts.iter().map(u32::to_string).collect::<Vec<_>>(), ",");
-    writer.array("knots: ", &numbers(lookup.knots), ",");
-    let pieces: Vec<String> =
-        lookup.pieces.iter().map(|piece| format!("[{}]", numbers(piece).join(", "))).collect();
-    writer.array("pieces: ", &pieces, ",");
+    writer.open(&format!("const {name} ="));
+    for (list, values) in &procedure.constants {
+        let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
+        writer.array(&format!("{list}: "), &entries, ",");
+    }
     writer.close("};");
+    helper(writer, routines, &procedure, &function_of(&name), Some(&name));
 }
-
-/// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate
-/// `abbe`.
-const LOOKUP: &str = "\
-/** Returns a derivative of a table at x; order 0 is the table itself. */
-function lookup({ first, scale, steps, starts, knots, pieces }, order, x) {
-    const even = starts.length === 0;
-    const u = (x - first) * scale;
-    if (Number.isNaN(u)) return NaN;
-    // Adding 1.5 * 2^52 rounds to the nearest integer.
-    const nearest = Math.min(Math.max(u - 0.5, -1), (even ? pieces : starts).length - 2);
-    const bucket = nearest + 6755399441055744 - 6755399441055744;
-    let piece = bucket + 1;
-    let t = u - bucket;
-    if (!even) {
-        piece = starts[piece];
-        for (let step = 2 ** (steps - 1); step >= 1; step /= 2) {
-            if (x > knots[piece + step]) piece += step;
-        }
-        t = x - knots[piece];
-    }
-    const [a, b, c, d] = pieces[piece];
-    const unit = even ? scale : 1;
-    switch (order) {
-        case 0: return ((d * t + c) * t + b) * t + a;
-        case 1: return ((3 * d * t + 2 * c) * t + b) * unit;
-        case 2: return (6 * d * t + 2 * c) * unit ** 2;
-        default: return 6 * d * unit ** 3;
-    }
-}
-";
 
 fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {
     writer.blank();
     comment(writer, documentation);
     writer.array(&format!("const {name} = "), values, ";");
 }
+
+const CLAMPED: &str = "\
+/** Returns the nearest value of an interval, and its lower end for NaN. */
+function clamped(value, lower, upper) {
+    const above = value > lower ? value : lower;
+    return above < upper ? above : upper;
+}
+";

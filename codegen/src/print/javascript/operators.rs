@@ -6,6 +6,7 @@ use std::sync::Arc;
 use abbe_spec::expr::{Function, Lookup, Table};
 
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
+use crate::print::names::function_of;
 use crate::program::Action;
 
 /// The syntax of JavaScript with the spec's tables.
@@ -17,7 +18,7 @@ impl Syntax for JavaScript<'_> {
         Cow::Borrowed(
             "Float64Array Infinity Math NaN arguments async await break case catch class const continue \
          debugger default delete do else enum eval export extends false finally for function get i if \
-         implements import in instanceof interface k let lookup margin new null of package private protected \
+         implements import in instanceof interface k let margin new null of package private protected \
          public return set static super switch this throw true try typeof undefined var void while \
          with yield",
         )
@@ -45,8 +46,8 @@ impl Syntax for JavaScript<'_> {
             }
             Called::Function(function) => call(function.name()),
             Called::Lookup(Lookup { table, order }) => {
-                let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
-                Expression::new(format!("lookup({name}, {order}, {x})"), Binding::Atom)
+                let name = function_of(&self.0[usize::from(table)].constant_name());
+                Expression::new(format!("{name}({order}, {})", operands[0].text), Binding::Atom)
             }
         })
     }

@@ -11,14 +11,20 @@ use crate::print::procedure::{Called, Invocation, Printer};
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Routine, Routines, Stage};
 
-/// Prints a procedure that another one calls.
-pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Procedure) {
+/// Prints a procedure that another one calls. `constants` is an object that has its constants.
+pub(super) fn helper(
+    writer: &mut Writer,
+    routines: &Routines,
+    procedure: &Procedure,
+    name: &str,
+    constants: Option<&str>,
+) {
     let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
     writer.blank();
     comment(writer, &procedure.documentation);
-    writer.open(&format!("function {}({})", procedure.name, arguments.join(", ")));
+    writer.open(&format!("function {name}({})", arguments.join(", ")));
     let mut printer = JavaScriptPrinter { writer, routines };
-    printer.declarations(procedure);
+    printer.declarations(procedure, constants);
     printer.statements(&procedure.body);
     writer.lines(&format!("return {};", procedure.results[0].name));
     writer.close("}");
@@ -32,8 +38,13 @@ pub(super) struct JavaScriptPrinter<'p> {
 
 impl JavaScriptPrinter<'_> {
     /// Prints the declarations of constants, results and local variables.
-    pub(super) fn declarations(&mut self, procedure: &Procedure) {
-        for (name, values) in &procedure.constants {
+    pub(super) fn declarations(&mut self, procedure: &Procedure, constants: Option<&str>) {
+        if let Some(constants) = constants {
+            let names: Vec<&str> = procedure.constants.iter().map(|(name, _)| *name).collect();
+            self.writer.lines(&format!("const {{ {} }} = {constants};", names.join(", ")));
+        }
+        let own = procedure.constants.iter().filter(|_| constants.is_none());
+        for (name, values) in own {
             let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
             self.writer.array(&format!("const {name} = "), &entries, ";");
         }

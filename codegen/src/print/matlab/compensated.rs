@@ -27,12 +27,10 @@ pub(super) fn compensated(writer: &mut Writer, class: &str, spec: &Spec, routine
     checks(writer, class, COMPENSATED.arguments.iter().map(|array| (array.name, array.len(description))));
     writer.lines(FINITE.trim_end());
     let mut printer = MatlabPrinter { writer, class, routines };
-    printer.declarations(&cycle);
+    printer.declarations(&cycle, None);
     printer.statements(&cycle.body);
     writer.close("end");
-    writer.blank();
-    writer.paragraphs(CLAMPED);
-    helpers.iter().for_each(|procedure| helper(writer, class, routines, procedure));
+    helpers.iter().for_each(|procedure| helper(writer, class, routines, procedure, procedure.name, None));
 }
 
 /// Arguments that may be left out.
@@ -59,11 +57,4 @@ if ~all(isfinite([q(:); s(:); u(:); last(:); rotations(:)]))
     error('abbe:finite', 'an argument is not finite');
 end
 [q, last, change, largest] = deal(q(:)', last(:)', change(:)', largest(:)');
-";
-
-const CLAMPED: &str = "\
-function value = clamped(value, lower, upper)
-    % Returns the nearest value of an interval, and its lower end for NaN.
-    value = min(max(value, lower), upper);
-end
 ";

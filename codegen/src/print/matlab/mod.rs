@@ -18,13 +18,14 @@ use abbe_spec::expr::Table;
 
 use self::functions::{function, list};
 use self::operators::{WORDS, number, spelled};
+use self::procedures::helper;
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
-use super::names::{distinct, renamed};
+use super::names::{distinct, function_of, renamed};
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
-use crate::procedure::{Precision, Procedure, compensated as described};
+use crate::procedure::{Precision, Procedure, compensated as described, look_up};
 use crate::program::Routines;
 
 /// Returns the file of a manipulator's class. Matlab requires the file to have the name of the
@@ -47,9 +48,13 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     writer.blank();
     writer.begin("methods (Static)");
     writer.paragraphs(HELPERS);
-    if routines.used_lookup_tables().next().is_some() {
+    if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
         writer.blank();
-        writer.paragraphs(LOOK_UP);
+        writer.paragraphs(CLAMPED);
+    }
+    for table in routines.used_lookup_tables() {
+        let name = spelled(&table.constant_name());
+        helper(&mut writer, &class, routines, &described_table(table), &function_of(&name), Some(&name));
     }
     for routine in &routines.list {
         function(&mut writer, &class, spec, routines, routine);
@@ -162,23 +167,23 @@ fn properties(writer: &mut Writer, routines: &Routines) {
     writer.close("end");
 }
 
-/// Prints a lookup table.
+/// Prints the numbers of a lookup table.
 fn lookup_table(writer: &mut Writer, table: &Table) {
-    let lookup = table.lookup();
-    comment(writer, &table.documentation(&escaped(&table.description)));
-    writer.begin(&format!("{} = struct( ...", spelled(&table.constant_name())));
-    let (first, scale) = (number(lookup.first), number(lookup.scale));
-    writer.lines(&format!("'first', {first}, 'scale', {scale}, 'steps', {}, ...", lookup.steps));
-    let field = |writer: &mut Writer, name: &str, entries: Vec<String>, end: &str| {
-        writer.lines(&format!("'{name}', [ ..."));
+    let procedure = described_table(table);
+    comment(writer, &procedure.documentation);
+    writer.begin(&format!("{} = {{ ...", spelled(&table.constant_name())));
+    for (_, values) in &procedure.constants {
+        let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
+        writer.lines("[ ...");
         entries.chunks(6).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
-        writer.lines(&format!("]{end}"));
-    };
-    field(writer, "starts", lookup.starts.iter().map(u32::to_string).collect(), ", ...");
-    field(writer, "knots", lookup.knots.iter().map(|knot| number(*knot)).collect(), ", ...");
-    let piece = |piece: &[f64; 4]| format!("{};", piece.map(number).join(" "));
-    field(writer, "pieces", lookup.pieces.iter().map(piece).collect(), ");");
-    writer.end();
+        writer.lines("], ...");
+    }
+    writer.close("};");
+}
+
+fn described_table(table: &Table) -> Procedure {
+    let lookup = table.lookup();
+    look_up(&lookup, lookup.scale, table.documentation(&escaped(&table.description)))
 }
 
 fn comment(writer: &mut Writer, text: &str) {
@@ -233,49 +238,9 @@ function is_given(name, value, count)
 end
 ";
 
-/// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate
-/// `abbe`.
-const LOOK_UP: &str = "\
-function y = look_up(table, order, x)
-    % Returns a derivative of a table at x; order 0 is the table itself.
-    even = isempty(table.starts);
-    u = (x - table.first) * table.scale;
-    if isnan(u)
-        y = NaN;
-        return
-    end
-    last = numel(table.starts) - 2;
-    if even
-        last = size(table.pieces, 1) - 2;
-    end
-    nearest = min(max(u - 0.5, -1), last);
-    % Adding 1.5 * 2^52 rounds to the nearest integer.
-    bucket = nearest + 6755399441055744 - 6755399441055744;
-    piece = bucket + 1;
-    t = u - bucket;
-    unit = table.scale;
-    if ~even
-        unit = 1;
-        piece = table.starts(piece + 1);
-        step = floor(2 ^ (table.steps - 1));
-        while step >= 1
-            if piece + step < numel(table.knots) && x > table.knots(piece + step + 1)
-                piece = piece + step;
-            end
-            step = floor(step / 2);
-        end
-        t = x - table.knots(piece + 1);
-    end
-    p = table.pieces(piece + 1, :);
-    switch order
-        case 0
-            y = ((p(4) * t + p(3)) * t + p(2)) * t + p(1);
-        case 1
-            y = ((3 * p(4) * t + 2 * p(3)) * t + p(2)) * unit;
-        case 2
-            y = (6 * p(4) * t + 2 * p(3)) * unit ^ 2;
-        otherwise
-            y = 6 * p(4) * unit ^ 3;
-    end
+const CLAMPED: &str = "\
+function value = clamped(value, lower, upper)
+    % Returns the nearest value of an interval, and its lower end for NaN.
+    value = min(max(value, lower), upper);
 end
 ";

@@ -6,7 +6,7 @@ use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Lookup};
 
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
-use crate::print::names::Identifiers;
+use crate::print::names::{Identifiers, function_of};
 use crate::program::Action;
 
 /// The syntax of Matlab for a class, whose name precedes its members, and a spec, whose tables are
@@ -61,9 +61,8 @@ impl Syntax for Matlab<'_> {
             ) => real(function.name()),
             Called::Function(function) => call(function.name()),
             Called::Lookup(Lookup { table, order }) => {
-                let name = spelled(&self.spec.tables[usize::from(table)].constant_name());
-                let x = &operands[0].text;
-                let text = format!("{0}.look_up({0}.{name}, {order}, {x})", self.class);
+                let name = function_of(&spelled(&self.spec.tables[usize::from(table)].constant_name()));
+                let text = format!("{}.{name}({order}, {})", self.class, operands[0].text);
                 Expression::new(text, Binding::Atom)
             }
         })

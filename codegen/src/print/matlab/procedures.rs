@@ -9,15 +9,22 @@ use crate::print::text::harmless;
 use crate::procedure::{Counter, Index, Procedure, Variable};
 use crate::program::Routines;
 
-/// Prints a procedure that another one calls.
-pub(super) fn helper(writer: &mut Writer, class: &str, routines: &Routines, procedure: &Procedure) {
+/// Prints a procedure that another one calls. `constants` is a property that has its constants.
+pub(super) fn helper(
+    writer: &mut Writer,
+    class: &str,
+    routines: &Routines,
+    procedure: &Procedure,
+    name: &str,
+    constants: Option<&str>,
+) {
     let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
     let result = procedure.results[0].name;
     writer.blank();
-    writer.begin(&format!("function {result} = {}({})", procedure.name, arguments.join(", ")));
+    writer.begin(&format!("function {result} = {name}({})", arguments.join(", ")));
     writer.documentation(&procedure.documentation);
     let mut printer = MatlabPrinter { writer, class, routines };
-    printer.declarations(procedure);
+    printer.declarations(procedure, constants);
     printer.statements(&procedure.body);
     writer.close("end");
 }
@@ -31,8 +38,12 @@ pub(super) struct MatlabPrinter<'p> {
 
 impl MatlabPrinter<'_> {
     /// Prints constants, and arrays that are filled element by element.
-    pub(super) fn declarations(&mut self, procedure: &Procedure) {
-        for (name, values) in &procedure.constants {
+    pub(super) fn declarations(&mut self, procedure: &Procedure, constants: Option<&str>) {
+        if let Some(constants) = constants {
+            let names: Vec<&str> = procedure.constants.iter().map(|(name, _)| *name).collect();
+            self.writer.lines(&format!("[{}] = {}.{constants}{{:}};", names.join(", "), self.class));
+        }
+        for (name, values) in procedure.constants.iter().filter(|_| constants.is_none()) {
             let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
             list(self.writer, name, ["[", "]"], &entries);
         }

@@ -20,14 +20,14 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     writer.blank();
     writer.blank();
     writer.paragraphs(HELPERS);
-    helpers.iter().for_each(|procedure| helper(writer, routines, procedure));
+    helpers.iter().for_each(|procedure| helper(writer, routines, procedure, procedure.name, None));
     writer.blank();
     writer.blank();
     writer.lines("@np.errstate(divide=\"ignore\", invalid=\"ignore\")");
     writer.begin("def _compensated(batch, *given):");
     writer.lines(CHECKS.trim_end());
     let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
-    printer.declarations(&cycle);
+    printer.declarations(&cycle, None);
     printer.statements(&cycle.body);
     writer.lines("return corrected, correction, before, after, status");
     writer.end();
@@ -40,11 +40,6 @@ const WITHOUT_LAST: &str = "Without `last`, no cycle precedes: corrections have 
 
 /// Sums have the same bits for one configuration and for many.
 const HELPERS: &str = r#"
-def _clamped(value, lower, upper):
-    """Return the nearest value of an interval, and its lower end for NaN."""
-    return np.fmin(np.fmax(value, lower), upper)
-
-
 def _dot(a, b):
     """Return the sum of the products of two lists, added one by one."""
     return np.add.accumulate(a * b, axis=0)[-1] if len(a) > 0 else 0.0

@@ -16,13 +16,15 @@ use abbe_spec::literal::quoted;
 
 use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
+use self::procedures::helper;
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
-use super::names::{file_name, renamed};
+use super::names::{file_name, function_of, renamed};
 use super::records::records;
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless};
+use crate::procedure::look_up;
 use crate::program::Routines;
 
 /// Modules that NumPy imports: a file of the same name would hide them.
@@ -64,15 +66,15 @@ fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
     for list in lists(routines.used_tables(), routines.used_sums()) {
         constant(&mut writer, list.documentation, &list.name, &list.entries(number));
     }
-    routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, table));
     writer.blank();
     writer.blank();
     writer.paragraphs(GIVEN);
-    if routines.used_lookup_tables().next().is_some() {
+    if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
         writer.blank();
         writer.blank();
-        writer.paragraphs(LOOK_UP);
+        writer.lines(CLAMPED.trim());
     }
+    routines.used_lookup_tables().for_each(|table| lookup_table(&mut writer, routines, table));
     for routine in &routines.list {
         if let Some(function) = routine.function.filter(|_| routines.exports(routine)) {
             let (description, signature) = (&routines.description, function.signature());
@@ -85,27 +87,19 @@ fn module(spec: &Spec, routines: &Routines, name: &str) -> String {
     writer.finish()
 }
 
-/// Prints a lookup table.
-fn lookup_table(writer: &mut Writer, table: &Table) {
-    let lookup = table.lookup();
+/// Prints a lookup table and its function.
+fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table) {
+    let (name, lookup) = (table.constant_name(), table.lookup());
+    let procedure = look_up(&lookup, lookup.scale, table.documentation(&escaped(&table.description)));
     writer.blank();
-    comment(writer, &table.documentation(&escaped(&table.description)));
-    writer.begin(&format!("{} = {{", table.constant_name()));
-    writer.lines(&format!(
-        "\"first\": {}, \"scale\": {}, \"steps\": {},",
-        number(lookup.first),
-        number(lookup.scale),
-        lookup.steps
-    ));
-    let numbers = |values: &[f64]| values.iter().map(|value| number(*value)).collect::<Vec<_>>();
-    let starts: Vec<String> = lookup.starts.iter().map(u32::to_string).collect();
-    writer.array("\"starts\": np.array(", &starts, ", dtype=int),");
-    writer.array("\"knots\": np.array(", &numbers(lookup.knots), "),");
-    let pieces: Vec<String> =
-        lookup.pieces.iter().map(|piece| format!("[{}]", numbers(piece).join(", "))).collect();
-    writer.array("\"pieces\": np.array(", &pieces, "),");
-    writer.end();
-    writer.lines("}");
+    writer.blank();
+    writer.begin(&format!("{name} = ["));
+    for (_, values) in &procedure.constants {
+        let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
+        writer.array("np.array(", &entries, "),");
+    }
+    writer.close("]");
+    helper(writer, routines, &procedure, &function_of(&name), Some(&name));
 }
 
 fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {
@@ -169,34 +163,8 @@ def _behind(numbers, shape, order, batch):
     return numbers.reshape(shape + batch).transpose(*range(first, first + len(batch)), *order)
 "#;
 
-/// Value of a table or of one of its derivatives, by the algorithm of `LookupTable` in the crate
-/// `abbe`.
-const LOOK_UP: &str = r#"
-def _look_up(table, order, x):
-    """Return a derivative of a table at x; order 0 is the table itself."""
-    x = np.asarray(x, dtype=float)
-    starts, knots, pieces = table["starts"], table["knots"], table["pieces"]
-    even = starts.size == 0
-    u = (x - table["first"]) * table["scale"]
-    last = (pieces if even else starts).shape[0] - 2
-    nearest = np.minimum(np.maximum(u - 0.5, -1.0), last)
-    # Adding 1.5 * 2^52 rounds to the nearest integer.
-    bucket = np.where(np.isnan(u), 0.0, nearest + 6755399441055744.0 - 6755399441055744.0)
-    piece = bucket.astype(int) + 1
-    t = u - bucket
-    if not even:
-        piece = starts[piece]
-        step = 2 ** (table["steps"] - 1) if table["steps"] else 0
-        while step >= 1:
-            next_one = np.minimum(piece + step, knots.size - 1)
-            piece = np.where(x > knots[next_one], next_one, piece)
-            step //= 2
-        t = x - knots[piece]
-    a, b, c, d = np.moveaxis(pieces[piece], -1, 0)
-    unit = table["scale"] if even else 1.0
-    if order == 0:
-        return ((d * t + c) * t + b) * t + a
-    if order == 1:
-        return ((3 * d * t + 2 * c) * t + b) * unit
-    return (6 * d * t + 2 * c) * unit**2 if order == 2 else 6 * d * unit**3
+const CLAMPED: &str = r#"
+def _clamped(value, lower, upper):
+    """Return the nearest value of an interval, and its lower end for NaN."""
+    return np.fmin(np.fmax(value, lower), upper)
 "#;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use abbe_spec::expr::{Function, Lookup, Table};
 
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
+use crate::print::names::function_of;
 use crate::program::Action;
 
 /// The syntax of Python with the spec's tables.
@@ -45,8 +46,8 @@ impl Syntax for Python<'_> {
             Called::Function(Function::Atan) => call("arctan"),
             Called::Function(function) => call(function.name()),
             Called::Lookup(Lookup { table, order }) => {
-                let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
-                Expression::new(format!("_look_up({name}, {order}, {x})"), Binding::Atom)
+                let name = function_of(&self.0[usize::from(table)].constant_name());
+                Expression::new(format!("_{name}(batch, {order}, {})", operands[0].text), Binding::Atom)
             }
         })
     }

@@ -13,17 +13,23 @@ use crate::print::text::harmless;
 use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
 use crate::program::{Role, Routines};
 
-/// Prints a procedure that another one calls.
-pub(super) fn helper(writer: &mut Writer, routines: &Routines, procedure: &Procedure) {
+/// Prints a procedure that another one calls. `constants` is a list that has its constants.
+pub(super) fn helper(
+    writer: &mut Writer,
+    routines: &Routines,
+    procedure: &Procedure,
+    name: &str,
+    constants: Option<&str>,
+) {
     let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
     writer.blank();
     writer.blank();
-    writer.begin(&format!("def _{}(batch, {}):", procedure.name, arguments.join(", ")));
+    writer.begin(&format!("def _{name}(batch, {}):", arguments.join(", ")));
     writer.lines("r\"\"\"");
     writer.documentation(&procedure.documentation);
     writer.lines("\"\"\"");
     let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
-    printer.declarations(procedure);
+    printer.declarations(procedure, constants);
     printer.statements(&procedure.body);
     writer.lines(&format!("return {}", procedure.results[0].name));
     writer.end();
@@ -39,8 +45,12 @@ pub(super) struct PythonPrinter<'p> {
 
 impl PythonPrinter<'_> {
     /// Prints constants, and arrays that are filled element by element.
-    pub(super) fn declarations(&mut self, procedure: &Procedure) {
-        for (name, values) in &procedure.constants {
+    pub(super) fn declarations(&mut self, procedure: &Procedure, constants: Option<&str>) {
+        if let Some(constants) = constants {
+            let names: Vec<&str> = procedure.constants.iter().map(|(name, _)| *name).collect();
+            self.writer.lines(&format!("[{}] = {constants}", names.join(", ")));
+        }
+        for (name, values) in procedure.constants.iter().filter(|_| constants.is_none()) {
             let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
             self.writer.array(&format!("{name} = "), &entries, "");
         }
@@ -59,6 +69,9 @@ impl PythonPrinter<'_> {
         }
     }
 }
+
+/// 1.5 · 2⁵²: adding it rounds.
+const ROUND: &str = "6755399441055744.0";
 
 impl Printer for PythonPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if np.all(", "):", ""];
@@ -117,6 +130,10 @@ impl Printer for PythonPrinter<'_> {
         self.writer.lines(&format!("{place} = {value}"));
     }
 
+    fn nearest(&self, value: &Expression) -> String {
+        format!("({} + {ROUND} - {ROUND}).astype(int)", value.text)
+    }
+
     /// A view of a local array would change with it.
     fn read(&self, place: String, role: Role) -> String {
         if role == Role::Argument { place } else { place + ".copy()" }
@@ -155,6 +172,14 @@ impl Printer for PythonPrinter<'_> {
     }
 
     fn branch(&mut self, condition: &Condition, body: &[Statement]) {
+        if let Condition::Is(_, index) = condition
+            && index.number().is_some()
+        {
+            let condition = self.condition(condition);
+            self.writer.begin(&format!("if {condition}:"));
+            self.statements(body);
+            return self.writer.end();
+        }
         let condition = match (self.cases.last(), self.condition(condition)) {
             (Some(around), condition) => format!("{around} & ({condition})"),
             (None, condition) => condition,

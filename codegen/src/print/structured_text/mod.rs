@@ -55,7 +55,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
         writer.lines(support.text(&syntax.prefix).trim_end());
     }
     for (table, name) in spec.tables.iter().zip(&syntax.tables) {
-        tables::function(&mut writer, table, name, &syntax.prefix);
+        tables::function(&mut writer, routines, table, name, &syntax.prefix);
     }
     // A block stands behind those that it calls.
     let (functions, helpers): (Vec<_>, Vec<_>) =

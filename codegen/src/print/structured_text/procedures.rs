@@ -4,9 +4,9 @@ use super::declarations::{array_name, array_type, comment, numbers, section, var
 use super::operators::{instance, number};
 use super::support::Support;
 use crate::print::expression::{Binding, Expression, Value};
+use crate::print::flat::Results;
 use crate::print::layout::{LINE, Writer, width};
 use crate::print::procedure::{Called, Invocation, Printer, arrays};
-use crate::print::routine::Results;
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Routine, Routines};
 
@@ -26,6 +26,31 @@ pub(super) fn helper(
     declarations(writer, procedure, prefix, &[]);
     BlockPrinter { writer, routines, prefix, procedures }.statements(&procedure.body);
     writer.lines("END_FUNCTION_BLOCK");
+}
+
+/// Prints a procedure as a function that returns a number. A guarded one has an argument `fault`,
+/// and the given statement at its end.
+pub(super) fn scalar(
+    writer: &mut Writer,
+    routines: &Routines,
+    procedure: &Procedure,
+    name: &str,
+    prefix: &str,
+    guard: Option<&str>,
+) {
+    let result = procedure.results[0];
+    writer.lines(&format!("FUNCTION {name} : LREAL"));
+    // Callers give the arguments in this order.
+    section(writer, "VAR_INPUT", |writer| {
+        procedure.arguments.iter().for_each(|argument| declare(writer, &[*argument]));
+    });
+    if guard.is_some() {
+        section(writer, "VAR_IN_OUT", |writer| writer.lines("fault : BOOL;"));
+    }
+    declarations(writer, procedure, prefix, &[result]);
+    BlockPrinter { writer, routines, prefix, procedures: &[] }.statements(&procedure.body);
+    guard.iter().for_each(|guard| writer.lines(guard));
+    writer.lines(&format!("{name} := {};\nEND_FUNCTION", result.name));
 }
 
 /// Prints constants and variables, and `more` variables.
@@ -123,6 +148,14 @@ impl Printer for BlockPrinter<'_> {
 
     fn truth(&self, value: bool) -> String {
         if value { "TRUE" } else { "FALSE" }.to_owned()
+    }
+
+    fn real(&self, whole: &Index) -> Expression {
+        Expression::new(format!("DINT_TO_LREAL({whole})"), Binding::Atom)
+    }
+
+    fn nearest(&self, value: &Expression) -> String {
+        format!("{}_{}({})", self.prefix, Support::Nearest.name(), value.text)
     }
 
     fn comment(&mut self, text: &str) {

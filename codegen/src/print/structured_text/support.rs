@@ -30,25 +30,35 @@ pub(super) enum Support {
     Side,
 }
 
-/// Name without the prefix, whether the last argument is `fault`, and source of every function.
-const FUNCTIONS: [(Support, &str, bool, &str); 16] = [
-    (Support::IsWithin, "is_within", false, IS_WITHIN),
-    (Support::Nearest, "nearest", false, NEAREST),
-    (Support::Clamped, "clamped", false, CLAMPED),
-    (Support::CosineAndSine, "cosine_and_sine", false, COSINE_AND_SINE),
-    (Support::Sine, "sine", false, SINE),
-    (Support::Cosine, "cosine", false, COSINE),
-    (Support::Arctangent, "arctangent", false, ARCTANGENT),
-    (Support::Quotient, "quotient", true, QUOTIENT),
-    (Support::Root, "root", true, ROOT),
-    (Support::Arcsine, "arcsine", true, ARCSINE),
-    (Support::Arccosine, "arccosine", true, ARCCOSINE),
-    (Support::Power, "power", true, POWER),
-    (Support::Exponential, "exponential", true, EXPONENTIAL),
-    (Support::Logarithm, "logarithm", true, LOGARITHM),
-    (Support::Sign, "sign", false, SIGN),
-    (Support::Side, "side", false, SIDE),
+/// Name without the prefix, and source of every function.
+const FUNCTIONS: [(Support, &str, Source); 16] = [
+    (Support::IsWithin, "is_within", Source::Text(IS_WITHIN)),
+    (Support::Nearest, "nearest", Source::Text(NEAREST)),
+    (Support::Clamped, "clamped", Source::Text(CLAMPED)),
+    (Support::CosineAndSine, "cosine_and_sine", Source::Text(COSINE_AND_SINE)),
+    (Support::Sine, "sine", Source::Text(ONE_OF_BOTH)),
+    (Support::Cosine, "cosine", Source::Text(ONE_OF_BOTH)),
+    (Support::Arctangent, "arctangent", Source::Text(ARCTANGENT)),
+    (Support::Quotient, "quotient", Source::Guarded(QUOTIENT)),
+    (Support::Root, "root", Source::Guarded(ROOT)),
+    (Support::Arcsine, "arcsine", Source::Guarded(ARCSINE)),
+    (Support::Arccosine, "arccosine", Source::Guarded(ARCCOSINE)),
+    (Support::Power, "power", Source::GuardedText(POWER)),
+    (Support::Exponential, "exponential", Source::Guarded(EXPONENTIAL)),
+    (Support::Logarithm, "logarithm", Source::Guarded(LOGARITHM)),
+    (Support::Sign, "sign", Source::Text(SIGN)),
+    (Support::Side, "side", Source::Text(SIDE)),
 ];
+
+/// Source of a function.
+#[derive(Clone, Copy)]
+enum Source {
+    Text(&'static str),
+    /// The last argument is `fault`.
+    GuardedText(&'static str),
+    /// Comment, arguments, the condition that there is a value, and the value.
+    Guarded([&'static str; 4]),
+}
 
 impl Support {
     /// Iterates over the names of all functions.
@@ -65,9 +75,8 @@ impl Support {
             _ => Self::for_action(action),
         });
         let mut used: BTreeSet<Self> = used.chain([Self::IsWithin]).collect();
-        if has_compensated {
-            used.extend([Self::Arctangent, Self::Clamped]);
-        }
+        used.extend(has_compensated.then_some(Self::Arctangent));
+        used.extend((has_compensated || !spec.tables.is_empty()).then_some(Self::Clamped));
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
             used.insert(Self::CosineAndSine);
         }
@@ -107,12 +116,19 @@ impl Support {
 
     /// Returns `true` if the last argument is `fault`.
     pub(super) const fn is_guarded(self) -> bool {
-        FUNCTIONS[self as usize].2
+        !matches!(FUNCTIONS[self as usize].2, Source::Text(_))
     }
 
     /// Returns the source.
     pub(super) fn text(self, prefix: &str) -> String {
-        FUNCTIONS[self as usize].3.replace("PREFIX", prefix)
+        let text = match FUNCTIONS[self as usize].2 {
+            Source::Text(text) | Source::GuardedText(text) => text.to_owned(),
+            Source::Guarded(parts) => {
+                let parts = ["COMMENT", "ARGUMENTS", "CONDITION", "VALUE"].into_iter().zip(parts);
+                parts.fold(GUARDED.to_owned(), |text, (part, with)| text.replace(part, with))
+            }
+        };
+        text.replace("PREFIX", prefix).replace("NAME", self.name())
     }
 }
 
@@ -147,6 +163,52 @@ ELSIF rest < -LREAL#0.5 THEN
     whole := whole - 1;
 END_IF;
 PREFIX_nearest := whole;
+END_FUNCTION
+";
+
+const GUARDED: &str = "\
+(* COMMENT *)
+FUNCTION PREFIX_NAME : LREAL
+VAR_INPUT
+    ARGUMENTS : LREAL;
+END_VAR
+VAR_IN_OUT
+    fault : BOOL;
+END_VAR
+IF CONDITION THEN
+    PREFIX_NAME := VALUE;
+ELSE
+    PREFIX_NAME := LREAL#0.0;
+    fault := TRUE;
+END_IF;
+END_FUNCTION
+";
+
+const QUOTIENT: [&str; 4] = [
+    "Quotient; a fault if it does not exist or exceeds 1E300.",
+    "dividend, divisor",
+    "ABS(divisor) > ABS(dividend) * LREAL#1.0E-300",
+    "dividend / divisor",
+];
+const ROOT: [&str; 4] = ["Square root; a fault for negative numbers.", "x", "x >= LREAL#0.0", "SQRT(x)"];
+const WITHIN_ONE: &str = "PREFIX_is_within(x, -LREAL#1.0, LREAL#1.0)";
+const ARCSINE: [&str; 4] = ["Inverse sine; a fault beyond -1 and 1.", "x", WITHIN_ONE, "ASIN(x)"];
+const ARCCOSINE: [&str; 4] = ["Inverse cosine; a fault beyond -1 and 1.", "x", WITHIN_ONE, "ACOS(x)"];
+const EXPONENTIAL: [&str; 4] =
+    ["Exponential function; a fault for numbers of about 1E300 and more.", "x", "LREAL#690.0 > x", "EXP(x)"];
+const LOGARITHM: [&str; 4] =
+    ["Natural logarithm; a fault for numbers that are not positive.", "x", "x > LREAL#0.0", "LN(x)"];
+
+const ONE_OF_BOTH: &str = "\
+FUNCTION PREFIX_NAME : LREAL
+VAR_INPUT
+    x : LREAL;
+END_VAR
+VAR
+    sine, cosine : LREAL;
+END_VAR
+cosine := PREFIX_cosine_and_sine(x, sine);
+PREFIX_NAME := NAME;
 END_FUNCTION
 ";
 
@@ -236,31 +298,6 @@ PREFIX_cosine_and_sine := cs;
 END_FUNCTION
 ";
 
-const SINE: &str = "\
-FUNCTION PREFIX_sine : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-VAR
-    sine, cosine : LREAL;
-END_VAR
-cosine := PREFIX_cosine_and_sine(x, sine);
-PREFIX_sine := sine;
-END_FUNCTION
-";
-
-const COSINE: &str = "\
-FUNCTION PREFIX_cosine : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-VAR
-    sine : LREAL;
-END_VAR
-PREFIX_cosine := PREFIX_cosine_and_sine(x, sine);
-END_FUNCTION
-";
-
 const ARCTANGENT: &str = "\
 (* Angle of the point (x, y), which the standard has no function for. 0 at the origin. *)
 FUNCTION PREFIX_arctangent : LREAL
@@ -287,78 +324,6 @@ ELSE
     angle := LREAL#0.0;
 END_IF;
 PREFIX_arctangent := angle;
-END_FUNCTION
-";
-
-const QUOTIENT: &str = "\
-(* Quotient; a fault if it does not exist or exceeds 1E300. *)
-FUNCTION PREFIX_quotient : LREAL
-VAR_INPUT
-    dividend, divisor : LREAL;
-END_VAR
-VAR_IN_OUT
-    fault : BOOL;
-END_VAR
-IF ABS(divisor) > ABS(dividend) * LREAL#1.0E-300 THEN
-    PREFIX_quotient := dividend / divisor;
-ELSE
-    PREFIX_quotient := LREAL#0.0;
-    fault := TRUE;
-END_IF;
-END_FUNCTION
-";
-
-const ROOT: &str = "\
-(* Square root; a fault for negative numbers. *)
-FUNCTION PREFIX_root : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-VAR_IN_OUT
-    fault : BOOL;
-END_VAR
-IF x >= LREAL#0.0 THEN
-    PREFIX_root := SQRT(x);
-ELSE
-    PREFIX_root := LREAL#0.0;
-    fault := TRUE;
-END_IF;
-END_FUNCTION
-";
-
-const ARCSINE: &str = "\
-(* Inverse sine; a fault beyond -1 and 1. *)
-FUNCTION PREFIX_arcsine : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-VAR_IN_OUT
-    fault : BOOL;
-END_VAR
-IF PREFIX_is_within(x, -LREAL#1.0, LREAL#1.0) THEN
-    PREFIX_arcsine := ASIN(x);
-ELSE
-    PREFIX_arcsine := LREAL#0.0;
-    fault := TRUE;
-END_IF;
-END_FUNCTION
-";
-
-const ARCCOSINE: &str = "\
-(* Inverse cosine; a fault beyond -1 and 1. *)
-FUNCTION PREFIX_arccosine : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-VAR_IN_OUT
-    fault : BOOL;
-END_VAR
-IF PREFIX_is_within(x, -LREAL#1.0, LREAL#1.0) THEN
-    PREFIX_arccosine := ACOS(x);
-ELSE
-    PREFIX_arccosine := LREAL#0.0;
-    fault := TRUE;
-END_IF;
 END_FUNCTION
 ";
 
@@ -400,42 +365,6 @@ ELSIF NOT (size > LREAL#0.0) AND (exponent >= LREAL#0.0) THEN
     END_IF;
 END_IF;
 fault := fault OR NOT is_valid;
-END_FUNCTION
-";
-
-const EXPONENTIAL: &str = "\
-(* Exponential function; a fault for numbers of about 1E300 and more. *)
-FUNCTION PREFIX_exponential : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-VAR_IN_OUT
-    fault : BOOL;
-END_VAR
-IF LREAL#690.0 > x THEN
-    PREFIX_exponential := EXP(x);
-ELSE
-    PREFIX_exponential := LREAL#0.0;
-    fault := TRUE;
-END_IF;
-END_FUNCTION
-";
-
-const LOGARITHM: &str = "\
-(* Natural logarithm; a fault for numbers that are not positive. *)
-FUNCTION PREFIX_logarithm : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-VAR_IN_OUT
-    fault : BOOL;
-END_VAR
-IF x > LREAL#0.0 THEN
-    PREFIX_logarithm := LN(x);
-ELSE
-    PREFIX_logarithm := LREAL#0.0;
-    fault := TRUE;
-END_IF;
 END_FUNCTION
 ";
 

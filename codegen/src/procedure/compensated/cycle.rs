@@ -37,7 +37,7 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
         let rotations = b.argument("rotations", 3);
         let [corrected, correction] = ["corrected", "correction"].map(|name| b.result(name, count));
         let [before, after] = ["before", "after"].map(|name| b.result(name, 6));
-        b.result_whole("status");
+        let status = b.result_whole("status");
         let cycle = Cycle::new(b, count);
         let Cycle { command, lower, upper, target, present, found, best, rest, smallest, square, .. } = cycle;
         let first = b.array("first", 6);
@@ -106,9 +106,9 @@ pub(super) fn cycle(machine: &Machine<'_>) -> Procedure {
             (is_outside.into(), Status::OutsideLimits),
         ];
         b.comment("The last condition that holds decides.");
-        b.set_whole("status", Whole::Status(Status::NotReached));
-        for (condition, status) in cases {
-            b.when(condition, |b| b.set_whole("status", Whole::Status(status)));
+        b.set_whole(status, Whole::Status(Status::NotReached));
+        for (condition, case) in cases {
+            b.when(condition, |b| b.set_whole(status, Whole::Status(case)));
         }
     })
 }

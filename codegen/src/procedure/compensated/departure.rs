@@ -1,7 +1,7 @@
 //! A step within the bounds of the cycle.
 
 use super::machine::Machine;
-use crate::procedure::{Condition, Procedure, Value, Whole};
+use crate::procedure::{Procedure, Value, Whole};
 
 /// The command and the shortest step, within the bounds.
 pub(super) fn departure(machine: &Machine<'_>) -> Procedure {
@@ -19,8 +19,7 @@ pub(super) fn departure(machine: &Machine<'_>) -> Procedure {
         let [rows, weights, wanted] = ["rows", "weights", "wanted"].map(|name| b.array(name, 6));
         let steps = b.array("steps", count);
         let [far, furthest] = ["far", "furthest"].map(|name| b.real(name));
-        let held = "held";
-        b.whole(held);
+        let held = b.whole("held");
         b.copy(q, present);
         b.call("weighted", [axes, found], weights);
         b.each("i", [0, 6], |b, i| b.set(wanted.at(i), -weights.at(i)));
@@ -36,7 +35,7 @@ pub(super) fn departure(machine: &Machine<'_>) -> Procedure {
         b.each("turn", [0, count + 1], |b, _| {
             b.call("shortest", [columns, wanted], steps);
             b.set(furthest, 0.0);
-            b.set_whole(held, Whole::Number(-1));
+            b.set_whole(held, Whole::Index((-1).into()));
             b.each("j", [0, count], |b, j| {
                 b.comment("Skip variables that are held or do not move the tool.");
                 let square = columns.dot(columns, [0, 6], |k| [6 * j + k, 6 * j + k]);
@@ -47,13 +46,13 @@ pub(super) fn departure(machine: &Machine<'_>) -> Procedure {
                     b.set(far, excess.abs() / units.at(j));
                     b.when(far.get().exceeds(furthest), |b| {
                         b.set(furthest, far);
-                        b.set_whole(held, Whole::Counter(j));
+                        b.set_whole(held, Whole::Index(j.into()));
                     });
                 });
             });
             b.leave(Value::from(0.0).is_at_least(furthest));
             b.each("j", [0, count], |b, j| {
-                b.when(Condition::is(held, j), |b| {
+                b.when(held.is(j), |b| {
                     b.set(q.at(j), q.at(j).clamped(lower.at(j), upper.at(j)));
                     b.set(far, (command.at(j) - q.at(j)) / units.at(j));
                     b.each("i", [0, 6], |b, i| {
