@@ -125,3 +125,13 @@ pub(super) fn arithmetic(action: Action, operands: &[Expression]) -> Result<Expr
         Action::SinCos(_) => return Err(Called::Function(Function::Sin)),
     })
 }
+
+/// Returns the shortest literal that represents a number exactly, or the name of NaN or infinity.
+pub(super) fn literal(value: f64, [nan, infinity]: [&str; 2]) -> String {
+    match value {
+        _ if value.is_nan() => nan.to_owned(),
+        f64::INFINITY => infinity.to_owned(),
+        f64::NEG_INFINITY => format!("-{infinity}"),
+        _ => format!("{value:?}"),
+    }
+}

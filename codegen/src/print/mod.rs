@@ -2,10 +2,11 @@
 //!
 //! `statements` converts a routine to language-independent statements (`statement`); `body` does so
 //! for a program, with an `expression` for each step that needs no name and `names` for the rest.
-//! `layout` lays out lines, `flat` indexes flat arrays, `procedure` prints what the procedures of
-//! corrected commands have in common, `header` and `text` print documentation, `records` the
-//! description of a manipulator. Each language is a folder with its operators, numbers, statements,
-//! functions, corrected commands and the surrounding module.
+//! `layout` lays out lines, `flat` indexes flat arrays, `lists` has the tables of loops. A language
+//! with flat arrays implements the trait of `procedure`, by which `procedure` prints the procedures
+//! and `routine` the statements. `header` and `text` print documentation, `records` the description
+//! of a manipulator. Each language is a folder with its operators, numbers, statements, functions,
+//! corrected commands and the surrounding module.
 
 mod body;
 mod c;

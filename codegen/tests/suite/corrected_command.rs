@@ -6,12 +6,12 @@ use std::collections::{HashMap, HashSet};
 
 use abbe_codegen::chain::Model;
 use abbe_codegen::procedure::{
-    Binary, Condition, Index, Kind, Precision, Procedure, Statement, Unary, Value, Whole, compensated,
-    look_up,
+    Binary, Condition, Index, Kind, Precision, Procedure, Statement, Unary, Value, Whole, clamped,
+    compensated, least_and_greatest, look_up, side, sign,
 };
 use abbe_codegen::program::{Routines, results};
 use abbe_core::compensator::{Compensated, Cycle, Status, compensate};
-use abbe_core::{Function, Pose};
+use abbe_core::{Function, Pose, Scalar};
 use abbe_spec::Spec;
 use abbe_spec::expr::{Dimension, Extrapolation, Interpolation, Symbol, Table};
 
@@ -35,6 +35,13 @@ enum Flow {
 }
 
 impl Machine {
+    /// Creates a machine for procedures that call no functions.
+    fn with(procedures: Vec<Procedure>) -> Self {
+        let (file, text) = shipped().into_iter().next().unwrap();
+        let spec = Spec::parse(&file, &text).unwrap();
+        Self { model: Model::new(&spec), spec, procedures }
+    }
+
     /// Evaluates a generated function at joint variables and nominal parameters and inputs.
     fn evaluate(&self, function: Function, q: &[f64]) -> Vec<Vec<f64>> {
         let (arrays, _) = results(function, &self.model);
@@ -75,7 +82,7 @@ impl Machine {
                 Statement::SetFlag(name, flag) => drop(variables.insert(name, vec![f64::from(*flag)])),
                 Statement::SetWhole(name, whole) => {
                     let number = match whole {
-                        Whole::Index(index) => whole(index, variables) as f64,
+                        Whole::Index(index) => sum_of(index, variables) as f64,
                         Whole::Nearest(number) => value(number, variables).round_ties_even(),
                         Whole::Status(status) => f64::from(status.code()),
                     };
@@ -136,12 +143,12 @@ impl Machine {
     }
 }
 
-fn whole(index: &Index, variables: &Variables) -> i64 {
+fn sum_of(index: &Index, variables: &Variables) -> i64 {
     index.value(|counter| variables[counter.name()][0] as i64)
 }
 
 fn index_of(index: &Index, variables: &Variables) -> usize {
-    usize::try_from(whole(index, variables)).unwrap()
+    usize::try_from(sum_of(index, variables)).unwrap()
 }
 
 fn value(expression: &Value, variables: &Variables) -> f64 {
@@ -149,7 +156,7 @@ fn value(expression: &Value, variables: &Variables) -> f64 {
     match expression {
         Value::Number(number) => *number,
         Value::Name(name) => variables[name][0],
-        Value::Whole(index) => whole(index, variables) as f64,
+        Value::Whole(index) => sum_of(index, variables) as f64,
         Value::Element(name, index) => variables[name][index_of(index, variables)],
         Value::Unary(Unary::Negative, operand) => -value(operand),
         Value::Unary(Unary::Absolute, operand) => value(operand).abs(),
@@ -177,7 +184,7 @@ fn holds(condition: &Condition, variables: &Variables) -> bool {
     match condition {
         Condition::Greater(a, b) => number(a) > number(b),
         Condition::AtLeast(a, b) => number(a) >= number(b),
-        Condition::Is(name, index) => variables[name] == [whole(index, variables) as f64],
+        Condition::Is(name, index) => variables[name] == [sum_of(index, variables) as f64],
         Condition::Flag(name) => match variables[name][0] {
             flag if flag.is_nan() => panic!("{name} is not assigned"),
             flag => flag > 0.0,
@@ -270,15 +277,35 @@ fn check_branches<'p>(statements: &'p [Statement], assigned: &mut HashSet<&'p st
     }
 }
 
+#[test]
+fn functions_of_numbers_have_the_bits_of_scalars() {
+    let machine =
+        Machine::with(least_and_greatest().into_iter().chain([sign(), side(), clamped()]).collect());
+    let numbers = [-f64::INFINITY, -2.5, -1e-310, -0.0, 0.0, 3e-320, 1.0, 7.5, f64::INFINITY, f64::NAN];
+    let check = |name: &str, given: &[f64], expected: f64| {
+        let given: Vec<Vec<f64>> = given.iter().map(|number| vec![*number]).collect();
+        let found = machine.call(name, &given)[0][0];
+        let is_same = found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan();
+        assert!(is_same, "{name} of {given:?}: {found}, {expected}");
+    };
+    for a in numbers {
+        check("sign", &[a], Scalar::sign(a));
+        check("side", &[a], Scalar::side(a));
+        for b in numbers {
+            check("least", &[a, b], Scalar::min(a, b));
+            check("greatest", &[a, b], Scalar::max(a, b));
+            // The sign of 0 at an end that is 0 is left open.
+            for c in numbers.into_iter().filter(|c| b < *c && b != 0.0 && *c != 0.0) {
+                check("clamped", &[a, b, c], a.max(b).min(c));
+            }
+        }
+    }
+}
+
 /// Tables of equidistant and of other points, with and without values beyond their ends.
 #[test]
 fn lookups_have_the_bits_of_tables() {
-    let (mut machine, mut compared) = (None, 0);
-    for (file, text) in shipped() {
-        let spec = Spec::parse(&file, &text).unwrap();
-        machine = Some(Machine { model: Model::new(&spec), spec, procedures: vec![] });
-    }
-    let mut machine = machine.unwrap();
+    let mut compared = 0;
     let points = |x: [f64; 7]| x.iter().enumerate().map(|(k, x)| [*x, share(k)]).collect::<Vec<_>>();
     let all = [[-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0], [-2.0, -1.9, 0.0, 0.1, 0.15, 4.0, 9.0]];
     for (x, interpolation, outside) in all.iter().flat_map(|x| {
@@ -290,7 +317,7 @@ fn lookups_have_the_bits_of_tables() {
         let dimensions = [Dimension::NONE; 2];
         let table = Table::new(String::new(), String::new(), dimensions, points(x), interpolation, outside);
         let lookup = table.lookup();
-        machine.procedures = vec![look_up(&lookup, lookup.scale, String::new())];
+        let machine = Machine::with(vec![look_up(&lookup, lookup.scale, String::new())]);
         let span = 1.2 * (x[6] - x[0]);
         let between = (0..400).map(|k| x[0] - 0.1 * span + span * share(k));
         for x in between.chain(x).chain([f64::NAN, f64::INFINITY, f64::NEG_INFINITY]) {

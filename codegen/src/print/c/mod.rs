@@ -142,7 +142,9 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real, file
     }
     let body = body.finish();
     let used = Support::used(routines, &body);
-    for text in [real.text(ARE_BELOW)].into_iter().chain(used.iter().map(|support| support.text(real))) {
+    for text in
+        [real.text(ARE_BELOW)].into_iter().chain(used.iter().map(|support| support.text(routines, real)))
+    {
         writer.blank();
         writer.lines(text.trim_end());
     }

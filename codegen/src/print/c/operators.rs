@@ -21,7 +21,7 @@ const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imagin
          asinf asinh asm atan atan2 atan2f atanf atanh auto bitand bitor bool break case catch cbrt ceil char class compl concept const \
          const_cast constexpr continue copysign cos cosf cosh cosine decltype default delete do double dynamic_cast else enum \
          erf erfc exp exp2 expf explicit export expm1 extern fabs fabsf false fdim float floor fma fmax fmin fmod for friend frexp \
-         goto greater hypot i if ilogb inline inputs_are_in_range int is_within isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
+         goto greatest hypot i if ilogb inline inputs_are_in_range int is_within isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
          llround log log10 log1p log2 logb logf long lrint lround margin modf mutable namespace nan nearbyint new \
          nextafter nexttoward noexcept not not_eq nullptr operator or or_eq pow powf private protected public real register \
          reinterpret_cast remainder remquo requires restrict return rint round scalbln scalbn short side sign signbit sine sines cosine cosines \
@@ -65,7 +65,7 @@ impl Syntax for C<'_> {
             Called::Power => call("pow"),
             Called::Atan2 => call("atan2"),
             Called::Least => own("least"),
-            Called::Greatest => own("greater"),
+            Called::Greatest => own("greatest"),
             Called::Function(Operator::Abs) => call("fabs"),
             Called::Function(Operator::Sin) => own("sine"),
             Called::Function(Operator::Cos) => own("cosine"),

@@ -4,8 +4,11 @@ use std::collections::BTreeSet;
 
 use abbe_spec::expr::Function;
 
+use super::procedures::helper;
 use super::real::Real;
 use super::sines;
+use crate::print::layout::Writer;
+use crate::procedure::{clamped, least_and_greatest, side, sign};
 use crate::program::{Action, Routines};
 
 /// A static helper function, in the order of printing.
@@ -17,7 +20,7 @@ pub(super) enum Support {
     Sine,
     Cosine,
     Least,
-    Greater,
+    Greatest,
     Sign,
     Side,
     Clamped,
@@ -48,26 +51,29 @@ impl Support {
             Action::Call(Function::Sign, _) => Some(Self::Sign),
             Action::Call(Function::Side, _) => Some(Self::Side),
             Action::Min(..) => Some(Self::Least),
-            Action::Max(..) => Some(Self::Greater),
+            Action::Max(..) => Some(Self::Greatest),
             _ => None,
         }
     }
 
     /// Returns the source of the helper.
-    pub(super) fn text(self, real: Real) -> String {
-        let text = match self {
+    pub(super) fn text(self, routines: &Routines, real: Real) -> String {
+        let [least, greatest] = least_and_greatest();
+        let procedure = match self {
             Self::SinCos => return sines::one(real),
             Self::SinCosTwo => return sines::several(real, 2),
             Self::SinCosFour => return sines::several(real, 4),
-            Self::Sine => SINE,
-            Self::Cosine => COSINE,
-            Self::Least => LEAST,
-            Self::Greater => GREATER,
-            Self::Sign => SIGN,
-            Self::Side => SIDE,
-            Self::Clamped => CLAMPED,
+            Self::Sine => return real.text(&ONE_OF_BOTH.replace("NAME", "sine")),
+            Self::Cosine => return real.text(&ONE_OF_BOTH.replace("NAME", "cosine")),
+            Self::Least => least,
+            Self::Greatest => greatest,
+            Self::Sign => sign(),
+            Self::Side => side(),
+            Self::Clamped => clamped(),
         };
-        real.text(text).replace("ROUND", &real.rounder())
+        let mut writer = Writer::new(" *");
+        helper(&mut writer, routines, &procedure, procedure.name, real);
+        writer.finish().trim_start().to_owned()
     }
 }
 
@@ -84,63 +90,12 @@ static int are_below(const double *numbers, int count, double limit)
 }
 ";
 
-const SINE: &str = "\
-static double sine(double x)
+const ONE_OF_BOTH: &str = "\
+static double NAME(double x)
 {
-    double s;
-    double c;
-    sin_cos(x, &s, &c);
-    return s;
-}
-";
-
-const COSINE: &str = "\
-static double cosine(double x)
-{
-    double s;
-    double c;
-    sin_cos(x, &s, &c);
-    return c;
-}
-";
-
-const LEAST: &str = "\
-/* Returns the smaller of two numbers, or NaN if one of them is NaN. */
-static double least(double a, double b)
-{
-    return (a < b || isnan(a) != 0) ? a : b;
-}
-";
-
-const GREATER: &str = "\
-/* Returns the larger of two numbers, or NaN if one of them is NaN. */
-static double greater(double a, double b)
-{
-    return (a > b || isnan(a) != 0) ? a : b;
-}
-";
-
-const SIGN: &str = "\
-/* Returns -1, 0 or 1. */
-static double sign(double x)
-{
-    return (x > 0.0) ? 1.0 : ((x < 0.0) ? -1.0 : x * 0.0);
-}
-";
-
-const SIDE: &str = "\
-/* Returns -1 for negative numbers, else 1: the derivative of the absolute value, at 0 the right-hand one. */
-static double side(double x)
-{
-    return (x >= 0.0) ? 1.0 : ((x < 0.0) ? -1.0 : x);
-}
-";
-
-const CLAMPED: &str = "\
-/* Returns the nearest value of an interval, and its lower end for NaN. */
-static double clamped(double value, double lower, double upper)
-{
-    const double above = (value > lower) ? value : lower;
-    return (above < upper) ? above : upper;
+    double sine_of_x;
+    double cosine_of_x;
+    sin_cos(x, &sine_of_x, &cosine_of_x);
+    return NAME_of_x;
 }
 ";

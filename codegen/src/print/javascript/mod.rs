@@ -21,7 +21,7 @@ use super::lists::lists;
 use super::names::function_of;
 use super::records::records;
 use super::text::escaped;
-use crate::procedure::look_up;
+use crate::procedure::{clamped, look_up};
 use crate::program::Routines;
 
 /// Returns the source of a manipulator's module.
@@ -42,8 +42,7 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         lookup_table(&mut writer, routines, table);
     }
     if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
-        writer.blank();
-        writer.lines(CLAMPED.trim_end());
+        helper(&mut writer, routines, &clamped(), "clamped", None);
     }
     for routine in &routines.list {
         function(&mut writer, spec, routines, routine);
@@ -71,11 +70,3 @@ fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[Stri
     comment(writer, documentation);
     writer.array(&format!("const {name} = "), values, ";");
 }
-
-const CLAMPED: &str = "\
-/** Returns the nearest value of an interval, and its lower end for NaN. */
-function clamped(value, lower, upper) {
-    const above = value > lower ? value : lower;
-    return above < upper ? above : upper;
-}
-";

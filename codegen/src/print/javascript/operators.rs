@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abbe_spec::expr::{Function, Lookup, Table};
 
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
+use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic, literal};
 use crate::print::names::function_of;
 use crate::program::Action;
 
@@ -55,9 +55,6 @@ impl Syntax for JavaScript<'_> {
 
 /// Returns the shortest literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
-    if value.is_infinite() {
-        return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
-    }
-    let digits = format!("{value:?}");
+    let digits = literal(value, ["NaN", "Infinity"]);
     digits.strip_suffix(".0").unwrap_or(&digits).to_owned()
 }

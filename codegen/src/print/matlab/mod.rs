@@ -25,7 +25,9 @@ use super::lists::lists;
 use super::names::{distinct, function_of, renamed};
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
-use crate::procedure::{Precision, Procedure, compensated as described, look_up};
+use crate::procedure::{
+    Precision, Procedure, clamped, compensated as described, least_and_greatest, look_up, side,
+};
 use crate::program::Routines;
 
 /// Returns the file of a manipulator's class. Matlab requires the file to have the name of the
@@ -48,9 +50,8 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     writer.blank();
     writer.begin("methods (Static)");
     writer.paragraphs(HELPERS);
-    if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
-        writer.blank();
-        writer.paragraphs(CLAMPED);
+    for procedure in least_and_greatest().into_iter().chain([side(), clamped()]) {
+        helper(&mut writer, &class, routines, &procedure, procedure.name, None);
     }
     for table in routines.used_lookup_tables() {
         let name = spelled(&table.constant_name());
@@ -71,55 +72,18 @@ fn class_name(spec: &Spec, routines: &Routines) -> String {
     let procedures = described(spec, Precision::Double);
     let arrays = routines.list.iter().flat_map(|routine| &routine.arrays).map(|array| array.name);
     let signature = COMPENSATED.arguments.iter().chain(COMPENSATED.results).map(|array| array.name);
-    let names = OWN.into_iter().chain(PROPERTIES).chain(WORDS.split_whitespace()).chain(arrays);
+    let names = [OWN, PROPERTIES, WORDS].into_iter().flat_map(str::split_whitespace).chain(arrays);
     let names = names.chain(signature).chain(routines.list.iter().map(|routine| routine.name));
     let names: HashSet<&str> = names.chain(procedures.iter().flat_map(Procedure::names)).collect();
     distinct(spelled(&spec.name), "_", |name| names.contains(name))
 }
 
 /// Functions with a text of their own, and the variables of these.
-const OWN: [&str; 24] = [
-    "only_real",
-    "side",
-    "least",
-    "greatest",
-    "look_up",
-    "is_given",
-    "clamped",
-    "a",
-    "b",
-    "x",
-    "y",
-    "name",
-    "value",
-    "count",
-    "table",
-    "order",
-    "even",
-    "last",
-    "nearest",
-    "bucket",
-    "piece",
-    "unit",
-    "step",
-    "p",
-];
+const OWN: &str = "only_real side least greatest is_given clamped a b x y name value count lower upper \
+     order piece u t c0 c1 c2 c3 starts knots pieces";
 
-const PROPERTIES: [&str; 13] = [
-    "title",
-    "length_unit",
-    "orientation",
-    "variables",
-    "limits",
-    "home",
-    "change",
-    "largest",
-    "parameter_names",
-    "parameters",
-    "input_names",
-    "inputs",
-    "ranges",
-];
+const PROPERTIES: &str = "title length_unit orientation variables limits home change largest parameter_names \
+     parameters input_names inputs ranges";
 
 /// Prints names, units, limits, values and the tables of the functions.
 fn properties(writer: &mut Writer, routines: &Routines) {
@@ -206,41 +170,10 @@ function y = only_real(y)
     end
 end
 
-function y = side(x)
-    % Returns -1 for negative numbers, else 1.
-    y = 1;
-    if x < 0
-        y = -1;
-    end
-end
-
-function y = least(a, b)
-    % Returns the smaller number, or NaN if one of them is NaN.
-    y = min(a, b);
-    if isnan(a) || isnan(b)
-        y = NaN;
-    end
-end
-
-function y = greatest(a, b)
-    % Returns the larger number, or NaN if one of them is NaN.
-    y = max(a, b);
-    if isnan(a) || isnan(b)
-        y = NaN;
-    end
-end
-
 function is_given(name, value, count)
     % Raises an error if an argument has the wrong number of elements.
     if numel(value) ~= count
         error('abbe:size', '%s: expected %d numbers, found %d', name, count, numel(value));
     end
-end
-";
-
-const CLAMPED: &str = "\
-function value = clamped(value, lower, upper)
-    % Returns the nearest value of an interval, and its lower end for NaN.
-    value = min(max(value, lower), upper);
 end
 ";

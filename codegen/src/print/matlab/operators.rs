@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Lookup};
 
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
+use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic, literal};
 use crate::print::names::{Identifiers, function_of};
 use crate::program::Action;
 
@@ -78,12 +78,6 @@ pub(super) fn spelled(name: &str) -> String {
 
 /// Returns the shortest literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
-    if value.is_nan() {
-        return "NaN".to_owned();
-    }
-    if value.is_infinite() {
-        return if value > 0.0 { "Inf" } else { "-Inf" }.to_owned();
-    }
-    let digits = format!("{value:?}");
+    let digits = literal(value, ["NaN", "Inf"]);
     digits.strip_suffix(".0").unwrap_or(&digits).to_owned()
 }

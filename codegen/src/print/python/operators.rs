@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abbe_spec::expr::{Function, Lookup, Table};
 
-use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
+use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic, literal};
 use crate::print::names::function_of;
 use crate::program::Action;
 
@@ -55,11 +55,5 @@ impl Syntax for Python<'_> {
 
 /// Returns the shortest literal that represents the number exactly.
 pub(super) fn number(value: f64) -> String {
-    if value.is_nan() {
-        return "np.nan".to_owned();
-    }
-    if value.is_infinite() {
-        return if value > 0.0 { "np.inf" } else { "-np.inf" }.to_owned();
-    }
-    format!("{value:?}")
+    literal(value, ["np.nan", "np.inf"])
 }

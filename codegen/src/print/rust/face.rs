@@ -11,44 +11,9 @@ use crate::print::layout::{Writer, array, call};
 use crate::print::text::escaped;
 
 /// Types that a generated module defines or imports, and types of the prelude.
-const TAKEN: [&str; 36] = [
-    "Box",
-    "Class",
-    "Clone",
-    "Component",
-    "Copy",
-    "Debug",
-    "Default",
-    "Description",
-    "Distribution",
-    "Drop",
-    "Effect",
-    "Eq",
-    "Err",
-    "Fn",
-    "Frame",
-    "Input",
-    "Inputs",
-    "LengthUnit",
-    "List",
-    "None",
-    "Ok",
-    "Option",
-    "Orientation",
-    "Parameter",
-    "Parameters",
-    "Result",
-    "Self",
-    "Send",
-    "Some",
-    "Source",
-    "String",
-    "Sync",
-    "Text",
-    "Variable",
-    "VariableKind",
-    "Vec",
-];
+const TAKEN: &str = "Box Class Clone Component Copy Debug Default Description Distribution Drop Effect Eq Err \
+     Fn Frame Input Inputs LengthUnit List None Ok Option Orientation Parameter Parameters \
+     Result Self Send Some Source String Sync Text Variable VariableKind Vec";
 
 /// Maximum width of the fields of a structure on one line.
 const NARROW_STRUCTURE: usize = 18;
@@ -57,7 +22,8 @@ const NARROW_STRUCTURE: usize = 18;
 pub(super) fn type_name(name: &str) -> String {
     let words = name.split('_').filter(|word| !word.is_empty());
     let name: String = words.map(|word| word[..1].to_ascii_uppercase() + &word[1..]).collect();
-    let is_free = name.starts_with(|c: char| c.is_ascii_alphabetic()) && !TAKEN.contains(&name.as_str());
+    let is_free = name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && !TAKEN.split_whitespace().any(|taken| taken == name);
     if is_free { name } else { format!("Manipulator{name}") }
 }
 

@@ -1,9 +1,9 @@
 //! IEC 61131-3 Structured Text: function blocks for CODESYS, TwinCAT and other controllers.
 //!
-//! `blocks` prints routines as function blocks, `operators` expressions, `support` the sine and
-//! other functions, `tables` lookup tables, `compensated` the corrected commands, `declarations`
-//! variables. Everything is in the common part of the editions of the standard and of the
-//! dialects: no methods, pointers, references or types of its own.
+//! `blocks` prints routines as function blocks, `procedures` statements, `operators` expressions,
+//! `support` the sine and other functions, `tables` lookup tables, `compensated` the corrected
+//! commands, `declarations` variables. Everything is in the common part of the editions of the
+//! standard and of the dialects: no methods, pointers, references or types of its own.
 //!
 //! Invalid operations stop many controllers, so that nothing computes with NaN: a function that
 //! has no value sets `fault`, which becomes a status.
@@ -52,7 +52,7 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     let has_compensated = routines.has_compensated();
     for support in Support::used(spec, routines, has_compensated) {
         writer.blank();
-        writer.lines(support.text(&syntax.prefix).trim_end());
+        support.print(&mut writer, routines, &syntax.prefix);
     }
     for (table, name) in spec.tables.iter().zip(&syntax.tables) {
         tables::function(&mut writer, routines, table, name, &syntax.prefix);

@@ -7,6 +7,10 @@ use std::collections::BTreeSet;
 use abbe_spec::Spec;
 use abbe_spec::expr::Function;
 
+use super::declarations::comment;
+use super::procedures::scalar;
+use crate::print::layout::Writer;
+use crate::procedure::{Procedure, clamped, side, sign};
 use crate::program::{Action, Operand, Routines};
 
 /// A function of the file, in the order of printing.
@@ -34,7 +38,7 @@ pub(super) enum Support {
 const FUNCTIONS: [(Support, &str, Source); 16] = [
     (Support::IsWithin, "is_within", Source::Text(IS_WITHIN)),
     (Support::Nearest, "nearest", Source::Text(NEAREST)),
-    (Support::Clamped, "clamped", Source::Text(CLAMPED)),
+    (Support::Clamped, "clamped", Source::Described(clamped)),
     (Support::CosineAndSine, "cosine_and_sine", Source::Text(COSINE_AND_SINE)),
     (Support::Sine, "sine", Source::Text(ONE_OF_BOTH)),
     (Support::Cosine, "cosine", Source::Text(ONE_OF_BOTH)),
@@ -46,13 +50,14 @@ const FUNCTIONS: [(Support, &str, Source); 16] = [
     (Support::Power, "power", Source::GuardedText(POWER)),
     (Support::Exponential, "exponential", Source::Guarded(EXPONENTIAL)),
     (Support::Logarithm, "logarithm", Source::Guarded(LOGARITHM)),
-    (Support::Sign, "sign", Source::Text(SIGN)),
-    (Support::Side, "side", Source::Text(SIDE)),
+    (Support::Sign, "sign", Source::Described(sign)),
+    (Support::Side, "side", Source::Described(side)),
 ];
 
 /// Source of a function.
 #[derive(Clone, Copy)]
 enum Source {
+    Described(fn() -> Procedure),
     Text(&'static str),
     /// The last argument is `fault`.
     GuardedText(&'static str),
@@ -116,19 +121,24 @@ impl Support {
 
     /// Returns `true` if the last argument is `fault`.
     pub(super) const fn is_guarded(self) -> bool {
-        !matches!(FUNCTIONS[self as usize].2, Source::Text(_))
+        !matches!(FUNCTIONS[self as usize].2, Source::Text(_) | Source::Described(_))
     }
 
-    /// Returns the source.
-    pub(super) fn text(self, prefix: &str) -> String {
+    /// Prints the function.
+    pub(super) fn print(self, writer: &mut Writer, routines: &Routines, prefix: &str) {
         let text = match FUNCTIONS[self as usize].2 {
+            Source::Described(describe) => {
+                let (procedure, name) = (describe(), format!("{prefix}_{}", self.name()));
+                comment(writer, &procedure.documentation);
+                return scalar(writer, routines, &procedure, &name, prefix, None);
+            }
             Source::Text(text) | Source::GuardedText(text) => text.to_owned(),
             Source::Guarded(parts) => {
                 let parts = ["COMMENT", "ARGUMENTS", "CONDITION", "VALUE"].into_iter().zip(parts);
                 parts.fold(GUARDED.to_owned(), |text, (part, with)| text.replace(part, with))
             }
         };
-        text.replace("PREFIX", prefix).replace("NAME", self.name())
+        writer.lines(text.replace("PREFIX", prefix).replace("NAME", self.name()).trim_end());
     }
 }
 
@@ -209,26 +219,6 @@ VAR
 END_VAR
 cosine := PREFIX_cosine_and_sine(x, sine);
 PREFIX_NAME := NAME;
-END_FUNCTION
-";
-
-const CLAMPED: &str = "\
-(* Returns the nearest value of an interval, and its lower end for NaN. *)
-FUNCTION PREFIX_clamped : LREAL
-VAR_INPUT
-    value, lower, upper : LREAL;
-END_VAR
-VAR
-    nearest : LREAL;
-END_VAR
-nearest := lower;
-IF value > lower THEN
-    nearest := value;
-END_IF;
-IF nearest > upper THEN
-    nearest := upper;
-END_IF;
-PREFIX_clamped := nearest;
 END_FUNCTION
 ";
 
@@ -365,36 +355,5 @@ ELSIF NOT (size > LREAL#0.0) AND (exponent >= LREAL#0.0) THEN
     END_IF;
 END_IF;
 fault := fault OR NOT is_valid;
-END_FUNCTION
-";
-
-const SIGN: &str = "\
-(* Returns -1, 0 or 1. *)
-FUNCTION PREFIX_sign : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-IF x > LREAL#0.0 THEN
-    PREFIX_sign := LREAL#1.0;
-ELSIF LREAL#0.0 > x THEN
-    PREFIX_sign := -LREAL#1.0;
-ELSE
-    PREFIX_sign := LREAL#0.0;
-END_IF;
-END_FUNCTION
-";
-
-const SIDE: &str = "\
-(* Returns -1 for negative numbers, else 1: the derivative of the absolute value, at 0 the
-   right-hand one. *)
-FUNCTION PREFIX_side : LREAL
-VAR_INPUT
-    x : LREAL;
-END_VAR
-IF LREAL#0.0 > x THEN
-    PREFIX_side := -LREAL#1.0;
-ELSE
-    PREFIX_side := LREAL#1.0;
-END_IF;
 END_FUNCTION
 ";
