@@ -16,7 +16,7 @@ pub mod sampling;
 mod workspace;
 
 #[cfg(test)]
-#[path = "../../runtime/core/src/by_hand/mod.rs"]
+#[path = "../../runtime/core/src/laws/tests/by_hand/mod.rs"]
 mod by_hand;
 
 pub use configuration::Configuration;
