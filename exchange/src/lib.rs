@@ -1,14 +1,8 @@
 //! Manipulators in the formats of other programs: read as specs, and written with their identified
 //! errors.
 //!
-//! | format | file or folder | reads | writes |
-//! |---|---|---|---|
-//! | Denavit-Hartenberg numbers, CSV | [`dh`] | yes | yes |
-//! | URDF | [`urdf`] | yes | yes, into a given file |
-//! | calibration of an arm of Universal Robots, YAML | [`ur_calibration`] | | yes |
-//! | volumetric compensation of TwinCAT CNC and the ISG kernel, CSV | [`isg_csv`] | | yes |
-//! | compensation files of LinuxCNC | [`linuxcnc`] | | yes |
-//! | corrections of the joints on a grid, CSV | [`joint_corrections`] | | yes |
+//! [`FORMATS`] is the table of them, from which command, Python and documents take their names; a
+//! [`Format`] is the choice of one. Each has a file or folder here.
 //!
 //! A **reader** is a function `read` from a document to a [`Chain`](import::Chain), which
 //! [`ImportReport`](import::ImportReport) writes as a spec. A **writer** is a function `write` from
@@ -44,5 +38,8 @@ pub mod linuxcnc;
 pub mod ur_calibration;
 pub mod urdf;
 
+mod format;
 mod placement;
 mod vector;
+
+pub use format::{FORMATS, FileFormat, Format, Needs, Unfit};

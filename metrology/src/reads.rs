@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use abbe_study::Reads;
 
 use crate::compensate::Compensate;
-use crate::data::{Data, Map};
+use crate::data::{Data, Map, Source};
 use crate::doctor::Doctor;
 use crate::identify::Identify;
 use crate::measure::Measure;
@@ -56,63 +56,19 @@ impl Reads for Places {
     }
 }
 
-// The patterns name every field, so that a new field does not compile until its files are
-// considered.
-
-impl Reads for Positioning<'_> {
+impl Reads for Source<'_> {
     fn files(&self) -> Vec<PathBuf> {
-        let Self { data, reading: _, scale: _ } = self;
-        data.file().map(Path::to_owned).into_iter().collect()
+        self.file().map(Path::to_owned).into_iter().collect()
     }
 }
 
-impl Reads for Compensate {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, map, data, poses: _, tolerance: _ } = self;
-        [machine.files(), map.files(), data.files()].concat()
-    }
-}
-
-impl Reads for Doctor<'_> {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, data, within: _ } = self;
-        let data = data.file().map(Path::to_owned).into_iter().collect();
-        [machine.files(), data].concat()
-    }
-}
-
-impl Reads for Identify {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, map, data, test, terms: _, harmonics: _, settings: _, accept: _ } = self;
-        let test = test.iter().flat_map(Data::files).collect();
-        [machine.files(), map.files(), data.files(), test].concat()
-    }
-}
-
-impl Reads for Measure {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, map, data, accept: _ } = self;
-        [machine.files(), map.files(), data.files()].concat()
-    }
-}
-
-impl Reads for Monitor {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, map, checks, settings: _ } = self;
-        [machine.files(), map.files(), checks.files()].concat()
-    }
-}
-
-impl Reads for Plan {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, map, choice, study, model_error: _, seed: _ } = self;
-        [machine.files(), map.files(), choice.files(), study.files()].concat()
-    }
-}
-
-impl Reads for Simulate {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, map, at, noise: _, outliers: _, random: _, seed: _ } = self;
-        [machine.files(), map.files(), at.files()].concat()
-    }
+abbe_study::reads! {
+    Positioning<'_>: data, without reading scale;
+    Compensate: machine map data, without poses tolerance;
+    Doctor<'_>: machine data, without within;
+    Identify: machine map data test, without terms harmonics settings accept;
+    Measure: machine map data, without accept;
+    Monitor: machine map checks, without settings;
+    Plan: machine map choice study, without model_error seed;
+    Simulate: machine map at, without noise outliers random seed;
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abbe_report::{text, views};
 use abbe_spec::document::Document;
-use abbe_study::export::{Export, Format as Exported, SAMPLES_RANGE};
+use abbe_study::export::{Ends, Export, Format as Exported, SAMPLES_RANGE, Unfit};
 use abbe_study::import::{Format, Import, Units};
 use abbe_study::options::CONVENTIONS;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -110,9 +110,10 @@ impl Machine {
     /// load, and evaluates the errors that remain.
     ///
     /// `to`: "dh", "urdf" (a corrected copy of the file `urdf` of the nominal robot, from its link
-    /// `base` to `tip`), "ur-calibration", "isg-csv", "linuxcnc" or "table". `nodes`: number of
-    /// table nodes per axis or joint. `samples`, `seed`: number and seed of the random
-    /// configurations at which the remaining errors are evaluated, in the length unit and rad.
+    /// `base` to `tip`), "ur-calibration", "isg-csv", "kinematics-comp", "linuxcnc",
+    /// "linuxcnc-matrixkins" or "table". `nodes`: number of table nodes per axis or joint.
+    /// `samples`, `seed`: number and seed of the random configurations at which the remaining
+    /// errors are evaluated, in the length unit and rad.
     ///
     /// `.files` have `.name` and `.text`; `.report(folder)` writes them. `.left_out` lists what
     /// the format cannot hold. Raises SpecError if the machine cannot be written in the format.
@@ -138,33 +139,18 @@ impl Machine {
     ) -> PyResult<Py<Report>> {
         let samples = within("samples", samples, SAMPLES_RANGE)?;
         let nodes = nodes.map(|nodes| within("nodes", nodes, Exported::NODES_RANGE)).transpose()?;
-        let needless = |given: bool, name: &str| match given {
-            true => Err(PyValueError::new_err(format!("`{name}` is not for to={to:?}: leave it out"))),
-            false => Ok(()),
-        };
-        if to != "urdf" {
-            let given = [("urdf", urdf.is_some()), ("base", base.is_some()), ("tip", tip.is_some())];
-            given.into_iter().try_for_each(|(name, given)| needless(given, name))?;
-        }
-        let of_axis = nodes.unwrap_or(Exported::NODES);
-        let format = match (to, urdf) {
-            ("isg-csv", _) => Exported::IsgCsv { nodes: of_axis },
-            ("kinematics-comp", _) => Exported::KinematicsComp { nodes: of_axis },
-            ("linuxcnc", _) => Exported::LinuxCnc { nodes: of_axis, has_matrix: false },
-            ("linuxcnc-matrixkins", _) => Exported::LinuxCnc { nodes: of_axis, has_matrix: true },
-            ("table", _) => Exported::Table { nodes },
-            ("urdf", Some(file)) => Exported::Urdf { file, base, tip },
-            ("urdf", None) => {
-                return Err(PyValueError::new_err("name the URDF file of the nominal robot: urdf=…"));
-            }
-            ("ur-calibration", _) => Exported::UrCalibration,
-            ("dh", _) => Exported::Dh,
-            _ => {
-                let names = one_of(Exported::NAMES.into_iter());
-                return Err(PyValueError::new_err(format!("to={to:?}: {names}")));
-            }
-        };
-        needless(nodes.is_some() && !Exported::WITH_NODES.contains(&to), "nodes")?;
+        let given = [("urdf", urdf.is_some()), ("base", base.is_some()), ("tip", tip.is_some())];
+        let format = Exported::choose(to, urdf, Ends { base, tip }, nodes).map_err(|unfit| {
+            let needless = |name: &str| format!("`{name}` is not for to={to:?}: leave it out");
+            PyValueError::new_err(match unfit {
+                Unfit::Unknown => format!("to={to:?}: {}", one_of(Exported::names())),
+                Unfit::NoNominalRobot => "name the URDF file of the nominal robot: urdf=…".to_owned(),
+                Unfit::NeedlessNodes => needless("nodes"),
+                Unfit::NeedlessRobot => {
+                    needless(given.iter().find(|(_, given)| *given).map_or("urdf", |(name, _)| *name))
+                }
+            })
+        })?;
         let job = Export { machine: self.machine.clone(), format, samples, seed };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
         let files: Vec<_> = report.files.iter().map(|file| (file.name.clone(), file.text.clone())).collect();

@@ -7,13 +7,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use abbe_core::LengthUnit;
 use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 use crate::bounded::{Bounded, Contents, Unfit, not_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
 use crate::expr::{
-    Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Scope, TextLocation, parse_expression,
+    Allowed, Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Scope, TextLocation, parse_expression,
 };
 use crate::keys::Keys;
 use crate::not_toml::not_toml;
@@ -28,6 +29,8 @@ pub struct Document {
     pub path: String,
     /// Text of the file.
     pub text: Arc<str>,
+    /// Unit of lengths without a unit.
+    pub length: LengthUnit,
     /// Diagnostics found so far.
     pub found: Vec<Diagnostic>,
     /// Folder of the file; `None` for text that is not in a file.
@@ -49,6 +52,7 @@ impl Document {
         Self {
             path: path.to_string(),
             text: text.into(),
+            length: LengthUnit::Metre,
             found: Vec::new(),
             folder: None,
             contents: None,
@@ -135,6 +139,22 @@ impl Document {
         self.found.push(diagnostic);
     }
 
+    /// Records a diagnostic, and returns none.
+    pub fn fail<T>(&mut self, diagnostic: Diagnostic) -> Option<T> {
+        self.found.push(diagnostic);
+        None
+    }
+
+    /// Records a mistake with its help, and returns none.
+    pub fn refuse<T>(
+        &mut self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.fail(Diagnostic::new(span, message).help(help))
+    }
+
     /// Finishes reading: returns the result, or all diagnostics in the order of the file.
     pub fn finish<T>(self, result: Option<T>) -> Result<T, Diagnostics> {
         match result {
@@ -151,29 +171,23 @@ impl Document {
         }
     }
 
-    fn wrong_type(&mut self, item: &Item<'_>, expected: &str) {
+    /// Records that a value has another type than expected.
+    fn wrong_type<T>(&mut self, item: &Item<'_>, expected: &str) -> Option<T> {
         let found = item.value.get_ref().type_str();
         let message = format!("`{}` must be {expected}, not {}", item.key, with_article(found));
         let help = format!("write `{} = …` with {expected}", item.key);
-        self.mistake(Diagnostic::new(item.span(), message).label(format!("expected {expected}")).help(help));
+        self.fail(Diagnostic::new(item.span(), message).label(format!("expected {expected}")).help(help))
     }
 
     /// Reads a string.
     pub fn string(&mut self, item: &Item<'_>) -> Option<String> {
-        if let DeValue::String(text) = item.value.get_ref() {
-            return Some(text.to_string());
-        }
-        self.wrong_type(item, "a string");
-        None
+        let text = item.text().map(str::to_owned);
+        text.or_else(|| self.wrong_type(item, "a string"))
     }
 
     /// Reads `true` or `false`.
     pub fn boolean(&mut self, item: &Item<'_>) -> Option<bool> {
-        if let DeValue::Boolean(value) = item.value.get_ref() {
-            return Some(*value);
-        }
-        self.wrong_type(item, "true or false");
-        None
+        item.value.get_ref().as_bool().or_else(|| self.wrong_type(item, "true or false"))
     }
 
     /// Reads one of a few words.
@@ -185,56 +199,39 @@ impl Document {
         let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
         let message = format!("`{}` cannot be `{}`", item.key, word.escape_debug());
         let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
-        self.mistake(
-            Diagnostic::new(item.span(), message).label(format!("expected {quoted}")).help(suggestion(
-                self.found.len(),
-                &word,
-                &names,
-                "choices",
-            )),
-        );
-        None
+        let mistake = Diagnostic::new(item.span(), message).label(format!("expected {quoted}"));
+        self.fail(mistake.help(suggestion(self.found.len(), &word, &names, "choices")))
     }
 
     /// Reads a table.
     pub fn section<'d>(&mut self, item: &Item<'d>) -> Option<Section<'d>> {
-        if let DeValue::Table(table) = item.value.get_ref() {
-            return Some(Section {
-                table,
-                span: item.key_span.clone(),
-                name: item.key.clone(),
-                is_root: false,
-            });
-        }
-        self.wrong_type(item, "a table");
-        None
+        item.table().or_else(|| self.wrong_type(item, "a table"))
+    }
+
+    /// Reads a table with these keys; mistakes call it by `name`.
+    pub fn table<'d>(
+        &mut self,
+        item: &Item<'d>,
+        name: impl Into<String>,
+        keys: &[&Keys],
+    ) -> Option<Section<'d>> {
+        let section = Section { name: name.into(), ..self.section(item)? };
+        section.check_keys(keys, self);
+        Some(section)
     }
 
     /// Reads an array, whose entries become items of the same key.
     pub fn array<'d>(&mut self, item: &Item<'d>, expected: &str) -> Option<Vec<Item<'d>>> {
-        if let DeValue::Array(array) = item.value.get_ref() {
-            let array: &DeArray<'_> = array;
-            return Some(
-                array
-                    .iter()
-                    .map(|value| Item { key: item.key.clone(), key_span: item.key_span.clone(), value })
-                    .collect(),
-            );
-        }
-        self.wrong_type(item, expected);
-        None
+        let is_array = item.value.get_ref().is_array();
+        is_array.then(|| item.list()).or_else(|| self.wrong_type(item, expected))
     }
 
     /// Reads an array of tables, `[[key]]`. A single table `[key]` is a mistake of its own.
     pub fn array_of_tables<'d>(&mut self, item: &Item<'d>, key: &str) -> Option<Vec<Item<'d>>> {
         if item.is_table() {
             let message = format!("`{}` must be an array of tables, not a single table", item.key);
-            self.mistake(
-                Diagnostic::new(item.span(), message)
-                    .label("a single table")
-                    .help(format!("write `[[{key}]]` instead of `[{key}]`")),
-            );
-            return None;
+            let mistake = Diagnostic::new(item.span(), message).label("a single table");
+            return self.fail(mistake.help(format!("write `[[{key}]]` instead of `[{key}]`")));
         }
         self.array(item, &format!("an array of tables [[{key}]]"))
     }
@@ -245,12 +242,9 @@ impl Document {
         let count = entries.len();
         entries.try_into().ok().or_else(|| {
             let message = format!("`{}` must be {expected}; this has {count}", item.key);
-            self.mistake(
-                Diagnostic::new(item.span(), message)
-                    .label(format!("expected {N} entries, found {count}"))
-                    .help(format!("write {expected} in brackets")),
-            );
-            None
+            let help = format!("write {expected} in brackets");
+            let mistake = Diagnostic::new(item.span(), message);
+            self.fail(mistake.label(format!("expected {N} entries, found {count}")).help(help))
         })
     }
 
@@ -272,14 +266,11 @@ impl Document {
 
     /// Reads a string with its location in the file.
     pub(crate) fn text<'d>(&mut self, item: &Item<'d>) -> Option<(&'d str, TextLocation)> {
-        let DeValue::String(text) = item.value.get_ref() else {
-            self.wrong_type(item, "a string");
-            return None;
-        };
+        let Some(text) = item.text() else { return self.wrong_type(item, "a string") };
         let span = item.span();
         let raw = &self.text[span.clone()];
         // Quotes precede the text; a text with escapes differs from the file.
-        let place = match raw.find(&**text) {
+        let place = match raw.find(text) {
             Some(offset) if !text.is_empty() && offset <= 4 => TextLocation::Exact(span.start + offset),
             _ => TextLocation::Within(span),
         };
@@ -294,19 +285,14 @@ impl Document {
                 let (text, place) = self.text(item)?;
                 if text.trim().is_empty() {
                     let message = format!("{} is missing", entry.what);
-                    self.mistake(
-                        Diagnostic::new(span, message).label("this is empty").help("write 0 if it is zero"),
-                    );
-                    return None;
+                    let mistake = Diagnostic::new(span, message).label("this is empty");
+                    return self.fail(mistake.help("write 0 if it is zero"));
                 }
                 return parse_expression(text, &place, scope, entry, &mut self.found);
             }
             DeValue::Integer(number) => (number.to_string(), span.clone()),
             DeValue::Float(number) => (number.to_string(), span.clone()),
-            _ => {
-                self.wrong_type(item, "a number or an expression in quotes");
-                return None;
-            }
+            _ => return self.wrong_type(item, "a number or an expression in quotes"),
         };
         let value = match text.parse::<f64>() {
             Ok(value) if value.abs() <= LARGEST_NUMBER => Some(value),
@@ -316,28 +302,18 @@ impl Document {
                     _ if value.is_infinite() => "infinite or larger than 1.8e308",
                     _ => "larger than 1e150",
                 };
-                self.mistake(
-                    Diagnostic::new(span.clone(), format!("{} cannot be {what}", entry.what))
-                        .label("expected a finite number")
-                        .help("leave the entry out if there is no limit"),
-                );
-                None
+                let message = format!("{} cannot be {what}", entry.what);
+                let mistake = Diagnostic::new(span.clone(), message).label("expected a finite number");
+                self.fail(mistake.help("leave the entry out if there is no limit"))
             }
-            Err(_) => {
-                self.mistake(
-                    Diagnostic::new(span.clone(), "expected a decimal number")
-                        .help("write `255`, not `0xff`"),
-                );
-                None
-            }
+            Err(_) => self.refuse(span.clone(), "expected a decimal number", "write `255`, not `0xff`"),
         };
         let dimension = entry.dimension.unwrap_or(Dimension::NONE);
         if !dimension.takes_bare(value?) {
             let message = format!("{} must be {dimension}, not a number without a unit", entry.what);
             let help =
                 format!("add a unit, in quotes: `\"{text} {}\"`", dimension.unit(scope.length.symbol()));
-            self.mistake(Diagnostic::new(span, message).label("this has no unit").help(help));
-            return None;
+            return self.fail(Diagnostic::new(span, message).label("this has no unit").help(help));
         }
         Some(Expression::number(value?, dimension, place))
     }
@@ -346,6 +322,26 @@ impl Document {
     pub fn constant(&mut self, item: &Item<'_>, scope: &Scope, entry: Entry<'_>) -> Option<(f64, Dimension)> {
         let expression = self.expression(item, scope, entry)?;
         expression.constant().zip(expression.whole().dimension)
+    }
+
+    /// Reads a constant of this dimension in coherent units, whose bare lengths are in
+    /// [`length`](Self::length).
+    pub fn quantity(&mut self, item: &Item<'_>, dimension: Dimension) -> Option<f64> {
+        let (scope, what) = (Scope::new(self.length), format!("`{}`", item.key));
+        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
+        self.constant(item, &scope, entry).map(|(value, _)| value)
+    }
+
+    /// Reads an array of `N` such constants.
+    pub fn quantities<const N: usize>(
+        &mut self,
+        item: &Item<'_>,
+        expected: &str,
+        dimension: Dimension,
+    ) -> Option<[f64; N]> {
+        let entries: [Item<'_>; N] = self.entries(item, expected)?;
+        let values = entries.map(|item| self.quantity(&item, dimension));
+        values.into_iter().collect::<Option<Vec<f64>>>()?.try_into().ok()
     }
 }
 
@@ -360,6 +356,10 @@ pub struct Item<'d> {
 }
 
 impl<'d> Item<'d> {
+    fn new((key, value): (&'d Spanned<DeString<'d>>, &'d Spanned<DeValue<'d>>)) -> Self {
+        Self { key: key.get_ref().to_string(), key_span: key.span(), value }
+    }
+
     /// Returns the location of the value.
     pub fn span(&self) -> Span {
         self.value.span()
@@ -367,8 +367,7 @@ impl<'d> Item<'d> {
 
     /// Returns the item of a key if the value is a table that contains it.
     pub(crate) fn key_of_table(&self, key: &str) -> Option<Self> {
-        let (key, value) = self.value.get_ref().as_table()?.get_key_value(key)?;
-        Some(Self { key: key.get_ref().to_string(), key_span: key.span(), value })
+        self.table()?.get(key)
     }
 
     /// Returns the number if the value is a number, or a string with nothing else.
@@ -381,15 +380,26 @@ impl<'d> Item<'d> {
         }
     }
 
-    /// Returns the entries if the value is an array; none otherwise.
-    pub(crate) fn list(&self) -> Vec<Self> {
+    /// Returns the entries if the value is an array; none otherwise. They have its key.
+    pub fn list(&self) -> Vec<Self> {
         let entries = self.value.get_ref().as_array().into_iter().flat_map(|array| array.iter());
-        entries.map(|value| Self { value, ..self.clone() }).collect()
+        entries.map(|value| Self { key: self.key.clone(), key_span: value.span(), value }).collect()
+    }
+
+    /// Returns the text if the value is a string.
+    pub fn text(&self) -> Option<&'d str> {
+        self.value.get_ref().as_str()
+    }
+
+    /// Returns the table if the value is one.
+    pub fn table(&self) -> Option<Section<'d>> {
+        let table = self.value.get_ref().as_table()?;
+        Some(Section { table, span: self.key_span.clone(), name: self.key.clone(), is_root: false })
     }
 
     /// Returns `true` if the value is a string.
     pub fn is_text(&self) -> bool {
-        self.value.get_ref().is_str()
+        self.text().is_some()
     }
 
     /// Returns `true` if the value is a table.
@@ -420,20 +430,12 @@ impl<'d> Section<'d> {
 
     /// Iterates over all items, in order.
     pub fn items(&self) -> impl Iterator<Item = Item<'d>> + use<'d> {
-        self.table.iter().map(|(key, value)| Item {
-            key: key.get_ref().to_string(),
-            key_span: key.span(),
-            value,
-        })
+        self.table.iter().map(Item::new)
     }
 
     /// Returns the item of a key.
     pub fn get(&self, key: &str) -> Option<Item<'d>> {
-        self.table.get_key_value(key).map(|(key, value)| Item {
-            key: key.get_ref().to_string(),
-            key_span: key.span(),
-            value,
-        })
+        self.table.get_key_value(key).map(Item::new)
     }
 
     /// Returns the item of a key, or records that it is missing.
@@ -451,8 +453,7 @@ impl<'d> Section<'d> {
     pub(crate) fn required_as(&self, key: &str, form: &str, document: &mut Document) -> Option<Item<'d>> {
         self.get(key).or_else(|| {
             let mistake = Diagnostic::new(self.span.clone(), self.missing(key));
-            document.mistake(mistake.label(format!("`{key}` belongs here")).help(format!("add {form}")));
-            None
+            document.fail(mistake.label(format!("`{key}` belongs here")).help(format!("add {form}")))
         })
     }
 

@@ -22,14 +22,12 @@ impl Document {
         }
         let other = KINDS.iter().find_map(|(table, what, option)| Some((root.get(table)?, what, option)));
         let Some((item, what, option)) = other else { return true };
-        self.mistake(
-            Diagnostic::new(item.key_span, format!("this file is {what}, not {expected}"))
-                .label(format!("only {what} has this table"))
-                .help(match option {
-                    Some(option) => format!("pass {what} with `{option}`"),
-                    None => "pass a spec as the first argument: `abbe check SPEC`".to_owned(),
-                }),
-        );
+        let help = match option {
+            Some(option) => format!("pass {what} with `{option}`"),
+            None => "pass a spec as the first argument: `abbe check SPEC`".to_owned(),
+        };
+        let mistake = Diagnostic::new(item.key_span, format!("this file is {what}, not {expected}"));
+        self.mistake(mistake.label(format!("only {what} has this table")).help(help));
         false
     }
 }

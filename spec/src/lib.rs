@@ -29,6 +29,7 @@ pub mod csv_writer;
 pub mod degrees;
 pub mod diagnostic;
 pub mod document;
+pub mod edit;
 pub mod expr;
 pub mod keys;
 pub mod literal;

@@ -3,7 +3,7 @@
 use abbe_core::LengthUnit;
 
 use crate::diagnostic::{Diagnostic, Span, listed, nearest};
-use crate::document::Document;
+use crate::document::{Document, Item};
 use crate::expr::{
     Allowed, Dimension, Entry, FUNCTION_NAMES, Scope, TextLocation, Token, UNIT_NAMES, parse_expression,
     tokens,
@@ -36,8 +36,7 @@ pub fn parse_value(
     let whole = document.text.clone();
     let text = whole.get(span.clone()).unwrap_or_default();
     if text.trim().is_empty() {
-        document.mistake(Diagnostic::new(span, format!("{what} is missing")).help("write 0 if it is zero"));
-        return None;
+        return document.refuse(span, format!("{what} is missing"), "write 0 if it is zero");
     }
     let place = TextLocation::Exact(span.start);
     let mistakes = document.found.len();
@@ -58,10 +57,8 @@ pub fn parse_value(
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
     let value = parse_expression(text, &place, &scope, entry, &mut document.found)?.constant()?;
     if !value.is_finite() {
-        document.mistake(
-            Diagnostic::new(span, format!("{what} is too large"))
-                .help(format!("it is converted to {}", dimension.unit(length.symbol()))),
-        );
+        let help = format!("it is converted to {}", dimension.unit(length.symbol()));
+        document.mistake(Diagnostic::new(span, format!("{what} is too large")).help(help));
     }
     Some(value).filter(|value| value.is_finite())
 }
@@ -78,6 +75,18 @@ fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
     };
     let message = format!("`{}` is neither a unit nor a function", word.escape_debug());
     Some(Diagnostic::new(span, message).label("unknown here").help(help))
+}
+
+/// Reads a name, and returns its index among the known ones; `what` names one of them in the
+/// singular.
+pub fn read_name<'n>(
+    document: &mut Document,
+    item: &Item<'_>,
+    known: impl IntoIterator<Item = &'n str>,
+    what: &str,
+) -> Option<usize> {
+    let (name, known) = (document.string(item)?, Vec::from_iter(known));
+    find_name(document, item.span(), &name, &known, what)
 }
 
 /// Returns the index of a name among the known ones, or records a mistake at `span` with

@@ -113,9 +113,8 @@ impl Changes {
                 let message = format!("`{}` is outside its range", input.name);
                 let label = format!("this is {}", number::quantity(value, &input.unit));
                 let range = format!("{} … {}", number::short(lower), number::quantity(upper, &input.unit));
-                document.mistake(
-                    Diagnostic::new(span, message).label(label).help(format!("its range is {range}")),
-                );
+                let mistake = Diagnostic::new(span, message).label(label);
+                document.mistake(mistake.help(format!("its range is {range}")));
                 return;
             }
         }
@@ -207,8 +206,7 @@ pub fn find_symbol(
     if spec.variables.iter().any(|variable| variable.name == name) {
         let message = format!("`{name}` is a joint variable, not a parameter or input");
         let help = format!("`abbe jacobian` sets joint variables by `{Q}`; a workspace moves them");
-        document.mistake(Diagnostic::new(span, message).help(help));
-        return None;
+        return document.refuse(span, message, help);
     }
     let parameters = spec.parameters.iter().enumerate();
     let parameters = parameters.map(|(i, p)| (p.name.as_str(), Symbol::Parameter(i), p.dimension));

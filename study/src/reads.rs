@@ -1,9 +1,10 @@
 //! Input files of jobs, which output must not overwrite.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use crate::check::Check;
-use crate::export::Export;
+use crate::export::{Export, Format};
 use crate::generate::Generate;
 use crate::import::Import;
 use crate::jacobian::Jacobian;
@@ -41,39 +42,51 @@ impl Reads for Study {
     }
 }
 
-// The patterns name every field, so that a new field does not compile until its files are
-// considered.
-
-impl Reads for Check {
+impl<T: Reads + Clone> Reads for Cow<'_, T> {
     fn files(&self) -> Vec<PathBuf> {
-        let Self { machine } = self;
-        machine.files()
+        self.as_ref().files()
     }
 }
 
-impl Reads for Export {
+impl<T: Reads> Reads for Option<T> {
     fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, format: _, samples: _, seed: _ } = self;
-        [machine.files(), self.beside()].concat()
+        self.as_ref().map(T::files).unwrap_or_default()
     }
 }
 
-impl Reads for Generate {
+/// Implements [`Reads`] for jobs: each names the fields that were read from files, then all others,
+/// so that a new field does not compile until its files are considered.
+#[macro_export]
+macro_rules! reads {
+    ($($job:ty: $($read:ident)+, without $($other:ident)*;)+) => {$(
+        impl $crate::Reads for $job {
+            fn files(&self) -> Vec<std::path::PathBuf> {
+                let Self { $($read,)+ $($other: _,)* } = self;
+                [$($crate::Reads::files($read)),+].concat()
+            }
+        }
+    )+};
+}
+
+reads! {
+    Check: machine, without;
+    Export: machine format, without samples seed;
+    Generate: machine, without language only name;
+    Jacobian: machine, without q;
+    Import: file, without format round_angles;
+}
+
+impl Reads for PathBuf {
     fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, language: _, only: _, name: _ } = self;
-        machine.files()
+        vec![self.clone()]
     }
 }
 
-impl Reads for Jacobian {
+impl Reads for Format {
     fn files(&self) -> Vec<PathBuf> {
-        let Self { machine, q: _ } = self;
-        machine.files()
-    }
-}
-
-impl Reads for Import {
-    fn files(&self) -> Vec<PathBuf> {
-        vec![self.file.clone()]
+        match self {
+            Self::Urdf { file, .. } => vec![file.clone()],
+            _ => Vec::new(),
+        }
     }
 }

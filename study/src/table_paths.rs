@@ -2,9 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use abbe_spec::diagnostic::Span;
-use abbe_spec::document::{Document, Section};
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::Edits;
+use abbe_spec::edit::write::quoted;
 
 /// Returns the text of a spec in the folder `from` as a file in the folder `to` needs it: relative
 /// paths of tables lead to the same files.
@@ -15,26 +14,17 @@ pub(crate) fn with_table_paths(text: &str, from: &Path, to: &Path) -> String {
     }) else {
         return text.to_owned();
     };
-    let mut edits = if from == to { Vec::new() } else { table_files(text) };
-    edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
-    let mut text = text.to_owned();
-    for (span, file) in edits.into_iter().filter(|(_, file)| Path::new(file).is_relative()) {
-        text.replace_range(span, &quoted(&relative(&from.join(file), &to).to_string_lossy()));
-    }
-    text
-}
-
-/// Returns the place and the value of every `file` in `[tables]`.
-fn table_files(text: &str) -> Vec<(Span, String)> {
-    let mut document = Document::new("", text);
-    let Some(root) = document.tables(text) else { return Vec::new() };
-    let tables = Section::root(&root).get("tables").and_then(|item| document.section(&item));
-    let tables = tables.map(|tables| tables.items().collect::<Vec<_>>()).unwrap_or_default();
-    let files = tables.iter().filter_map(|table| {
-        let item = document.section(table)?.get("file")?;
-        Some((item.span(), document.string(&item)?))
+    let edited = Edits::apply(text, |root, edits| {
+        for table in root.get("tables").filter(|_| from != to)?.table()?.items() {
+            let item = table.table().and_then(|table| table.get("file"));
+            let file = item.as_ref().and_then(|item| item.text()).map(Path::new);
+            if let (Some(item), Some(file)) = (&item, file.filter(|file| file.is_relative())) {
+                edits.replace(item.span(), quoted(&relative(&from.join(file), &to).to_string_lossy()));
+            }
+        }
+        Some(())
     });
-    files.collect()
+    edited.unwrap_or_else(|| text.to_owned())
 }
 
 /// Returns the path of a file as seen from a folder; both are absolute. The file keeps an absolute

@@ -2,6 +2,8 @@
 
 use abbe_spec::check_name;
 use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::edit::Edits;
+use abbe_spec::edit::write::quoted;
 
 use crate::options::Choices;
 
@@ -44,8 +46,10 @@ impl Template {
     /// The name is not valid for a manipulator.
     pub fn spec(self, name: &str) -> Result<String, Diagnostics> {
         check_name("NAME", name)?;
-        let own = |line: &&str| line.starts_with("name = ");
-        let first = self.text().lines().find(own).unwrap_or_default();
-        Ok(self.text().replacen(first, &format!("name = \"{name}\""), 1))
+        let named = Edits::apply(self.text(), |root, edits| {
+            edits.set(&root.get("manipulator")?, "name", quoted(name));
+            Some(())
+        });
+        Ok(named.unwrap_or_default())
     }
 }

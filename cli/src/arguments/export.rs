@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
-use abbe_study::export::{Format, SAMPLES, SAMPLES_RANGE};
-use clap::builder::PossibleValuesParser;
+use abbe_study::export::{Ends, FORMATS, Format, SAMPLES, SAMPLES_RANGE, Unfit};
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueHint};
 
 use super::shared::{Showing, Subject, Writing};
@@ -22,7 +22,7 @@ pub(crate) struct Export {
     #[command(flatten)]
     pub(crate) subject: Subject,
     /// File format to write
-    #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(Format::NAMES))]
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
     to: String,
     /// URDF file of the nominal robot, for `--to urdf`: the output is a copy of it with corrected
     /// joint origins
@@ -57,37 +57,29 @@ pub(crate) struct Export {
     pub(crate) json: bool,
 }
 
+/// Returns a parser of the names of formats. Help lists them.
+fn formats() -> PossibleValuesParser {
+    FORMATS.map(|format| PossibleValue::new(format.name).help(format.title)).into()
+}
+
 impl Export {
     /// Returns the output format with its options.
     pub(crate) fn format(&self) -> Result<Format, Failure> {
         let Self { to, from, base, tip, nodes, .. } = self;
-        let of_axis = nodes.unwrap_or(Format::NODES);
-        let has_nodes = Format::WITH_NODES.contains(&to.as_str());
-        if nodes.is_some() && !has_nodes {
-            let failure = Failure::new("--nodes", format!("`--nodes` has no effect on `--to {to}`"));
-            return Err(failure.help("leave `--nodes` out"));
-        }
-        match (to.as_str(), from) {
-            ("urdf", Some(file)) => {
-                Ok(Format::Urdf { file: file.clone(), base: base.clone(), tip: tip.clone() })
+        let ends = Ends { base: base.clone(), tip: tip.clone() };
+        Format::choose(to, from.clone(), ends, *nodes).map_err(|unfit| {
+            let needless = |option: &str| {
+                let message = format!("`{option}` has no effect on `--to {to}`");
+                Failure::new(option, message).help(format!("leave `{option}` out"))
+            };
+            match unfit {
+                Unfit::NoNominalRobot => {
+                    let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is missing");
+                    failure.help("add `--from robot.urdf`")
+                }
+                Unfit::NeedlessNodes => needless("--nodes"),
+                Unfit::NeedlessRobot | Unfit::Unknown => needless("--from"),
             }
-            ("urdf", None) => {
-                let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is missing");
-                Err(failure.help("add `--from robot.urdf`"))
-            }
-            (_, Some(_)) => {
-                let failure = Failure::new("--from", format!("`--from` has no effect on `--to {to}`"));
-                Err(failure.help("leave `--from` out"))
-            }
-            ("ur-calibration", None) => Ok(Format::UrCalibration),
-            ("isg-csv", None) => Ok(Format::IsgCsv { nodes: of_axis }),
-            ("kinematics-comp", None) => Ok(Format::KinematicsComp { nodes: of_axis }),
-            ("linuxcnc", None) => Ok(Format::LinuxCnc { nodes: of_axis, has_matrix: false }),
-            ("linuxcnc-matrixkins", None) => Ok(Format::LinuxCnc { nodes: of_axis, has_matrix: true }),
-            ("table", None) => Ok(Format::Table { nodes: *nodes }),
-            ("dh", None) => Ok(Format::Dh),
-            (to, None) => Err(Failure::new("--to", format!("`{to}` is not implemented"))
-                .help("this is an error in abbe: please report it")),
-        }
+        })
     }
 }

@@ -36,10 +36,9 @@ impl NominalChain {
         if let Some(frame) = chain.frames.iter().find(|frame| frame.upward) {
             let message =
                 format!("the tip is no descendant of the base: the chain goes up at `{}`", frame.joint);
-            document.mistake(Diagnostic::whole_file(message).help(
+            return document.fail(Diagnostic::whole_file(message).help(
                 format!("errors of such a chain cannot be written as origins of the file; choose a base link above the tip by `{BASE}`"),
             ));
-            return None;
         }
         Some(Self(chain))
     }

@@ -3,7 +3,8 @@
 use abbe::identify::Observation;
 use abbe::{Manipulator, Pose, tool_pose};
 use abbe_spec::Spec;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::quoted;
 
 /// Rule by which an input is computed from the rows. Its value is −1, 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,15 +41,14 @@ impl FromRows {
         }
     }
 
-    /// Returns the lines of its entry in `[inputs]` of a map.
-    pub fn lines(&self, spec: &Spec) -> String {
+    /// Returns the keys of its entry in `[inputs]` of a map.
+    pub(crate) fn keys(&self, spec: &Spec) -> TableText {
+        let keys = TableText::default();
         match *self {
-            Self::Approach(variable) => format!("approach = {}\n", quoted(&spec.variables[variable].name)),
-            Self::GravityMoment { variable, at } => {
-                let frame = spec.frames.get(at).map(|frame| format!("frame = {}\n", quoted(&frame.name)));
-                let joint = quoted(&spec.variables[variable].name);
-                format!("gravity_moment = {joint}\n{}", frame.unwrap_or_default())
-            }
+            Self::Approach(variable) => keys.text("approach", &spec.variables[variable].name),
+            Self::GravityMoment { variable, at } => keys
+                .text("gravity_moment", &spec.variables[variable].name)
+                .optional("frame", spec.frames.get(at).map(|frame| quoted(&frame.name))),
         }
     }
 

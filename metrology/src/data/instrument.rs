@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use abbe::analysis::sampling::norm;
 use abbe::identify::{Camera, Fixture, InstrumentKind, KnownDistance, Observable, Reference};
 
 use super::column::Column;
@@ -245,8 +246,4 @@ fn check_view(camera: &Camera, readings: &[Option<f64>]) -> Result<(), String> {
         return Err(format!("{found} corners in this view; {FEWEST} are needed for the pose of the board"));
     }
     Ok(())
-}
-
-pub(super) fn norm(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

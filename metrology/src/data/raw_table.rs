@@ -29,11 +29,8 @@ pub(crate) fn raw_table(source: Source<'_>) -> Result<RawTable, Diagnostics> {
         let record = record?;
         if let Some(reason) = record.too_long() {
             let message = format!("line {}: {reason}", record.line);
-            return Err(mistake::with_help(
-                source.name(),
-                message,
-                "write one row of numbers in every line below the heading",
-            ));
+            let help = "write one row of numbers in every line below the heading";
+            return Err(mistake::with_help(source.name(), message, help));
         }
         let cell = |(place, slip): (usize, &mut Option<(u64, String)>)| {
             record.number(place).unwrap_or_else(|reason| {

@@ -19,7 +19,7 @@ use super::read_channels::{inputs, joints};
 use super::read_distances::distances;
 use super::read_instruments::{instruments, target_position};
 use super::read_places::{found_places, placement, stations};
-use super::read_values::{column, columns, constant, deviation, initial_deviation, unit};
+use super::read_values::{column, columns, deviation, initial_deviation, unit};
 use super::target_frame::TargetFrame;
 use super::turn::{EULER_ORDERS, Turn};
 use crate::acceptance::{Acceptance, FIGURE_NAMES};
@@ -39,6 +39,7 @@ impl Map {
 
     fn from_document(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
         let text = Arc::clone(&document.text);
+        document.length = spec.length;
         let tables = document.tables(&text);
         let map = tables.and_then(|tables| read_map(&Section::root(&tables), &mut document, spec));
         merge_duplicates(&mut document);
@@ -96,20 +97,20 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         (None, Some(_)) => None,
         _ => {
             let item = head.required("uncertainty", document);
-            item.and_then(|item| deviation(&item, document, spec, Dimension::LENGTH))
+            item.and_then(|item| deviation(&item, document, Dimension::LENGTH))
         }
     };
     let target_frame = TargetFrame::read(&head, document, spec)?;
-    let layout = layout(root, stated, setup.flatten(), &target_frame, document, spec);
-    let layout = found_places(root, layout, document, spec);
-    let layout = distances(root, layout, document, spec);
+    let layout = layout(root, stated, setup.flatten(), &target_frame, document);
+    let layout = found_places(root, layout, document);
+    let layout = distances(root, layout, document);
     let length = match &layout {
         Some(Layout::Instruments(all)) if stated.flatten().is_none() => Some(Some(all.uncertainty())),
         _ => stated,
     };
     let is_pose = matches!(layout, Some(Layout::Pose(..)));
     let angle = match head.get("angle_uncertainty") {
-        Some(item) => deviation(&item, document, spec, Dimension::NONE),
+        Some(item) => deviation(&item, document, Dimension::NONE),
         None if is_pose => {
             head.required("angle_uncertainty", document);
             None
@@ -117,16 +118,16 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         None => Some(Some(1.0)),
     };
     let uncertainty =
-        |sigma: Option<f64>, is_angle| sigma.unwrap_or_else(|| initial_deviation(is_angle, spec));
+        |sigma: Option<f64>, is_angle| sigma.unwrap_or_else(|| initial_deviation(is_angle, spec.length));
     let base = match head.get("base") {
         Some(item) => document.choice(&item, &BASES)?,
         // No camera and no board stands in F_0 by design.
         None if layout.as_ref().is_some_and(is_camera) => Base::Unknown,
         None => Base::Known,
     };
-    let stations = stations(root, &head, document, spec);
-    let placement = placement(root, &head, &target_frame, document, spec, layout.as_ref());
-    let accept = accept(root, document, spec);
+    let stations = stations(root, &head, document);
+    let placement = placement(root, &head, &target_frame, document, layout.as_ref());
+    let accept = accept(root, document);
     let record = record(root, document);
     let base = match &layout {
         // The pose of `F_0` is absorbed by the fixtures of the instruments.
@@ -167,13 +168,12 @@ fn layout(
     setup: Option<Column>,
     frame: &TargetFrame,
     document: &mut Document,
-    spec: &Spec,
 ) -> Option<Layout> {
     let alone = |item: &Item<'_>| {
         keys::FORMS.contain(&item.key) && !["target", "instrument"].contains(&item.key.as_str())
     };
     if root.get("instrument").is_some() && !root.items().any(|item| alone(&item)) {
-        let all = instruments(root, stated, setup, frame, document, spec)?;
+        let all = instruments(root, stated, setup, frame, document)?;
         return Some(Layout::Instruments(Box::new(all)));
     }
     let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
@@ -181,15 +181,14 @@ fn layout(
         let message = "a map needs exactly one description of the measurements";
         let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more), `[pose]` \
             and `[[instrument]]`";
-        document.mistake(Diagnostic::new(0..0, message).help(help));
-        return None;
+        return document.refuse(0..0, message, help);
     };
     if form.key == "target" {
-        return targets(&form, frame, document, spec);
+        return targets(&form, frame, document);
     }
     let mut section = document.section(&form)?;
     section.name = format!("[{}]", form.key);
-    let factor = unit(&section, document, spec, Dimension::LENGTH);
+    let factor = unit(&section, document, Dimension::LENGTH);
     match form.key.as_str() {
         "point" => {
             section.check_keys(&[&keys::POINT], document);
@@ -203,12 +202,12 @@ fn layout(
         _ => {
             section.check_keys(&[&keys::POSE, &keys::TURN], document);
             let position = columns(&section, "position", document);
-            Some(Layout::Pose(position?, factor?, turn(&section, document, spec)?))
+            Some(Layout::Pose(position?, factor?, turn(&section, document)?))
         }
     }
 }
 
-fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Turn> {
+fn turn(section: &Section<'_>, document: &mut Document) -> Option<Turn> {
     if section.get("matrix").is_some() {
         return Some(Turn::Matrix(Box::new(columns(section, "matrix", document)?)));
     }
@@ -222,34 +221,30 @@ fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<T
     if let Some(item) = section.get("rotation_vector") {
         let section = document.section(&item)?;
         section.check_keys(&[&keys::ROTATION_VECTOR], document);
-        let factor = unit(&section, document, spec, Dimension::NONE);
+        let factor = unit(&section, document, Dimension::NONE);
         return Some(Turn::RotationVector(Box::new(columns(&section, "columns", document)?), factor?));
     }
     let Some(item) = section.get("euler") else {
         let help = "give `quaternion`, `matrix`, `euler` or `rotation_vector`";
-        document.mistake(Diagnostic::new(section.span.clone(), "this pose has no orientation").help(help));
-        return None;
+        return document.refuse(section.span.clone(), "this pose has no orientation", help);
     };
     let section = document.section(&item)?;
     section.check_keys(&[&keys::EULER], document);
     let order = section.required("order", document).and_then(|item| document.choice(&item, &EULER_ORDERS));
-    let factor = unit(&section, document, spec, Dimension::NONE);
+    let factor = unit(&section, document, Dimension::NONE);
     Some(Turn::Euler(Box::new(columns(&section, "columns", document)?), order?, factor?))
 }
 
-fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: &Spec) -> Option<Layout> {
+fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document) -> Option<Layout> {
     let items = document.array(item, "an array of tables [[target]]")?;
     let mut targets = Vec::new();
     for item in &items {
-        let mut section = document.section(item)?;
-        section.span = item.span();
-        section.name = "this [[target]]".to_owned();
-        section.check_keys(&[&keys::TARGET], document);
+        let section = document.table(item, "this [[target]]", &[&keys::TARGET])?;
         section.optional_text("name", document);
         let columns = columns(&section, "columns", document);
-        let factor = unit(&section, document, spec, Dimension::LENGTH);
+        let factor = unit(&section, document, Dimension::LENGTH);
         let position = section.required("position", document)?;
-        let position = target_position(&position, frame, document, spec)?;
+        let position = target_position(&position, frame, document)?;
         targets.push(Target { columns: columns?, factor: factor?, position });
     }
     let positions: Vec<[f64; 3]> = targets.iter().filter_map(|target| target.position).collect();
@@ -264,19 +259,15 @@ fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: 
         Some(_) => return Some(Layout::Targets(targets)),
     };
     let help = "move one of them off the line, or measure a single one as `[point]`";
-    document.mistake(Diagnostic::new(item.key_span.clone(), mistake).help(help));
-    None
+    document.refuse(item.key_span.clone(), mistake, help)
 }
 
 /// Reads `[accept]`: limits for rows that were not used in a fit.
-fn accept(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Acceptance> {
+fn accept(root: &Section<'_>, document: &mut Document) -> Option<Acceptance> {
     let Some(item) = root.get("accept") else { return Some(Acceptance::default()) };
-    let mut section = document.section(&item)?;
-    section.name = "[accept]".to_owned();
-    section.check_keys(&[&keys::ACCEPT], document);
+    let section = document.table(&item, "[accept]", &[&keys::ACCEPT])?;
     let figures = FIGURE_NAMES.into_iter().filter_map(|figure| Some((figure, section.get(figure)?)));
-    let limits =
-        figures.map(|(figure, item)| Some((figure, constant(&item, document, spec, Dimension::LENGTH)?)));
+    let limits = figures.map(|(figure, item)| Some((figure, document.quantity(&item, Dimension::LENGTH)?)));
     Some(Acceptance { limits: limits.collect::<Option<_>>()? })
 }
 
@@ -284,9 +275,7 @@ fn accept(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Ac
 fn record(root: &Section<'_>, document: &mut Document) -> Option<RunRecord> {
     let mut record = RunRecord::default();
     let Some(item) = root.get("record") else { return Some(record) };
-    let mut section = document.section(&item)?;
-    section.name = "[record]".to_owned();
-    section.check_keys(&[&keys::RECORD], document);
+    let section = document.table(&item, "[record]", &[&keys::RECORD])?;
     for key in keys::RECORD.names() {
         let text = section.optional_text(key, document);
         let wrong = check_date(&text).err().filter(|_| key == "date" && !text.is_empty());

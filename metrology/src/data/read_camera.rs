@@ -1,15 +1,13 @@
 //! Reader of an instrument of the kind `camera`.
 
 use abbe::identify::{CAMERA, Camera, INTRINSICS, Observable, register};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 
 use super::choices::{INTRINSIC_CHOICES, MOUNTS};
 use super::column::Column;
 use super::instrument::{Instrument, Instruments};
-use super::read_values::{constant, is_unknown, positive};
+use super::read_values::{column, deviation};
 
 /// Initial value of an uncertainty to be estimated: 0.2 pixels.
 const GUESS: f64 = 0.2;
@@ -24,24 +22,18 @@ pub(super) fn camera(
     setup: Option<f64>,
     all: &mut Instruments,
     document: &mut Document,
-    spec: &Spec,
 ) -> Option<Instrument> {
     let mount = section.required("mount", document).and_then(|item| document.choice(&item, &MOUNTS));
-    let image = pixels(section, "image", document, spec);
-    let focal = pixels(section, "focal", document, spec);
-    let center = center(section, image, document, spec);
-    let distortion = distortion(section, document, spec);
-    let is_known = match section.get("intrinsics") {
-        Some(item) => document.choice(&item, &INTRINSIC_CHOICES),
-        None => Some(true),
-    };
-    let corners = corners(section, document, spec);
+    let image = pixels(section, "image", document);
+    let focal = pixels(section, "focal", document);
+    let center = center(section, image, document);
+    let distortion = distortion(section, document);
+    let is_known =
+        section.get("intrinsics").map_or(Some(true), |item| document.choice(&item, &INTRINSIC_CHOICES));
+    let corners = corners(section, document);
     let prefixes = prefixes(section, document);
     let uncertainty = section.required("uncertainty", document)?;
-    let uncertainty = match is_unknown(&uncertainty, document) {
-        true => None,
-        false => Some(positive(&uncertainty, document, spec, Dimension::NONE)?),
-    };
+    let uncertainty = deviation(&uncertainty, document, Dimension::NONE)?;
     let (corners, prefixes, [fx, fy], [cx, cy]) = (corners?, prefixes?, focal?, center?);
     let mut intrinsics = [0.0; INTRINSICS];
     intrinsics[..4].copy_from_slice(&[fx, fy, cx, cy]);
@@ -81,95 +73,76 @@ pub(super) fn camera(
 }
 
 /// Reads two positive numbers of pixels.
-fn pixels(section: &Section<'_>, key: &str, document: &mut Document, spec: &Spec) -> Option<[f64; 2]> {
+fn pixels(section: &Section<'_>, key: &str, document: &mut Document) -> Option<[f64; 2]> {
     let item = section.required(key, document)?;
-    let two: [Item<'_>; 2] = document.entries(&item, "two numbers of pixels")?;
-    let [x, y] = two.map(|item| constant(&item, document, spec, Dimension::NONE));
-    let (x, y) = (x?, y?);
+    let [x, y] = document.quantities(&item, "two numbers of pixels", Dimension::NONE)?;
     if x.min(y) >= 1.0 {
         return Some([x, y]);
     }
-    let mistake = Diagnostic::new(item.span(), format!("`{key}` must be at least one pixel"));
     let help = match key {
         "focal" => {
             "write fx and fy in pixels: the focal length over the size of a pixel, such as 8 mm / 0.005 mm = 1600"
         }
         _ => "write the width and the height of the image in pixels",
     };
-    document.mistake(mistake.help(help));
-    None
+    document.refuse(item.span(), format!("`{key}` must be at least one pixel"), help)
 }
 
 /// Reads the principal point, which must be in the image; its middle if it is not stated.
 ///
 /// The center of the first pixel is at (0, 0), as for OpenCV.
-fn center(
-    section: &Section<'_>,
-    image: Option<[f64; 2]>,
-    document: &mut Document,
-    spec: &Spec,
-) -> Option<[f64; 2]> {
+fn center(section: &Section<'_>, image: Option<[f64; 2]>, document: &mut Document) -> Option<[f64; 2]> {
     let Some(item) = section.get("center") else {
         return image.map(|image| image.map(|size| (size - 1.0) / 2.0));
     };
-    let two: [Item<'_>; 2] = document.entries(&item, "two numbers of pixels")?;
-    let [x, y] = two.map(|item| constant(&item, document, spec, Dimension::NONE));
-    let (center, image) = ([x?, y?], image?);
+    let [x, y] = document.quantities(&item, "two numbers of pixels", Dimension::NONE)?;
+    let (center, image) = ([x, y], image?);
     if (0..2).all(|k| (0.0..image[k]).contains(&center[k])) {
         return Some(center);
     }
-    let mistake = Diagnostic::new(item.span(), "the principal point is outside the image");
     let help = "write cx and cy of the camera matrix, and the size of the image it was calibrated with";
-    document.mistake(mistake.help(help));
-    None
+    document.refuse(item.span(), "the principal point is outside the image", help)
 }
 
 /// Reads the distortion; none if it is not stated.
-fn distortion(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<[f64; INTRINSICS - 4]> {
+fn distortion(section: &Section<'_>, document: &mut Document) -> Option<[f64; INTRINSICS - 4]> {
     let Some(item) = section.get("distortion") else { return Some([0.0; INTRINSICS - 4]) };
-    let five: [Item<'_>; INTRINSICS - 4] = document.entries(&item, "five numbers: k1 k2 p1 p2 k3")?;
-    let five = five.map(|item| constant(&item, document, spec, Dimension::NONE));
-    let [k1, k2, p1, p2, k3] = five;
-    Some([k1?, k2?, p1?, p2?, k3?])
+    document.quantities(&item, "five numbers: k1 k2 p1 p2 k3", Dimension::NONE)
 }
 
 /// Reads the beginnings of the headings of `u` and `v`, which must differ.
 fn prefixes(section: &Section<'_>, document: &mut Document) -> Option<[Column; 2]> {
     let item = section.required("pixels", document)?;
     let two: [Item<'_>; 2] = document.entries(&item, "the beginnings of two headings")?;
-    let prefix = |item: Item<'_>| {
-        Some(Column { name: document.string(&item)?.trim().to_owned(), span: Some(item.span()) })
-    };
-    let [u, v] = two.map(prefix);
+    let [u, v] = two.map(|item| column(&item, document));
     let (u, v) = (u?, v?);
     if u.name != v.name {
         return Some([u, v]);
     }
-    let mistake = Diagnostic::new(item.span(), "both pixels have the same headings");
-    document.mistake(mistake.help("write `pixels = [\"u\", \"v\"]` for the columns u1, v1, u2, v2 …"));
-    None
+    let help = "write `pixels = [\"u\", \"v\"]` for the columns u1, v1, u2, v2 …";
+    document.refuse(item.span(), "both pixels have the same headings", help)
 }
 
 /// Reads the corners of the board: a grid, row by row, or a list.
-fn corners(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<[f64; 3]>> {
+fn corners(section: &Section<'_>, document: &mut Document) -> Option<Vec<[f64; 3]>> {
     match (section.get("board"), section.get("corners")) {
         (Some(board), None) => {
-            let two: [Item<'_>; 2] = document.entries(&board, "two numbers: corners in a row, and rows")?;
-            let [columns, rows] = two.map(|item| constant(&item, document, spec, Dimension::NONE));
-            let (columns, rows) = (columns?, rows?);
+            let [columns, rows] =
+                document.quantities(&board, "two numbers: corners in a row, and rows", Dimension::NONE)?;
             let is_count = |count: f64| count.fract() == 0.0 && (2.0..=100.0).contains(&count);
             if !is_count(columns) || !is_count(rows) {
-                let mistake =
-                    Diagnostic::new(board.span(), "`board` must be two whole numbers from 2 to 100");
-                document.mistake(mistake.help("count the inner corners, as for `cv2.findChessboardCorners`"));
-                return None;
+                let help = "count the inner corners, as for `cv2.findChessboardCorners`";
+                return document.refuse(
+                    board.span(),
+                    "`board` must be two whole numbers from 2 to 100",
+                    help,
+                );
             }
             let item = section.required("pitch", document)?;
-            let pitch = constant(&item, document, spec, Dimension::LENGTH)?;
+            let pitch = document.quantity(&item, Dimension::LENGTH)?;
             if pitch < 1e-9 {
-                let mistake = Diagnostic::new(item.span(), "`pitch` must be positive");
-                document.mistake(mistake.help("write the side of a square of the chessboard"));
-                return None;
+                let help = "write the side of a square of the chessboard";
+                return document.refuse(item.span(), "`pitch` must be positive", help);
             }
             let (columns, rows) = (columns as usize, rows as usize);
             let at = |i: usize| [(i % columns) as f64 * pitch, (i / columns) as f64 * pitch, 0.0];
@@ -178,14 +151,13 @@ fn corners(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Optio
         (None, Some(list)) => {
             let mut corners = Vec::new();
             for item in document.array(&list, "corners, each two lengths on the board")? {
-                let two: [Item<'_>; 2] = document.entries(&item, "two lengths on the board: x, y")?;
-                let [x, y] = two.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-                corners.push([x?, y?, 0.0]);
+                let [x, y] =
+                    document.quantities(&item, "two lengths on the board: x, y", Dimension::LENGTH)?;
+                corners.push([x, y, 0.0]);
             }
             if let Some(pitch) = section.get("pitch") {
                 let message = "`pitch` belongs to `board`, and this board lists its `corners`";
-                document.mistake(Diagnostic::new(pitch.key_span.clone(), message).help("remove it"));
-                return None;
+                return document.refuse(pitch.key_span.clone(), message, "remove it");
             }
             let (message, help) = match corners.len() {
                 0..4 => ("a camera needs at least four corners", "a tag has four"),
@@ -195,15 +167,13 @@ fn corners(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Optio
                 ),
                 _ => return Some(corners),
             };
-            document.mistake(Diagnostic::new(list.span(), message).help(help));
-            None
+            document.refuse(list.span(), message, help)
         }
         _ => {
             let message = "a camera needs either `board` with `pitch`, or `corners`";
             let help =
                 "write `board = [9, 6]` and `pitch = \"25 mm\"` for a chessboard with 9 × 6 inner corners";
-            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
-            None
+            document.refuse(section.span.clone(), message, help)
         }
     }
 }

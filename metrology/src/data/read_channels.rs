@@ -1,16 +1,15 @@
 //! Reader of `[joints]` and `[inputs]`.
 
 use abbe::VariableKind;
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::find_name;
+use abbe_spec::value::{find_name, read_name};
 use abbe_spec::{Input, Spec};
 
 use super::column::{Channel, Scale};
 use super::from_rows::FromRows;
 use super::keys;
-use super::read_values::{column, constant, unit};
+use super::read_values::{column, unit};
 
 pub(super) fn joints(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Channel>> {
     let section = root.required("joints", document).and_then(|item| document.section(&item))?;
@@ -30,20 +29,16 @@ pub(super) fn joints(root: &Section<'_>, document: &mut Document, spec: &Spec) -
                 "add `{name} = {{ column = \"…\", unit = \"…\" }}`, or `{name} = {{ value = 0 }}` \
                  if it is constant"
             );
-            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
-            return None;
+            return document.refuse(section.span.clone(), message, help);
         };
-        channel(&item, document, spec, dimension)
+        channel(&item, document, dimension)
     });
     let channels: Vec<Option<Channel>> = channels.collect();
     channels.into_iter().collect()
 }
 
 pub(super) fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Channel>> {
-    let section = match root.get("inputs") {
-        Some(item) => Some(document.section(&item)?),
-        None => None,
-    };
+    let section = root.get("inputs").map_or(Some(None), |item| document.section(&item).map(Some))?;
     let names: Vec<&str> = spec.inputs.iter().map(|input| input.name.as_str()).collect();
     for item in section.iter().flat_map(Section::items) {
         find_name(document, item.key_span.clone(), &item.key, &names, "input");
@@ -52,7 +47,7 @@ pub(super) fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -
         spec.inputs.iter().map(|input| match section.as_ref().and_then(|section| section.get(&input.name)) {
             Some(item) => match from_rows(&item, document) {
                 Some(section) => read_from_rows(&section, document, spec, input).map(Channel::FromRows),
-                None => channel(&item, document, spec, input.dimension),
+                None => channel(&item, document, input.dimension),
             },
             None => Some(Channel::Fixed(input.value)),
         });
@@ -77,9 +72,8 @@ fn read_from_rows(
     section.name = format!("`{}`", input.name);
     section.check_keys(&[&keys::FROM_ROWS], document);
     let variable = |item: &Item<'_>, document: &mut Document| {
-        let names: Vec<&str> = spec.variables.iter().map(|variable| variable.name.as_str()).collect();
-        let name = document.string(item)?;
-        find_name(document, item.span(), &name, &names, "variable")
+        let names = spec.variables.iter().map(|variable| variable.name.as_str());
+        read_name(document, item, names, "variable")
     };
     let (approach, moment, frame) =
         (section.get("approach"), section.get("gravity_moment"), section.get("frame"));
@@ -88,8 +82,7 @@ fn read_from_rows(
         (Some(_), None, None) | (None, Some(_), _) if !is_number => {
             let message = format!("`{}` is {}; it must be -1, 0 or 1", input.name, input.dimension);
             let help = "this needs an input that is a pure number: give it a `column` or a `value`";
-            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
-            None
+            document.refuse(section.span.clone(), message, help)
         }
         (Some(item), None, None) => variable(&item, document).map(FromRows::Approach),
         (None, Some(item), frame) => {
@@ -97,21 +90,21 @@ fn read_from_rows(
             if spec.variables[joint].kind != VariableKind::Revolute {
                 let message =
                     format!("`{}` is not revolute, so no moment acts about it", spec.variables[joint].name);
-                document.mistake(Diagnostic::new(item.span(), message).help("name a revolute joint"));
-                return None;
+                return document.refuse(item.span(), message, "name a revolute joint");
             }
             let Some(frame) = frame else {
                 return Some(FromRows::GravityMoment { variable: joint, at: spec.frames.len() });
             };
-            let names: Vec<&str> = spec.frames.iter().map(|frame| frame.name.as_str()).collect();
-            let name = document.string(&frame)?;
-            let at = find_name(document, frame.span(), &name, &names, "frame")?;
+            let names = spec.frames.iter().map(|frame| frame.name.as_str());
+            let at = read_name(document, &frame, names, "frame")?;
             if at < spec.variables[joint].frame {
-                let message = format!("`{}` does not move the frame `{name}`", spec.variables[joint].name);
+                let message = format!(
+                    "`{}` does not move the frame `{}`",
+                    spec.variables[joint].name, spec.frames[at].name
+                );
                 let help = "name the frame of the joint or a later one, or omit `frame` for the \
                     tool point";
-                document.mistake(Diagnostic::new(frame.span(), message).help(help));
-                return None;
+                return document.refuse(frame.span(), message, help);
             }
             Some(FromRows::GravityMoment { variable: joint, at })
         }
@@ -119,38 +112,29 @@ fn read_from_rows(
             let help =
                 "write `{ approach = \"JOINT\" }` or `{ gravity_moment = \"JOINT\", frame = \"FRAME\" }`";
             let message = format!("`{}` is not defined by a valid rule", input.name);
-            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
-            None
+            document.refuse(section.span.clone(), message, help)
         }
     }
 }
 
 /// Reads `{ column = "…", unit = "…", sign = -1, zero = "…" }` or `{ value = … }`.
-fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<Channel> {
-    let mut section = document.section(item)?;
-    section.name = format!("`{}`", item.key);
-    section.check_keys(&[&keys::CHANNEL], document);
+fn channel(item: &Item<'_>, document: &mut Document, dimension: Dimension) -> Option<Channel> {
+    let section = document.table(item, format!("`{}`", item.key), &[&keys::CHANNEL])?;
     if let Some(value) = section.get("value") {
-        return constant(&value, document, spec, dimension).map(Channel::Fixed);
+        return document.quantity(&value, dimension).map(Channel::Fixed);
     }
     let column = section.required("column", document).and_then(|item| column(&item, document));
-    let factor = unit(&section, document, spec, dimension);
+    let factor = unit(&section, document, dimension);
     let sign = match section.get("sign") {
-        Some(item) => match constant(&item, document, spec, Dimension::NONE)? {
+        Some(item) => match document.quantity(&item, Dimension::NONE)? {
             sign if sign.abs() == 1.0 => sign,
             _ => {
-                document.mistake(
-                    Diagnostic::new(item.span(), "a sign must be 1 or -1")
-                        .help("include any other factor in `unit`"),
-                );
-                return None;
+                let help = "include any other factor in `unit`";
+                return document.refuse(item.span(), "a sign must be 1 or -1", help);
             }
         },
         None => 1.0,
     };
-    let zero = match section.get("zero") {
-        Some(item) => constant(&item, document, spec, dimension)?,
-        None => 0.0,
-    };
+    let zero = section.get("zero").map_or(Some(0.0), |item| document.quantity(&item, dimension))?;
     Some(Channel::Column(column?, Scale { one: factor? * sign, zero }))
 }

@@ -2,18 +2,17 @@
 //!
 //! The keys of an instrument are those of its [kind](InstrumentKind); each key has one reader here.
 
+use abbe::analysis::sampling::norm;
 use abbe::identify::{CAMERA, Fixture, FixtureGeometry, INSTRUMENTS, InstrumentKind, Observable};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::find_name;
+use abbe_spec::value::read_name;
 
 use super::column::Column;
-use super::instrument::{Instrument, Instruments, norm};
+use super::instrument::{Instrument, Instruments};
 use super::keys;
 use super::read_camera::camera;
-use super::read_values::{column, columns, constant, deviation, initial_deviation, is_unknown, unit};
+use super::read_values::{column, columns, deviation, initial_deviation, is_unknown, unit};
 use super::target_frame::TargetFrame;
 
 /// A target with a name.
@@ -30,12 +29,12 @@ pub(super) fn instruments(
     setup: Option<Column>,
     frame: &TargetFrame,
     document: &mut Document,
-    spec: &Spec,
 ) -> Option<Instruments> {
-    let targets = match root.get("target") {
-        Some(item) => targets(&item, frame, document, spec)?,
-        None => vec![Named { name: String::new(), position: Some([0.0; 3]) }],
-    };
+    let targets = root
+        .get("target")
+        .map_or(Some(vec![Named { name: String::new(), position: Some([0.0; 3]) }]), |item| {
+            targets(&item, frame, document)
+        })?;
     let items = root.get("instrument")?;
     let items = document.array(&items, "an array of tables [[instrument]]")?;
     let mut all = Instruments {
@@ -46,14 +45,11 @@ pub(super) fn instruments(
     let mut complete = true;
     for item in &items {
         let mut section = document.section(item)?;
-        section.span = item.span();
         section.name = "this [[instrument]]".to_owned();
-        match instrument(&section, &targets, stated, &mut all, document, spec) {
+        match instrument(&section, &targets, stated, &mut all, document) {
             Some(one) if all.list.iter().any(|other| other.name == one.name) => {
                 let message = format!("duplicate instrument `{}`", one.name.escape_debug());
-                let help = "give each its own `name`";
-                document.mistake(Diagnostic::new(item.span(), message).help(help));
-                return None;
+                return document.refuse(item.span(), message, "give each its own `name`");
             }
             Some(instrument) => all.list.push(instrument),
             None => complete = false,
@@ -62,16 +58,15 @@ pub(super) fn instruments(
     complete.then_some(all)
 }
 
-fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document, spec: &Spec) -> Option<Vec<Named>> {
+fn targets(item: &Item<'_>, frame: &TargetFrame, document: &mut Document) -> Option<Vec<Named>> {
     let items = document.array(item, "an array of tables [[target]]")?;
     let one = |item: &Item<'_>, document: &mut Document| {
         let mut section = document.section(item)?;
-        section.span = item.span();
         section.name = "this [[target]]".to_owned();
         section.check_names(&["name", "position"], document);
         let name = section.required("name", document).and_then(|item| document.string(&item));
         let item = section.required("position", document)?;
-        let position = target_position(&item, frame, document, spec)?;
+        let position = target_position(&item, frame, document)?;
         Some(Named { name: name?, position })
     };
     items.iter().map(|item| one(item, document)).collect()
@@ -83,7 +78,6 @@ fn instrument(
     stated: Option<Option<f64>>,
     all: &mut Instruments,
     document: &mut Document,
-    spec: &Spec,
 ) -> Option<Instrument> {
     let kind = section.required("kind", document)?;
     let kind = document.choice(&kind, &INSTRUMENTS.map(|kind| (kind.name, kind)))?;
@@ -92,14 +86,16 @@ fn instrument(
     section.check_names(&known, document);
     let name = section.required("name", document).and_then(|item| document.string(&item));
     if kind.name == CAMERA.name {
-        let setup = setup(section, all, document, spec)?;
-        return camera(section, name?, setup, all, document, spec);
+        let setup = setup(section, all, document)?;
+        return camera(section, name?, setup, all, document);
     }
     if all.camera.is_some() {
-        let message = "a camera must be the only instrument of its map";
         let help = "describe the other instruments in a map of their own";
-        document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
-        return None;
+        return document.refuse(
+            section.span.clone(),
+            "a camera must be the only instrument of its map",
+            help,
+        );
     }
     let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
     let columns = match kind.has("columns") {
@@ -109,23 +105,23 @@ fn instrument(
             section.required("column", document).and_then(|item| column(&item, document)).map(|c| vec![c])
         }
     };
-    let factor = if kind.is_touched() { Some(1.0) } else { unit(section, document, spec, dimension) };
+    let factor = if kind.is_touched() { Some(1.0) } else { unit(section, document, dimension) };
     let uncertainty = match section.get("uncertainty") {
-        Some(item) => deviation(&item, document, spec, dimension),
+        Some(item) => deviation(&item, document, dimension),
         None if kind.is_angle || stated.is_none() => section.required("uncertainty", document).map(|_| None),
         None => stated,
     };
-    let (zero, zero_known) = zero(section, kind, document, spec)?;
+    let (zero, zero_known) = zero(section, kind, document)?;
     let targets = targets_of(section, kind, targets, document)?;
     if kind.finds_position && section.get("at").is_none() {
         all.unplaced.push(all.list.len());
     }
     let at = match all.unplaced.contains(&all.list.len()) {
         true => [0.0; 3],
-        false => own_vector(section, kind, "at", document, spec, Dimension::LENGTH)?,
+        false => own_vector(section, kind, "at", document, Dimension::LENGTH)?,
     };
-    let direction = own_direction(section, kind, "direction", document, spec)?;
-    let mirror = unit_vector(own_direction(section, kind, "mirror", document, spec)?);
+    let direction = own_direction(section, kind, "direction", document)?;
+    let mirror = unit_vector(own_direction(section, kind, "mirror", document)?);
     let observable = Observable {
         name: name.clone().unwrap_or_default(),
         kind,
@@ -138,19 +134,17 @@ fn instrument(
         corner: [0.0; 3],
         zero,
         zero_known,
-        uncertainty: uncertainty?.unwrap_or_else(|| initial_deviation(kind.is_angle, spec)),
+        uncertainty: uncertainty?.unwrap_or_else(|| initial_deviation(kind.is_angle, document.length)),
     };
-    let setup = setup(section, all, document, spec)?;
+    let setup = setup(section, all, document)?;
     let unit = section.get("unit").and_then(|item| document.string(&item));
     let range = match section.get("range") {
         Some(item) => {
-            let ends: [Item<'_>; 2] = document.entries(&item, "the smallest and the largest reading")?;
-            let [lower, upper] = ends.map(|end| constant(&end, document, spec, dimension));
-            let (lower, upper) = (lower?, upper?);
+            let [lower, upper] =
+                document.quantities(&item, "the smallest and the largest reading", dimension)?;
             if lower >= upper {
-                let mistake = Diagnostic::new(item.span(), "the ends of `range` are reversed");
-                document.mistake(mistake.help("write the smallest reading first"));
-                return None;
+                let help = "write the smallest reading first";
+                return document.refuse(item.span(), "the ends of `range` are reversed", help);
             }
             Some([lower, upper])
         }
@@ -173,7 +167,7 @@ fn instrument(
         kind,
         columns: columns?,
         factor: factor?,
-        unit: unit.unwrap_or_else(|| spec.length.symbol().to_owned()),
+        unit: unit.unwrap_or_else(|| document.length.symbol().to_owned()),
         setup,
         range,
         uncertainty: uncertainty?,
@@ -188,10 +182,8 @@ fn targets_of(
     targets: &[Named],
     document: &mut Document,
 ) -> Option<[usize; 2]> {
-    let names: Vec<&str> = targets.iter().map(|target| target.name.as_str()).collect();
     let find = |item: &Item<'_>, document: &mut Document| {
-        let name = document.string(item)?;
-        find_name(document, item.span(), &name, &names, "target")
+        read_name(document, item, targets.iter().map(|target| target.name.as_str()), "target")
     };
     if kind.has("targets") {
         let item = section.required("targets", document)?;
@@ -205,28 +197,17 @@ fn targets_of(
     }
 }
 
-fn setup(
-    section: &Section<'_>,
-    all: &Instruments,
-    document: &mut Document,
-    spec: &Spec,
-) -> Option<Option<f64>> {
+fn setup(section: &Section<'_>, all: &Instruments, document: &mut Document) -> Option<Option<f64>> {
     let Some(item) = section.get("setup") else { return Some(None) };
     if all.setup.is_none() {
-        let mistake = Diagnostic::new(item.span(), "the map does not name the column of the setup");
-        document.mistake(mistake.help("name it: `setup = \"COLUMN\"` in [data]"));
-        return None;
+        let help = "name it: `setup = \"COLUMN\"` in [data]";
+        return document.refuse(item.span(), "the map does not name the column of the setup", help);
     }
-    constant(&item, document, spec, Dimension::NONE).map(Some)
+    document.quantity(&item, Dimension::NONE).map(Some)
 }
 
 /// Reads the zero of an instrument, and whether it is known: `zero`, or minus `radius`.
-fn zero(
-    section: &Section<'_>,
-    kind: &InstrumentKind,
-    document: &mut Document,
-    spec: &Spec,
-) -> Option<(f64, bool)> {
+fn zero(section: &Section<'_>, kind: &InstrumentKind, document: &mut Document) -> Option<(f64, bool)> {
     let (item, sign) = match kind.has("radius") {
         true => (Some(section.required("radius", document)?), -1.0),
         false => (section.get("zero"), 1.0),
@@ -235,19 +216,15 @@ fn zero(
     match (item, nominal) {
         (None, _) => Some((0.0, !kind.has_unknown_zero)),
         (Some(item), nominal) if is_unknown(&item, document) => {
-            let about = nominal.map(|item| constant(&item, document, spec, Dimension::LENGTH));
+            let about = nominal.map(|item| document.quantity(&item, Dimension::LENGTH));
             Some((about.map_or(Some(0.0), |about| about.map(|about| sign * about))?, false))
         }
         (Some(_), Some(nominal)) => {
             let message = "`nominal_radius` is the approximate value of an unknown radius, but this radius \
                  is known";
-            let help = "remove it, or write `radius = \"unknown\"`";
-            document.mistake(Diagnostic::new(nominal.key_span.clone(), message).help(help));
-            None
+            document.refuse(nominal.key_span.clone(), message, "remove it, or write `radius = \"unknown\"`")
         }
-        (Some(item), None) => {
-            constant(&item, document, spec, Dimension::LENGTH).map(|value| (sign * value, true))
-        }
+        (Some(item), None) => document.quantity(&item, Dimension::LENGTH).map(|value| (sign * value, true)),
     }
 }
 
@@ -257,14 +234,13 @@ fn own_vector(
     kind: &InstrumentKind,
     key: &str,
     document: &mut Document,
-    spec: &Spec,
     dimension: Dimension,
 ) -> Option<[f64; 3]> {
     if !kind.has(key) {
         return Some([0.0; 3]);
     }
     let item = section.required(key, document)?;
-    vector(&item, document, spec, dimension)
+    vector(&item, document, dimension)
 }
 
 /// Reads the position of a target in the frame of the tool; none if it is unknown.
@@ -272,22 +248,18 @@ pub(super) fn target_position(
     item: &Item<'_>,
     frame: &TargetFrame,
     document: &mut Document,
-    spec: &Spec,
 ) -> Option<Option<[f64; 3]>> {
     if is_unknown(item, document) {
         return Some(None);
     }
-    let three: [Item<'_>; 3] = document.entries(item, "three lengths in the frame of the tool")?;
-    let [x, y, z] = three.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-    Some(Some(frame.to_tool([x?, y?, z?])))
+    let position = document.quantities(item, "three lengths in the frame of the tool", Dimension::LENGTH)?;
+    Some(Some(frame.to_tool(position)))
 }
 
-fn vector(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<[f64; 3]> {
+fn vector(item: &Item<'_>, document: &mut Document, dimension: Dimension) -> Option<[f64; 3]> {
     let what =
         if dimension == Dimension::LENGTH { "three lengths: x, y, z" } else { "three numbers: x, y, z" };
-    let three: [Item<'_>; 3] = document.entries(item, what)?;
-    let [x, y, z] = three.map(|item| constant(&item, document, spec, dimension));
-    Some([x?, y?, z?])
+    document.quantities(item, what, dimension)
 }
 
 /// Reads a direction, which must not be zero; zero if instruments of this kind have no such key.
@@ -296,15 +268,14 @@ fn own_direction(
     kind: &InstrumentKind,
     key: &str,
     document: &mut Document,
-    spec: &Spec,
 ) -> Option<[f64; 3]> {
-    let along = own_vector(section, kind, key, document, spec, Dimension::NONE)?;
+    let along = own_vector(section, kind, key, document, Dimension::NONE)?;
     match section.get(key) {
-        Some(item) if kind.has(key) && norm(along) == 0.0 => {
-            let mistake = Diagnostic::new(item.span(), format!("the direction `{key}` must not be zero"));
-            document.mistake(mistake.help("write a vector such as [0, 0, 1] for z"));
-            None
-        }
+        Some(item) if kind.has(key) && norm(along) == 0.0 => document.refuse(
+            item.span(),
+            format!("the direction `{key}` must not be zero"),
+            "write a vector such as [0, 0, 1] for z",
+        ),
         _ => Some(along),
     }
 }

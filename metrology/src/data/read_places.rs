@@ -2,55 +2,43 @@
 
 use abbe::Pose;
 use abbe::identify::{FixtureGeometry, INTRINSICS};
-use abbe_spec::Spec;
-use abbe_spec::diagnostic::Diagnostic;
-use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::document::{Document, Section};
 use abbe_spec::expr::Dimension;
-use abbe_spec::value::find_name;
+use abbe_spec::value::read_name;
 
 use super::choices::{PLACEMENTS, Placed};
-use super::instrument::norm;
 use super::keys;
 use super::map::Layout;
-use super::read_values::{column, constant};
+use super::read_values::column;
 use super::rotation;
 use super::station::{Placement, StatedPlacement, StatedStation, Stations};
 use super::target_frame::TargetFrame;
+use abbe::analysis::sampling::norm;
 
 /// Reads the column of stations in `[data]`, and the `[[station]]` tables.
-pub(super) fn stations(
-    root: &Section<'_>,
-    head: &Section<'_>,
-    document: &mut Document,
-    spec: &Spec,
-) -> Option<Stations> {
-    let column = match head.get("station") {
-        Some(item) => Some(column(&item, document)?),
-        None => None,
-    };
+pub(super) fn stations(root: &Section<'_>, head: &Section<'_>, document: &mut Document) -> Option<Stations> {
+    let column = head.get("station").map_or(Some(None), |item| column(&item, document).map(Some))?;
     let mut stated: Vec<StatedStation> = Vec::new();
     let Some(list) = root.get("station") else { return Some(Stations { column, stated }) };
     for item in document.array(&list, "an array of tables [[station]]")? {
-        let mut section = document.section(&item)?;
-        section.span = item.span();
-        section.name = "this [[station]]".to_owned();
-        section.check_keys(&[&keys::STATION], document);
+        let section = document.table(&item, "this [[station]]", &[&keys::STATION])?;
         let name = section.optional_text("name", document);
-        let pose = place(&section, document, spec)?;
+        let pose = place(&section, document)?;
         covariance(&section, document, 6)?;
         if stated.iter().any(|station| station.name == name) {
-            let message = format!("duplicate station `{}`", name.escape_debug());
             let help = "give each its own `name`";
-            document.mistake(Diagnostic::new(item.span(), message).help(help));
-            return None;
+            return document.refuse(
+                item.span(),
+                format!("duplicate station `{}`", name.escape_debug()),
+                help,
+            );
         }
         stated.push(StatedStation { name, pose });
     }
     if column.is_none() && stated.len() > 1 {
         let help = "name the column of the station in [data]: `station = \"…\"`";
         let message = "several stations, but no column with the station of each row";
-        document.mistake(Diagnostic::new(list.key_span.clone(), message).help(help));
-        return None;
+        return document.refuse(list.key_span.clone(), message, help);
     }
     Some(Stations { column, stated })
 }
@@ -61,13 +49,10 @@ pub(super) fn placement(
     head: &Section<'_>,
     frame: &TargetFrame,
     document: &mut Document,
-    spec: &Spec,
     layout: Option<&Layout>,
 ) -> Option<Placement> {
-    let placed = match head.get("placement") {
-        Some(item) => document.choice(&item, &PLACEMENTS)?,
-        None => Placed::Near,
-    };
+    let placed =
+        head.get("placement").map_or(Some(Placed::Near), |item| document.choice(&item, &PLACEMENTS))?;
     let is_per_station = placed == Placed::PerStation;
     if let Some(item) = head.get("placement").filter(|_| is_per_station) {
         let (message, help) = match (layout, head.get("station")) {
@@ -82,16 +67,13 @@ pub(super) fn placement(
             _ => ("", ""),
         };
         if !message.is_empty() {
-            document.mistake(Diagnostic::new(item.span(), message).help(help));
-            return None;
+            return document.refuse(item.span(), message, help);
         }
     }
     let is_exact = placed == Placed::Exactly && root.get("placement").is_none();
     if let Some(item) = head.get("placement").filter(|_| is_exact && layout.is_some_and(has_unknown_target)) {
         let message = "the placement is exact, but the position of a target is unknown";
-        let help = "state its position, or remove `placement`";
-        document.mistake(Diagnostic::new(item.span(), message).help(help));
-        return None;
+        return document.refuse(item.span(), message, "state its position, or remove `placement`");
     }
     let mut all = Placement { exact: placed == Placed::Exactly, is_per_station, stated: Vec::new() };
     let Some(item) = root.get("placement") else { return Some(all) };
@@ -106,29 +88,22 @@ pub(super) fn placement(
                 "write `placement = \"per station\"` in [data], or one table [placement]",
             ),
         };
-        document.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
-        return None;
+        return document.refuse(item.key_span.clone(), message, help);
     }
     if !is_per_station {
-        let mut section = document.section(&item)?;
-        section.name = "[placement]".to_owned();
-        section.check_keys(&[&keys::PLACEMENT], document);
-        all.stated.push(stated_placement(&section, frame, document, spec, layout)?);
+        let section = document.table(&item, "[placement]", &[&keys::PLACEMENT])?;
+        all.stated.push(stated_placement(&section, frame, document, layout)?);
         return Some(all);
     }
     for item in document.array(&item, "an array of tables [[placement]]")? {
-        let mut section = document.section(&item)?;
-        section.span = item.span();
-        section.name = "this [[placement]]".to_owned();
-        section.check_keys(&[&keys::PLACEMENT, &keys::PLACEMENT_OF_STATION], document);
+        let section =
+            document.table(&item, "this [[placement]]", &[&keys::PLACEMENT, &keys::PLACEMENT_OF_STATION])?;
         let station = section.required("station", document)?;
         let station = document.string(&station)?;
-        let stated = stated_placement(&section, frame, document, spec, layout)?;
+        let stated = stated_placement(&section, frame, document, layout)?;
         if all.stated.iter().any(|other| other.station == station) {
             let message = format!("duplicate placement at the station `{}`", station.escape_debug());
-            let help = "give each station one placement";
-            document.mistake(Diagnostic::new(item.span(), message).help(help));
-            return None;
+            return document.refuse(item.span(), message, "give each station one placement");
         }
         all.stated.push(StatedPlacement { station, ..stated });
     }
@@ -148,11 +123,10 @@ fn stated_placement(
     section: &Section<'_>,
     frame: &TargetFrame,
     document: &mut Document,
-    spec: &Spec,
     layout: Option<&Layout>,
 ) -> Option<StatedPlacement> {
     if layout.is_some_and(Layout::is_pose) {
-        let mounting = Some(place(section, document, spec)?);
+        let mounting = Some(place(section, document)?);
         covariance(section, document, 6)?;
         return Some(StatedPlacement { mounting, ..StatedPlacement::default() });
     }
@@ -164,15 +138,13 @@ fn stated_placement(
     let list = section.required("targets", document)?;
     let mut targets = Vec::new();
     for item in document.array(&list, "positions, each three lengths in the frame of the tool")? {
-        let three: [Item<'_>; 3] = document.entries(&item, "three lengths in the frame of the tool")?;
-        let [x, y, z] = three.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-        targets.push(frame.to_tool([x?, y?, z?]));
+        let position =
+            document.quantities(&item, "three lengths in the frame of the tool", Dimension::LENGTH)?;
+        targets.push(frame.to_tool(position));
     }
     if targets.len() != count {
         let message = format!("the map has {count} targets, but positions of {}", targets.len());
-        let help = "give one position for each target, in their order";
-        document.mistake(Diagnostic::new(list.span(), message).help(help));
-        return None;
+        return document.refuse(list.span(), message, "give one position for each target, in their order");
     }
     covariance(section, document, 3 * count)?;
     Some(StatedPlacement { targets: Some(targets), ..StatedPlacement::default() })
@@ -183,23 +155,17 @@ pub(super) fn found_places(
     root: &Section<'_>,
     layout: Option<Layout>,
     document: &mut Document,
-    spec: &Spec,
 ) -> Option<Layout> {
     let Some(list) = root.get("place") else { return layout };
     let Layout::Instruments(mut all) = layout? else {
         let message = "`[[place]]` is for fixtures of instruments, and this map has no [[instrument]]";
-        document.mistake(Diagnostic::new(list.key_span.clone(), message).help("remove it"));
-        return None;
+        return document.refuse(list.key_span.clone(), message, "remove it");
     };
     for item in document.array(&list, "an array of tables [[place]]")? {
-        let mut section = document.section(&item)?;
-        section.span = item.span();
-        section.name = "this [[place]]".to_owned();
-        section.check_keys(&[&keys::PLACE], document);
-        let names: Vec<&str> = all.list.iter().map(|instrument| instrument.name.as_str()).collect();
+        let section = document.table(&item, "this [[place]]", &[&keys::PLACE])?;
         let name = section.required("name", document)?;
-        let text = document.string(&name)?;
-        let instrument = find_name(document, name.span(), &text, &names, "instrument")?;
+        let names = all.list.iter().map(|instrument| instrument.name.as_str());
+        let instrument = read_name(document, &name, names, "instrument")?;
         let (fixture, first) = (all.fixture_of(instrument), all.list[instrument].observables.start);
         let (kind, zero_known) = (all.observables[first].kind, all.observables[first].zero_known);
         if let Some(fixture) = fixture {
@@ -208,31 +174,25 @@ pub(super) fn found_places(
                 FixtureGeometry::Direction(_) => ("direction", Dimension::NONE),
             };
             let three = section.required(key, document)?;
-            let three: [Item<'_>; 3] = document.entries(&three, "three numbers: x, y, z")?;
-            let [x, y, z] = three.map(|item| constant(&item, document, spec, dimension));
-            let found = [x?, y?, z?];
+            let found = document.quantities(&three, "three numbers: x, y, z", dimension)?;
             all.fixtures[fixture].geometry = match all.fixtures[fixture].geometry {
                 FixtureGeometry::Point(_) => FixtureGeometry::Point(found),
                 FixtureGeometry::Direction(_) if norm(found) > 0.0 => FixtureGeometry::Direction(found),
                 FixtureGeometry::Direction(_) => {
-                    let mistake = Diagnostic::new(item.span(), "`direction` must not be zero");
-                    document.mistake(mistake.help("write a vector such as [0, 0, 1] for z"));
-                    return None;
+                    let help = "write a vector such as [0, 0, 1] for z";
+                    return document.refuse(item.span(), "`direction` must not be zero", help);
                 }
             };
         }
         if !zero_known {
             let zero = section.required("zero", document)?;
             let dimension = if kind.is_angle { Dimension::NONE } else { Dimension::LENGTH };
-            all.observables[first].zero = constant(&zero, document, spec, dimension)?;
+            all.observables[first].zero = document.quantity(&zero, dimension)?;
         }
         if let Some(camera) = &mut all.camera {
             let item = section.required("intrinsics", document)?;
-            let nine: [Item<'_>; INTRINSICS] =
-                document.entries(&item, "nine numbers: fx fy cx cy k1 k2 p1 p2 k3")?;
-            for (value, item) in camera.intrinsics.iter_mut().zip(nine) {
-                *value = constant(&item, document, spec, Dimension::NONE)?;
-            }
+            let what = "nine numbers: fx fy cx cy k1 k2 p1 p2 k3";
+            camera.intrinsics = document.quantities(&item, what, Dimension::NONE)?;
             covariance(&section, document, INTRINSICS)?;
             all.found.push(instrument);
             continue;
@@ -245,21 +205,14 @@ pub(super) fn found_places(
 }
 
 /// Reads a position and a quaternion w x y z.
-fn place(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Pose> {
+fn place(section: &Section<'_>, document: &mut Document) -> Option<Pose> {
     let position = section.required("position", document)?;
-    let position: [Item<'_>; 3] = document.entries(&position, "three lengths")?;
-    let [x, y, z] = position.map(|item| constant(&item, document, spec, Dimension::LENGTH));
+    let position = document.quantities(&position, "three lengths", Dimension::LENGTH);
     let item = section.required("quaternion", document)?;
-    let numbers: [Item<'_>; 4] = document.entries(&item, "four numbers: w x y z")?;
-    let numbers = numbers.map(|item| constant(&item, document, spec, Dimension::NONE));
-    let numbers: Vec<f64> = numbers.into_iter().collect::<Option<_>>()?;
+    let numbers: [f64; 4] = document.quantities(&item, "four numbers: w x y z", Dimension::NONE)?;
     match rotation::from_quaternion(&numbers) {
-        Ok([a, b, c]) => Some(Pose([a, b, c, [x?, y?, z?]])),
-        Err(reason) => {
-            document
-                .mistake(Diagnostic::new(item.span(), reason).help("write `[1, 0, 0, 0]` for no rotation"));
-            None
-        }
+        Ok([a, b, c]) => Some(Pose([a, b, c, position?])),
+        Err(reason) => document.refuse(item.span(), reason, "write `[1, 0, 0, 0]` for no rotation"),
     }
 }
 
@@ -275,6 +228,5 @@ fn covariance(section: &Section<'_>, document: &mut Document, size: usize) -> Op
         return Some(());
     }
     let message = format!("this covariance must have {size} rows of {size} numbers");
-    document.mistake(Diagnostic::new(item.span(), message).help("or remove it: no result depends on it"));
-    None
+    document.refuse(item.span(), message, "or remove it: no result depends on it")
 }

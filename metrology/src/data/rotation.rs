@@ -1,5 +1,7 @@
 //! Conversion between rotations and their representations in files.
 
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+
 use super::turn::{Order, Turn};
 
 /// Columns of a rotation matrix.
@@ -21,48 +23,37 @@ pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, Str
             if is_rotation(&r, 0.01) { Ok(r) } else { Err("the matrix is not a rotation".to_owned()) }
         }
         Turn::Euler(_, axes, factor) => Ok(from_euler(*axes, [0, 1, 2].map(|i| numbers[i] * factor))),
-        Turn::RotationVector(_, factor) => from_rotation_vector([0, 1, 2].map(|i| numbers[i] * factor)),
+        Turn::RotationVector(_, factor) => Ok(from_rotation_vector([0, 1, 2].map(|i| numbers[i] * factor))),
     }
 }
 
 /// Returns whether columns are orthonormal to a tolerance, and right-handed.
 pub(crate) fn is_rotation(r: &Rotation, tolerance: f64) -> bool {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let [x, y, z] = *r;
-    let cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
-    (0..3).all(|i| (dot(r[i], r[i]) - 1.0).abs() < tolerance)
-        && (0..3).all(|i| dot(r[i], r[(i + 1) % 3]).abs() < tolerance)
-        && dot(cross, z) > 0.0
+    let r = Matrix3::from(*r);
+    (r.transpose() * r - Matrix3::identity()).amax() < tolerance && r.determinant() > 0.0
 }
 
 /// Returns `R_a R_b R_c` for three angles in rad about these axes, 0 = x.
 pub(crate) fn from_euler(axes: [usize; 3], angles: [f64; 3]) -> Rotation {
-    let turns = axes.into_iter().zip(angles).map(|(axis, angle)| about(axis, angle));
-    turns.fold(about(0, 0.0), |product, turn| times(&product, &turn))
+    let turns = axes.into_iter().zip(angles);
+    let turns = turns.map(|(axis, angle)| Rotation3::from_axis_angle(&Vector3::ith_axis(axis), angle));
+    turns.fold(Rotation3::identity(), |product, turn| product * turn).into_inner().into()
 }
 
-/// Returns the rotation of a rotation vector in rad, or the reason of the failure.
-pub(crate) fn from_rotation_vector(vector: [f64; 3]) -> Result<Rotation, String> {
-    let angle = length(vector);
-    // sin(a/2) / a.
-    let share = if angle > 0.0 { (0.5 * angle).sin() / angle } else { 0.5 };
-    let [x, y, z] = vector.map(|v| v * share);
-    from_quaternion(&[(0.5 * angle).cos(), x, y, z])
+/// Returns the rotation of a rotation vector in rad.
+pub(crate) fn from_rotation_vector(vector: [f64; 3]) -> Rotation {
+    Rotation3::new(Vector3::from(vector)).into_inner().into()
 }
 
 /// Returns the rotation of a quaternion w x y z, or the reason of the failure.
 pub(crate) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
     let [w, x, y, z] = numbers.try_into().unwrap_or([0.0; 4]);
-    let length = (w * w + x * x + y * y + z * z).sqrt();
-    if !(0.99..1.01).contains(&length) {
-        return Err(format!("the quaternion has length {length:.3}, not 1"));
+    let quaternion = Quaternion::new(w, x, y, z);
+    let length = quaternion.norm();
+    match (0.99..1.01).contains(&length) {
+        true => Ok(UnitQuaternion::new_normalize(quaternion).to_rotation_matrix().into_inner().into()),
+        false => Err(format!("the quaternion has length {length:.3}, not 1")),
     }
-    let [w, x, y, z] = [w, x, y, z].map(|v: f64| v / length);
-    Ok([
-        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)],
-        [2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)],
-        [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
-    ])
 }
 
 /// Converts a rotation to the numbers of its representation.
@@ -77,21 +68,12 @@ pub(crate) fn to_numbers(turn: &Turn, r: &Rotation) -> Vec<f64> {
         }
         Turn::Matrix(_) => (0..9).map(|k| r[k % 3][k / 3]).collect(),
         Turn::Euler(_, axes, factor) => euler(r, *axes).map(|angle| angle / factor).to_vec(),
-        Turn::RotationVector(_, factor) => rotation_vector(r).map(|v| v / factor).to_vec(),
+        Turn::RotationVector(_, factor) => {
+            let [w, x, y, z] = quaternion(r);
+            let vector = UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z)).scaled_axis();
+            vector.iter().map(|v| v / factor).collect()
+        }
     }
-}
-
-fn about(axis: usize, angle: f64) -> Rotation {
-    let (s, c) = angle.sin_cos();
-    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut r = [[0.0; 3]; 3];
-    r[axis][axis] = 1.0;
-    (r[next][next], r[next][last], r[last][next], r[last][last]) = (c, s, -s, c);
-    r
-}
-
-fn times(a: &Rotation, b: &Rotation) -> Rotation {
-    b.map(|column| std::array::from_fn(|i| (0..3).map(|k| a[k][i] * column[k]).sum()))
 }
 
 /// Returns the quaternion w x y z of a rotation.
@@ -112,19 +94,6 @@ pub(crate) fn quaternion(r: &Rotation) -> [f64; 4] {
         q[1 + l] = (r[i][l] + r[l][i]) / s;
     }
     q
-}
-
-/// Returns the rotation vector, with an angle of at most π.
-fn rotation_vector(r: &Rotation) -> [f64; 3] {
-    let [w, x, y, z] = quaternion(r);
-    let sine = length([x, y, z]);
-    let angle = 2.0 * sine.atan2(w.abs());
-    let share = if sine > 0.0 { angle / sine } else { 2.0 };
-    [x, y, z].map(|v| v * share * w.signum())
-}
-
-fn length([x, y, z]: [f64; 3]) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 /// Returns the angles of `R_a R_b R_c`; consecutive axes differ.
@@ -150,7 +119,7 @@ mod tests {
     fn numbers_and_back() {
         let column = || super::super::column::Column { name: String::new(), span: None };
         let four = || Box::new([column(), column(), column(), column()]);
-        let r = times(&times(&about(2, 0.7), &about(1, -0.4)), &about(0, 2.9));
+        let r = from_euler([2, 1, 0], [0.7, -0.4, 2.9]);
         let nine = Box::new(std::array::from_fn(|_| column()));
         let three = || Box::new(std::array::from_fn(|_| column()));
         let turns = [

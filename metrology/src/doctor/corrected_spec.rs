@@ -10,9 +10,9 @@ use std::path::Path;
 use abbe::VariableKind;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::literal::quoted;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use abbe_spec::document::Item;
+use abbe_spec::edit::Edits;
+use abbe_spec::edit::write::quoted;
 
 use super::report::Report;
 use crate::interpretations::{Change, words};
@@ -23,9 +23,6 @@ const PLACEMENT_KEYS: [&str; 5] = ["transform", "matrix", "dh", "mdh", "origin"]
 
 /// Significant digits of a fitted zero; data determine fewer.
 const DIGITS: usize = 8;
-
-/// Range of text to replace, with its replacement.
-type Edit = (Range<usize>, String);
 
 impl Report {
     /// Returns the text of the spec according to the first interpretation. Returns `None` if that
@@ -54,11 +51,11 @@ fn rewritten(changes: &[Change], spec: &Spec, text: &str) -> Option<String> {
                 substitutions.push((*joint, format!(" {sign} {}", spec.variables[*to].name)));
             }
             Change::Zero { joint, offset } => substitutions.push((*joint, zero(*offset, *joint, spec))),
-            change => new = apply_edits(&new, |file| file.edits(change, spec))?,
+            change => new = File::edited(&new, |file| file.change(change, spec))?,
         }
     }
     if !substitutions.is_empty() {
-        new = apply_edits(&new, |file| file.substitute(&substitutions, spec))?;
+        new = File::edited(&new, |file| file.substitute(&substitutions, spec))?;
     }
     (!spec_changes.is_empty()).then(|| format!("# The spec as `abbe doctor` reads it:\n{description}{new}"))
 }
@@ -77,20 +74,6 @@ fn step(change: &Change, coupled: bool) -> Option<u8> {
     }
 }
 
-/// Applies edits to a text.
-fn apply_edits(text: &str, edits: impl FnOnce(&File<'_>) -> Option<Vec<Edit>>) -> Option<String> {
-    let table = DeTable::parse(text).ok()?;
-    let mut edits = edits(&File { text, table: table.get_ref() })?;
-    edits.sort_by_key(|(span, _)| span.start);
-    let (mut new, mut end) = (String::new(), 0);
-    for (span, with) in edits {
-        new += text.get(end..span.start)?;
-        new += &with;
-        end = span.end;
-    }
-    Some(new + text.get(end..)?)
-}
-
 fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
     let sign = if offset < 0.0 { '-' } else { '+' };
     match spec.variables[joint].kind {
@@ -101,110 +84,95 @@ fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
     }
 }
 
-/// Placement of a frame or the tool: key and value.
-#[derive(Clone, Copy)]
-struct Placement<'t> {
-    key: &'t str,
-    /// Start of the key in the text.
-    start: usize,
-    value: &'t Spanned<DeValue<'t>>,
+/// Returns the placement of a frame or the tool: its key and value.
+fn placement<'t>(table: &Item<'t>) -> Option<Item<'t>> {
+    table.table()?.items().find(|item| PLACEMENT_KEYS.contains(&item.key.as_str()))
 }
 
-impl Placement<'_> {
-    fn span(&self) -> Range<usize> {
-        self.start..self.value.span().end
-    }
+/// Returns the location of a key and its value.
+fn whole(placement: &Item<'_>) -> Range<usize> {
+    placement.key_span.start..placement.span().end
 }
 
-struct File<'t> {
+struct File<'t, 'e, 'x> {
     text: &'t str,
-    table: &'t DeTable<'t>,
+    frames: Vec<Item<'t>>,
+    tool: Option<Item<'t>>,
+    edits: &'e mut Edits<'x>,
 }
 
-impl<'t> File<'t> {
-    fn frames(&self) -> Vec<&'t DeTable<'t>> {
-        let Some(DeValue::Array(frames)) = self.table.get("frame").map(Spanned::get_ref) else {
-            return Vec::new();
-        };
-        frames.iter().filter_map(|frame| frame.get_ref().as_table()).collect()
-    }
-
-    fn placement(table: &'t DeTable<'t>) -> Option<Placement<'t>> {
-        table.iter().find_map(|(key, value)| {
-            let name: &str = key.get_ref();
-            PLACEMENT_KEYS.contains(&name).then(|| Placement { key: name, start: key.span().start, value })
+impl File<'_, '_, '_> {
+    /// Edits a text; `None` if it cannot express the edits.
+    fn edited(text: &str, edit: impl FnOnce(&mut File<'_, '_, '_>) -> Option<()>) -> Option<String> {
+        Edits::apply(text, |root, edits| {
+            let frames = root.get("frame").map(|item| item.list()).unwrap_or_default();
+            edit(&mut File { text, frames, tool: root.get("tool"), edits })
         })
     }
 
-    fn tool(&self) -> Option<Placement<'t>> {
-        Self::placement(self.table.get("tool")?.get_ref().as_table()?)
+    fn tool(&self) -> Option<Item<'_>> {
+        placement(self.tool.as_ref()?)
     }
 
     /// Returns the placement of the base, if exactly one frame precedes the first joint.
-    fn base(&self, spec: &Spec) -> Option<Placement<'t>> {
+    fn base(&self, spec: &Spec) -> Option<Item<'_>> {
         let moving = spec.variables_of_transforms();
         let fixed = moving.iter().take_while(|variables| variables.is_empty()).count();
-        (fixed == 1).then(|| Self::placement(self.frames()[0]))?
+        (fixed == 1).then(|| placement(&self.frames[0]))?
     }
 
-    /// Returns the edits for a change of base, tool or convention; `None` if the text cannot
-    /// express it.
-    fn edits(&self, change: &Change, spec: &Spec) -> Option<Vec<Edit>> {
-        Some(match change {
-            Change::Convention => self.other_convention(),
-            Change::EndsExchanged => self.exchange(self.base(spec)?, self.tool()?).to_vec(),
-            Change::ToolInverted => vec![self.invert(self.tool()?)?],
-            Change::BaseInverted => vec![self.invert(self.base(spec)?)?],
-            Change::ToolLeftOut => vec![Self::identity(self.tool()?)],
-            Change::BaseLeftOut => vec![Self::identity(self.base(spec)?)],
+    /// Changes base, tool or convention; `None` if the text cannot express it.
+    fn change(&mut self, change: &Change, spec: &Spec) -> Option<()> {
+        let of = match change {
+            Change::Convention => {
+                self.other_convention();
+                return Some(());
+            }
+            Change::EndsExchanged => {
+                let ends = [self.base(spec)?, self.tool()?].map(|end| whole(&end));
+                let [base, tool] = ends.clone().map(|span| &self.text[span]);
+                ends.into_iter().zip([tool, base]).for_each(|(span, text)| self.edits.replace(span, text));
+                return Some(());
+            }
+            Change::ToolInverted | Change::ToolLeftOut => self.tool()?,
+            Change::BaseInverted | Change::BaseLeftOut => self.base(spec)?,
             _ => return None,
-        })
-    }
-
-    fn other_convention(&self) -> Vec<Edit> {
-        let placements = self.frames().into_iter().filter_map(Self::placement);
-        let other = |key: &str| match key {
-            "dh" => Some("mdh"),
-            "mdh" => Some("dh"),
-            _ => None,
         };
-        placements
-            .filter_map(|placement| {
-                Some((
-                    placement.start..placement.start + placement.key.len(),
-                    other(placement.key)?.to_owned(),
-                ))
-            })
-            .collect()
-    }
-
-    fn identity(placement: Placement<'_>) -> Edit {
-        (placement.span(), "origin = { xyz = [0, 0, 0] }".to_owned())
-    }
-
-    fn exchange(&self, one: Placement<'_>, other: Placement<'_>) -> [Edit; 2] {
-        let with = |placement: Placement<'_>, other: Placement<'_>| {
-            (placement.span(), self.text[other.span()].to_owned())
+        let new = match change {
+            Change::ToolInverted | Change::BaseInverted => self.inverse(&of)?,
+            _ => "origin = { xyz = [0, 0, 0] }".to_owned(),
         };
-        [with(one, other), with(other, one)]
+        let span = whole(&of);
+        self.edits.replace(span, new);
+        Some(())
     }
 
-    /// Replaces a placement by its inverse: the inverted factors in reverse order.
-    fn invert(&self, placement: Placement<'_>) -> Option<Edit> {
-        let factors: Vec<(String, String)> = match (placement.key, placement.value.get_ref()) {
-            ("transform", DeValue::String(product)) => factors(product)?,
-            ("dh", DeValue::Table(four)) => self.dh_factors(four, ["theta", "d", "a", "alpha"])?,
-            ("mdh", DeValue::Table(four)) => self.dh_factors(four, ["alpha", "a", "theta", "d"])?,
-            ("origin", DeValue::Table(origin)) => self.origin(origin)?,
+    fn other_convention(&mut self) {
+        for placement in self.frames.iter().filter_map(placement) {
+            match placement.key.as_str() {
+                "dh" => self.edits.replace(placement.key_span, "mdh"),
+                "mdh" => self.edits.replace(placement.key_span, "dh"),
+                _ => {}
+            }
+        }
+    }
+
+    /// Returns the inverse of a placement: the inverted factors in reverse order.
+    fn inverse(&self, placement: &Item<'_>) -> Option<String> {
+        let factors: Vec<(String, String)> = match placement.key.as_str() {
+            "transform" => factors(placement.text()?)?,
+            "dh" => self.dh_factors(placement, ["theta", "d", "a", "alpha"])?,
+            "mdh" => self.dh_factors(placement, ["alpha", "a", "theta", "d"])?,
+            "origin" => self.origin(placement)?,
             _ => return None,
         };
         let inverse: Vec<String> =
             factors.iter().rev().map(|(name, amount)| format!("{name}({})", negative(amount))).collect();
-        Some((placement.span(), format!("transform = {}", quoted(&inverse.join(" ")))))
+        Some(format!("transform = {}", quoted(&inverse.join(" "))))
     }
 
     /// Returns Denavit-Hartenberg parameters as factors, in the order of the convention.
-    fn dh_factors(&self, table: &DeTable<'_>, keys: [&str; 4]) -> Option<Vec<(String, String)>> {
+    fn dh_factors(&self, item: &Item<'_>, keys: [&str; 4]) -> Option<Vec<(String, String)>> {
         let factor = |key: &str| {
             let name = match key {
                 "theta" => "Rz",
@@ -212,39 +180,34 @@ impl<'t> File<'t> {
                 "a" => "Tx",
                 _ => "Rx",
             };
-            Some((name.to_owned(), self.amount(table.get(key)?)?))
+            Some((name.to_owned(), self.amount(&item.table()?.get(key)?)))
         };
         keys.into_iter().map(factor).collect()
     }
 
     /// Returns a URDF origin as factors: T(xyz) Rz(yaw) Ry(pitch) Rx(roll).
-    fn origin(&self, table: &DeTable<'_>) -> Option<Vec<(String, String)>> {
-        let three = |key: &str, names: [&str; 3]| -> Option<Vec<(String, String)>> {
-            let Some(values) = table.get(key) else { return Some(Vec::new()) };
-            let values = values.get_ref().as_array()?;
+    fn origin(&self, item: &Item<'_>) -> Option<Vec<(String, String)>> {
+        let table = item.table()?;
+        let three = |key: &str, names: [&str; 3]| -> Vec<(String, String)> {
+            let values = table.get(key).map(|values| values.list()).unwrap_or_default();
             names
-                .iter()
-                .zip(values)
-                .map(|(name, value)| Some(((*name).to_owned(), self.amount(value)?)))
+                .into_iter()
+                .zip(&values)
+                .map(|(name, value)| (name.to_owned(), self.amount(value)))
                 .collect()
         };
-        let mut turns = three("rpy", ["Rx", "Ry", "Rz"])?;
+        let mut turns = three("rpy", ["Rx", "Ry", "Rz"]);
         turns.reverse();
-        Some([three("xyz", ["Tx", "Ty", "Tz"])?, turns].concat())
+        Some([three("xyz", ["Tx", "Ty", "Tz"]), turns].concat())
     }
 
     /// Returns the text of a number or expression.
-    fn amount(&self, value: &Spanned<DeValue<'_>>) -> Option<String> {
-        match value.get_ref() {
-            DeValue::String(text) => Some(text.to_string()),
-            DeValue::Integer(_) | DeValue::Float(_) => Some(self.text.get(value.span())?.to_owned()),
-            _ => None,
-        }
+    fn amount(&self, value: &Item<'_>) -> String {
+        value.text().unwrap_or(&self.text[value.span()]).to_owned()
     }
 
     /// Replaces each variable by its corrected expression, in the placements of all frames.
-    fn substitute(&self, added: &[(usize, String)], spec: &Spec) -> Option<Vec<Edit>> {
-        let mut edits = Vec::new();
+    fn substitute(&mut self, added: &[(usize, String)], spec: &Spec) -> Option<()> {
         let substitutions: Vec<(&str, String)> = (0..spec.variables.len())
             .filter_map(|i| {
                 let parts: String =
@@ -253,33 +216,27 @@ impl<'t> File<'t> {
                 (!parts.is_empty()).then(|| (name, format!("({name}{parts})")))
             })
             .collect();
-        for (i, frame) in self.frames().into_iter().enumerate() {
-            let placement = Self::placement(frame)?;
+        for (i, frame) in self.frames.iter().enumerate() {
+            let placement = placement(frame)?;
             let variable = spec.frames[i].variable.map(|variable| spec.variables[variable].name.as_str());
             // With `origin` the joint axis moves implicitly, so that there is no expression to
             // edit.
             if placement.key == "origin" && substitutions.iter().any(|(name, _)| variable == Some(name)) {
                 return None;
             }
-            self.each_text(placement.value, &mut |span| {
-                let old = &self.text[span.clone()];
-                let new = replace_names(old, &substitutions);
-                if new != old {
-                    edits.push((span, new));
-                }
-            });
+            for span in strings(&placement) {
+                self.edits.replace(span.clone(), replace_names(&self.text[span], &substitutions));
+            }
         }
-        Some(edits)
+        Some(())
     }
+}
 
-    fn each_text(&self, value: &Spanned<DeValue<'_>>, found: &mut impl FnMut(Range<usize>)) {
-        match value.get_ref() {
-            DeValue::String(_) => found(value.span()),
-            DeValue::Array(values) => values.iter().for_each(|value| self.each_text(value, found)),
-            DeValue::Table(table) => table.values().for_each(|value| self.each_text(value, found)),
-            _ => {}
-        }
-    }
+/// Returns the locations of all strings in a value.
+fn strings(item: &Item<'_>) -> Vec<Range<usize>> {
+    let entries = item.table().into_iter().flat_map(|table| table.items()).chain(item.list());
+    let own = item.is_text().then(|| item.span());
+    own.into_iter().chain(entries.flat_map(|entry| strings(&entry))).collect()
 }
 
 /// Splits a product such as `Tx(30 mm) Rz(q1)` into names and amounts.

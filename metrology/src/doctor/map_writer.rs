@@ -1,10 +1,9 @@
 //! Writes an interpretation as a map.
 
-use std::fmt::Write;
-
 use abbe::{Pose, VariableKind};
 use abbe_spec::Spec;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::{list, quantity, quoted};
 
 use super::columns::Columns;
 use crate::data::quaternion;
@@ -46,15 +45,13 @@ pub(super) fn map(candidate: &Candidate, spec: &Spec, columns: &Columns) -> (Str
         of_spec.iter().for_each(|line| text += &format!("# - {line}\n"));
     }
     text += "\n[data]\ntitle = \"Interpretation by abbe doctor\"\n# Standard uncertainty of the \
-        instrument: enter that of its data sheet, or `identify` estimates it.\n\
-        uncertainty = \"unknown\"\n";
-    if interpretation.layout.is_oriented() {
-        text += "angle_uncertainty = \"unknown\"\n";
-    }
-    let _ = write!(text, "base = \"{base}\"\n\n[joints]\n");
-    text += &joints.lines(interpretation, spec, columns);
-    text += &measured_table(interpretation, columns);
-    text += &placement.unwrap_or_default();
+        instrument: enter that of its data sheet, or `identify` estimates it.\n";
+    let angle = interpretation.layout.is_oriented().then(|| quoted("unknown"));
+    let data = TableText::default().text("uncertainty", "unknown").optional("angle_uncertainty", angle);
+    let joints = TableText::with_header("\n[joints]").then(joints.keys(interpretation, spec, columns));
+    let measured = measured_table(interpretation, columns);
+    text += &data.text("base", base).then(joints).then(measured).to_string();
+    text += &placement.unwrap_or_default().to_string();
     (text, of_spec)
 }
 
@@ -66,46 +63,43 @@ struct Joints {
 }
 
 impl Joints {
-    fn lines(&self, interpretation: &Interpretation, spec: &Spec, columns: &Columns) -> String {
-        let mut text = String::new();
+    fn keys(&self, interpretation: &Interpretation, spec: &Spec, columns: &Columns) -> TableText {
+        let mut keys = TableText::default();
         for (i, variable) in spec.variables.iter().enumerate() {
             let unit = match variable.kind {
                 VariableKind::Revolute if interpretation.joints_in_degrees == Some(true) => "deg",
                 VariableKind::Revolute => "rad",
                 VariableKind::Prismatic => interpretation.slides_in.unwrap_or(spec.length.symbol()),
             };
-            let sign = if self.signs[i] < 0 { ", sign = -1" } else { "" };
-            let column = quoted(&columns.joint_names[self.order[i]]);
-            let zero = zero_key(self.zeros[i], variable.kind, spec);
-            let _ =
-                writeln!(text, "{} = {{ column = {column}, unit = \"{unit}\"{sign}{zero} }}", variable.name);
+            let column = TableText::default().text("column", &columns.joint_names[self.order[i]]);
+            let sign = (self.signs[i] < 0).then_some(-1);
+            let column = column.text("unit", unit).optional("sign", sign);
+            let column = column.optional("zero", zero(self.zeros[i], variable.kind, spec));
+            keys = keys.key(&variable.name, column.inline());
         }
-        if self.zeros.iter().any(|zero| *zero != 0.0) {
-            text += "# Zeros are fitted to the rows; enter the exact value if you know the \
-                convention.\n";
-        }
-        text
+        let note = "# Zeros are fitted to the rows; enter the exact value if you know the convention.\n";
+        if self.zeros.iter().any(|zero| *zero != 0.0) { keys.then(note) } else { keys }
     }
 }
 
 /// Returns the map's table of the measured quantity.
-fn measured_table(interpretation: &Interpretation, columns: &Columns) -> String {
-    let names = |places: &[usize]| {
-        let names: Vec<String> = places.iter().map(|place| quoted(&columns.pose_names[*place])).collect();
-        format!("[{}]", names.join(", "))
-    };
+fn measured_table(interpretation: &Interpretation, columns: &Columns) -> TableText {
+    let names = |places: &[usize]| list(places.iter().map(|place| quoted(&columns.pose_names[*place])));
     let unit = interpretation.lengths_in;
-    let angle_unit = |degrees: bool| if degrees { "deg" } else { "rad" };
-    let pose = |position: &[usize], turn: String| {
-        format!("\n[pose]\nposition = {}\nunit = \"{unit}\"\n{turn}\n", names(position))
+    let rotation_unit = |degrees: bool| if degrees { "deg" } else { "rad" };
+    let pose = |key: &str, turn: &str| {
+        let pose = TableText::with_header("\n[pose]").key("position", names(&[0, 1, 2]));
+        pose.text("unit", unit).key(key, turn)
     };
+    let turn = |places: &[usize]| TableText::default().key("columns", names(places));
     match interpretation.layout {
-        PoseFormat::Position => format!("\n[point]\ncolumns = {}\nunit = \"{unit}\"\n", names(&[0, 1, 2])),
-        PoseFormat::Difference { .. } => format!(
-            "\n[difference]\ntarget = {}\ndifference = {}\nunit = \"{unit}\"\n",
-            names(&[0, 1, 2]),
-            names(&[3, 4, 5])
-        ),
+        PoseFormat::Position => {
+            TableText::with_header("\n[point]").key("columns", names(&[0, 1, 2])).text("unit", unit)
+        }
+        PoseFormat::Difference { .. } => TableText::with_header("\n[difference]")
+            .key("target", names(&[0, 1, 2]))
+            .key("difference", names(&[3, 4, 5]))
+            .text("unit", unit),
         PoseFormat::Euler { axes, fixed, degrees } => {
             let (mut axes, mut places) = (axes, [3, 4, 5]);
             // Rotations about fixed axes multiply in reverse order.
@@ -114,48 +108,44 @@ fn measured_table(interpretation: &Interpretation, columns: &Columns) -> String 
                 places.reverse();
             }
             let order: String = axes.iter().map(|axis| ["x", "y", "z"][*axis]).collect();
-            let (columns, unit) = (names(&places), angle_unit(degrees));
-            let turn = format!("euler = {{ columns = {columns}, order = \"{order}\", unit = \"{unit}\" }}");
-            pose(&[0, 1, 2], turn)
+            let turn = turn(&places).text("order", &order).text("unit", rotation_unit(degrees));
+            pose("euler", &turn.inline())
         }
         PoseFormat::RotationVector { degrees } => {
-            let (columns, unit) = (names(&[3, 4, 5]), angle_unit(degrees));
-            pose(&[0, 1, 2], format!("rotation_vector = {{ columns = {columns}, unit = \"{unit}\" }}"))
+            pose("rotation_vector", &turn(&[3, 4, 5]).text("unit", rotation_unit(degrees)).inline())
         }
         PoseFormat::Quaternion { scalar_first } => {
             let order = if scalar_first { "wxyz" } else { "xyzw" };
-            let columns = names(&[3, 4, 5, 6]);
-            pose(&[0, 1, 2], format!("quaternion = {{ columns = {columns}, order = \"{order}\" }}"))
+            pose("quaternion", &turn(&[3, 4, 5, 6]).text("order", order).inline())
         }
         PoseFormat::Matrix { .. } | PoseFormat::Homogeneous { .. } => {
             let (position, nine) = pose_columns(interpretation.layout, columns.pose_names.len());
-            pose(&position, format!("matrix = {}", names(&nine)))
+            let pose = TableText::with_header("\n[pose]").key("position", names(&position));
+            pose.text("unit", unit).key("matrix", names(&nine))
         }
     }
 }
 
-/// Returns the `zero` key of a joint; empty if its zero is that of the spec.
-fn zero_key(offset: f64, kind: VariableKind, spec: &Spec) -> String {
-    match kind {
-        _ if offset == 0.0 => String::new(),
-        VariableKind::Revolute => format!(", zero = \"{} deg\"", digits(offset.to_degrees(), DIGITS)),
-        VariableKind::Prismatic => {
-            format!(", zero = \"{} {}\"", digits(offset, DIGITS), spec.length.symbol())
-        }
-    }
+/// Returns the zero of a joint; `None` if it is that of the spec.
+fn zero(offset: f64, kind: VariableKind, spec: &Spec) -> Option<String> {
+    let (value, unit) = match kind {
+        VariableKind::Revolute => (offset.to_degrees(), "deg"),
+        VariableKind::Prismatic => (offset, spec.length.symbol()),
+    };
+    (offset != 0.0).then(|| quantity(digits(value, DIGITS), unit))
 }
 
 /// Returns the table of a fitted tool, relative to the tool of the spec; `None` for differences.
-fn tool_placement(tool: Pose, layout: PoseFormat, spec: &Spec) -> Option<String> {
-    let unit = spec.length.symbol();
-    let point = tool.0[3].map(|x| format!("\"{} {unit}\"", digits(x, DIGITS))).join(", ");
+fn tool_placement(tool: Pose, layout: PoseFormat, spec: &Spec) -> Option<TableText> {
+    let point = list(tool.0[3].map(|x| quantity(digits(x, DIGITS), spec.length.symbol())));
+    let table = TableText::with_header("\n[placement]");
     match layout {
-        PoseFormat::Position => Some(format!("\n[placement]\ntargets = [[{point}]]\n")),
+        PoseFormat::Position => Some(table.key("targets", list([point]))),
         PoseFormat::Difference { .. } => None,
         _ => {
             let [x, y, z, _] = tool.0;
-            let turn = quaternion(&[x, y, z]).map(|x| digits(x, DIGITS)).join(", ");
-            Some(format!("\n[placement]\nposition = [{point}]\nquaternion = [{turn}]\n"))
+            let turn = list(quaternion(&[x, y, z]).map(|x| digits(x, DIGITS)));
+            Some(table.key("position", point).key("quaternion", turn))
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use abbe::Component;
 use abbe_spec::Spec;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::{list, number, quoted};
 
 use super::found_model::{FoundModel, FoundTerm};
-use super::spec_writer::{format_number, source_name};
+use super::spec_writer::{DIGITS, repeatable};
 use super::terms::{Basis, ErrorSite};
 use abbe_study::number::digits;
 
@@ -55,26 +56,21 @@ impl FoundModel {
             Some(frame) => (spec.frames[frame].name.as_str(), spec.frames[frame].name.as_str()),
             None => (base, "foundation"),
         };
-        let source = |name: &str, what: &str, magnitude: &str, matrix: &[[f64; 3]; 3]| {
-            format!(
-                "\n[[source]]\nname = {}\ndescription = {}\nclass = \"repeatable\"\n{magnitude}reference = {}\n\n\
-                 [[source.effect]]\nframe = {}\ncompliance = {{ matrix = {} }}\n",
-                quoted(&source_name(spec, name)),
-                quoted(what),
-                quoted(&self.reference),
-                quoted(frame),
-                format_matrix(spec, matrix),
-            )
+        let source = |name: &str, what: &str, keys: TableText, matrix: &[[f64; 3]; 3]| {
+            let effect = TableText::with_header("\n[[source.effect]]").text("frame", frame);
+            let effect = effect.key("compliance", format!("{{ matrix = {} }}", format_matrix(spec, matrix)));
+            self.source(spec, name, what, keys).then(effect).to_string()
         };
         let name = format!("identified: {owner}: elastic deflection");
         let what = format!("Standard deviations, relative to the entries: {}", deviations.join(", "));
-        let mut text = source(&name, &what, "", &matrix);
+        let mut text = source(&name, &what, repeatable(), &matrix);
         if off != [0.0; 3] {
             let diagonal =
                 std::array::from_fn(|i| std::array::from_fn(|j| if i == j { off[i] } else { 0.0 }));
             let what = "Correction: the identified matrix alone is not a valid compliance, so it \
                 includes effects that are not elastic";
-            text += &source(&format!("{name}, correction"), what, "magnitude = { value = -1 }\n", &diagonal);
+            let keys = repeatable().key("magnitude", "{ value = -1 }");
+            text += &source(&format!("{name}, correction"), what, keys, &diagonal);
         }
         text
     }
@@ -133,11 +129,12 @@ fn format_matrix(spec: &Spec, matrix: &[[f64; 3]; 3]) -> String {
     let unit = Basis::Moment.text(spec);
     let turn = |component: Component| TURNS.iter().position(|turn| *turn == component);
     let entry = |row: Component, column: Component| match (turn(row), turn(column)) {
-        (Some(i), Some(j)) if matrix[i][j] != 0.0 => format!("\"{} * {unit}\"", format_number(matrix[i][j])),
+        (Some(i), Some(j)) if matrix[i][j] != 0.0 => {
+            quoted(&format!("{} * {unit}", number(matrix[i][j], DIGITS)))
+        }
         _ => "0".to_owned(),
     };
-    let row = |row: Component| format!("[{}]", Component::ALL.map(|column| entry(row, column)).join(", "));
-    format!("[{}]", Component::ALL.map(row).join(", "))
+    list(Component::ALL.map(|row| list(Component::ALL.map(|column| entry(row, column)))))
 }
 
 #[cfg(test)]

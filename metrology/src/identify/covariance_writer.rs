@@ -2,7 +2,8 @@
 //! identified machine.
 
 use abbe_spec::Spec;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::{lines, list, number, quoted};
 
 use super::found_model::FoundModel;
 use super::spec_writer::{ABOVE, constant_name, source_name};
@@ -22,25 +23,21 @@ impl FoundModel {
         if entries.is_empty() {
             return String::new();
         }
-        let of: String = entries.iter().map(|entry| format!("  {{ {} }},\n", entry.text)).collect();
         let covariance = |i: usize, j: usize| {
             // Reads one triangle only, so that the written matrix is exactly symmetric.
             let (a, b) = (&entries[i.min(j)], &entries[i.max(j)]);
-            let value = self.covariance[a.row][b.row] / (a.size * b.size);
-            format!("{:e}", format!("{value:.4e}").parse::<f64>().unwrap_or(value) + 0.0)
+            number(self.covariance[a.row][b.row] / (a.size * b.size), 5)
         };
-        let row_text = |i: usize| {
-            let numbers: Vec<String> = (0..entries.len()).map(|j| covariance(i, j)).collect();
-            format!("  [{}],\n", numbers.join(", "))
-        };
-        let rows: String = (0..entries.len()).map(row_text).collect();
-        format!("\n{}[covariance]\nof = [\n{of}]\nrows = [\n{rows}]\n", ABOVE[1])
+        let row = |i: usize| list((0..entries.len()).map(|j| covariance(i, j)));
+        let keys = TableText::with_header(&format!("\n{}[covariance]", ABOVE[1]));
+        let keys = keys.key("of", lines(entries.iter().map(|entry| format!("{{ {} }}", entry.text))));
+        keys.key("rows", lines((0..entries.len()).map(row))).to_string()
     }
 
     fn entries(&self, spec: &Spec) -> Vec<Entry> {
         let frames = spec.frames.iter().zip(&self.frames);
         let constants = frames.flat_map(|(frame, errors)| {
-            let source = constant_name(spec, &frame.name);
+            let source = source_name(spec, &constant_name(&frame.name));
             errors.iter().map(move |error| {
                 let text = format!("source = {}, error = \"{}\"", quoted(&source), error.component.name());
                 Entry { text, row: error.row, size: 1.0 }
@@ -54,7 +51,9 @@ impl FoundModel {
         // A compliance matrix has no single magnitude.
         let written = written.filter(|found| !self.is_in_full_compliance(found));
         let terms = self.numbers.iter().chain(written);
-        let terms = terms.filter_map(|found| whole(&self.term_name(spec, found), found.row, found.magnitude));
+        let terms = terms.filter_map(|found| {
+            whole(&source_name(spec, &self.term_name(spec, found)), found.row, found.magnitude)
+        });
         let magnitudes = self
             .magnitudes
             .iter()

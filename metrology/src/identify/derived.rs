@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use abbe::identify::Observation;
 use abbe::{Component, Manipulator, VariableKind};
+use abbe_spec::edit::write::free_name;
 use abbe_spec::expr::Dimension;
 use abbe_spec::{Input, Spec};
 
@@ -53,9 +54,7 @@ pub(super) fn derived(spec: &Spec, map: &Map, families: &[Family], data: &Data) 
                 || spec.variables.iter().any(|variable| variable.name == name)
                 || spec.parameters.iter().any(|parameter| parameter.name == name)
         };
-        let names = std::iter::once(name.clone()).chain((2..).map(|i| format!("{name}_{i}")));
-        let name = names.into_iter().find(|name| !taken(name)).unwrap_or(name);
-        all.push(Derived { name, kind });
+        all.push(Derived { name: free_name(&name, |i| format!("{name}_{i}"), taken), kind });
     };
     if families.contains(&Family::Backlash) {
         let mut add = |name: String, follows: FromRows| {

@@ -1,6 +1,6 @@
 //! Extends a spec by terms as sources. The fit and `analyze` then compute the same model.
 
-use abbe::{Class, Component, VariableKind};
+use abbe::{Component, VariableKind};
 use abbe_spec::expr::{Dimension, Elementary, Expression, Function, Motion, Symbol, Unit};
 use abbe_spec::{
     Axes, Cause, ChainNumber, Compliance, Deviation, DeviationCause, Effect, Factor, Load, Point, Source,
@@ -94,20 +94,7 @@ impl Term {
                 effects.push(Effect { frame: 0, at, cause: cause(component), span: 0..0 });
             }
         }
-        Source {
-            name: self.name(spec),
-            class: Class::Repeatable,
-            degrees_of_freedom: f64::INFINITY,
-            enabled: true,
-            description: String::new(),
-            reference: String::new(),
-            magnitude: None,
-            scale: 1.0,
-            tuned_by: None,
-            effects,
-            deviations,
-            propagated: Vec::new(),
-        }
+        Source { effects, deviations, ..Source::repeatable(self.name(spec)) }
     }
 }
 

@@ -144,9 +144,6 @@ impl<'a> LineOfSight<'a> {
 /// Returns the error that the instruments can be read at no configuration.
 pub(crate) fn nothing_readable(map: &str) -> Diagnostics {
     let help = "check that the tool can reach `at` (in F_0) with readings within `range`";
-    mistake::with_help(
-        map,
-        "no configuration was found within the joint limits at which these instruments can be read",
-        help,
-    )
+    let message = "no configuration was found within the joint limits at which these instruments can be read";
+    mistake::with_help(map, message, help)
 }

@@ -3,10 +3,11 @@
 
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::{Document, Section};
-use abbe_spec::literal::quoted;
+use abbe_spec::document::{Item, Section};
+use abbe_spec::edit::write::{lines, list, number, quantity, quoted};
+use abbe_spec::edit::{Edits, TableText};
 
-use super::derived::{Derived, with_inputs};
+use super::derived::with_inputs;
 use super::found_model::FoundModel;
 use super::found_placement::{FoundPlacement, PlacementAtStation};
 use super::instruments::InstrumentFit;
@@ -21,10 +22,23 @@ impl FoundModel {
     /// The text is parsed again; the function fails if it is not a map of the identified spec.
     pub fn identified_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String, Diagnostics> {
         let (whole, needed) = (with_inputs(spec, &self.derived), self.needed(spec));
-        let text = with_uncertainties(&without_placement(map.text()), map, &self.estimated);
-        let text = with_from_rows(&text, &whole, &needed);
+        let from_rows = needed.iter().filter_map(|one| Some((&one.name, one.from_rows()?)));
+        let mut added = String::new();
+        let kept = Edits::apply(map.text(), |root, edits| {
+            edits.remove_tables(root, &["station", "placement", "place"]);
+            set_uncertainties(root, edits, map, &self.estimated);
+            let inputs = root.get("inputs").filter(|item| edits.is_inline(item));
+            for (name, rule) in from_rows {
+                match &inputs {
+                    Some(inputs) => edits.set(inputs, name, rule.keys(&whole).inline()),
+                    None => added += &format!("\n[inputs.{name}]\n{}", rule.keys(&whole)),
+                }
+            }
+            Some(())
+        });
+        let kept = format!("{}\n{added}", kept.as_deref().unwrap_or(map.text()).trim_end());
         let placement = self.placed.text(spec.length.symbol(), map);
-        let text = format!("{}\n\n{HEAD}# {}\n{placement}", text.trim_end(), self.reference);
+        let text = format!("{}\n\n{HEAD}# {}\n{}", kept.trim_end(), self.reference, placement.trim());
         let text = text.trim_end().to_owned() + "\n";
         Map::parse(path, &text, &whole)?;
         Ok(text)
@@ -32,57 +46,21 @@ impl FoundModel {
 }
 
 /// Replaces each `"unknown"` uncertainty of a map by its estimate.
-fn with_uncertainties(text: &str, map: &Map, estimated: &[InstrumentFit]) -> String {
-    let mut document = Document::new("", text);
-    let Some(tables) = document.tables(text) else { return text.to_owned() };
-    let root = Section::root(&tables);
-    let estimate = |name: &str| estimated.iter().find(|one| one.name == name);
-    let mut changes = Vec::new();
-    let mut change = |section: &Section<'_>, key: &str, one: Option<&InstrumentFit>| {
-        let value =
-            section.get(key).filter(|item| text[item.span()].trim_matches(['"', '\'']) == UNKNOWN[0].0);
-        if let (Some(item), Some(one)) = (value, one) {
-            changes.push((item.span(), format!("\"{} {}\"", digits(one.uncertainty, 3), one.unit)));
+fn set_uncertainties(root: &Section<'_>, edits: &mut Edits<'_>, map: &Map, estimated: &[InstrumentFit]) {
+    let mut set = |item: &Item<'_>, key: &str, name: &str| {
+        let value = item.table().and_then(|table| table.get(key));
+        let value = value.filter(|value| value.text() == Some(UNKNOWN[0].0));
+        if let (Some(value), Some(one)) = (value, estimated.iter().find(|one| one.name == name)) {
+            edits.replace(value.span(), quantity(digits(one.uncertainty, 3), one.unit));
         }
     };
-    if let Some(head) = root.get("data").and_then(|item| document.section(&item)) {
-        change(&head, "uncertainty", estimate("positions"));
-        change(&head, "angle_uncertainty", estimate("rotations"));
+    if let Some(head) = root.get("data") {
+        set(&head, "uncertainty", "positions");
+        set(&head, "angle_uncertainty", "rotations");
     }
-    if let (Some(all), Some(item)) = (map.instruments(), root.get("instrument")) {
-        let items = document.array(&item, "").unwrap_or_default();
-        for (item, instrument) in items.iter().zip(&all.list) {
-            if let Some(section) = document.section(item) {
-                change(&section, "uncertainty", estimate(&instrument.name));
-            }
-        }
-    }
-    changes.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
-    let mut text = text.to_owned();
-    changes.into_iter().for_each(|(span, value)| text.replace_range(span, &value));
-    text
-}
-
-/// Adds inputs derived from rows to a map.
-fn with_from_rows(text: &str, spec: &Spec, needed: &[&Derived]) -> String {
-    let lines = needed.iter().filter_map(|one| Some((&one.name, one.from_rows()?.lines(spec))));
-    let mut document = Document::new("", text);
-    let tables = document.tables(text);
-    let inline = tables.as_ref().and_then(|tables| Section::root(tables).get("inputs"));
-    match inline.map(|item| item.span()).filter(|span| text[span.clone()].starts_with('{')) {
-        Some(span) => {
-            let entry = |(name, lines): (&String, String)| {
-                format!(", {name} = {{ {} }}", lines.trim_end().replace('\n', ", "))
-            };
-            let (before, behind) = text.split_at(span.end - 1);
-            let entries = lines.map(entry).collect::<String>();
-            let first = before.trim_end().ends_with('{');
-            format!("{before}{}{behind}", if first { entries.trim_start_matches(',') } else { &entries })
-        }
-        None => {
-            let tables = lines.map(|(name, lines)| format!("\n[inputs.{name}]\n{lines}"));
-            format!("{}\n{}", text.trim_end(), tables.collect::<String>())
-        }
+    if let (Some(all), Some(items)) = (map.instruments(), root.get("instrument")) {
+        let items = items.list();
+        items.iter().zip(&all.list).for_each(|(item, one)| set(item, "uncertainty", &one.name));
     }
 }
 
@@ -91,110 +69,73 @@ impl FoundPlacement {
     fn text(&self, unit: &str, map: &Map) -> String {
         let mut text = String::new();
         for station in &self.stations {
-            let name = match &station.name[..] {
-                "" => String::new(),
-                name => format!("name = {}\n", quoted(name)),
-            };
-            let covariance = format_covariance(station.covariance.iter().map(|row| &row[..]));
-            text += &format!("[[station]]\n{name}{}{covariance}\n", format_pose(&station.pose, unit));
+            let name = Some(&station.name).filter(|name| !name.is_empty());
+            let keys = TableText::with_header("[[station]]").optional("name", name.map(|name| quoted(name)));
+            text += &format!("{}\n", covariance(pose(keys, &station.pose, unit), &station.covariance));
         }
         let stated = if self.exact { Vec::new() } else { self.placements() };
         let is_single = stated.len() == 1;
         for placement in stated {
-            let header = match (map.placement.is_per_station, &self.stations[..]) {
-                (false, _) => "[placement]\n".to_owned(),
-                (true, [station]) if is_single => placement_header(&station.name),
-                (true, _) => placement_header(&placement.station),
+            let station = match &self.stations[..] {
+                [station] if is_single => &station.name,
+                _ => &placement.station,
             };
-            text += &format!("{header}{}", placement.text(unit, &map.target_frame));
+            let head = match map.placement.is_per_station {
+                false => TableText::with_header("[placement]"),
+                true => TableText::with_header("\n[[placement]]").text("station", station),
+            };
+            text += &placement.keys(head, unit, &map.target_frame).to_string();
         }
         for place in &self.instruments {
-            text += &format!("\n[[place]]\nname = {}\n", quoted(&place.name));
-            if let Some(position) = place.position {
-                text += &format!("position = {}\n", format_lengths(position, unit));
-            }
-            if let Some(direction) = place.direction {
-                let [x, y, z] = direction.map(format_number);
-                text += &format!("direction = [{x}, {y}, {z}]\n");
-            }
-            if let Some(zero) = place.zero {
-                let unit = if place.is_angle { "rad" } else { unit };
-                text += &format!("zero = \"{} {unit}\"\n", format_number(zero));
-            }
-            if let Some(intrinsics) = place.intrinsics {
-                let numbers = intrinsics.map(format_number).join(", ");
-                text += &format!("intrinsics = [{numbers}]\n");
-            }
-            text += &format_covariance(place.covariance.iter().map(|row| &row[..]));
+            let angle = if place.is_angle { "rad" } else { unit };
+            let keys = TableText::with_header("\n[[place]]")
+                .text("name", &place.name)
+                .optional("position", place.position.map(|position| lengths(position, unit)))
+                .optional("direction", place.direction.map(numbers))
+                .optional("zero", place.zero.map(|zero| quantity(number(zero, DIGITS), angle)))
+                .optional("intrinsics", place.intrinsics.map(numbers));
+            text += &covariance(keys, &place.covariance).to_string();
         }
         text
     }
 }
 
 impl PlacementAtStation {
-    /// Formats the keys of its table. `unit` is the length unit, `frame` that of the positions of
+    /// Adds the keys of its table. `unit` is the length unit, `frame` that of the positions of
     /// targets.
-    fn text(&self, unit: &str, frame: &TargetFrame) -> String {
-        let (placement, covariance) = match &self.mounting {
-            Some(pose) => (format_pose(pose, unit), self.covariance.clone()),
+    fn keys(&self, table: TableText, unit: &str, frame: &TargetFrame) -> TableText {
+        match &self.mounting {
+            Some(mounting) => covariance(pose(table, mounting, unit), &self.covariance),
             None => {
                 let targets = self.targets.iter().map(|target| frame.placed_in_frame(*target));
-                let targets = targets.map(|target| format!("  {},\n", format_lengths(target, unit)));
-                let targets = format!("targets = [\n{}]\n", targets.collect::<String>());
-                (targets, frame.covariance_from_tool(&self.covariance))
+                let targets = lines(targets.map(|target| lengths(target, unit)));
+                covariance(table.key("targets", targets), &frame.covariance_from_tool(&self.covariance))
             }
-        };
-        format!("{placement}{}", format_covariance(covariance.iter().map(|row| &row[..])))
+        }
     }
 }
 
-fn placement_header(station: &str) -> String {
-    format!("\n[[placement]]\nstation = {}\n", quoted(station))
-}
-
-fn format_pose(pose: &[[f64; 4]; 4], unit: &str) -> String {
-    let [x, y, z] = [0, 1, 2].map(|axis| pose[axis][3]);
-    let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| pose[i][j]));
-    let [w, a, b, c] = quaternion(&columns).map(format_number);
-    format!("position = {}\nquaternion = [{w}, {a}, {b}, {c}]\n", format_lengths([x, y, z], unit))
-}
+/// Digits of a written number, enough for a nanometre at ten metres.
+const DIGITS: usize = 12;
 
 const HEAD: &str =
     "# Identified placement of the machine and of its tool; these are no errors of the machine.\n";
 
-/// Removes the tables `[[station]]`, `[placement]` or `[[placement]]`, and `[[place]]` with the
-/// comment above them from a map.
-fn without_placement(text: &str) -> String {
-    let mut inside = false;
-    let kept = text.split_inclusive('\n').filter(|line| {
-        if line.starts_with('[') {
-            let tables = ["[[station]]", "[placement]", "[[placement]]", "[[place]]"];
-            inside = tables.iter().any(|table| line.starts_with(table));
-        }
-        inside |= *line == HEAD;
-        !inside
-    });
-    kept.collect()
+fn pose(table: TableText, pose: &[[f64; 4]; 4], unit: &str) -> TableText {
+    let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| pose[i][j]));
+    let position = lengths([0, 1, 2].map(|axis| pose[axis][3]), unit);
+    table.key("position", position).key("quaternion", numbers(quaternion(&columns)))
 }
 
-fn format_lengths(values: [f64; 3], unit: &str) -> String {
-    let [x, y, z] = values.map(|value| format!("\"{} {unit}\"", format_number(value)));
-    format!("[{x}, {y}, {z}]")
+fn numbers<const N: usize>(values: [f64; N]) -> String {
+    list(values.map(|value| number(value, DIGITS)))
 }
 
-fn format_covariance<'r>(rows: impl Iterator<Item = &'r [f64]>) -> String {
-    let row = |row: &[f64]| {
-        let numbers: Vec<String> = row.iter().map(|value| format!("{:e}", rounded(*value, 4))).collect();
-        format!("  [{}],\n", numbers.join(", "))
-    };
-    format!("covariance = [\n{}]\n", rows.map(row).collect::<String>())
+fn lengths(values: [f64; 3], unit: &str) -> String {
+    list(values.map(|value| quantity(number(value, DIGITS), unit)))
 }
 
-/// Formats a number with 12 digits, enough for a nanometre at ten metres.
-fn format_number(value: f64) -> String {
-    format!("{:e}", rounded(value, 11))
-}
-
-fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.digits$e}").parse::<f64>().unwrap_or(value) + 0.0
+fn covariance<R: AsRef<[f64]>>(table: TableText, rows: &[R]) -> TableText {
+    let row = |row: &R| list(row.as_ref().iter().map(|value| number(*value, 5)));
+    table.key("covariance", lines(rows.iter().map(row)))
 }

@@ -4,6 +4,8 @@
 use abbe::LengthUnit;
 use abbe::identify::{Profile, ProfileBasis};
 use abbe_spec::Spec;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::{free_name, lines};
 use abbe_spec::expr::{Dimension, Extrapolation, Interpolation, Table, Unit};
 
 /// Steps of a table over an angle, in degrees, the largest first. The smallest has 22 points per
@@ -80,32 +82,23 @@ impl ProfileTable {
 
     /// Formats the table as `[tables.NAME]` of a spec.
     pub(super) fn text(&self, name: &str, description: &str, reference: &str) -> String {
-        let [x, y] = [(&self.x, self.units[0]), (&self.y, self.units[1])];
-        let numbers = |(values, unit): (&Vec<f64>, &str)| {
-            let lines: String = values
-                .chunks(12)
-                .map(|line| {
-                    let line: Vec<String> = line.iter().map(|value| (value + 0.0).to_string()).collect();
-                    format!("  {},\n", line.join(", "))
-                })
-                .collect();
-            format!("unit = \"{unit}\"\nvalues = [\n{lines}]\n")
-        };
-        format!(
-            "\n[tables.{name}]\ndescription = {description}\nreference = {reference}\ninterpolation = \
-             \"cubic\"\noutside = \"hold\"\n\n[tables.{name}.x]\n{}\n[tables.{name}.y]\n{}",
-            numbers(x),
-            numbers(y)
-        )
+        let head = TableText::with_header(&format!("\n[tables.{name}]")).text("description", description);
+        let head = head.text("reference", reference).text("interpolation", "cubic").text("outside", "hold");
+        let axes = [("x", &self.x, self.units[0]), ("y", &self.y, self.units[1])];
+        let axes = axes.map(|(axis, values, unit)| {
+            let rows =
+                values.chunks(12).map(|row| row.iter().map(|v| (v + 0.0).to_string()).collect::<Vec<_>>());
+            let keys = TableText::with_header(&format!("\n[tables.{name}.{axis}]")).text("unit", unit);
+            keys.key("values", lines(rows.map(|row| row.join(", ")))).to_string()
+        });
+        head.then(axes.concat()).to_string()
     }
 }
 
 /// Returns the name of the table of a joint's profile, which no other table of the spec has.
 pub(super) fn table_name(spec: &Spec, joint: &str) -> String {
-    let is_free = |name: &String| !spec.tables.iter().any(|table| table.name.eq_ignore_ascii_case(name));
-    let name = format!("profile_{joint}");
-    let others = (2..).map(|i| format!("profile_{joint}_{i}"));
-    std::iter::once(name).chain(others).find(is_free).unwrap_or_default()
+    let is_taken = |name: &str| spec.tables.iter().any(|table| table.name.eq_ignore_ascii_case(name));
+    free_name(&format!("profile_{joint}"), |i| format!("profile_{joint}_{i}"), is_taken)
 }
 
 /// Converts a number of a unit to the coherent units of a spec, as its reader does.

@@ -8,11 +8,11 @@
 
 use std::time::Instant;
 
+use abbe::VariableKind;
 use abbe::identify::{
     Comparison, Distances, Failure, Folds, Observation, ProfileBasis, ProfileData, ProfileJoint, Profiles,
     Unknown, fit_profiles,
 };
-use abbe::{Class, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::{Expression, Symbol};
@@ -216,24 +216,9 @@ impl FoundProfiles {
             let joint = Expression::from_symbol(Symbol::Variable(one.variable), dimension);
             let error = joint.looked_up(profiled.tables.len() as u16, &table);
             profiled.tables.push(table.into());
-            profiled.sources.push(Source {
-                name: one.source_name(),
-                class: Class::Repeatable,
-                degrees_of_freedom: f64::INFINITY,
-                enabled: true,
-                description: String::new(),
-                reference: String::new(),
-                magnitude: None,
-                scale: 1.0,
-                tuned_by: None,
-                effects: Vec::new(),
-                deviations: vec![Deviation {
-                    number: ChainNumber::Joint(one.variable),
-                    cause: DeviationCause::Error(error),
-                    span: 0..0,
-                }],
-                propagated: Vec::new(),
-            });
+            let (number, cause) = (ChainNumber::Joint(one.variable), DeviationCause::Error(error));
+            let deviations = vec![Deviation { number, cause, span: 0..0 }];
+            profiled.sources.push(Source { deviations, ..Source::repeatable(one.source_name()) });
         }
         profiled
     }

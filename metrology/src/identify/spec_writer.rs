@@ -5,9 +5,10 @@ use std::path::Path;
 
 use abbe::{Component, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::document::{Document, Section};
+use abbe_spec::document::Section;
+use abbe_spec::edit::write::{free_name, list, number, quantity, quoted};
+use abbe_spec::edit::{Edits, TableText};
 use abbe_spec::expr::{Motion, Symbol};
-use abbe_spec::literal::quoted;
 use abbe_spec::{Fitted, Spec};
 
 use super::derived::{Derived, with_inputs};
@@ -36,25 +37,30 @@ impl FoundModel {
         text: &str,
         path: &str,
     ) -> Result<IdentifiedSpec, Diagnostics> {
-        let base = free_name(spec, "ground");
+        let is_frame = |name: &str| spec.frames.iter().any(|frame| frame.name == name);
+        let base = free_name("ground", |i| format!("ground {i}"), is_frame);
         let sources = self.sources(spec, &base) + &self.unexplained_sources(spec) + &self.inputs(spec);
-        let (kept, changed) = with_magnitudes(&without_fitted(text), spec, &self.magnitudes);
-        let ground = match self.terms.iter().any(|found| matches!(found.term.site, ErrorSite::Base(_))) {
-            true => format!("[[frame]]\nname = {}\norigin = {{ xyz = [0, 0, 0] }}\n\n", quoted(&base)),
-            false => String::new(),
-        };
-        let at =
-            if kept.starts_with("[[frame]]") { Some(0) } else { kept.find("\n[[frame]]").map(|at| at + 1) };
-        let (before, behind) = kept.split_at(at.unwrap_or_default());
+        let mut head = TableText::default();
+        if self.terms.iter().any(|found| matches!(found.term.site, ErrorSite::Base(_))) {
+            head = TableText::with_header("[[frame]]")
+                .text("name", &base)
+                .key("origin", "{ xyz = [0, 0, 0] }\n");
+        }
+        let is_elastic = self.terms.iter().any(|found| found.term.basis.is_elastic());
+        let [load, gravity] = if is_elastic { weight(spec) } else { Default::default() };
+        let mut changed = String::new();
+        let kept = Edits::apply(text, |root, edits| {
+            edits.insert(0, &gravity);
+            edits.insert(root.get("frame")?.span().start, &head);
+            edits.remove_tables(root, &["fitted", "covariance", "undetermined"]);
+            changed = set_magnitudes(root, edits, spec, &self.magnitudes);
+            Some(())
+        });
+        let kept = kept.as_deref().unwrap_or(text).trim_end();
         let fitted = self.fitted_table(spec);
         let covariance = self.covariance_table(spec) + &self.undetermined_table(spec);
-        let mut new = format!("{before}{ground}{}\n{sources}\n{fitted}{covariance}", behind.trim_end());
-        let mut added = format!("{changed}{ground}{}\n{fitted}", sources.trim_start());
-        if self.terms.iter().any(|found| found.term.basis.is_elastic()) {
-            let [load, gravity] = weight(spec);
-            new = format!("{gravity}{}\n{load}", new.trim_end());
-            added = format!("{gravity}{added}{load}");
-        }
+        let new = format!("{kept}\n{sources}\n{fitted}{covariance}{load}");
+        let added = format!("{gravity}{changed}{head}{}\n{fitted}{load}", sources.trim_start());
         Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &new)?;
         Ok(IdentifiedSpec { text: new, added })
     }
@@ -70,21 +76,21 @@ impl FoundModel {
         terms.chain([self.full_compliances(spec, base)]).chain(self.profile_sources(spec)).collect()
     }
 
+    /// Returns the source of an error, with its class and the keys after it.
+    pub(super) fn source(&self, spec: &Spec, name: &str, description: &str, keys: TableText) -> TableText {
+        let name = source_name(spec, name);
+        let head =
+            TableText::with_header("\n[[source]]").text("name", &name).text("description", description);
+        head.then(keys).text("reference", &self.reference)
+    }
+
     /// Returns the table and the source of each profile of a joint.
     fn profile_sources(&self, spec: &Spec) -> impl Iterator<Item = String> {
         self.profiles.iter().map(|(_, one)| {
-            let (table, joint) = (table_name(spec, &one.joint), &one.joint);
-            let name = source_name(spec, &one.source_name());
-            let description = quoted(&one.description());
-            let reference = quoted(&self.reference);
-            format!(
-                "{}\n[[source]]\nname = {}\ndescription = {description}\nclass = \"repeatable\"\njoint = {}\nerror \
-                 = {}\nreference = {reference}\n",
-                one.table.text(&table, &description, &reference),
-                quoted(&name),
-                quoted(joint),
-                quoted(&format!("{table}({joint})")),
-            )
+            let (table, joint, description) = (table_name(spec, &one.joint), &one.joint, one.description());
+            let keys = repeatable().text("joint", joint).text("error", &format!("{table}({joint})"));
+            let source = self.source(spec, &one.source_name(), &description, keys);
+            format!("{}{source}", one.table.text(&table, &description, &self.reference))
         })
     }
 
@@ -102,7 +108,7 @@ impl FoundModel {
 
     /// Formats a term as lines of a spec that has the derived inputs.
     pub fn lines(&self, spec: &Spec, found: &FoundTerm) -> String {
-        effect_lines(&with_inputs(spec, &self.derived), &found.term, found.magnitude, "F_0")
+        effect(&with_inputs(spec, &self.derived), &found.term, found.magnitude, "F_0").to_string()
     }
 
     /// Returns the derived inputs that the written terms need.
@@ -116,86 +122,80 @@ impl FoundModel {
 
     fn inputs(&self, spec: &Spec) -> String {
         let input = |one: &Derived| {
-            let description = quoted(&one.description(spec));
-            format!("\n[inputs.{}]\nvalue = 0\nrange = [-1, 1]\ndescription = {description}\n", one.name)
+            let keys = TableText::with_header(&format!("\n[inputs.{}]", one.name)).key("value", 0);
+            keys.key("range", "[-1, 1]").text("description", &one.description(spec)).to_string()
         };
         self.needed(spec).into_iter().map(input).collect()
     }
 
     /// Returns the `[fitted]` table, the fitted ranges of joints and inputs.
     fn fitted_table(&self, spec: &Spec) -> String {
-        let line = |fitted: &Fitted| {
+        let line = |keys: TableText, fitted: &Fitted| {
             let unit = match fitted.symbol {
                 Symbol::Variable(i) if spec.variables[i].kind == VariableKind::Revolute => "rad",
                 Symbol::Input(i) => &spec.inputs[i].unit,
                 _ => spec.length.symbol(),
             };
-            let [lower, upper] =
-                fitted.range.map(|end| format!("{} {unit}", format_number(end)).trim_end().to_owned());
-            format!("{} = [{}, {}]\n", spec.name_of(fitted.symbol), quoted(&lower), quoted(&upper))
+            let ends = fitted.range.map(|end| quoted(format!("{} {unit}", number(end, DIGITS)).trim_end()));
+            keys.key(spec.name_of(fitted.symbol), list(ends))
         };
-        let lines = self.fitted.iter().map(line).collect::<String>();
-        format!("{}[fitted]\n{lines}", ABOVE[0])
+        self.fitted.iter().fold(TableText::with_header(&format!("{}[fitted]", ABOVE[0])), line).to_string()
     }
 
     fn constant_source(&self, spec: &Spec, frame: &str, errors: &[FoundError]) -> String {
-        let (mut lines, mut deviations) = (String::new(), Vec::new());
+        let (mut keys, mut deviations) = (repeatable().text("frame", frame), Vec::new());
         for error in errors {
             let name = error.component.name();
             let unit = if error.component.is_rotation() { "rad" } else { spec.length.symbol() };
-            lines += &format!("{name} = \"{} {unit}\"\n", format_number(error.value));
+            keys = keys.key(name, quantity(number(error.value, DIGITS), unit));
             deviations.push(format!("{name} {} {unit}", digits(error.standard_deviation, 2)));
         }
-        format!(
-            "\n[[source]]\nname = {}\ndescription = {}\nclass = \"repeatable\"\nframe = {}\n{lines}reference = {}\n",
-            quoted(&constant_name(spec, frame)),
-            quoted(&format!("Standard deviations: {}", deviations.join(", "))),
-            quoted(frame),
-            quoted(&self.reference),
-        )
+        let description = format!("Standard deviations: {}", deviations.join(", "));
+        self.source(spec, &constant_name(frame), &description, keys).to_string()
     }
 
-    /// Returns the name of a term's source.
+    /// Returns the name of a term's source, unless one of the spec has it.
     pub(super) fn term_name(&self, spec: &Spec, found: &FoundTerm) -> String {
         let spec = &with_inputs(spec, &self.derived);
-        source_name(spec, &format!("identified: {}", found.term.name(spec)))
+        format!("identified: {}", found.term.name(spec))
     }
 
     fn term_source(&self, spec: &Spec, found: &FoundTerm, base: &str) -> String {
         let FoundTerm { term, magnitude, standard_deviation, .. } = found;
         let name = self.term_name(spec, found);
-        let spec = &with_inputs(spec, &self.derived);
+        let (nominal, spec) = (spec, &with_inputs(spec, &self.derived));
         // The spec refuses a negative compliance; the sign goes into the magnitude.
         let is_reversed = term.basis == Basis::Moment && *magnitude < 0.0;
-        let (size, reversed, remark) = match is_reversed {
+        let (size, keys, remark) = match is_reversed {
             true => {
                 let fitted = magnitude_table(*magnitude, *standard_deviation);
                 let remark = ". The value is negative: elasticity alone does not explain it";
-                (1.0, format!("magnitude = {fitted}\n"), remark)
+                (1.0, repeatable().key("magnitude", fitted), remark)
             }
-            false => (*magnitude, String::new(), ""),
+            false => (*magnitude, repeatable(), ""),
         };
         let deviation = match term.basis {
             Basis::One => format!("{} {}", digits(*standard_deviation, 2), term.site.unit(spec)),
             _ => format!("{} of the value", digits((standard_deviation / magnitude).abs(), 2)),
         };
-        let number = term.name(spec);
-        let alternatives =
-            self.meanings.iter().filter(|one| term.basis == Basis::One && number == one.number);
+        let own = term.name(spec);
+        let alternatives = self.meanings.iter().filter(|one| term.basis == Basis::One && own == one.number);
         let alternatives = alternatives.flat_map(|one| &one.alternatives).map(|one| one.number.as_str());
         let alternatives = match alternatives.collect::<Vec<_>>() {
             names if names.is_empty() => String::new(),
             names => format!(". Explains the data as well: {}", names.join(", ")),
         };
-        format!(
-            "\n[[source]]\nname = {}\ndescription = {}\nclass = \"repeatable\"\n{reversed}reference = {}\n\n[[source.effect]]\n{}\n",
-            quoted(&name),
-            quoted(&format!("Standard deviation: {deviation}{remark}{alternatives}")),
-            quoted(&self.reference),
-            effect_lines(spec, term, size, base),
-        )
+        let description = format!("Standard deviation: {deviation}{remark}{alternatives}");
+        let source = self.source(nominal, &name, &description, keys);
+        source
+            .then(TableText::with_header("\n[[source.effect]]"))
+            .then(effect(spec, term, size, base))
+            .to_string()
     }
 }
+
+/// Digits of the numbers of a written spec.
+pub(super) const DIGITS: usize = 7;
 
 /// Comments above the tables of an identification.
 pub(super) const ABOVE: [&str; 3] = [
@@ -204,9 +204,14 @@ pub(super) const ABOVE: [&str; 3] = [
     "# The errors that these measurements could not determine: they move other points of the tool.\n",
 ];
 
-/// Returns the name of the source with the constant errors of a frame.
-pub(super) fn constant_name(spec: &Spec, frame: &str) -> String {
-    source_name(spec, &format!("identified: {frame}"))
+/// Returns the name of the source with the constant errors of a frame, unless one of the spec has
+/// it.
+pub(super) fn constant_name(frame: &str) -> String {
+    format!("identified: {frame}")
+}
+
+pub(super) fn repeatable() -> TableText {
+    TableText::default().text("class", "repeatable")
 }
 
 impl ErrorSite {
@@ -223,142 +228,83 @@ impl ErrorSite {
     }
 }
 
-/// Formats the effect of a term. `base` is the name of the frame at `F_0`.
-fn effect_lines(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
-    let (factor, basis, unit) = (format_number(magnitude), term.basis.text(spec), term.site.unit(spec));
+/// Writes the keys of the effect of a term. `base` is the name of the frame at `F_0`.
+fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> TableText {
+    let (factor, basis, unit) = (number(magnitude, DIGITS), term.basis.text(spec), term.site.unit(spec));
     let error = match (term.basis, unit) {
-        (Basis::One, unit) => format!("\"{factor} {unit}\"").replace(" \"", "\""),
-        (_, "" | "rad") => format!("\"{factor} * ({basis})\""),
-        (_, unit) => format!("\"{factor} * (1 {unit} * {basis})\""),
+        (Basis::One, unit) => quoted(format!("{factor} {unit}").trim_end()),
+        (_, "" | "rad") => quoted(&format!("{factor} * ({basis})")),
+        (_, unit) => quoted(&format!("{factor} * (1 {unit} * {basis})")),
     };
-    let of_frame = |name: &str, component: Component| {
-        let error = match term.basis {
-            Basis::Moment => {
-                let entry = |rotation: Component| match rotation == component {
-                    true => format!("\"{factor} * {basis}\""),
-                    false => "0".to_owned(),
-                };
-                format!("compliance = {{ diagonal = [{}] }}", Component::ALL.map(entry).join(", "))
-            }
-            Basis::Coupled(other) => {
-                let (one, other) = (component.name(), other.name());
-                format!(
-                    "compliance: {one} and {other} by the moments about each other: \"{factor} * {basis}\""
-                )
-            }
-            _ => format!("{} = {error}", component.name()),
-        };
-        format!("frame = {}\n{error}", quoted(name))
+    let of = |owner: &str, name: &str| TableText::default().text(owner, name);
+    let of_frame = |name: &str, component: Component| match term.basis {
+        Basis::Moment => {
+            let entry = |rotation: Component| match rotation == component {
+                true => quoted(&format!("{factor} * {basis}")),
+                false => "0".to_owned(),
+            };
+            let diagonal = list(Component::ALL.map(entry));
+            of("frame", name).key("compliance", format!("{{ diagonal = {diagonal} }}"))
+        }
+        Basis::Coupled(other) => {
+            let (one, other) = (component.name(), other.name());
+            let error = quoted(&format!("{factor} * {basis}"));
+            of("frame", name)
+                .then(format!("compliance: {one} and {other} by the moments about each other: {error}\n"))
+        }
+        _ => of("frame", name).key(component.name(), &error),
     };
     match term.site {
-        ErrorSite::Joint(joint) => {
-            format!("joint = {}\nerror = {error}", quoted(&spec.variables[joint].name))
-        }
+        ErrorSite::Joint(joint) => of("joint", &spec.variables[joint].name).key("error", error),
         ErrorSite::Parameter(parameter) => {
-            format!("parameter = {}\nerror = {error}", quoted(&spec.parameters[parameter].name))
+            of("parameter", &spec.parameters[parameter].name).key("error", error)
         }
         ErrorSite::DenavitHartenberg(frame, number) => {
-            format!("frame = {}\ndh = {{ {} = {error} }}", quoted(&spec.frames[frame].name), number.name())
+            of("frame", &spec.frames[frame].name).key("dh", format!("{{ {} = {error} }}", number.name()))
         }
         ErrorSite::Frame(frame, component) => of_frame(&spec.frames[frame].name, component),
         ErrorSite::Base(component) => of_frame(base, component),
     }
 }
 
-/// Replaces the magnitudes of a spec's sources. Returns the new text and a summary of the changes.
-fn with_magnitudes(text: &str, spec: &Spec, magnitudes: &[FoundMagnitude]) -> (String, String) {
-    let mut document = Document::new("", text);
-    let tables = document.tables(text);
-    let sources = tables.as_ref().and_then(|tables| Section::root(tables).get("source"));
-    let sources = sources.and_then(|item| document.array(&item, "sources")).unwrap_or_default();
-    let (mut edits, mut changed) = (Vec::new(), String::new());
+/// Sets the magnitudes of a spec's sources. Returns a summary of the changes.
+fn set_magnitudes(
+    root: &Section<'_>,
+    edits: &mut Edits<'_>,
+    spec: &Spec,
+    magnitudes: &[FoundMagnitude],
+) -> String {
+    let sources = root.get("source").map(|item| item.list()).unwrap_or_default();
+    let mut changed = String::new();
     for FoundMagnitude { source, magnitude, standard_deviation, .. } in magnitudes {
-        let section = sources.get(*source).and_then(|item| document.section(item));
+        let section = sources.get(*source).and_then(|item| item.table());
         let Some(item) = section.and_then(|section| section.get("magnitude")) else { continue };
         let table = magnitude_table(*magnitude, *standard_deviation);
         changed += &format!("# {}\nmagnitude = {table}\n\n", spec.sources[*source].name);
-        if text[item.span()].starts_with('{') {
-            edits.push((item.span(), table));
-            continue;
-        }
-        // The magnitude is a table with its own header, or dotted keys: each number is edited
-        // separately.
-        let Some(inside) = document.section(&item) else { continue };
-        let new =
-            [("value", format_number(*magnitude)), ("standard_deviation", digits(*standard_deviation, 3))];
-        let present = new.iter().find_map(|(key, _)| inside.get(key));
-        for (key, value) in new {
-            match (inside.get(key), &present) {
-                (Some(entry), _) => edits.push((entry.span(), value)),
-                (None, Some(other)) => {
-                    let start = text[..other.key_span.start].rfind('\n').map_or(0, |newline| newline + 1);
-                    let before = text[start..other.key_span.start].to_owned();
-                    edits.push((start..start, format!("{before}{key} = {value}\n")));
-                }
-                (None, None) => {
-                    let end =
-                        text[item.key_span.end..].find('\n').map_or(text.len(), |n| item.key_span.end + n);
-                    edits.push((end..end, format!("\n{key} = {value}")));
-                }
-            }
-        }
+        edits.set(&item, "value", number(*magnitude, DIGITS));
+        edits.set(&item, "standard_deviation", digits(*standard_deviation, 3));
     }
-    edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
-    let mut text = text.to_owned();
-    edits.into_iter().for_each(|(span, new)| text.replace_range(span, &new));
-    (text, changed)
+    changed
 }
 
 fn magnitude_table(magnitude: f64, standard_deviation: f64) -> String {
-    format!(
-        "{{ value = {}, standard_deviation = {} }}",
-        format_number(magnitude),
-        digits(standard_deviation, 3)
-    )
-}
-
-/// Formats a number of a spec with seven digits.
-pub(super) fn format_number(value: f64) -> String {
-    format!("{:e}", format!("{value:.6e}").parse::<f64>().unwrap_or(value) + 0.0)
+    let (value, deviation) = (number(magnitude, DIGITS), digits(standard_deviation, 3));
+    format!("{{ value = {value}, standard_deviation = {deviation} }}")
 }
 
 /// Returns the load and the gravity that compliances need, each empty if the spec has one.
-fn weight(spec: &Spec) -> [String; 2] {
+fn weight(spec: &Spec) -> [TableText; 2] {
     let last = spec.frames.get(spec.tool_frame).map_or("", |frame| frame.name.as_str());
-    let load = format!(
-        "\n[[load]]\nname = \"weight at the tool point\"\nmass = \"1 kg\"\nframe = {}\npoint = \"tool\"\n",
-        quoted(last)
-    );
-    let gravity = "gravity = [0, 0, \"-9.80665 m/s^2\"]\n".to_owned();
-    [
-        if spec.loads.is_empty() { load } else { String::new() },
-        if spec.gravity.is_none() { gravity } else { String::new() },
-    ]
-}
-
-/// Removes the ranges, the covariance and the undetermined errors of an earlier identification from
-/// a spec.
-fn without_fitted(text: &str) -> String {
-    let mut inside = false;
-    let kept = text.split_inclusive('\n').filter(|line| {
-        if line.starts_with('[') {
-            inside = ["[fitted]", "[covariance]", "[undetermined]"].contains(&line.trim_end());
-        }
-        !inside && !ABOVE.iter().any(|above| line.trim_end() == above.trim_end())
-    });
-    kept.collect()
-}
-
-/// Returns a name that no frame has.
-fn free_name(spec: &Spec, name: &str) -> String {
-    let taken = |name: &str| spec.frames.iter().any(|frame| frame.name == name);
-    let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} {i}")));
-    names.into_iter().find(|name| !taken(name)).unwrap_or_default()
+    let load =
+        TableText::with_header("\n[[load]]").text("name", "weight at the tool point").text("mass", "1 kg");
+    let load = load.text("frame", last).text("point", "tool");
+    let gravity = TableText::default().key("gravity", "[0, 0, \"-9.80665 m/s^2\"]");
+    let unless = |has: bool, table: TableText| if has { TableText::default() } else { table };
+    [unless(!spec.loads.is_empty(), load), unless(spec.gravity.is_some(), gravity)]
 }
 
 /// Returns a name that no source has.
 pub(super) fn source_name(spec: &Spec, name: &str) -> String {
-    let taken = |name: &str| spec.sources.iter().any(|source| source.name == name);
-    let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} ({i})")));
-    names.into_iter().find(|name| !taken(name)).unwrap_or_default()
+    let is_taken = |name: &str| spec.sources.iter().any(|source| source.name == name);
+    free_name(name, |i| format!("{name} ({i})"), is_taken)
 }

@@ -2,10 +2,11 @@
 //! the identified machine.
 
 use abbe_spec::Spec;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::{lines, list, number, quoted};
 
 use super::found_model::FoundModel;
-use super::spec_writer::{ABOVE, format_number};
+use super::spec_writer::{ABOVE, DIGITS, source_name};
 use super::undetermined::{Column, UndeterminedDirections};
 
 impl FoundModel {
@@ -18,15 +19,12 @@ impl FoundModel {
         if rows.is_empty() || entries.is_empty() {
             return String::new();
         }
-        let of: String = entries.iter().map(|(_, (text, _))| format!("  {{ {text} }},\n")).collect();
-        let list = |numbers: &mut dyn Iterator<Item = f64>| {
-            format!("  [{}],\n", numbers.map(format_number).collect::<Vec<_>>().join(", "))
-        };
-        let row = |row: &Vec<f64>| list(&mut entries.iter().map(|(i, (_, size))| row[*i] / size));
-        let rows: String = rows.iter().map(row).collect();
-        let points: String = points.iter().map(|point| list(&mut point.iter().copied())).collect();
-        let above = ABOVE[2];
-        format!("\n{above}[undetermined]\npoints = [\n{points}]\nof = [\n{of}]\nrows = [\n{rows}]\n")
+        let numbers = |numbers: &mut dyn Iterator<Item = f64>| list(numbers.map(|n| number(n, DIGITS)));
+        let row = |row: &Vec<f64>| numbers(&mut entries.iter().map(|(i, (_, size))| row[*i] / size));
+        let keys = TableText::with_header(&format!("\n{}[undetermined]", ABOVE[2]));
+        let keys = keys.key("points", lines(points.iter().map(|point| numbers(&mut point.iter().copied()))));
+        let keys = keys.key("of", lines(entries.iter().map(|(_, (text, _))| format!("{{ {text} }}"))));
+        keys.key("rows", lines(rows.iter().map(row))).to_string()
     }
 
     /// Returns a column as the spec names it, and the divisor of its numbers; none for what the
@@ -48,7 +46,9 @@ impl FoundModel {
                 });
                 match (own, term) {
                     (Some(own), _) => source(&spec.sources[own.source].name, own.magnitude),
-                    (_, Some(term)) => source(&self.term_name(spec, term), term.magnitude),
+                    (_, Some(term)) => {
+                        source(&source_name(spec, &self.term_name(spec, term)), term.magnitude)
+                    }
                     _ => None,
                 }
             }

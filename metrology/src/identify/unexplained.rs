@@ -3,12 +3,13 @@
 use abbe::Class;
 use abbe::identify::{Failure, Observation, Unknown};
 use abbe_spec::Spec;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::{number, quantity};
 
 use super::found_model::FoundModel;
 use super::setup::Setup;
 use super::solve::Solved;
-use super::spec_writer::{format_number, source_name};
+use super::spec_writer::DIGITS;
 
 /// Normal quantile `Φ⁻¹(0.95)`.
 const ONE_SIDED_95: f64 = 1.644_853_626_951_473;
@@ -81,16 +82,12 @@ impl FoundModel {
             return String::new();
         }
         let frame = spec.frames.get(spec.tool_frame).map_or("", |frame| frame.name.as_str());
-        let size = format!("{} {}", format_number(self.unexplained), spec.length.symbol());
+        let size = quantity(number(self.unexplained, DIGITS), spec.length.symbol());
         let source = |axis: &str| {
-            format!(
-                "\n[[source]]\nname = {}\ndescription = {}\nclass = \"random\"\ndistribution = \"normal\"\n\
-                 frame = {}\ne_{axis} = \"{size}\"\nreference = {}\n",
-                quoted(&source_name(spec, &format!("not identified, {axis}"))),
-                quoted("Position errors of the fitted rows beyond the instrument and the random sources"),
-                quoted(frame),
-                quoted(&self.reference),
-            )
+            let keys = TableText::default().text("class", "random").text("distribution", "normal");
+            let keys = keys.text("frame", frame).key(&format!("e_{axis}"), &size);
+            let what = "Position errors of the fitted rows beyond the instrument and the random sources";
+            self.source(spec, &format!("not identified, {axis}"), what, keys).to_string()
         };
         ["x", "y", "z"].map(source).concat()
     }

@@ -103,7 +103,7 @@ impl PoseFormat {
                 }
             }
             Self::RotationVector { degrees } => {
-                from_rotation_vector(three(3)?.map(|angle| in_rad(angle, degrees))).ok()?
+                from_rotation_vector(three(3)?.map(|angle| in_rad(angle, degrees)))
             }
             Self::Quaternion { scalar_first } => {
                 let four: [f64; 4] = numbers.get(3..7)?.try_into().ok()?;

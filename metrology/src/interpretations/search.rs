@@ -142,11 +142,8 @@ impl<'a> Search<'a> {
         for (done, Trial { joints, ends }) in trials.iter().enumerate() {
             notes.progress(done, trials.len());
             if notes.stop() {
-                return Err(mistake::with_help(
-                    "doctor",
-                    "interrupted before the end",
-                    "run the command again",
-                ));
+                let help = "run the command again";
+                return Err(mistake::with_help("doctor", "interrupted before the end", help));
             }
             for units in &self.units {
                 let Some(nodes) = self.nodes(*units, joints) else { continue };

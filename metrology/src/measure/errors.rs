@@ -1,5 +1,6 @@
 //! ΔX of each row, equation (5): measured minus ideal.
 
+use abbe::analysis::sampling::norm;
 use abbe::identify::{Failure, Measurement, Model, Observation, Scratch, register};
 use abbe::{Orientation, Pose, deviation};
 use abbe_spec::diagnostic::Diagnostics;
@@ -130,10 +131,6 @@ pub(super) fn leave_out(setup: &Setup, data: &mut Data) -> Result<(), Diagnostic
         return Err(mistake::with_help(&data.file, "no row has three measured targets", help));
     }
     Ok(())
-}
-
-pub(super) fn norm(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Returns the measured pose of the tool; a single point takes the ideal orientation.

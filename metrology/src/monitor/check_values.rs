@@ -63,11 +63,8 @@ impl CheckValues {
             notes.go_on()?;
         }
         let Some(model) = model else {
-            return Err(mistake::with_help(
-                "abbe monitor",
-                "no check is given",
-                "give the files of the checks",
-            ));
+            let help = "give the files of the checks";
+            return Err(mistake::with_help("abbe monitor", "no check is given", help));
         };
         let count = known.map_or(0, |known: Configurations| known.len());
         let mut of_checks = vec![0; count];
@@ -203,11 +200,8 @@ fn one_station(check: &Check, map: &Map) -> Result<(), Diagnostics> {
     }
     let help = "use one file for each station, or write `base = \"exact\"` if all stations are known \
          exactly";
-    Err(mistake::with_help(
-        &check.data.file,
-        "the rows of one check were measured from several stations",
-        help,
-    ))
+    let message = "the rows of one check were measured from several stations";
+    Err(mistake::with_help(&check.data.file, message, help))
 }
 
 /// Returns an error that names the check with the fewest configurations in common with the first.

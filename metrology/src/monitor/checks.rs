@@ -69,21 +69,15 @@ impl Checks {
                     calendar_name(*calendar),
                     calendar_name(*before)
                 );
-                return Err(mistake::with_help(
-                    &check.data.file,
-                    message,
-                    "use either dates or days in all files",
-                ));
+                let help = "use either dates or days in all files";
+                return Err(mistake::with_help(&check.data.file, message, help));
             }
             if check.time < first.time {
                 let [here, earlier] = [check.time, first.time].map(|time| calendar.show(time));
                 let message =
                     format!("the checks are not in chronological order: {here} comes after {earlier}");
-                return Err(mistake::with_help(
-                    &check.data.file,
-                    message,
-                    "give the checks in chronological order",
-                ));
+                let help = "give the checks in chronological order";
+                return Err(mistake::with_help(&check.data.file, message, help));
             }
         }
         let calendar = checks.first().map_or(Calendar::Checks, |(calendar, _)| *calendar);

@@ -59,6 +59,7 @@ impl Sets {
         let mut document =
             named::document(&SETS, argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
         let text = Arc::clone(&document.text);
+        document.length = spec.length;
         let tables = document.tables(&text);
         let sets = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
         document.finish(sets)
@@ -140,12 +141,10 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
     let mut head = root.required("plan", document).and_then(|item| document.section(&item))?;
     head.name = "[plan]".to_owned();
     head.check_keys(&[&keys::PLAN], document);
-    let repeat = match head.get("repeat") {
-        Some(item) => count(&item, keys::MOST_REPEATS as usize, document, spec),
-        None => Some(1),
-    };
+    let repeat =
+        head.get("repeat").map_or(Some(1), |item| count(&item, keys::MOST_REPEATS as usize, document));
     let inputs = match root.get("inputs") {
-        Some(item) => Candidates::inputs(spec).axes(&item, document, spec),
+        Some(item) => Candidates::inputs(spec).axes(&item, document),
         None => Vec::new(),
     };
     let items = root
@@ -157,21 +156,16 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
     }
     let mut sets = Vec::new();
     for item in &items {
-        let mut section = document.section(item)?;
-        section.span = item.span();
-        section.name = "this [[set]]".to_owned();
-        section.check_keys(&[&keys::SET], document);
+        let section = document.table(item, "this [[set]]", &[&keys::SET])?;
         let name = section.optional_text("name", document);
         let content = if let Some(axes) = section.get("axes") {
             if let Some(workspace) = section.get("workspace") {
-                document.mistake(
-                    Diagnostic::new(axes.key_span.clone(), "a set has a `workspace` or `axes`, not both")
-                        .label("one too many")
-                        .context(workspace.key_span, "the other one")
-                        .help("write two sets instead"),
-                );
+                let message = "a set has a `workspace` or `axes`, not both";
+                let help = "write two sets instead";
+                let mistake = Diagnostic::new(axes.key_span.clone(), message).label("one too many");
+                document.mistake(mistake.context(workspace.key_span, "the other one").help(help));
             }
-            Content::Axes(Candidates::variables(spec).axes(&axes, document, spec))
+            Content::Axes(Candidates::variables(spec).axes(&axes, document))
         } else {
             let workspace = section.required("workspace", document)?;
             Content::Workspace(read_region(&workspace, document, spec)?)

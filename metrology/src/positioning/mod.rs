@@ -129,11 +129,8 @@ impl Positioning<'_> {
             let value = parse_value(&mut document, 0..text.len(), LengthUnit::Millimetre, dimension, &name);
             let value = document.finish(value)?;
             if value < 0.0 {
-                return Err(mistake::with_help(
-                    option,
-                    format!("{name} is negative"),
-                    "give a standard uncertainty: 0 or more",
-                ));
+                let help = "give a standard uncertainty: 0 or more";
+                return Err(mistake::with_help(option, format!("{name} is negative"), help));
             }
             Ok(value)
         };

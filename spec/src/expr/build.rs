@@ -123,18 +123,13 @@ impl<'b> Builder<'b> {
             Function::Abs => Some(found),
             Function::Sign => Some(Dimension::NONE),
             Function::Sqrt => found.power(0.5).or_else(|| {
-                self.mistake(
-                    operand,
-                    format!("the square root of {found} has no unit"),
-                    "divide by a reference first",
-                );
-                None
+                let message = format!("the square root of {found} has no unit");
+                self.refuse(operand, &message, "divide by a reference first")
             }),
             _ if found == Dimension::NONE => Some(found),
             _ => {
                 let message = format!("`{}` expects a pure number, found {found}", function.name());
-                self.mistake(operand, message, "divide by a length, such as `d1/(1600 mm)`");
-                None
+                self.refuse(operand, &message, "divide by a length, such as `d1/(1600 mm)`")
             }
         });
         let value = self.terms[operand].value.map(|value| function.evaluate(value));
@@ -212,22 +207,16 @@ impl<'b> Builder<'b> {
 
     fn power(&mut self, base: usize, exponent: usize) -> Option<Dimension> {
         let Some(value) = self.terms[exponent].value else {
-            self.mistake(
-                exponent,
-                "an exponent must be a number".to_owned(),
-                "names can only be used in the base",
-            );
-            return None;
+            let help = "names can only be used in the base";
+            return self.refuse(exponent, "an exponent must be a number", help);
         };
         if self.terms[exponent].dimension? != Dimension::NONE {
-            self.mistake(exponent, "an exponent must be a pure number".to_owned(), "remove its unit");
-            return None;
+            return self.refuse(exponent, "an exponent must be a pure number", "remove its unit");
         }
         let dimension = self.terms[base].dimension?;
         dimension.power(value).or_else(|| {
             let message = format!("{dimension} to the power {value} has no unit");
-            self.mistake(exponent, message, "divide the base by a reference first: `(F/(1 N))^0.7`");
-            None
+            self.refuse(exponent, &message, "divide the base by a reference first: `(F/(1 N))^0.7`")
         })
     }
 
@@ -268,6 +257,12 @@ impl<'b> Builder<'b> {
 
     fn mistake(&mut self, term: usize, message: String, help: &str) {
         self.found.push(Diagnostic::new(self.terms[term].span.clone(), message).help(help));
+    }
+
+    /// Records a diagnostic at a term, and returns none.
+    fn refuse<T>(&mut self, term: usize, message: &str, help: &str) -> Option<T> {
+        self.mistake(term, message.to_owned(), help);
+        None
     }
 
     /// Appends a term, or records that its constant value is NaN or too large.

@@ -2,8 +2,8 @@
 
 use std::fmt::Display;
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::document::{Document, Item};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::document::{Document, Item, Section};
 use crate::expr::{FUNCTION_NAMES, UNIT_NAMES};
 use crate::visible::alters_text;
 
@@ -21,20 +21,18 @@ const LONGEST: usize = 60;
 
 /// Returns `true` if `name` is valid in expressions and in generated code. Otherwise the reason is
 /// recorded at `at`.
-pub(super) fn check_identifier(name: &str, at: crate::diagnostic::Span, document: &mut Document) -> bool {
+pub(super) fn check_identifier(name: &str, at: Span, document: &mut Document) -> bool {
     let Some((message, help)) = fault(name) else { return true };
     document.mistake(Diagnostic::new(at, message).label("not a valid name").help(help));
     false
 }
 
 /// Checks the name of a manipulator, which becomes the name of a module.
-pub(super) fn check_manipulator_name(name: &str, at: crate::diagnostic::Span, document: &mut Document) {
+pub(super) fn check_manipulator_name(name: &str, at: Span, document: &mut Document) {
     if check_identifier(name, at.clone(), document) && name.contains(|c: char| c.is_ascii_uppercase()) {
-        document.mistake(
-            Diagnostic::new(at, "the name of a manipulator must be in lower case")
-                .label("this becomes the name of a module")
-                .help(format!("write `{}`", name.to_ascii_lowercase())),
-        );
+        let help = format!("write `{}`", name.to_ascii_lowercase());
+        let mistake = Diagnostic::new(at, "the name of a manipulator must be in lower case");
+        document.mistake(mistake.label("this becomes the name of a module").help(help));
     }
 }
 
@@ -43,6 +41,26 @@ pub fn check_name(path: impl Display, name: &str) -> Result<(), Diagnostics> {
     let mut document = Document::new(path, name);
     check_manipulator_name(name, 0..name.len(), &mut document);
     document.finish(Some(()))
+}
+
+/// Names a table by its key `name`; another one of the same `kind` and name, whose location is
+/// `first`, is a mistake.
+pub(super) fn read_title(
+    section: &mut Section<'_>,
+    kind: &str,
+    first: impl FnOnce(&str) -> Option<Span>,
+    help: &str,
+    document: &mut Document,
+) -> Option<String> {
+    let item = section.required("name", document)?;
+    let name = title_of(&item, document)?;
+    section.name = format!("the {kind} \"{name}\"");
+    section.span = item.span();
+    if let Some(first) = first(&name) {
+        let mistake = Diagnostic::new(item.span(), format!("duplicate {kind} name \"{name}\""));
+        document.mistake(mistake.label("second use").context(first, "first use").help(help));
+    }
+    Some(name)
 }
 
 /// Converts a text of another format to a valid name: lower case, with `_` for invalid characters.
@@ -83,25 +101,18 @@ fn fault(name: &str) -> Option<(String, String)> {
 const LONGEST_TITLE: usize = 200;
 
 /// Reads a free-text name: not empty, on one line, shown as it is read, of limited length.
-pub(super) fn title_of(item: &Item<'_>, document: &mut Document) -> Option<String> {
+fn title_of(item: &Item<'_>, document: &mut Document) -> Option<String> {
     let name = document.string(item)?;
     if name.trim().is_empty() || name.contains(char::is_control) {
-        document.mistake(
-            Diagnostic::new(item.span(), "expected a name on one line").help("use a short, descriptive name"),
-        );
-        return None;
+        return document.refuse(item.span(), "expected a name on one line", "use a short, descriptive name");
     }
     if let Some(c) = name.chars().find(|c| alters_text(*c)) {
         let message = format!("this name contains U+{:04X}, which alters the text around it", u32::from(c));
-        document.mistake(Diagnostic::new(item.span(), message).help("remove this invisible character"));
-        return None;
+        return document.refuse(item.span(), message, "remove this invisible character");
     }
     if name.len() > LONGEST_TITLE {
-        document.mistake(
-            Diagnostic::new(item.span(), format!("this name is longer than {LONGEST_TITLE} letters"))
-                .help("use a short name, and `description` for the rest"),
-        );
-        return None;
+        let message = format!("this name is longer than {LONGEST_TITLE} letters");
+        return document.refuse(item.span(), message, "use a short name, and `description` for the rest");
     }
     Some(name)
 }

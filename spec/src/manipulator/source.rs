@@ -78,23 +78,29 @@ impl Source {
         }
     }
 
-    /// Returns the normal random source that adds the effects of uncertain quantities, each times
-    /// its factor, to no others.
-    pub fn propagating(name: String, description: String, propagated: Vec<(Uncertain, f64)>) -> Self {
+    /// Returns an enabled repeatable source without errors.
+    pub fn repeatable(name: String) -> Self {
         Self {
             name,
-            class: Class::Random(Distribution::Normal),
+            class: Class::Repeatable,
             degrees_of_freedom: f64::INFINITY,
             enabled: true,
-            description,
+            description: String::new(),
             reference: String::new(),
             magnitude: None,
             scale: 1.0,
             tuned_by: None,
             effects: Vec::new(),
             deviations: Vec::new(),
-            propagated,
+            propagated: Vec::new(),
         }
+    }
+
+    /// Returns the normal random source that adds the effects of uncertain quantities, each times
+    /// its factor, to no others.
+    pub fn propagating(name: String, description: String, propagated: Vec<(Uncertain, f64)>) -> Self {
+        let class = Class::Random(Distribution::Normal);
+        Self { class, description, propagated, ..Self::repeatable(name) }
     }
 }
 

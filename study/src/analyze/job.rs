@@ -2,7 +2,6 @@
 
 use abbe_spec::option::{DISABLE, ENABLE, Q, SCALE, SET};
 use std::ops::Range;
-use std::path::PathBuf;
 
 use abbe::analysis::{BudgetOptions, BudgetSweep, Row};
 use abbe_spec::diagnostic::Diagnostics;
@@ -15,7 +14,6 @@ use crate::machine::Machine;
 use crate::mistake;
 use crate::notes::Notes;
 use crate::number;
-use crate::reads::Reads;
 use crate::study_file::Study;
 
 /// Job of `abbe analyze`: evaluates each error source over the workspace of a study.
@@ -36,11 +34,7 @@ pub struct Analyze {
     pub figures: bool,
 }
 
-impl Reads for Analyze {
-    fn files(&self) -> Vec<PathBuf> {
-        [self.machine.files(), self.study.files()].concat()
-    }
-}
+crate::reads! { Analyze: machine study, without q monte_carlo seed interpret figures; }
 
 impl Analyze {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.

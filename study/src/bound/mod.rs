@@ -11,7 +11,6 @@ pub mod options;
 mod remainder;
 mod report;
 
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use abbe::Orientation;
@@ -23,7 +22,6 @@ use abbe_spec::diagnostic::Diagnostics;
 use crate::changes::Changes;
 use crate::machine::Machine;
 use crate::notes::Notes;
-use crate::reads::Reads;
 use crate::study_file::Study;
 
 pub use certified_norms::CertifiedNorms;
@@ -44,11 +42,7 @@ pub struct Bound {
     pub time: Option<Duration>,
 }
 
-impl Reads for Bound {
-    fn files(&self) -> Vec<PathBuf> {
-        [self.machine.files(), self.study.files()].concat()
-    }
-}
+crate::reads! { Bound: machine study, without effort least time; }
 
 impl Bound {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.

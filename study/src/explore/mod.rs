@@ -9,7 +9,6 @@ mod configurations;
 mod report;
 
 use std::borrow::Cow;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe_codegen::print::Language;
@@ -20,7 +19,6 @@ use abbe_spec::diagnostic::Diagnostics;
 use crate::analyze::Analyze;
 use crate::finite;
 use crate::notes::Notes;
-use crate::reads::Reads;
 use crate::{Machine, Residuals, Study};
 pub use report::{
     Configurations, ErrorUnit, FrameName, LiveInput, LiveParameter, LiveSource, LiveVariable, Report,
@@ -42,12 +40,7 @@ pub struct Explore<'a> {
     pub residuals: Option<Residuals>,
 }
 
-impl Reads for Explore<'_> {
-    fn files(&self) -> Vec<PathBuf> {
-        let Self { analysis, study: _, residuals: _ } = self;
-        analysis.files()
-    }
-}
+crate::reads! { Explore<'_>: analysis, without study residuals; }
 
 impl Explore<'_> {
     /// Creates the job for a machine without a study, with measured rows if they have points.

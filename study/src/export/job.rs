@@ -1,13 +1,10 @@
 //! Job of `abbe export`.
 
-use std::path::PathBuf;
-
+use abbe_exchange::Format;
 use abbe_exchange::export::RealMachine;
-use abbe_exchange::{dh, isg_csv, joint_corrections, kinematics_comp, linuxcnc, ur_calibration, urdf};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::Report;
-use super::options::Format;
 use crate::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
@@ -39,17 +36,7 @@ impl Export {
         if machine.is_nominal() {
             notes.warn("this spec has no repeatable source: the nominal machine is exported");
         }
-        let report = match format {
-            Format::Dh => dh::write(&machine)?,
-            Format::Urdf { file, base, tip } => {
-                urdf::write(&machine, file, &urdf::Ends { base: base.clone(), tip: tip.clone() })?
-            }
-            Format::UrCalibration => ur_calibration::write(&machine)?,
-            Format::IsgCsv { nodes } => isg_csv::write(&machine, *nodes)?,
-            Format::KinematicsComp { nodes } => kinematics_comp::write(&machine, *nodes)?,
-            Format::LinuxCnc { nodes, has_matrix } => linuxcnc::write(&mut machine, *nodes, *has_matrix)?,
-            Format::Table { nodes } => joint_corrections::write(&machine, *nodes, notes)?,
-        };
+        let report = format.write(&mut machine, notes)?;
         let Report { before, remains, .. } = &report;
         if remains.position.rms > before.position.rms && !machine.is_nominal() {
             let [before, remains] = [before, remains].map(|difference| digits(difference.position.rms, 3));
@@ -61,13 +48,5 @@ impl Export {
             ));
         }
         finite(origin, report)
-    }
-
-    /// Returns the files that the job reads besides the spec.
-    pub(crate) fn beside(&self) -> Vec<PathBuf> {
-        match &self.format {
-            Format::Urdf { file, .. } => vec![file.clone()],
-            _ => Vec::new(),
-        }
     }
 }

@@ -5,6 +5,8 @@ mod job;
 mod options;
 
 pub use abbe_exchange::export::{ExportReport as Report, ExportedFile, Figure, PoseDifference, RotaryAxis};
+pub use abbe_exchange::urdf::Ends;
+pub use abbe_exchange::{FORMATS, Format, Needs, Unfit};
 
 pub use self::job::Export;
-pub use self::options::{Format, SAMPLES, SAMPLES_RANGE};
+pub use self::options::{SAMPLES, SAMPLES_RANGE};

@@ -9,7 +9,6 @@ use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_spec::value::find_name;
 
 use super::keys;
-use crate::workspace::constant;
 
 /// Residuals after compensation.
 #[derive(Clone, Debug)]
@@ -42,10 +41,10 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     if let Some(item) = section.get("residual") {
         if let Some(other) = section.items().find(|item| item.key != "residual") {
             let message = format!("`residual` is of all sources together; `{}` contradicts it", other.key);
-            let mistake = Diagnostic::new(other.key_span.clone(), message);
-            document.mistake(mistake.help("remove it, or remove `residual` and give residuals by source"));
+            let help = "remove it, or remove `residual` and give residuals by source";
+            document.mistake(Diagnostic::new(other.key_span.clone(), message).help(help));
         }
-        let norm = constant(&item, document, spec, Dimension::LENGTH, "`residual`")?;
+        let norm = document.quantity(&item, Dimension::LENGTH)?;
         if norm < 0.0 {
             let mistake = Diagnostic::new(item.span(), "`residual` cannot be negative");
             document.mistake(mistake.help("write the norm of what remains, such as \"0.05 mm\""));
@@ -83,12 +82,8 @@ fn residual(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Res
         Dimension::NONE if (0.0..=1.0).contains(&value) => Some(Residual::Share(value)),
         _ => {
             let message = "a residual must be a share from 0 to 1, or a length";
-            document.mistake(
-                Diagnostic::new(item.span(), message)
-                    .label("neither a share nor a length")
-                    .help("write 0.05 for one twentieth of the error, or \"0.02 mm\""),
-            );
-            None
+            let mistake = Diagnostic::new(item.span(), message).label("neither a share nor a length");
+            document.fail(mistake.help("write 0.05 for one twentieth of the error, or \"0.02 mm\""))
         }
     }
 }

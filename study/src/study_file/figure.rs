@@ -22,7 +22,7 @@ use abbe::analysis::Measurand;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
-use abbe_spec::value::find_name;
+use abbe_spec::value::{find_name, read_name};
 use serde::{Serialize, Serializer};
 
 use super::choices::{KINDS, Kind, MEASURANDS, UP_AXES};
@@ -134,7 +134,6 @@ pub(super) fn read_figures(
     let mut figures: Vec<Figure> = Vec::new();
     for item in items {
         let Some(mut section) = document.section(&item) else { continue };
-        section.span = item.span();
         section.name = "a [[figure]]".to_owned();
         let Some(figure) = read_one(&section, document, spec) else { continue };
         let same = |other: &Figure| {
@@ -176,10 +175,9 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     };
     let mut figure = Figure::new(content);
     if let Some(item) = section.get("source") {
-        let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
-        let name = document.string(&item)?;
-        find_name(document, item.span(), &name, &names, "source")?;
-        figure.source = Some(name);
+        let names = spec.sources.iter().map(|source| source.name.as_str());
+        let source = read_name(document, &item, names, "source")?;
+        figure.source = Some(spec.sources[source].name.clone());
     }
     if let Some(item) = section.get("rows") {
         figure.measurand = document.choice(&item, &MEASURANDS)?;

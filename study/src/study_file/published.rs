@@ -55,7 +55,6 @@ pub(super) fn read_published(root: &Section<'_>, document: &mut Document, spec: 
     let mut read: Vec<Published> = Vec::new();
     for item in items.into_iter().flatten() {
         let Some(mut section) = document.section(&item) else { continue };
-        section.span = item.span();
         section.name = "a [[published]]".to_owned();
         let Some(published) = read_one(&section, document, spec) else { continue };
         if read.iter().any(|other| other.subject == published.subject) {
@@ -83,40 +82,30 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
             section.check_keys(&[&keys::OF_ALL, &keys::PUBLISHED], document);
             document.choice(&combined, &CombinedFigure::ALL).map(Subject::Combined)
         }
-        _ => {
-            document.mistake(
-                Diagnostic::new(
-                    section.span.clone(),
-                    "a published figure needs either `source` or `combined`",
-                )
+        _ => document.fail(
+            Diagnostic::new(section.span.clone(), "a published figure needs either `source` or `combined`")
                 .label("neither or both are given")
                 .help("give either `source` and `metric`, or `combined`"),
-            );
-            None
-        }
+        ),
     };
     let mut figure = |key: &str| {
         let item = section.get(key)?;
-        constant(&item, document, spec, Dimension::LENGTH, &format!("the figure `{key}`"))
+        constant(&item, document, Dimension::LENGTH, &format!("the figure `{key}`"))
     };
     let figures = ["x", "y", "z", "norm"].map(&mut figure);
     let within = section.required("within", document);
-    let within = within.and_then(|item| positive_length(&item, document, spec));
+    let within = within.and_then(|item| positive_length(&item, document));
     let reference = section.optional_text("reference", document);
     Some(Published { subject: subject?, figures, within: within?, reference })
 }
 
 /// Reads `[compensated]`.
-pub(super) fn read_compensated(
-    item: &Item<'_>,
-    document: &mut Document,
-    spec: &Spec,
-) -> Option<PublishedResidual> {
+pub(super) fn read_compensated(item: &Item<'_>, document: &mut Document) -> Option<PublishedResidual> {
     let section = document.section(item)?;
     section.check_keys(&[&keys::COMPENSATED], document);
     let mut length = |key: &str| {
         let item = section.required(key, document)?;
-        positive_length(&item, document, spec)
+        positive_length(&item, document)
     };
     let (residual, random, total) = (length("residual"), length("random"), length("total"));
     let reference = section.optional_text("reference", document);

@@ -51,6 +51,7 @@ impl Study {
     /// Reads a study and checks it against the spec of its manipulator.
     pub fn read(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
         let text = Arc::clone(&document.text);
+        document.length = spec.length;
         let tables = document.tables(&text);
         let study = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
         document.finish(study)
@@ -70,14 +71,14 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         region
     });
     let published = read_published(root, document, spec);
-    let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document, spec));
+    let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document));
     let compensation = root.get("compensation").and_then(|item| compensation::read(&item, document, spec));
     let figures = read_figures(root, document, spec, region.as_ref());
     let mut head = head?;
     head.name = "[study]".to_owned();
     head.check_keys(&[&keys::STUDY], document);
     let title = head.required("title", document).and_then(|item| document.string(&item));
-    let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item, document, spec));
+    let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item, document));
     let tolerance = tolerance.unwrap_or_default();
     let is_known = compensation.is_some() || compensated.is_some() || !spec.covariance.of.is_empty();
     if tolerance.machine == Some(JudgedMachine::Compensated)
@@ -130,7 +131,7 @@ fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec, moved:
                 continue;
             }
             let what = format!("the value of `{}`", item.key);
-            if let Some(value) = constant(&item, document, spec, dimension, &what) {
+            if let Some(value) = constant(&item, document, dimension, &what) {
                 changes.set(document, item.span(), spec, symbol, value);
             }
         }

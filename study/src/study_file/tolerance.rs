@@ -1,13 +1,12 @@
 //! Reads `tolerance`: the permitted errors of the tool, and the probability of meeting them.
 
-use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::Dimension;
 
 use super::choices::{JudgedMachine, MACHINES};
 use super::keys;
-use crate::workspace::{constant, positive_length};
+use crate::workspace::positive_length;
 
 /// Permitted errors of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,17 +28,17 @@ impl Default for Tolerance {
 }
 
 /// Reads a length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.
-pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Tolerance> {
+pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance> {
     if !item.is_table() {
-        let position = positive_length(item, document, spec)?;
+        let position = positive_length(item, document)?;
         return Some(Tolerance { position: Some(position), ..Tolerance::default() });
     }
     let section = document.section(item)?;
     section.check_keys(&[&keys::TOLERANCE], document);
-    let position = section.get("position").map(|item| positive_length(&item, document, spec));
+    let position = section.get("position").map(|item| positive_length(&item, document));
     let mut number = |key: &str, most: f64, help: &str| {
         section.get(key).map(|item| {
-            let value = constant(&item, document, spec, Dimension::NONE, &format!("`{key}`"))?;
+            let value = document.quantity(&item, Dimension::NONE)?;
             if value > 0.0 && value < most {
                 return Some(value);
             }
@@ -47,20 +46,15 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
                 1.0 => format!("`{key}` must be between 0 and 1"),
                 _ => format!("`{key}` must be positive"),
             };
-            document.mistake(Diagnostic::new(item.span(), message).label("out of range").help(help));
-            None
+            document.fail(Diagnostic::new(item.span(), message).label("out of range").help(help))
         })
     };
     let orientation = number("orientation", f64::INFINITY, "write an angle such as \"0.5 mrad\"");
     let probability = number("probability", 1.0, "write 0.95 for 95 %");
     let machine = section.get("machine").and_then(|item| document.choice(&item, &MACHINES));
     if position.is_none() && orientation.is_none() {
-        document.mistake(
-            Diagnostic::new(item.span(), "this tolerance is empty")
-                .label("no limit is given")
-                .help("give `position`, a length, or `orientation`, an angle, or both"),
-        );
-        return None;
+        let mistake = Diagnostic::new(item.span(), "this tolerance is empty").label("no limit is given");
+        return document.fail(mistake.help("give `position`, a length, or `orientation`, an angle, or both"));
     }
     // A value that is present but invalid has already been reported.
     let unread = |given: Option<Option<f64>>| given == Some(None);

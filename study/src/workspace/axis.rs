@@ -107,13 +107,13 @@ impl<'a> Candidates<'a> {
     }
 
     /// Reads a table of axes, `NAME = VALUES` each.
-    pub fn axes(&self, item: &Item<'_>, document: &mut Document, spec: &Spec) -> Vec<Axis> {
+    pub fn axes(&self, item: &Item<'_>, document: &mut Document) -> Vec<Axis> {
         let Some(section) = document.section(item) else { return Vec::new() };
         let mut axes = Vec::new();
         for item in section.items() {
             let Some(index) = self.find(document, item.key_span.clone(), &item.key) else { continue };
             let candidate = &self.list[index];
-            if let Some(mut values) = values(&item, document, spec, candidate.dimension) {
+            if let Some(mut values) = values(&item, document, candidate.dimension) {
                 candidate.round_to_ends(&mut values);
                 candidate.require_within(&values, &item, document);
                 axes.push(Axis { index, values });
@@ -131,10 +131,8 @@ impl<'a> Candidates<'a> {
             let Some(name) = document.string(&item) else { continue };
             let index = self.find(document, item.span(), &name);
             if index.is_some_and(|index| indices.contains(&index)) {
-                document.mistake(
-                    Diagnostic::new(item.span(), format!("duplicate name `{name}`"))
-                        .help("remove one of them"),
-                );
+                let mistake = Diagnostic::new(item.span(), format!("duplicate name `{name}`"));
+                document.mistake(mistake.help("remove one of them"));
             }
             indices.extend(index);
         }
@@ -179,48 +177,36 @@ impl Candidate<'_> {
 }
 
 /// Reads `[1, 2, 5]`, `{ from = 0, to = 10, count = 3 }` or `{ from = 0, to = 10, step = 5 }`.
-pub(super) fn values(
-    item: &Item<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    dimension: Dimension,
-) -> Option<Vec<f64>> {
+pub(super) fn values(item: &Item<'_>, document: &mut Document, dimension: Dimension) -> Option<Vec<f64>> {
     let what = format!("a value of `{}`", item.key);
     if !item.is_table() {
         let items = document.array(item, "a list of values, or { from, to, count } or { from, to, step }")?;
-        let values = items.iter().filter_map(|item| constant(item, document, spec, dimension, &what));
+        let values = items.iter().filter_map(|item| constant(item, document, dimension, &what));
         let values = values.collect::<Vec<_>>();
         if items.is_empty() {
-            document.mistake(
-                Diagnostic::new(item.span(), format!("`{}` has no values", item.key))
-                    .help("give at least one value"),
-            );
+            let mistake = Diagnostic::new(item.span(), format!("`{}` has no values", item.key));
+            document.mistake(mistake.help("give at least one value"));
         }
         return (values.len() == items.len() && !items.is_empty()).then_some(values);
     }
-    let mut section = document.section(item)?;
-    section.name = format!("the range of `{}`", item.key);
-    section.check_keys(&[&keys::VALUES], document);
+    let section = document.table(item, format!("the range of `{}`", item.key), &[&keys::VALUES])?;
     let mut end = |key: &str| {
         let end = section.required(key, document)?;
-        constant(&end, document, spec, dimension, &what)
+        constant(&end, document, dimension, &what)
     };
     let (from, to) = (end("from"), end("to"));
     match (section.get("count"), section.get("step")) {
         (Some(counted), None) => {
-            let count = count(&counted, VALUES, document, spec)?;
+            let count = count(&counted, VALUES, document)?;
             Some(sampling::grid([from?, to?], count))
         }
         (None, Some(item)) => {
-            let step = constant(&item, document, spec, dimension, "a step")?;
+            let step = constant(&item, document, dimension, "a step")?;
             stepped([from?, to?], step, &item, document)
         }
         _ => {
             let message = format!("{} needs either `count` or `step`", section.name);
-            document.mistake(
-                Diagnostic::new(section.span.clone(), message).help("add `count`, such as `count = 5`"),
-            );
-            None
+            document.refuse(section.span.clone(), message, "add `count`, such as `count = 5`")
         }
     }
 }
@@ -237,7 +223,5 @@ fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>, document: &mut Docu
     } else {
         return Some(sampling::grid([from, to], steps.round() as usize + 1));
     };
-    document
-        .mistake(Diagnostic::new(item.span(), mistake).help("or write `count`, which includes both ends"));
-    None
+    document.refuse(item.span(), mistake, "or write `count`, which includes both ends")
 }

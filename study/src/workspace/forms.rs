@@ -17,38 +17,33 @@ use super::region::{Form, LARGEST, Region, has_range};
 /// Reads `[workspace]`: one of the forms, and `inputs` with their own values. Inputs without a name
 /// there stay nominal.
 pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
-    let mut section = document.section(item)?;
-    section.name = "[workspace]".to_owned();
-    section.check_keys(&[&WORKSPACE, &BESIDE], document);
+    let section = document.table(item, "[workspace]", &[&WORKSPACE, &BESIDE])?;
     let mut forms = section.items().filter(|item| WORKSPACE.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
         let forms = WORKSPACE.names().map(|form| format!("`{form}`")).collect::<Vec<_>>();
         let help = format!("give one of {}", forms.join(", "));
-        document.mistake(
-            Diagnostic::new(section.span.clone(), "a workspace needs exactly one form")
-                .label("none or several are given")
-                .help(help),
-        );
-        return None;
+        let mistake = Diagnostic::new(section.span.clone(), "a workspace needs exactly one form");
+        return document.fail(mistake.label("none or several are given").help(help));
     };
     let mut region = read_form(&form, document, spec)?;
     if let Some(item) = section.get("inputs") {
-        for axis in Candidates::inputs(spec).axes(&item, document, spec) {
+        for axis in Candidates::inputs(spec).axes(&item, document) {
             if region.moving_inputs().contains(&axis.index) {
                 let message = format!("`{}` is moved twice", spec.inputs[axis.index].name);
-                let mistake = Diagnostic::new(item.key_span.clone(), message);
-                document.mistake(mistake.help(format!("remove it from `inputs` or from `{}`", form.key)));
+                let help = format!("remove it from `inputs` or from `{}`", form.key);
+                document.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
             }
             region.inputs.push(axis);
         }
     }
     if region.count().is_none() {
         let message = format!("this workspace has more than {LARGEST} configurations");
-        document.mistake(Diagnostic::new(form.key_span.clone(), message).help(
+        return document.refuse(
+            form.key_span.clone(),
+            message,
             "use fewer values per axis, or random samples: `joints = { samples = 100000 \
                     }`",
-        ));
-        return None;
+        );
     }
     Some(region)
 }
@@ -76,7 +71,7 @@ fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region>
         true => (Candidates::passive_and_inputs(spec), spec.passive.len()),
         false => (Candidates::variables_and_inputs(spec), spec.variables.len()),
     };
-    let all = candidates.axes(item, document, spec);
+    let all = candidates.axes(item, document);
     let (axes, inputs): (Vec<Axis>, Vec<Axis>) = all.into_iter().partition(|axis| axis.index < count);
     let form = match of_platform {
         false => Form::Grid(axes),
@@ -86,8 +81,7 @@ fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region>
                 let message = "poses of a platform need legs that follow from them";
                 let help = "name the commanded variables in the grid instead";
                 let mistake = Diagnostic::new(item.key_span.clone(), message);
-                document.mistake(mistake.label(reason).help(help));
-                return None;
+                return document.fail(mistake.label(reason).help(help));
             }
         },
     };
@@ -98,12 +92,11 @@ fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region>
 /// Reads `[workspace.presented]`: tool points, each moved to one point in space.
 fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Presentation> {
     section.check_keys(&[&keys::PRESENTED], document);
-    let point = section.required("point", document).and_then(|item| point(&item, document, spec));
+    let point = section.required("point", document).and_then(|item| point(&item, document));
     let tool_points = section.get("tool_points");
-    let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item, document, spec));
+    let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item, document));
     let variables = Candidates::variables(spec).unlimited();
-    let approaches =
-        section.get("approaches").map(|item| (variables.axes(&item, document, spec), item.span()));
+    let approaches = section.get("approaches").map(|item| (variables.axes(&item, document), item.span()));
     let (approaches, span) = approaches.unwrap_or_default();
     let solved = section.required("solve", document).map(|item| variables.list(&item, document))?;
     if let Some(both) = approaches.iter().find(|axis| solved.contains(&axis.index)) {
@@ -113,10 +106,10 @@ fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opt
     Some(Presentation { point: point?, tool_points: tool_points.unwrap_or_default(), approaches, solved })
 }
 
-fn point(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<[f64; 3]> {
+fn point(item: &Item<'_>, document: &mut Document) -> Option<[f64; 3]> {
     let entries: [Item<'_>; 3] = document.entries(item, "three lengths: x, y and z in F_0")?;
     let [x, y, z] =
-        entries.map(|entry| constant(&entry, document, spec, Dimension::LENGTH, "a coordinate of the point"));
+        entries.map(|entry| constant(&entry, document, Dimension::LENGTH, "a coordinate of the point"));
     Some([x?, y?, z?])
 }
 
@@ -126,12 +119,11 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     section.check_keys(&[&keys::BOX], document);
     let points = ["x", "y", "z"].map(|axis| {
         let item = section.required(axis, document)?;
-        values(&item, document, spec, Dimension::LENGTH)
+        values(&item, document, Dimension::LENGTH)
     });
-    let orientation = match section.get("orientation") {
-        Some(item) => document.choice(&item, &ORIENTATIONS),
-        None => Some(ToolOrientation::Free),
-    };
+    let orientation = section
+        .get("orientation")
+        .map_or(Some(ToolOrientation::Free), |item| document.choice(&item, &ORIENTATIONS));
     let solved = match section.get("solve") {
         Some(item) => Candidates::variables(spec).list(&item, document),
         None => (0..spec.variables.len()).collect(),
@@ -153,16 +145,14 @@ fn samples(section: &Section<'_>, document: &mut Document, spec: &Spec, random: 
     let (moved, inputs): (Vec<usize>, Vec<usize>) = moved.into_iter().partition(|i| *i < variables);
     let sampled_inputs: Vec<usize> = inputs.into_iter().map(|i| i - variables).collect();
     if let Some(input) = sampled_inputs.iter().map(|i| &spec.inputs[*i]).find(|input| !has_range(input)) {
-        let message = format!("`{}` has no range", input.name);
         let help = "add one in the spec: `range = [LOWER, UPPER]`";
-        document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
-        return None;
+        return document.refuse(section.span.clone(), format!("`{}` has no range", input.name), help);
     }
     let seed = match section.get("seed").filter(|_| random) {
-        Some(item) => Some(whole(&item, [0, LARGEST], document, spec)? as u64),
+        Some(item) => Some(whole(&item, [0, LARGEST], document)? as u64),
         None => random.then_some(0),
     };
     let samples = section.required("samples", document)?;
-    let count = count(&samples, LARGEST, document, spec)?;
+    let count = count(&samples, LARGEST, document)?;
     Some(Region { sampled_inputs, ..Region::new(Form::Samples { moved, count, seed }) })
 }

@@ -129,11 +129,8 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
     };
     let found = found.map_err(|message| {
         let message = format!("{}: {message}", file.escape_debug());
-        document.mistake(
-            Diagnostic::new(item.span(), message)
-                .label("read by this key")
-                .help("write a heading such as `d1 (mm),q4 (deg)`, then one configuration per line"),
-        );
+        let help = "write a heading such as `d1 (mm),q4 (deg)`, then one configuration per line";
+        document.mistake(Diagnostic::new(item.span(), message).label("read by this key").help(help));
     });
     let (columns, configurations) = found.ok()?;
     Some(Path { file, columns, configurations })

@@ -68,18 +68,16 @@ impl Cells<'_> {
         let plain =
             if self.decimal_comma && !plain.contains('.') { plain.replacen(',', ".", 1) } else { plain };
         if in_degrees && is_length {
-            let mistake = Diagnostic::new(cell, "expected a length, found an angle in degrees");
-            document.mistake(mistake.help("write lengths in mm or m"));
-            return None;
+            let help = "write lengths in mm or m";
+            return document.refuse(cell, "expected a length, found an angle in degrees", help);
         }
         let Ok(number) = plain.parse::<f64>() else {
             let dimension = if is_length { Dimension::LENGTH } else { Dimension::NONE };
             return parse_value(document, cell, self.length, dimension, "this cell");
         };
         if number.is_nan() || number.abs() >= LARGEST {
-            let mistake = Diagnostic::new(cell, "this number is too large or not finite");
-            document.mistake(mistake.help("write a decimal number: `0.5`"));
-            return None;
+            let help = "write a decimal number: `0.5`";
+            return document.refuse(cell, "this number is too large or not finite", help);
         }
         let unit = if in_degrees { Some(Unit::Degree) } else { self.unit(column, is_length) };
         match unit {
@@ -143,13 +141,11 @@ impl Cells<'_> {
                 part(before.start..before.end - sign)
             }
             (false, false) => {
-                document.mistake(not_understood(cell));
-                return None;
+                return document.fail(not_understood(cell));
             }
         };
         if !(after.is_empty() || whole[after.clone()].starts_with(['+', '-', '−'])) {
-            document.mistake(not_understood(cell));
-            return None;
+            return document.fail(not_understood(cell));
         }
         let mut constant = 0.0;
         for span in [constant_before, after] {

@@ -50,16 +50,12 @@ impl Columns {
                 let message = format!("duplicate column `{name}`");
                 let mistake = Diagnostic::new(span.clone(), message)
                     .context(other.span.clone(), "first column of this name");
-                document.mistake(mistake.label("again").help("remove one of them"));
-                return None;
+                return document.fail(mistake.label("again").help("remove one of them"));
             }
             if is_of_previous_link && convention == DhConvention::Standard {
                 let message = format!("`{name}` is a column of the modified convention");
-                document.mistake(
-                    Diagnostic::new(span.clone(), message)
-                        .help(format!("read the table in that convention: `{DH_MODIFIED}`")),
-                );
-                return None;
+                let help = format!("read the table in that convention: `{DH_MODIFIED}`");
+                return document.refuse(span.clone(), message, help);
             }
             columns.known.push(Column { quantity, unit, index, span: span.clone() });
         }
@@ -74,8 +70,7 @@ impl Columns {
             let message = format!("the column {} is missing", abbe_spec::diagnostic::listed(&missing));
             let help = "a table needs the columns theta, d, a and alpha; if one is 0 for all joints, add \
                  a column of zeros";
-            document.mistake(Diagnostic::new(columns.span.clone(), message).help(help));
-            return None;
+            return document.refuse(columns.span.clone(), message, help);
         }
         Some(columns)
     }

@@ -2,7 +2,7 @@
 //! numbers.
 
 use abbe_spec::DhConvention;
-use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::diagnostic::Span;
 use abbe_spec::document::Document;
 
 use super::cell::Cells;
@@ -89,12 +89,12 @@ pub(super) fn read(
         if !is_there {
             let (place, name) = if end == End::Base { ("first", "base") } else { ("last", "tool") };
             let span = row.iter().find(|cell| !cell.is_empty()).cloned().unwrap_or_default();
-            let mistake = Diagnostic::new(span, format!("the row of the {name} is not the {place} row"));
-            document.mistake(mistake.help(
+            return document.refuse(
+                span,
+                format!("the row of the {name} is not the {place} row"),
                 "order the rows from base to tool; a constant row between joints has \
                     the kind `fixed`",
-            ));
-            return None;
+            );
         }
         found[end as usize] = Some(placement(end, row, cells, convention, angles, document)?);
     }
@@ -105,11 +105,8 @@ pub(super) fn read(
             places.find(|(_, cell)| !is_zero(cell))
         });
         if let Some((_, cell)) = placed {
-            let mistake = Diagnostic::new(cell, "the row of a joint cannot have x, y, z, roll, pitch or yaw");
-            document.mistake(
-                mistake.help("leave this cell empty; only the rows of base and tool have these columns"),
-            );
-            return None;
+            let help = "leave this cell empty; only the rows of base and tool have these columns";
+            return document.refuse(cell, "the row of a joint cannot have x, y, z, roll, pitch or yaw", help);
         }
     }
     text.rows = joints;
@@ -126,10 +123,8 @@ fn placement(
     document: &mut Document,
 ) -> Option<Placement> {
     if let Some((_, cell)) = JOINT_ONLY.iter().find_map(|quantity| cells.cell(row, *quantity)) {
-        let mistake =
-            Diagnostic::new(cell, format!("the {} is fixed: this column is for joints only", end.name()));
-        document.mistake(mistake.help("leave this cell empty"));
-        return None;
+        let message = format!("the {} is fixed: this column is for joints only", end.name());
+        return document.refuse(cell, message, "leave this cell empty");
     }
     let mut number = |(quantity, is_length): (Quantity, bool)| match cells.cell(row, quantity) {
         Some((column, cell)) => cells.number(&column, cell, is_length, document),
@@ -147,10 +142,8 @@ fn placement(
     }
     if placed != Placement::default() {
         let span = row.first()?.start..row.last()?.end;
-        let mistake = Diagnostic::new(span, format!("this row gives the pose of the {} twice", end.name()));
-        document
-            .mistake(mistake.help("leave either the four DH numbers or x, y, z, roll, pitch and yaw empty"));
-        return None;
+        let help = "leave either the four DH numbers or x, y, z, roll, pitch and yaw empty";
+        return document.refuse(span, format!("this row gives the pose of the {} twice", end.name()), help);
     }
     let [theta, alpha] = [theta, alpha].map(|angle| angles.angle(angle));
     let geometry = Geometry::DenavitHartenberg(DhRow { convention, theta, d, a, alpha });

@@ -13,7 +13,7 @@ mod text;
 
 use abbe::LengthUnit;
 use abbe_spec::DhConvention;
-use abbe_spec::diagnostic::{Diagnostic, listed};
+use abbe_spec::diagnostic::listed;
 use abbe_spec::document::Document;
 use abbe_spec::notes::Notes;
 use abbe_spec::option::option;
@@ -94,7 +94,6 @@ fn check_convention(text: &Text, convention: DhConvention, document: &mut Docume
         return Some(());
     }
     let other = stated.name();
-    let mistake = Diagnostic::new(span.clone(), format!("this table declares the convention {other}"));
-    document.mistake(mistake.help(format!("read it in that convention: `{dh}`", dh = option("dh", other))));
-    None
+    let help = format!("read it in that convention: `{}`", option("dh", other));
+    document.refuse(span.clone(), format!("this table declares the convention {other}"), help)
 }

@@ -119,18 +119,15 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
             let mistake = Diagnostic::new(second.clone(), "this row has two variables");
             let help = "a row has one variable: write a joint that both rotates and translates as \
                 two rows";
-            document.mistake(
-                mistake.context(first.clone(), "first variable").label("second variable").help(help),
-            );
-            return None;
+            return document
+                .fail(mistake.context(first.clone(), "first variable").label("second variable").help(help));
         }
         (Some(Kind::Revolute | Kind::Fixed), None, Some((name, span)))
         | (Some(Kind::Prismatic | Kind::Fixed), Some((name, span)), None) => {
             let message = format!("the column of the variable `{name}` does not match the `kind` of the row");
             let help = "a prismatic joint has its variable in `d`, a revolute joint in `theta`, and a \
                  fixed row has none";
-            document.mistake(Diagnostic::new(span.clone(), message).help(help));
-            return None;
+            return document.refuse(span.clone(), message, help);
         }
         (None, None, Some(_)) => Kind::Prismatic,
         (None, ..) => Kind::Revolute,
@@ -158,8 +155,7 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
     {
         let message = "this row has two constants added to its variable";
         let help = "give the constant either with the variable or in the column `offset`";
-        document.mistake(Diagnostic::new(cell, message).label("and in `theta` or `d`").help(help));
-        return None;
+        return document.fail(Diagnostic::new(cell, message).label("and in `theta` or `d`").help(help));
     }
     let limits = match (lower, upper) {
         (Some(lower), Some(upper)) if lower < upper => Some([lower, upper]),
@@ -167,12 +163,12 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
         _ => {
             let upper = cells.cell(row, Quantity::Upper).or_else(|| cells.cell(row, Quantity::Lower));
             let span = upper.map_or(whole_row, |(_, cell)| cell);
-            let mistake = Diagnostic::new(span, format!("invalid limits of `{name}`"));
-            document.mistake(mistake.help(
+            return document.refuse(
+                span,
+                format!("invalid limits of `{name}`"),
                 "`lower` must be less than `upper`; leave both cells empty if there \
                     are no limits",
-            ));
-            return None;
+            );
         }
     };
     let flipped = match cells.cell(row, Quantity::Sign) {
@@ -181,11 +177,8 @@ fn joint(i: usize, row: &[Span], cells: &Cells<'_>, document: &mut Document) -> 
             Ok(1.0) => false,
             Ok(-1.0) => true,
             _ => {
-                document.mistake(
-                    Diagnostic::new(cell, "expected the sign 1 or -1")
-                        .help("1 is positive about or along z, -1 is negative"),
-                );
-                return None;
+                let help = "1 is positive about or along z, -1 is negative";
+                return document.refuse(cell, "expected the sign 1 or -1", help);
             }
         },
     };

@@ -49,8 +49,7 @@ impl Text {
             Some((cells, separator, line))
         });
         let Some((heading, separator, line)) = heading else {
-            document.mistake(no_table(&whole));
-            return None;
+            return document.fail(no_table(&whole));
         };
         let mut rows: Vec<Vec<Span>> = Vec::new();
         let framed = matches!(separator, '|' | '│');
@@ -70,10 +69,7 @@ impl Text {
                 0 => "there are no rows below this heading".to_owned(),
                 rows => format!("this table has {rows} rows; the maximum is {MOST_ROWS}"),
             };
-            document.mistake(
-                Diagnostic::new(line, message).help("write one row for each joint, from base to tip"),
-            );
-            return None;
+            return document.refuse(line, message, "write one row for each joint, from base to tip");
         }
         let columns = heading.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
         for row in &rows {
@@ -82,9 +78,8 @@ impl Text {
                 let message = format!("this row has {cells}, but the heading has {columns}");
                 let help = "write a cell for every column: 0 for zero, or an empty cell if it \
                     does not apply";
-                document
-                    .mistake(Diagnostic::new(last.clone(), message).label("the row ends here").help(help));
-                return None;
+                return document
+                    .fail(Diagnostic::new(last.clone(), message).label("the row ends here").help(help));
             }
             let beyond = row.get(heading.len()..).unwrap_or_default();
             if let Some(cell) = beyond.iter().find(|cell| !cell.is_empty()) {
@@ -92,8 +87,8 @@ impl Text {
                     format!("this row has {} cells, but the heading has {}", row.len(), heading.len());
                 let help = "if a cell contains the separator, or decimals have a comma, separate \
                     the cells by `;`";
-                document.mistake(Diagnostic::new(cell.clone(), message).label("first extra cell").help(help));
-                return None;
+                return document
+                    .fail(Diagnostic::new(cell.clone(), message).label("first extra cell").help(help));
             }
         }
         let find = |words: [&str; 2]| {

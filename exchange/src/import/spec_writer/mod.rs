@@ -6,10 +6,10 @@ mod number;
 mod transform;
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use abbe_spec::as_identifier;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::TableText;
+use abbe_spec::edit::write::quoted;
 
 use self::number::{angle, number, quoted_if_expression, three};
 use self::transform::{origin, transform};
@@ -19,50 +19,40 @@ use crate::placement::Placement;
 /// Writes the spec of a chain; `file` is the name of the file that it comes from.
 pub(super) fn spec(chain: &Chain, file: &str) -> String {
     let Chain { robot, tip, frames, tool, masses, .. } = chain;
-    let mut text = format!(
-        "[manipulator]\nname = {}\ntitle = {}\ndescription = {}\nlength = {}\n",
-        quoted(&as_identifier(robot)),
-        quoted(robot),
-        quoted(&format!("{}, imported from {file}", chain.description)),
-        quoted(chain.length.symbol()),
-    );
+    let mut text = TableText::with_header("[manipulator]")
+        .text("name", &as_identifier(robot))
+        .text("title", robot)
+        .text("description", &format!("{}, imported from {file}", chain.description))
+        .text("length", chain.length.symbol());
     if !masses.is_empty() {
-        text += "gravity = [0, 0, \"-9.80665 m/s^2\"]         # where z of the base points up\n";
+        text = text.then("gravity = [0, 0, \"-9.80665 m/s^2\"]         # where z of the base points up\n");
     }
+    let link = |name: &String| quoted(&format!("Link {name}"));
     for (i, frame) in frames.iter().enumerate() {
-        text += "\n[[frame]]\n";
-        line(&mut text, "name", &quoted(&frame.joint));
-        if let Some(link) = &frame.link {
-            line(&mut text, "description", &quoted(&format!("Link {link}")));
-        }
+        text = text.then(TableText::with_header("\n[[frame]]").text("name", &frame.joint));
+        text = text.optional("description", frame.link.as_ref().map(link));
         let owned = frame.motion.filter(|motion| chain.owner(motion.variable) == i);
         if let Some(motion) = owned {
             let variable = &chain.variables[motion.variable];
             let endless = if variable.continuous { "       # turns without end" } else { "" };
-            line(&mut text, "variable", &(self::variable(variable, chain.degrees) + endless));
+            text = text.key("variable", self::variable(variable, chain.degrees) + endless);
         }
-        text += &transform(chain, frame, owned.is_some());
+        text = text.then(transform(chain, frame, owned.is_some()));
     }
     if *tool != Placement::default() {
-        let _ = write!(text, "\n[tool]\n");
-        if frames.iter().any(|frame| frame.link.is_some()) {
-            line(&mut text, "description", &quoted(&format!("Link {tip}")));
-        }
-        line(&mut text, "origin", &origin(tool));
+        let has_links = frames.iter().any(|frame| frame.link.is_some());
+        text = text
+            .then(TableText::with_header("\n[tool]"))
+            .optional("description", has_links.then(|| link(tip)));
+        text = text.key("origin", origin(tool));
     }
     for Mass { link, kilograms, frame, centre } in masses {
-        text += "\n[[load]]\n";
-        line(&mut text, "name", &quoted(link));
-        line(&mut text, "mass", &quoted(&format!("{} kg", number(*kilograms))));
-        line(&mut text, "frame", &quoted(&frames[*frame].joint));
-        line(&mut text, "point", &three(centre));
+        let load = TableText::with_header("\n[[load]]")
+            .text("name", link)
+            .text("mass", &format!("{} kg", number(*kilograms)));
+        text = text.then(load.text("frame", &frames[*frame].joint).key("point", three(centre)));
     }
-    text
-}
-
-/// Writes a line `key = value`.
-fn line(text: &mut String, key: &str, value: &str) {
-    let _ = writeln!(text, "{key} = {value}");
+    text.to_string()
 }
 
 /// Writes the inline table of a variable.

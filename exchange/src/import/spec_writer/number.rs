@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::write::quoted;
 
 /// Returns a bare number as it is, and an expression in quotes.
 pub(super) fn quoted_if_expression(text: &str) -> String {

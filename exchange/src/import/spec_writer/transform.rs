@@ -1,7 +1,7 @@
 //! Keys of a frame that say where it stands: `origin` and `axis`, `dh`, `mdh` or `transform`.
 
 use abbe_spec::DhConvention;
-use abbe_spec::literal::quoted;
+use abbe_spec::edit::write::quoted;
 
 use super::number::{angle, number, quoted_if_expression, three};
 use crate::import::chain::{Chain, Frame, Motion, Variable};

@@ -55,8 +55,7 @@ pub(super) fn chain(
             true => "choose a tip after a moving joint".to_owned(),
             false => format!("choose a tip after a moving joint, or leave out `{FOLD}`"),
         };
-        document.mistake(Diagnostic::new(tree.link(tip).span.clone(), message).help(help));
-        return None;
+        return document.refuse(tree.link(tip).span.clone(), message, help);
     }
     if robot.meshes > 0 {
         notes.note(&format!("{} mesh files are ignored: a spec has no shapes", robot.meshes));
@@ -102,11 +101,10 @@ fn only_tip(tree: &Tree<'_>, names: &[&str], document: &mut Document) -> Option<
         [tip] => Some(tip),
         ref several => {
             let several: Vec<&str> = several.iter().map(|&tip| names[tip]).collect();
-            document.mistake(Diagnostic::whole_file("this robot has more than one tip link").help(format!(
+            document.fail(Diagnostic::whole_file("this robot has more than one tip link").help(format!(
                 "choose the link of the tool point: `{TIP_LINK}`, one of {}",
                 listed(&several)
-            )));
-            None
+            )))
         }
     }
 }
@@ -145,11 +143,9 @@ impl<'r> Builder<'r> {
                 JointKind::Fixed => continue,
                 JointKind::Planar | JointKind::Floating => {
                     let message = format!("the joint `{}` moves in several directions", joint.name);
-                    document.mistake(Diagnostic::new(joint.span.clone(), message).help(format!(
-                        "write it as several joints, or begin the chain after it: \
-                                `{BASE_LINK}`"
-                    )));
-                    return None;
+                    let help =
+                        format!("write it as several joints, or begin the chain after it: `{BASE_LINK}`");
+                    return document.refuse(joint.span.clone(), message, help);
                 }
                 JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {}
             }
@@ -196,10 +192,7 @@ impl<'r> Builder<'r> {
             leader = &self.robot.joints[next];
         }
         let message = format!("`{}` mimics itself through other joints", joint.name);
-        document.mistake(
-            Diagnostic::new(joint.span.clone(), message).help("remove <mimic> from one of these joints"),
-        );
-        None
+        document.refuse(joint.span.clone(), message, "remove <mimic> from one of these joints")
     }
 
     /// Returns an identifier that no other variable has.

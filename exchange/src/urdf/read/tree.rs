@@ -52,9 +52,8 @@ impl<'r> Tree<'r> {
             }
         }
         if joints.is_empty() {
-            document.mistake(
-                Diagnostic::whole_file("this robot has no joints").help("give the file of the whole robot"),
-            );
+            let mistake = Diagnostic::whole_file("this robot has no joints");
+            document.mistake(mistake.help("give the file of the whole robot"));
         }
         if document.found.len() > before {
             return None;
@@ -78,7 +77,7 @@ impl<'r> Tree<'r> {
                 "neither `{}` nor `{}` is the child of a joint",
                 links[second].name, links[first].name
             );
-            document.mistake(
+            return document.fail(
                 Diagnostic::new(links[second].span.clone(), message)
                     .context(links[first].span.clone(), "first root link")
                     .label("second root link")
@@ -87,7 +86,6 @@ impl<'r> Tree<'r> {
                          remove one",
                     ),
             );
-            return None;
         }
         // With at most one root, a link that the root does not carry is part of a cycle.
         let mut above = vec![false; links.len()];
@@ -99,11 +97,8 @@ impl<'r> Tree<'r> {
         let lost = (0..links.len()).find(|&link| !above[link]);
         if let Some((j, _)) = lost.and_then(|link| self.carrier[link]) {
             let message = format!("the joint `{}` is part of a loop of joints", joints[j].name);
-            document.mistake(
-                Diagnostic::new(joints[j].span.clone(), message)
-                    .help("a URDF robot is a tree: every link descends from one root link"),
-            );
-            return None;
+            let help = "a URDF robot is a tree: every link descends from one root link";
+            return document.refuse(joints[j].span.clone(), message, help);
         }
         Some(())
     }
@@ -184,11 +179,9 @@ fn unique_indices<'a>(
     let mut first: HashMap<&str, (usize, &Span)> = HashMap::new();
     for (number, (name, span)) in named.enumerate() {
         if let Some((_, other)) = first.get(name.as_str()) {
-            document.mistake(
-                Diagnostic::new(span.clone(), format!("two {what} are named `{}`", name.escape_debug()))
-                    .context((*other).clone(), "first one")
-                    .help("give each its own name"),
-            );
+            let message = format!("two {what} are named `{}`", name.escape_debug());
+            let mistake = Diagnostic::new(span.clone(), message).context((*other).clone(), "first one");
+            document.mistake(mistake.help("give each its own name"));
         } else {
             first.insert(name, (number, span));
         }

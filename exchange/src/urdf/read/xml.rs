@@ -13,15 +13,11 @@ pub(super) fn robot(document: &mut Document) -> Option<Robot> {
     let text = document.text.clone();
     let xml = match roxmltree::Document::parse(&text) {
         Ok(xml) => xml,
-        Err(error) => {
-            document.mistake(not_xml(&text, &error));
-            return None;
-        }
+        Err(error) => return document.fail(not_xml(&text, &error)),
     };
     let root = xml.root_element();
     if let Some(mistake) = not_urdf(root) {
-        document.mistake(mistake);
-        return None;
+        return document.fail(mistake);
     }
     let mut reader = Reader { document };
     let children = |tag| root.children().filter(move |node| node.has_tag_name(tag));
@@ -108,7 +104,8 @@ impl Reader<'_> {
             && mass < 0.0
         {
             let message = format!("the mass of `{name}` is negative");
-            self.fault(start_of(node), message, "a mass must be 0 or positive");
+            let mistake = Diagnostic::new(start_of(node), message);
+            self.document.mistake(mistake.help("a mass must be 0 or positive"));
         }
         Some(Link { name, span: start_of(node), mass })
     }
@@ -122,11 +119,7 @@ impl Reader<'_> {
         let (name, kind) = (name?, kind?);
         let axis = self.axis(node, &name, kind);
         let limits = self.limits(node, &name, kind);
-        let mimic = child(node, "mimic").map(|mimic| self.mimic(mimic));
-        let mimic = match mimic {
-            Some(mimic) => Some(mimic?),
-            None => None,
-        };
+        let mimic = child(node, "mimic").map_or(Some(None), |mimic| self.mimic(mimic).map(Some))?;
         Some(Joint {
             span: start_of(node),
             kind,
@@ -142,21 +135,19 @@ impl Reader<'_> {
 
     fn kind(&mut self, node: Node<'_, '_>) -> Option<JointKind> {
         let attribute = self.attribute(node, "type")?;
-        let found = JointKind::ALL.iter().find(|(name, _)| *name == attribute.value().trim());
-        if found.is_none() {
+        let found = JointKind::ALL.into_iter().find(|(name, _)| *name == attribute.value().trim());
+        found.map(|(_, kind)| kind).or_else(|| {
             let names = JointKind::ALL.map(|(name, _)| name).join(", ");
             let message = format!("unknown joint type `{}`", attribute.value().escape_debug());
-            self.fault(attribute.range_value(), message, &format!("the types are {names}"));
-        }
-        found.map(|(_, kind)| *kind)
+            self.fault(attribute.range_value(), message, &format!("the types are {names}"))
+        })
     }
 
     /// Reads the link at one end of a joint: `parent` or `child`.
     fn end(&mut self, node: Node<'_, '_>, tag: &str) -> Option<Named> {
         let Some(end) = child(node, tag) else {
             let message = format!("this joint has no <{tag}>");
-            self.fault(start_of(node), message, &format!("name the link: <{tag} link=\"…\"/>"));
-            return None;
+            return self.fault(start_of(node), message, &format!("name the link: <{tag} link=\"…\"/>"));
         };
         let link = self.attribute(end, "link")?;
         Some(Named { name: link.value().to_owned(), span: link.range_value() })
@@ -177,8 +168,7 @@ impl Reader<'_> {
             return Some([1.0, 0.0, 0.0]);
         }
         let message = format!("the axis of `{name}` is zero");
-        self.fault(start_of(axis), message, "give its direction: <axis xyz=\"0 0 1\"/>");
-        None
+        self.fault(start_of(axis), message, "give its direction: <axis xyz=\"0 0 1\"/>")
     }
 
     /// Reads the limits of a joint; `Some(None)` for a kind or a joint without limits.
@@ -195,8 +185,7 @@ impl Reader<'_> {
         let (lower, upper) = (lower?, upper?);
         if lower > upper {
             let message = format!("the limits of `{name}` are reversed");
-            self.fault(start_of(limit), message, "`lower` must not be greater than `upper`");
-            return None;
+            return self.fault(start_of(limit), message, "`lower` must not be greater than `upper`");
         }
         Some((lower < upper).then_some([lower, upper]))
     }
@@ -226,20 +215,17 @@ impl Reader<'_> {
             Some(&[x, y, z]) => Some([x, y, z]),
             _ => {
                 let message = format!("`{key}` must be three finite numbers");
-                self.fault(attribute.range_value(), message, "separate them by blanks: `0 0 0.5`");
-                None
+                self.fault(attribute.range_value(), message, "separate them by blanks: `0 0 0.5`")
             }
         }
     }
 
     fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
         let attribute = self.attribute(node, key)?;
-        let number = finite(attribute.value().trim());
-        if number.is_none() {
+        finite(attribute.value().trim()).or_else(|| {
             let help = "write it with a decimal point: `0.5`";
-            self.fault(attribute.range_value(), format!("`{key}` must be a finite number"), help);
-        }
-        number
+            self.fault(attribute.range_value(), format!("`{key}` must be a finite number"), help)
+        })
     }
 
     fn name(&mut self, node: Node<'_, '_>) -> Option<String> {
@@ -247,23 +233,20 @@ impl Reader<'_> {
         let name = attribute.value();
         if name.trim().is_empty() || name.contains(alters_text) || name.len() > LONGEST {
             let help = format!("a name has at most {LONGEST} bytes, in one line");
-            self.fault(attribute.range_value(), "this is not a valid name".to_owned(), &help);
-            return None;
+            return self.fault(attribute.range_value(), "this is not a valid name".to_owned(), &help);
         }
         Some(name.to_owned())
     }
 
     fn attribute<'a, 'i>(&mut self, node: Node<'a, 'i>, key: &str) -> Option<Attribute<'a, 'i>> {
-        let found = node.attribute_node(key);
-        if found.is_none() {
+        node.attribute_node(key).or_else(|| {
             let message = format!("this <{}> has no `{key}`", node.tag_name().name());
-            self.fault(start_of(node), message, &format!("add {key}=\"…\""));
-        }
-        found
+            self.fault(start_of(node), message, &format!("add {key}=\"…\""))
+        })
     }
 
-    fn fault(&mut self, span: Span, message: String, help: &str) {
-        self.document.mistake(Diagnostic::new(span, message).help(help));
+    fn fault<T>(&mut self, span: Span, message: String, help: &str) -> Option<T> {
+        self.document.refuse(span, message, help)
     }
 }
 

@@ -3,11 +3,12 @@
 //! `vAP_p = max |ḡ_h − ḡ_k|` over the barycentres of a configuration approached from directions h
 //! and k; `vAP_a = max |ā_h − ā_k|`.
 
+use abbe::analysis::sampling::norm;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::super::errors::{Visit, norm};
+use super::super::errors::Visit;
 use super::mean_and_max::MeanAndMax;
 use super::visits::mean;
 

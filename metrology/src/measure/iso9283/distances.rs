@@ -4,9 +4,10 @@
 //! `D_c`, `AD = D̄ − D_c` and `RD = ±3 √(Σ (D_j − D̄)²/(n − 1))`; for orientations
 //! `D_a = a_1 − a_2`.
 
+use abbe::analysis::sampling::norm;
 use serde::Serialize;
 
-use super::super::errors::{Visit, norm};
+use super::super::errors::Visit;
 use super::mean_and_max::MeanAndMax;
 use super::visits::{Visits, deviation};
 

@@ -3,8 +3,9 @@
 //! `AP_p = |ē|` is the distance of the barycentre from the commanded point, `AP_a = ā − a_c`; with
 //! `l_j = |e_j − ē|`, `RP_l = l̄ + 3 S_l`, and `RP_a = ±3 S_a`.
 
-use super::super::errors::{Visit, norm};
+use super::super::errors::Visit;
 use super::visits::{deviation, mean};
+use abbe::analysis::sampling::norm;
 
 /// Characteristics of one configuration.
 pub(super) struct Characteristics {

@@ -4,11 +4,12 @@ use crate::option::IDENTIFY_OUT;
 use abbe_core::Component;
 
 use super::keys::{COVARIANCE, COVARIANCE_OF};
+use super::undetermined::numbers;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
+use crate::expr::{Dimension, Scope, Symbol};
 use crate::manipulator::{Cause, ChainNumber, Covariance, Identified, Source};
-use crate::value::find_name;
+use crate::value::read_name;
 
 /// Reads the table; the covariance is empty without one.
 pub(super) fn read_covariance(
@@ -18,25 +19,14 @@ pub(super) fn read_covariance(
     document: &mut Document,
 ) -> Option<Covariance> {
     let Some(item) = root.get("covariance") else { return Some(Covariance::default()) };
-    let mut section = document.section(&item)?;
-    section.name = "[covariance]".to_owned();
-    section.check_keys(&[&COVARIANCE], document);
+    let section = document.table(&item, "[covariance]", &[&COVARIANCE])?;
     let (of, rows) = (section.required("of", document), section.required("rows", document));
     let (of, rows_item) = (of?, rows?);
     let mut all = Vec::new();
     for item in document.array(&of, "an array of tables `{ source = \"…\" }`")? {
         all.push(identified(&item, sources, scope, document)?);
     }
-    let mut rows = Vec::new();
-    for row in document.array(&rows_item, "rows of numbers")? {
-        let mut numbers = Vec::new();
-        for number in document.array(&row, "numbers")? {
-            let entry =
-                Entry { dimension: Some(Dimension::NONE), what: "a covariance", names: Allowed::Nothing };
-            numbers.push(document.constant(&number, scope, entry)?.0);
-        }
-        rows.push(numbers);
-    }
+    let rows = numbers(&rows_item, Dimension::NONE, "a covariance", scope, document)?;
     let count = all.len();
     let square = rows.len() == count && rows.iter().all(|row| row.len() == count);
     let message = if !square {
@@ -49,8 +39,7 @@ pub(super) fn read_covariance(
         return Some(Covariance { of: all, rows });
     };
     let help = format!("`{IDENTIFY_OUT}` writes this table; remove it if the covariance is unknown");
-    document.mistake(Diagnostic::new(rows_item.span(), message).help(help));
-    None
+    document.refuse(rows_item.span(), message, help)
 }
 
 fn identified(
@@ -59,14 +48,9 @@ fn identified(
     scope: &Scope,
     document: &mut Document,
 ) -> Option<Identified> {
-    let mut section = document.section(item)?;
-    section.name = "this entry of [covariance]".to_owned();
-    section.span = item.span();
-    section.check_keys(&[&COVARIANCE_OF], document);
-    let names: Vec<&str> = sources.iter().map(|source| source.name.as_str()).collect();
+    let section = document.table(item, "this entry of [covariance]", &[&COVARIANCE_OF])?;
     let name = section.required("source", document)?;
-    let text = document.string(&name)?;
-    let source = find_name(document, name.span(), &text, &names, "source")?;
+    let source = read_name(document, &name, sources.iter().map(|source| source.name.as_str()), "source")?;
     if let Some(joint) = section.get("joint") {
         return of_joint(&section, &joint, &sources[source], scope, document);
     }
@@ -79,7 +63,7 @@ fn identified(
     };
     let effect = sources[source].effects.iter().find(|effect| effect.at.is_empty() && has(&effect.cause));
     if effect.is_none() {
-        let message = format!("`{text}` has no {} of a frame", component.name());
+        let message = format!("`{}` has no {} of a frame", sources[source].name, component.name());
         let help = "name an error of the source, or omit `error` to refer to the magnitude of the source";
         document.mistake(Diagnostic::new(error.span(), message).help(help));
     }
@@ -95,9 +79,8 @@ fn of_joint(
     document: &mut Document,
 ) -> Option<Identified> {
     if let Some(error) = section.get("error") {
-        let mistake = Diagnostic::new(error.key_span.clone(), "`error` and `joint` cannot be combined");
-        document.mistake(mistake.help("`error` names an error of a frame; remove one of them"));
-        return None;
+        let help = "`error` names an error of a frame; remove one of them";
+        return document.refuse(error.key_span.clone(), "`error` and `joint` cannot be combined", help);
     }
     let name = document.string(item)?;
     let joint = source.deviations.iter().find_map(|deviation| match deviation.number {

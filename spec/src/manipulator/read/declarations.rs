@@ -71,11 +71,9 @@ impl Declarations {
                 range = read;
                 if !(range[0]..=range[1]).contains(&value) {
                     let message = format!("the value of `{}` is outside its range", item.key);
-                    document.mistake(
-                        Diagnostic::new(entry.span(), message)
-                            .label(format!("the value is {value}"))
-                            .help("widen the range or change the value"),
-                    );
+                    let help = "widen the range or change the value";
+                    let mistake = Diagnostic::new(entry.span(), message);
+                    document.mistake(mistake.label(format!("the value is {value}")).help(help));
                 }
             }
             let uncertainty = match (value, &table) {
@@ -98,13 +96,9 @@ impl Declarations {
         let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
         let Some((value, _)) = document.constant(&item, &self.scope, entry) else { return 0.0 };
         if value <= 0.0 {
-            document.mistake(
-                Diagnostic::new(item.span(), "`uncertainty` must be positive")
-                    .label(format!("this is {value}"))
-                    .help(
-                        "write the standard uncertainty of the input, or leave it out if the value is exact",
-                    ),
-            );
+            let help = "write the standard uncertainty of the input, or leave it out if the value is exact";
+            let mistake = Diagnostic::new(item.span(), "`uncertainty` must be positive");
+            document.mistake(mistake.label(format!("this is {value}")).help(help));
         }
         value
     }
@@ -125,9 +119,7 @@ impl Declarations {
         item: &Item<'_>,
         document: &mut Document,
     ) -> Option<Symbol> {
-        let mut table = document.section(item)?;
-        table.name = "`variable`".to_owned();
-        table.check_keys(&[&keys::VARIABLE, &keys::FRAME_VARIABLE], document);
+        let table = document.table(item, "`variable`", &[&keys::VARIABLE, &keys::FRAME_VARIABLE])?;
         let name_item = table.required("name", document);
         let kind = table.required("kind", document).and_then(|kind| document.choice(&kind, &JOINT_KINDS));
         let dimension = kind.map(|kind| match kind {
@@ -162,14 +154,10 @@ impl Declarations {
             }
             if is_meant && !(limits[0]..=limits[1]).contains(&home) {
                 let span = home_item.map(|item| item.span()).or(entry.map(|entry| entry.span()));
-                document.mistake(
-                    Diagnostic::new(
-                        span.unwrap_or(item.key_span.clone()),
-                        format!("home of `{name}` is outside its limits"),
-                    )
-                    .label(format!("home is {home}, the limits are {} to {}", limits[0], limits[1]))
-                    .help("give a `home` within the limits; it is 0 if not given"),
-                );
+                let message = format!("home of `{name}` is outside its limits");
+                let label = format!("home is {home}, the limits are {} to {}", limits[0], limits[1]);
+                let mistake = Diagnostic::new(span.unwrap_or(item.key_span.clone()), message).label(label);
+                document.mistake(mistake.help("give a `home` within the limits; it is 0 if not given"));
             }
         }
         self.set_range(&name, limits);
@@ -229,12 +217,9 @@ impl Declarations {
         let [lower, upper] = ends.map(|end| document.constant(&end, &self.scope, entry));
         let (lower, upper) = (lower?.0, upper?.0);
         if lower > upper {
-            document.mistake(
-                Diagnostic::new(item.span(), format!("the ends of `{}` are reversed", item.key))
-                    .label(format!("{lower} is more than {upper}"))
-                    .help("write the lower end first"),
-            );
-            return None;
+            let help = "write the lower end first";
+            let mistake = Diagnostic::new(item.span(), format!("the ends of `{}` are reversed", item.key));
+            return document.fail(mistake.label(format!("{lower} is more than {upper}")).help(help));
         }
         Some([lower, upper])
     }
@@ -261,12 +246,10 @@ impl Declarations {
             return;
         }
         if let Some(first) = self.scope.names.get(name) {
-            document.mistake(
-                Diagnostic::new(span, format!("duplicate name `{name}`"))
-                    .label("second declaration")
-                    .context(first.span.clone(), "first declaration")
-                    .help("rename one; parameters, inputs and variables share one namespace"),
-            );
+            let message = format!("duplicate name `{name}`");
+            let help = "rename one; parameters, inputs and variables share one namespace";
+            let mistake = Diagnostic::new(span, message).label("second declaration");
+            document.mistake(mistake.context(first.span.clone(), "first declaration").help(help));
             return;
         }
         let range = [f64::NEG_INFINITY, f64::INFINITY];

@@ -56,12 +56,8 @@ pub(super) fn read_deviations(
                 "add `joint = …`; an elastic `frame` has a `compliance` or `beam`",
             ),
         };
-        document.mistake(
-            Diagnostic::new(item.key_span, format!("`{}` needs a {owners}", item.key))
-                .label(label)
-                .help(help),
-        );
-        return None;
+        let message = format!("`{}` needs a {owners}", item.key);
+        return document.fail(Diagnostic::new(item.key_span, message).label(label).help(help));
     };
     let allowed: &[&str] = match (place.key.as_str(), section.get("stiffness")) {
         ("dh", _) => &["dh", "frame"],
@@ -86,16 +82,9 @@ pub(super) fn read_deviations(
             ("moment", _) => "add the `stiffness` that the moment acts on".to_owned(),
             _ => "list them as [[source.effect]] tables of the source".to_owned(),
         };
-        document.mistake(
-            Diagnostic::new(
-                other.key_span,
-                format!("`{}` and `{}` cannot be combined", other.key, place.key),
-            )
-            .label("one too many")
-            .context(place.key_span.clone(), "the other one")
-            .help(help),
-        );
-        return None;
+        let message = format!("`{}` and `{}` cannot be combined", other.key, place.key);
+        let mistake = Diagnostic::new(other.key_span, message).label("one too many");
+        return document.fail(mistake.context(place.key_span.clone(), "the other one").help(help));
     }
     match place.key.as_str() {
         "dh" => read_numbers(section, place, chain, document),
@@ -166,16 +155,10 @@ fn find_symbol(
     if let Some(passive) =
         declared.filter(|declared| matches!(declared.symbol, Symbol::Passive(_)) && of_joint)
     {
-        document.mistake(
-            Diagnostic::new(
-                place.span(),
-                format!("the passive joint `{name}` has no error and no stiffness"),
-            )
-            .label("the loops determine its value")
-            .context(passive.span.clone(), "declared here")
-            .help("give the clearance of its bearing as errors e_x … e_p of its `frame`"),
-        );
-        return None;
+        let message = format!("the passive joint `{name}` has no error and no stiffness");
+        let help = "give the clearance of its bearing as errors e_x … e_p of its `frame`";
+        let mistake = Diagnostic::new(place.span(), message).label("the loops determine its value");
+        return document.fail(mistake.context(passive.span.clone(), "declared here").help(help));
     }
     if let Some(other) = declared.filter(|declared| !fits(declared.symbol)) {
         let (kind, help) = match other.symbol {
@@ -184,12 +167,8 @@ fn find_symbol(
             Symbol::Passive(_) => ("a passive joint", "give errors e_x … e_p of its `frame`".to_owned()),
             _ => ("an input", "an input can be used in `error`, but is not part of the chain".to_owned()),
         };
-        document.mistake(
-            Diagnostic::new(place.span(), format!("`{name}` is {kind}, not a {}", place.key))
-                .context(other.span.clone(), "declared here")
-                .help(help),
-        );
-        return None;
+        let mistake = Diagnostic::new(place.span(), format!("`{name}` is {kind}, not a {}", place.key));
+        return document.fail(mistake.context(other.span.clone(), "declared here").help(help));
     }
     let known = chain.scope.names.iter().filter(|(_, declared)| fits(declared.symbol));
     let known: Vec<&str> = known.map(|(name, _)| name.as_str()).collect();
@@ -197,21 +176,15 @@ fn find_symbol(
         && of_joint
         && let Some(joint) = frame.variable.and_then(|variable| known.get(variable))
     {
-        document.mistake(
-            Diagnostic::new(place.span(), format!("`{name}` is a frame, not a joint"))
-                .help(format!("its joint is called `{joint}`: write joint = \"{joint}\"")),
-        );
-        return None;
+        let help = format!("its joint is called `{joint}`: write joint = \"{joint}\"");
+        return document.refuse(place.span(), format!("`{name}` is a frame, not a joint"), help);
     }
     find_name(document, place.span(), &name, &known, &place.key)?;
     let declared = declared?;
     if !chain.uses(declared.symbol) {
-        document.mistake(
-            Diagnostic::new(place.span(), format!("`{name}` is not used in any transform"))
-                .label("its error has no effect")
-                .help("use the parameter in a frame or in the tool, or give the errors of a `frame` instead"),
-        );
-        return None;
+        let help = "use the parameter in a frame or in the tool, or give the errors of a `frame` instead";
+        let mistake = Diagnostic::new(place.span(), format!("`{name}` is not used in any transform"));
+        return document.fail(mistake.label("its error has no effect").help(help));
     }
     let number = match declared.symbol {
         Symbol::Variable(variable) => ChainNumber::Joint(variable),
@@ -228,13 +201,11 @@ fn read_numbers(
     chain: Chain<'_>,
     document: &mut Document,
 ) -> Option<Vec<Deviation>> {
-    let mut table = document.section(place)?;
-    table.name = "`dh`".to_owned();
-    table.check_keys(&[&keys::NUMBERS], document);
+    let table = document.table(place, "`dh`", &[&keys::NUMBERS])?;
     let named = section.required("frame", document)?;
     let frame = find_frame(&named, chain.tree.frames, document)?;
     if chain.tree.frames[frame].convention.is_none() && !chain.tree.frames[frame].factors.is_empty() {
-        document.mistake(
+        return document.fail(
             Diagnostic::new(
                 named.span(),
                 format!("the frame \"{}\" has no Denavit-Hartenberg numbers", chain.tree.frames[frame].name),
@@ -242,7 +213,6 @@ fn read_numbers(
             .label("not given by `dh` or `mdh`")
             .help("give its errors e_x, e_y, e_z, e_s, e_r, e_p, or those of a `joint` or `parameter`"),
         );
-        return None;
     }
     let mut deviations = Vec::new();
     let mut complete = true;
@@ -264,12 +234,8 @@ fn read_numbers(
         }
     }
     if table.items().next().is_none() {
-        document.mistake(
-            Diagnostic::new(place.span(), "`dh` is empty")
-                .label("no error here")
-                .help("give at least one of theta, d, a, alpha"),
-        );
-        return None;
+        let mistake = Diagnostic::new(place.span(), "`dh` is empty").label("no error here");
+        return document.fail(mistake.help("give at least one of theta, d, a, alpha"));
     }
     complete.then_some(deviations)
 }

@@ -19,34 +19,22 @@ pub(super) fn read_effect(
 ) -> Option<Effect> {
     let causes: Vec<Item<'_>> = section.items().filter(|item| keys::CAUSE.contain(&item.key)).collect();
     let Some(first) = causes.first() else {
-        document.mistake(
-            Diagnostic::new(section.span.clone(), format!("{} causes no error", section.name))
+        return document.fail(Diagnostic::new(section.span.clone(), format!("{} causes no error", section.name))
                 .label("no `e_…` here")
-                .help("give its `frame` and at least one of e_x, e_y, e_z, e_s, e_r, e_p, or a `beam` or `compliance`; or the `error` of a `joint` or `parameter`"),
-        );
-        return None;
+                .help("give its `frame` and at least one of e_x, e_y, e_z, e_s, e_r, e_p, or a `beam` or `compliance`; or the `error` of a `joint` or `parameter`"));
     };
     let elastic = |item: &&Item<'_>| !item.key.starts_with("e_");
     if let Some(one) = causes.iter().find(elastic)
         && causes.len() > 1
     {
         let other = if one.key == first.key { &causes[1] } else { first };
-        document.mistake(
-            Diagnostic::new(
-                other.key_span.clone(),
-                format!("`{}` and `{}` cannot be combined", other.key, one.key),
-            )
-            .label("one too many")
-            .context(one.key_span.clone(), "the other one")
-            .help("list them as [[source.effect]] tables of the source"),
-        );
-        return None;
+        let message = format!("`{}` and `{}` cannot be combined", other.key, one.key);
+        let help = "list them as [[source.effect]] tables of the source";
+        let mistake = Diagnostic::new(other.key_span.clone(), message).label("one too many");
+        return document.fail(mistake.context(one.key_span.clone(), "the other one").help(help));
     }
     let frame = section.required("frame", document).and_then(|item| find_frame(&item, frames, document));
-    let at = match section.get("at") {
-        Some(item) => read_place(&item, scope, document),
-        None => Some(Vec::new()),
-    };
+    let at = section.get("at").map_or(Some(Vec::new()), |item| read_place(&item, scope, document));
     let cause = match first.key.as_str() {
         "beam" => read_beam(first, scope, document).map(Cause::Beam),
         "compliance" => read_compliance(first, scope, document).map(|read| Cause::Compliance(Box::new(read))),
@@ -62,11 +50,8 @@ pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame], document: &mut Docum
     if found.is_none() {
         let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
         let help = suggestion(document.found.len(), &name, &names, "frames");
-        document.mistake(
-            Diagnostic::new(item.span(), format!("unknown frame `{}`", name.escape_debug()))
-                .label("not a frame of this spec")
-                .help(help),
-        );
+        let mistake = Diagnostic::new(item.span(), format!("unknown frame `{}`", name.escape_debug()));
+        document.mistake(mistake.label("not a frame of this spec").help(help));
     }
     found
 }

@@ -11,19 +11,13 @@ use crate::manipulator::{Beam, Compliance};
 
 /// Reads a `beam`; `positive` checks the signs of its quantities.
 pub(super) fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Beam> {
-    let mut table = document.section(item)?;
-    table.name = "`beam`".to_owned();
-    table.check_keys(&[&keys::BEAM], document);
-    let axis = match table.get("axis") {
-        Some(item) => document.choice(&item, &BEAM_AXES)?,
-        None => 0,
-    };
+    let table = document.table(item, "`beam`", &[&keys::BEAM])?;
+    let axis = table.get("axis").map_or(Some(0), |item| document.choice(&item, &BEAM_AXES))?;
     let bending = Beam::bending_keys(axis);
     if let Some(item) =
         table.items().find(|item| item.key.starts_with("EI_") && !bending.contains(&&*item.key))
     {
-        document.mistake(not_about_itself(axis, &item));
-        return None;
+        return document.fail(not_about_itself(axis, &item));
     }
     let mut quantity = |key: &str, dimension: Dimension, required: bool| -> Option<Option<Expression>> {
         let item = if required { Some(table.required(key, document)?) } else { table.get(key) };
@@ -71,9 +65,7 @@ fn not_about_itself(axis: usize, item: &Item<'_>) -> Diagnostic {
 
 /// Reads a `compliance`: six numbers on the diagonal, or all 36.
 pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Compliance> {
-    let mut table = document.section(item)?;
-    table.name = "`compliance`".to_owned();
-    table.check_keys(&[&keys::COMPLIANCE], document);
+    let table = document.table(item, "`compliance`", &[&keys::COMPLIANCE])?;
     let entry = |row: usize, column: usize, item: &Item<'_>, document: &mut Document| {
         let what = format!("the compliance of {} per {}", Component::ALL[row].name(), WRENCH[column]);
         let entry =
@@ -99,12 +91,9 @@ pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Doc
             check_symmetric(&compliance, document)?;
         }
         _ => {
-            document.mistake(
-                Diagnostic::new(item.key_span.clone(), "expected either `diagonal` or `matrix`")
+            return document.fail(Diagnostic::new(item.key_span.clone(), "expected either `diagonal` or `matrix`")
                     .label("exactly one of them is required")
-                    .help("write { diagonal = [six] } or { matrix = [[six], …] }, in the order of e_x e_y e_z e_s e_r e_p"),
-            );
-            return None;
+                    .help("write { diagonal = [six] } or { matrix = [[six], …] }, in the order of e_x e_y e_z e_s e_r e_p"));
         }
     }
     Some(compliance)
@@ -128,13 +117,10 @@ fn check_symmetric(compliance: &Compliance, document: &mut Document) -> Option<(
             let (Some(below), Some(above)) = (entry, &compliance[j][i]) else { continue };
             let (Some(a), Some(b)) = (below.constant(), above.constant()) else { continue };
             if (a - b).abs() > 1e-9 * a.abs().max(b.abs()) {
-                document.mistake(
-                    Diagnostic::new(below.span(), "a compliance matrix must be symmetric")
-                        .label(format!("this is {a}"))
-                        .context(above.span(), format!("this is {b}"))
-                        .help("displacement k per unit of load l equals displacement l per unit of load k"),
-                );
-                return None;
+                let message = "a compliance matrix must be symmetric";
+                let help = "displacement k per unit of load l equals displacement l per unit of load k";
+                let mistake = Diagnostic::new(below.span(), message).label(format!("this is {a}"));
+                return document.fail(mistake.context(above.span(), format!("this is {b}")).help(help));
             }
         }
     }

@@ -43,41 +43,30 @@ fn read_form(
     let axis = section.get("axis");
     if let [first, second, ..] = &forms[..] {
         let message = format!("{} has both `{}` and `{}`", section.name, first.key, second.key);
-        document.mistake(
-            Diagnostic::new(second.key_span.clone(), message)
-                .label("one too many")
-                .context(first.key_span.clone(), "the first one")
-                .help("keep one of them"),
-        );
-        return None;
+        let help = "keep one of them";
+        let mistake = Diagnostic::new(second.key_span.clone(), message).label("one too many");
+        return document.fail(mistake.context(first.key_span.clone(), "the first one").help(help));
     }
     if let (Some(axis), Some(form)) = (&axis, forms.first().filter(|form| form.key != "origin")) {
         let message = format!("`axis` belongs to `origin`, not to `{}`", form.key);
-        document.mistake(Diagnostic::new(axis.key_span.clone(), message).help("leave `axis` out"));
-        return None;
+        return document.refuse(axis.key_span.clone(), message, "leave `axis` out");
     }
     let Some(form) = forms.first() else {
         if axis.is_some() {
             return about_axis(axis.as_ref(), section, own, scope, document);
         }
-        document.mistake(
-            Diagnostic::new(section.span.clone(), format!("{} has no transform", section.name))
-                .label("no transform from the previous frame")
-                .help("give one of `transform`, `matrix`, `dh`, `mdh`, `origin`"),
-        );
-        return None;
+        let help = "give one of `transform`, `matrix`, `dh`, `mdh`, `origin`";
+        let mistake = Diagnostic::new(section.span.clone(), format!("{} has no transform", section.name));
+        return document.fail(mistake.label("no transform from the previous frame").help(help));
     };
     match form.key.as_str() {
         "transform" => {
             let (text, place) = document.text(form)?;
             let factors = parse_transform(text, &place, scope, &mut document.found)?;
             if factors.is_empty() {
-                document.mistake(
-                    Diagnostic::new(form.span(), "this transform is empty")
-                        .label("expected a product of Tx, Ty, Tz, Rx, Ry, Rz")
-                        .help("write `Tx(0)` for the identity"),
-                );
-                return None;
+                let label = "expected a product of Tx, Ty, Tz, Rx, Ry, Rz";
+                let mistake = Diagnostic::new(form.span(), "this transform is empty");
+                return document.fail(mistake.label(label).help("write `Tx(0)` for the identity"));
             }
             Some(factors.into_iter().map(Factor::Elementary).collect())
         }
@@ -137,12 +126,9 @@ fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Optio
     for (j, entry) in read.split_off(12).iter().enumerate() {
         let expected = if j == 3 { 1.0 } else { 0.0 };
         if entry.constant() != Some(expected) {
-            document.mistake(
-                Diagnostic::new(entry.span(), "the last row of a rigid motion is 0 0 0 1")
-                    .label(format!("expected {expected}"))
-                    .help("the upper left 3×3 block is the rotation, the last column is the position"),
-            );
-            return None;
+            let help = "the upper left 3×3 block is the rotation, the last column is the position";
+            let mistake = Diagnostic::new(entry.span(), "the last row of a rigid motion is 0 0 0 1");
+            return document.fail(mistake.label(format!("expected {expected}")).help(help));
         }
     }
     let mut rows = read.chunks_exact(4).map(|row| row.to_vec().try_into().ok());
@@ -156,9 +142,7 @@ fn denavit_hartenberg(
     document: &mut Document,
     convention: DhConvention,
 ) -> Option<Vec<Factor>> {
-    let mut section = document.section(item)?;
-    section.name = format!("`{}`", item.key);
-    section.check_keys(&[&keys::DENAVIT_HARTENBERG], document);
+    let section = document.table(item, format!("`{}`", item.key), &[&keys::DENAVIT_HARTENBERG])?;
     let factors = convention.order().map(|number| {
         let (key, (motion, axis)) = (number.name(), number.motion());
         let what = format!("`{key}`");
@@ -173,9 +157,7 @@ fn denavit_hartenberg(
 
 /// Reads a URDF origin: `T(xyz) Rz(y) Ry(p) Rx(r)`.
 fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
-    let mut section = document.section(item)?;
-    section.name = "`origin`".to_owned();
-    section.check_keys(&[&keys::ORIGIN], document);
+    let section = document.table(item, "`origin`", &[&keys::ORIGIN])?;
     let mut three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
         let Some(item) = section.get(key) else {
             return Some(Vec::new());
@@ -206,15 +188,10 @@ fn about_axis(
 ) -> Option<Vec<Factor>> {
     let Some((variable, kind)) = own else {
         if let Some(item) = item {
-            document.mistake(
-                Diagnostic::new(
-                    item.key_span.clone(),
-                    format!("{} has an axis but no variable", section.name),
-                )
-                .label("no variable to move along or about it")
-                .help("add `variable = { … }`, or leave `axis` out"),
-            );
-            return None;
+            let message = format!("{} has an axis but no variable", section.name);
+            let help = "add `variable = { … }`, or leave `axis` out";
+            let mistake = Diagnostic::new(item.key_span.clone(), message);
+            return document.fail(mistake.label("no variable to move along or about it").help(help));
         }
         return Some(Vec::new());
     };
@@ -239,12 +216,8 @@ fn about_axis(
             } else {
                 "an axis is a unit vector such as [0, 0, 1]".to_owned()
             };
-            document.mistake(
-                Diagnostic::new(item.span(), "`axis` must be a unit vector")
-                    .label(format!("its length is {length}"))
-                    .help(help),
-            );
-            return None;
+            let mistake = Diagnostic::new(item.span(), "`axis` must be a unit vector");
+            return document.fail(mistake.label(format!("its length is {length}")).help(help));
         }
     }
     let span = item.map_or(section.span.clone(), Item::span);

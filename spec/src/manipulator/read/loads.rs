@@ -19,7 +19,6 @@ pub(super) fn read_loads(
     let mut loads = Vec::new();
     for item in items.unwrap_or_default() {
         if let Some(mut section) = document.section(&item) {
-            section.span = item.span();
             section.name = "this [[load]]".to_owned();
             section.check_keys(&[&keys::LOAD], document);
             for text in ["name", "description", "reference"] {
@@ -42,11 +41,9 @@ fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope, document: &mu
     }
     let [mass, force, moment] = acts;
     if let (None, None, Some(axes)) = (&force, &moment, section.get("axes")) {
-        document.mistake(
-            Diagnostic::new(axes.key_span, "`axes` without `force` or `moment`")
-                .label("the axes of `force` and `moment`")
-                .help("remove `axes`: the weight of a mass acts along `gravity`"),
-        );
+        let help = "remove `axes`: the weight of a mass acts along `gravity`";
+        let mistake = Diagnostic::new(axes.key_span, "`axes` without `force` or `moment`");
+        document.mistake(mistake.label("the axes of `force` and `moment`").help(help));
     }
     let mass = optional(mass, |item| {
         let entry = Entry {
@@ -62,10 +59,7 @@ fn read_load(section: &Section<'_>, tree: Tree<'_>, scope: &Scope, document: &mu
     let moment = optional(moment, |item| {
         vector(item, Dimension::MOMENT, "a component of a load's moment", scope, document)
     });
-    let axes = match section.get("axes") {
-        Some(item) => document.choice(&item, &LOAD_AXES),
-        None => Some(Axes::Frame),
-    };
+    let axes = section.get("axes").map_or(Some(Axes::Frame), |item| document.choice(&item, &LOAD_AXES));
     let frame = section.required("frame", document).and_then(|item| find_frame(&item, tree.frames, document));
     let point = match section.get("point") {
         Some(item) if item.is_text() => read_tool_point(&item, frame, tree, document),
@@ -100,12 +94,9 @@ fn read_tool_point(
         && frame.is_some_and(|frame| frame != tree.tool_frame)
     {
         let name = &carrier.name;
-        document.mistake(
-            Diagnostic::new(item.span(), "the tool point is not fixed to this frame")
-                .label(format!("it is fixed to \"{name}\""))
-                .help(format!("write frame = \"{name}\", or the three coordinates of the point")),
-        );
-        return None;
+        let help = format!("write frame = \"{name}\", or the three coordinates of the point");
+        let mistake = Diagnostic::new(item.span(), "the tool point is not fixed to this frame");
+        return document.fail(mistake.label(format!("it is fixed to \"{name}\"")).help(help));
     }
     Some(Point::Tool)
 }
@@ -174,16 +165,12 @@ pub(super) fn check_loaded(
         return;
     }
     if let Some(item) = root.get("load").filter(|_| loads.iter().any(|load| load.mass.is_some())) {
-        document.mistake(
-            Diagnostic::new(item.key_span, "masses have no weight without `gravity`")
-                .label("a load with a mass")
-                .help("add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0"),
-        );
+        let help = "add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0";
+        let mistake = Diagnostic::new(item.key_span, "masses have no weight without `gravity`");
+        document.mistake(mistake.label("a load with a mass").help(help));
     } else if let Some(mass) = effects().find_map(weight) {
-        document.mistake(
-            Diagnostic::new(mass.span(), "`mass_per_length` has no effect without `gravity`")
-                .label("it weighs nothing")
-                .help("add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0"),
-        );
+        let message = "`mass_per_length` has no effect without `gravity`";
+        let help = "add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0";
+        document.mistake(Diagnostic::new(mass.span(), message).label("it weighs nothing").help(help));
     }
 }

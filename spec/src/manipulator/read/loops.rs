@@ -8,7 +8,7 @@ use super::samples::depends;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Symbol};
-use crate::manipulator::names::title_of;
+use crate::manipulator::names::read_title;
 use crate::manipulator::{Closure, Loop};
 
 /// Maximum number of loops. The code that closes them grows with the cube of their equations.
@@ -40,24 +40,13 @@ pub(super) fn read_loops<'d>(
     }
     for (index, item) in items.iter().enumerate() {
         let Some(mut section) = document.section(item) else { continue };
-        section.span = item.span();
         section.name = format!("loop {}", index + 1);
-        let name_item = section.required("name", document);
-        let name = name_item.as_ref().and_then(|item| title_of(item, document)).unwrap_or_default();
-        if let Some(item) = &name_item {
-            section.name = format!("the loop \"{name}\"");
-            section.span = item.span();
-        }
-        if !name.is_empty()
-            && let Some(first) = loops.iter().find(|other| other.name == name)
-        {
-            document.mistake(
-                Diagnostic::new(section.span.clone(), format!("duplicate loop name \"{name}\""))
-                    .label("second use")
-                    .context(first.section.span.clone(), "first use")
-                    .help("rename one"),
-            );
-        }
+        let first = |name: &str| {
+            let known = loops.iter().find(|other| other.name == name);
+            known.map(|other| other.section.span.clone())
+        };
+        let help = "rename one";
+        let name = read_title(&mut section, "loop", first, help, document).unwrap_or_default();
         section.check_keys(&[&keys::LOOP], document);
         let frames = section.required("frames", document).and_then(|item| {
             let pair: [Item<'_>; 2] = document.entries(&item, "two names of frames")?;
@@ -83,22 +72,17 @@ fn same_frame(
     if frames[0] != frames[1] {
         return Some(frames);
     }
-    document.mistake(
-        Diagnostic::new(item.span(), "a loop closes between two frames")
-            .label("the same frame twice")
-            .help("name the last frames of the two branches that meet"),
-    );
-    None
+    let help = "name the last frames of the two branches that meet";
+    let mistake = Diagnostic::new(item.span(), "a loop closes between two frames");
+    document.fail(mistake.label("the same frame twice").help(help))
 }
 
 /// Records `passive` in the variable of a leg: the loop itself determines a length without a drive.
 fn check_driven(variable: &Item<'_>, document: &mut Document) {
     let Some(passive) = variable.key_of_table("passive") else { return };
-    document.mistake(
-        Diagnostic::new(passive.key_span, "the variable of a leg cannot be `passive`")
-            .label("a length without a drive closes nothing")
-            .help("remove `passive` if the leg has a drive, or remove this [[loop]] if it has none"),
-    );
+    let help = "remove `passive` if the leg has a drive, or remove this [[loop]] if it has none";
+    let mistake = Diagnostic::new(passive.key_span, "the variable of a leg cannot be `passive`");
+    document.mistake(mistake.label("a length without a drive closes nothing").help(help));
 }
 
 impl RawLoop<'_> {
@@ -131,12 +115,10 @@ impl RawLoop<'_> {
             && !depends(&length, own, declarations)
         {
             let name = &variable.name;
-            document.mistake(
-                Diagnostic::new(item.span(), format!("`{name}` does not change the length of its leg"))
-                    .label("this does not depend on it")
-                    .help(format!("write `l0 + {name}`, or declare `{name}` in the frame that it moves")),
-            );
-            return None;
+            let message = format!("`{name}` does not change the length of its leg");
+            let help = format!("write `l0 + {name}`, or declare `{name}` in the frame that it moves");
+            let mistake = Diagnostic::new(item.span(), message);
+            return document.fail(mistake.label("this does not depend on it").help(help));
         }
         Some(length)
     }
@@ -148,13 +130,9 @@ impl RawLoop<'_> {
             (Some(length), _) => (length, "remove it, or write closes = \"distance\""),
             (None, Some(variable)) => (variable, "declare the variable in the [[frame]] that it moves"),
         };
-        document.mistake(
-            Diagnostic::new(item.key_span, format!("`{}` belongs to `closes = \"distance\"`", item.key))
-                .label("only a leg has one")
-                .context(closes.key_span.clone(), "this closes at coordinates")
-                .help(help),
-        );
-        None
+        let message = format!("`{}` belongs to `closes = \"distance\"`", item.key);
+        let mistake = Diagnostic::new(item.key_span, message).label("only a leg has one");
+        document.fail(mistake.context(closes.key_span.clone(), "this closes at coordinates").help(help))
     }
 }
 
@@ -166,22 +144,15 @@ fn read_coordinates(item: &Item<'_>, document: &mut Document) -> Option<Vec<usiz
     for entry in &entries {
         let coordinate = document.choice(entry, &names)?;
         if coordinates.contains(&coordinate) {
-            document.mistake(
-                Diagnostic::new(entry.span(), "this coordinate is listed twice")
-                    .label("second use")
-                    .help("remove one of them"),
-            );
-            return None;
+            let mistake = Diagnostic::new(entry.span(), "this coordinate is listed twice");
+            return document.fail(mistake.label("second use").help("remove one of them"));
         }
         coordinates.push(coordinate);
     }
     if coordinates.is_empty() {
-        document.mistake(
-            Diagnostic::new(item.span(), "`closes` is empty").label("nothing closes here").help(
-                "list coordinates such as [\"x\", \"y\"], or write \"point\", \"pose\" or \"distance\"",
-            ),
-        );
-        return None;
+        let help = "list coordinates such as [\"x\", \"y\"], or write \"point\", \"pose\" or \"distance\"";
+        let mistake = Diagnostic::new(item.span(), "`closes` is empty");
+        return document.fail(mistake.label("nothing closes here").help(help));
     }
     coordinates.sort_unstable();
     Some(coordinates)

@@ -23,7 +23,7 @@ pub(super) fn read_parent(
         return Some(parent);
     }
     let (name, declared) = &frames[parent];
-    document.mistake(if parent == own {
+    document.fail(if parent == own {
         Diagnostic::new(item.span(), format!("the frame \"{name}\" cannot hang on itself"))
             .label("its own name")
             .help("name an earlier frame, or \"base\" for F_0")
@@ -32,8 +32,7 @@ pub(super) fn read_parent(
             .label("a frame hangs on an earlier one")
             .context(declared.clone(), "declared here")
             .help(format!("move the [[frame]] \"{name}\" before this one; close loops by a [[loop]]"))
-    });
-    None
+    })
 }
 
 /// Returns the index of the frame with the name that an item holds; `Some(None)` for the base.
@@ -45,15 +44,12 @@ pub(super) fn frame_or_base(
     let name = document.string(item)?;
     let found = frames.iter().position(|(frame, _)| *frame == name);
     match found {
-        Some(frame) if name == BASE => {
-            document.mistake(
-                Diagnostic::new(item.span(), "\"base\" is F_0, and also the name of a frame")
-                    .label("either of them")
-                    .context(frames[frame].1.clone(), "the frame")
-                    .help("rename the frame"),
-            );
-            None
-        }
+        Some(frame) if name == BASE => document.fail(
+            Diagnostic::new(item.span(), "\"base\" is F_0, and also the name of a frame")
+                .label("either of them")
+                .context(frames[frame].1.clone(), "the frame")
+                .help("rename the frame"),
+        ),
         Some(_) => Some(found),
         None if name == BASE => Some(None),
         None => {

@@ -89,8 +89,7 @@ impl Columns {
                 [only] if only.contains([';', '\t']) => FORM.to_owned(),
                 _ => suggestion(document.found.len(), &name, &known, "columns"),
             };
-            document.mistake(Diagnostic::new(item.span(), message).help(help));
-            return None;
+            return document.refuse(item.span(), message, help);
         };
         let mut numbers = Vec::with_capacity(self.rows.len());
         for (line, row) in &self.rows {
@@ -101,15 +100,14 @@ impl Columns {
                     let message =
                         format!("line {line} of `{}`: `{name}` is too large to compute with", self.file);
                     let mistake = Diagnostic::new(item.span(), message).label(format!("found `{number:e}`"));
-                    document.mistake(mistake.help("the maximum is 1e150; remove rows without a measurement"));
-                    return None;
+                    return document
+                        .fail(mistake.help("the maximum is 1e150; remove rows without a measurement"));
                 }
                 _ => {
                     let message = format!("line {line} of `{}`: `{name}` is not a number", self.file);
                     let label = format!("found `{}`", cell.escape_debug());
                     let mistake = Diagnostic::new(item.span(), message).label(label);
-                    document.mistake(mistake.help("remove rows without a measurement"));
-                    return None;
+                    return document.fail(mistake.help("remove rows without a measurement"));
                 }
             }
         }
@@ -147,16 +145,14 @@ impl Points<'_> {
         let Self { x, y, .. } = &self;
         if x.len() != y.len() {
             let message = format!("`x` has {} numbers, but `y` has {}", x.len(), y.len());
-            let mistake = Diagnostic::new(table.key_span.clone(), message);
-            document.mistake(mistake.help("every point needs an x and a y"));
-            return None;
+            return document.refuse(table.key_span.clone(), message, "every point needs an x and a y");
         }
         if x.len() < 2 {
             let message =
                 format!("`{}` has {}", table.key, if x.is_empty() { "no points" } else { "one point" });
             let mistake = Diagnostic::new(table.key_span.clone(), message);
-            document.mistake(mistake.label("at least two are needed").help("use a parameter for a constant"));
-            return None;
+            return document
+                .fail(mistake.label("at least two are needed").help("use a parameter for a constant"));
         }
         let falls = x[1] < x[0];
         let sign = if falls { -1.0 } else { 1.0 };
@@ -170,10 +166,9 @@ impl Points<'_> {
             if self.columns.is_none() {
                 mistake = mistake.context(first.0, format!("and {} here", x[before]));
             }
-            document.mistake(
+            return document.fail(
                 mistake.help("x must increase or decrease from row to row; average repeated measurements"),
             );
-            return None;
         }
         let mut points: Vec<[f64; 2]> = x.iter().zip(y).map(|(x, y)| [*x, *y]).collect();
         if falls {

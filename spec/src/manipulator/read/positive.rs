@@ -35,11 +35,9 @@ pub(super) fn check_signs(
         if let DeviationCause::Stiffness(stiffness) = &deviation.cause
             && let Some((_, label)) = check.least(stiffness).filter(|(least, _)| *least <= 0.0)
         {
-            document.mistake(
-                Diagnostic::new(stiffness.span(), "`stiffness` of a joint must be positive")
-                    .label(label)
-                    .help("a stiff joint has a large stiffness; leave the source out if the joint is rigid"),
-            );
+            let help = "a stiff joint has a large stiffness; leave the source out if the joint is rigid";
+            let mistake = Diagnostic::new(stiffness.span(), "`stiffness` of a joint must be positive");
+            document.mistake(mistake.label(label).help(help));
         }
     }
     for mass in loads.iter().filter_map(|load| load.mass.as_ref()) {

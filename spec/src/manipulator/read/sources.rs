@@ -11,7 +11,7 @@ use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression};
 use crate::keys::Keys;
-use crate::manipulator::names::title_of;
+use crate::manipulator::names::read_title;
 use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source, Uncertain};
 
 /// Keys of a source: its own, and those of its effects.
@@ -34,26 +34,18 @@ pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut 
         let Some(mut section) = document.section(&item) else {
             continue;
         };
-        section.span = item.span();
         section.name = "this [[source]]".to_owned();
-        let name = section.required("name", document);
-        if let Some(name_item) = name
-            && let Some(name) = title_of(&name_item, document)
-        {
-            section.name = format!("the source \"{name}\"");
-            section.span = name_item.span();
-            if let Some((_, first)) = spans.iter().find(|(known, _)| *known == name) {
-                document.mistake(
-                    Diagnostic::new(name_item.span(), format!("duplicate source name \"{name}\""))
-                        .label("second use")
-                        .context(first.clone(), "first use")
-                        .help("rename one, or give one source several [[source.effect]] tables"),
-                );
+        let first = |name: &str| {
+            let known = spans.iter().find(|(known, _)| known == name);
+            known.map(|(_, span)| span.clone())
+        };
+        let help = "rename one, or give one source several [[source.effect]] tables";
+        match read_title(&mut section, "source", first, help, document) {
+            Some(name) => {
+                spans.push((name.clone(), section.span.clone()));
+                sources.extend(read_source(&section, name, chain, document));
             }
-            spans.push((name.clone(), name_item.span()));
-            sources.extend(read_source(&section, name, chain, document));
-        } else {
-            section.check_keys(&KNOWN, document);
+            None => section.check_keys(&KNOWN, document),
         }
     }
     sources
@@ -72,11 +64,8 @@ pub(super) fn input_uncertainties(
         if sources.iter().any(|source| source.name == name) {
             let span = declarations.scope.names.get(&input.name).map_or(0..0, |name| name.span.clone());
             let message = format!("`uncertainty` of `{}` is a source named \"{name}\"", input.name);
-            document.mistake(
-                Diagnostic::new(span, message)
-                    .label("there is a source with this name")
-                    .help("rename that source; remove it if it is the same uncertainty"),
-            );
+            let mistake = Diagnostic::new(span, message).label("there is a source with this name");
+            document.mistake(mistake.help("rename that source; remove it if it is the same uncertainty"));
         }
         let description = format!("Standard uncertainty of the input `{}`", input.name);
         let propagated = vec![(Uncertain::Input(i), input.uncertainty)];
@@ -95,14 +84,10 @@ fn read_source(
     let class = section.required("class", document);
     let class = class.and_then(|class| read_class(&class, section, document));
     let degrees_of_freedom = read_degrees_of_freedom(section, class, chain, document)?;
-    let enabled = match section.get("enabled") {
-        Some(item) => document.boolean(&item),
-        None => Some(true),
-    };
-    let magnitude = match section.get("magnitude") {
-        Some(item) => Some(read_magnitude(&item, class, chain, document)?),
-        None => None,
-    };
+    let enabled = section.get("enabled").map_or(Some(true), |item| document.boolean(&item));
+    let magnitude = section
+        .get("magnitude")
+        .map_or(Some(None), |item| read_magnitude(&item, class, chain, document).map(Some))?;
     let mut acts = Acts::default();
     let tables = section.get("effect").and_then(|item| document.array_of_tables(&item, "source.effect"));
     if tables.is_none() || section.items().any(|item| KNOWN[1..].iter().any(|keys| keys.contain(&item.key))) {
@@ -110,7 +95,6 @@ fn read_source(
     }
     for item in tables.unwrap_or_default() {
         if let Some(mut table) = document.section(&item) {
-            table.span = item.span();
             table.name = format!("an effect of {}", section.name);
             table.check_keys(&KNOWN[1..], document);
             acts.read(&table, chain, document);
@@ -123,20 +107,9 @@ fn read_source(
     if let Class::Random(distribution) = class {
         check_half_width(distribution, &effects, &deviations, document);
     }
-    Some(Source {
-        name,
-        class,
-        degrees_of_freedom,
-        enabled,
-        description,
-        reference,
-        magnitude,
-        scale: 1.0,
-        tuned_by: None,
-        effects,
-        deviations,
-        propagated: Vec::new(),
-    })
+    let source =
+        Source { class, degrees_of_freedom, enabled, description, reference, ..Source::repeatable(name) };
+    Some(Source { magnitude, effects, deviations, ..source })
 }
 
 /// Checks that a half-width or standard deviation is not negative. The effects of a random source
@@ -162,11 +135,9 @@ fn check_half_width(
         Distribution::Normal => "a standard deviation cannot be negative",
         _ => "a half-width cannot be negative",
     };
-    document.mistake(
-        Diagnostic::new(first.span(), message)
-            .label(format!("this is {}", first.constant().unwrap_or_default()))
-            .help("random errors have both signs: remove the minus sign"),
-    );
+    let help = "random errors have both signs: remove the minus sign";
+    let mistake = Diagnostic::new(first.span(), message);
+    document.mistake(mistake.label(format!("this is {}", first.constant().unwrap_or_default())).help(help));
 }
 
 /// Effects and deviations of a source.
@@ -207,8 +178,7 @@ fn read_degrees_of_freedom(
              measurements: write distribution = \"normal\", or leave them out",
         ),
     };
-    document.mistake(Diagnostic::new(item.key_span, message).help(help));
-    None
+    document.refuse(item.key_span, message, help)
 }
 
 /// Reads a positive number of degrees of freedom.
@@ -219,12 +189,7 @@ fn positive(item: &Item<'_>, chain: Chain<'_>, document: &mut Document) -> Optio
     if number > 0.0 {
         return Some(number);
     }
-    document.mistake(
-        Diagnostic::new(item.span(), "`degrees_of_freedom` must be positive").help(
-            "a standard deviation of n measurements has n - 1; leave it out if the standard deviation is known exactly",
-        ),
-    );
-    None
+    document.refuse(item.span(), "`degrees_of_freedom` must be positive", "a standard deviation of n measurements has n - 1; leave it out if the standard deviation is known exactly")
 }
 
 /// Reads `magnitude = { value, standard_deviation, degrees_of_freedom }`: pure numbers.
@@ -235,33 +200,22 @@ fn read_magnitude(
     document: &mut Document,
 ) -> Option<Magnitude> {
     if let Some(Class::Random(_)) = class {
-        document.mistake(
-            Diagnostic::new(item.key_span.clone(), "a random error has no `magnitude`")
-                .help("remove `magnitude`: the distribution gives the size of a random error"),
-        );
-        return None;
+        let help = "remove `magnitude`: the distribution gives the size of a random error";
+        return document.refuse(item.key_span.clone(), "a random error has no `magnitude`", help);
     }
-    let mut table = document.section(item)?;
-    table.name = "`magnitude`".to_owned();
-    table.check_keys(&[&keys::MAGNITUDE], document);
+    let table = document.table(item, "`magnitude`", &[&keys::MAGNITUDE])?;
     let number = |item: &Item<'_>, document: &mut Document| {
         let what = format!("`{}` of a magnitude", item.key);
         let entry = Entry { dimension: Some(Dimension::NONE), what: &what, names: Allowed::Nothing };
         document.constant(item, chain.scope, entry).map(|read| read.0)
     };
-    let value = match table.get("value") {
-        Some(item) => number(&item, document)?,
-        None => 1.0,
-    };
+    let value = table.get("value").map_or(Some(1.0), |item| number(&item, document))?;
     let standard_deviation = match table.get("standard_deviation") {
         Some(item) => {
             let read = number(&item, document)?;
             if read <= 0.0 {
-                document.mistake(
-                    Diagnostic::new(item.span(), "`standard_deviation` must be positive")
-                        .help("leave it out if the magnitude is unknown"),
-                );
-                return None;
+                let help = "leave it out if the magnitude is unknown";
+                return document.refuse(item.span(), "`standard_deviation` must be positive", help);
             }
             Some(read)
         }
@@ -269,11 +223,8 @@ fn read_magnitude(
     };
     let degrees_of_freedom = match table.get("degrees_of_freedom") {
         Some(item) if standard_deviation.is_none() => {
-            document.mistake(
-                Diagnostic::new(item.key_span, "`degrees_of_freedom` without `standard_deviation`")
-                    .help("add `standard_deviation`, or remove `degrees_of_freedom`"),
-            );
-            return None;
+            let help = "add `standard_deviation`, or remove `degrees_of_freedom`";
+            return document.refuse(item.key_span, "`degrees_of_freedom` without `standard_deviation`", help);
         }
         Some(item) => positive(&item, chain, document)?,
         None => f64::INFINITY,
@@ -287,23 +238,17 @@ fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -
     match (random, distribution) {
         (false, None) => Some(Class::Repeatable),
         (false, Some(distribution)) => {
-            document.mistake(
-                Diagnostic::new(distribution.key_span, "a repeatable error has no distribution")
+            document.fail(Diagnostic::new(distribution.key_span, "a repeatable error has no distribution")
                     .context(item.span(), "repeatable")
-                    .help("leave `distribution` out, or write class = \"random\""),
-            );
-            None
+                    .help("leave `distribution` out, or write class = \"random\""))
         }
         (true, None) => {
-            document.mistake(
-                Diagnostic::new(item.span(), "a random error needs its distribution")
+            document.fail(Diagnostic::new(item.span(), "a random error needs its distribution")
                     .label("no `distribution` here")
                     .help(
                         "add distribution = \"uniform\" or \"triangular\" (values are half-widths), \"normal\" (values are σ) or \
                          \"arcsine\" (values are amplitudes)",
-                    ),
-            );
-            None
+                    ))
         }
         (true, Some(distribution)) => {
             let choices = Distribution::ALL.map(|distribution| (distribution.name(), distribution));

@@ -26,9 +26,9 @@ use super::undetermined::read_undetermined;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::Symbol;
-use crate::manipulator::names::{check_manipulator_name, title_of};
+use crate::manipulator::names::{check_manipulator_name, read_title};
 use crate::manipulator::{Factor, Frame, Loop, Spec, Tree, Variable};
-use crate::value::find_name;
+use crate::value::read_name;
 
 impl Spec {
     /// Reads and checks a spec file. All syntax errors are reported at once; without any, all
@@ -112,10 +112,9 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         });
     }
     let end = end_of_first_chain(&frames);
-    let tool = match root.get("tool") {
-        Some(item) => read_tool(&item, &named, end, &declarations, document),
-        None => Some((Vec::new(), end)),
-    };
+    let tool = root
+        .get("tool")
+        .map_or(Some((Vec::new(), end)), |item| read_tool(&item, &named, end, &declarations, document));
     let tool_frame = tool.as_ref().map_or(end, |(_, frame)| *frame);
     let tool = tool.map(|(factors, _)| factors);
     let read: Vec<Option<Loop>> = raw_loops.iter().map(|raw| raw.read(&declarations, document)).collect();
@@ -194,9 +193,7 @@ struct Head {
 }
 
 fn read_head(item: &Item<'_>, document: &mut Document) -> Option<Head> {
-    let mut section = document.section(item)?;
-    section.name = "[manipulator]".to_owned();
-    section.check_keys(&[&keys::MANIPULATOR], document);
+    let section = document.table(item, "[manipulator]", &[&keys::MANIPULATOR])?;
     let name = section.required("name", document).and_then(|item| {
         let name = document.string(&item)?;
         check_manipulator_name(&name, item.span(), document);
@@ -238,10 +235,7 @@ fn read_frames<'d>(
     let item = root.required_list("frame", document)?;
     let items = document.array_of_tables(&item, "frame")?;
     if items.is_empty() {
-        document.mistake(
-            Diagnostic::new(item.span(), "a manipulator needs at least one frame").help("add a [[frame]]"),
-        );
-        return None;
+        return document.refuse(item.span(), "a manipulator needs at least one frame", "add a [[frame]]");
     }
     document.at_most(
         &item,
@@ -255,24 +249,13 @@ fn read_frames<'d>(
         let Some(mut section) = document.section(item) else {
             continue;
         };
-        section.span = item.span();
         section.name = format!("frame {}", index + 1);
-        let name_item = section.required("name", document);
-        let name = name_item.as_ref().and_then(|item| title_of(item, document)).unwrap_or_default();
-        if let Some(item) = &name_item {
-            section.name = format!("the frame \"{name}\"");
-            section.span = item.span();
-        }
-        if !name.is_empty()
-            && let Some(first) = frames.iter().find(|frame| frame.name == name)
-        {
-            document.mistake(
-                Diagnostic::new(section.span.clone(), format!("duplicate frame name \"{name}\""))
-                    .label("second use")
-                    .context(first.section.span.clone(), "first use")
-                    .help("rename one; sources refer to frames by name"),
-            );
-        }
+        let first = |name: &str| {
+            let known = frames.iter().find(|other| other.name == name);
+            known.map(|other| other.section.span.clone())
+        };
+        let help = "rename one; sources refer to frames by name";
+        let name = read_title(&mut section, "frame", first, help, document).unwrap_or_default();
         section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
         let variable = section.get("variable");
         let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item, document));
@@ -295,11 +278,10 @@ fn read_frame_factors(
         && declarations.scope.names.get(name).is_some_and(|name| name.symbol == own)
         && !moves(&factors, own, declarations)
     {
-        document.mistake(
-            Diagnostic::new(span.clone(), format!("`{name}` does not move its own frame"))
-                .label(format!("the transform of \"{}\" does not depend on it", frame.name))
-                .help("use the variable in the transform, or declare it in the frame that it moves"),
-        );
+        let message = format!("`{name}` does not move its own frame");
+        let label = format!("the transform of \"{}\" does not depend on it", frame.name);
+        let help = "use the variable in the transform, or declare it in the frame that it moves";
+        document.mistake(Diagnostic::new(span.clone(), message).label(label).help(help));
     }
     Some(factors)
 }
@@ -318,15 +300,9 @@ fn read_tool(
     declarations: &Declarations,
     document: &mut Document,
 ) -> Option<(Vec<Factor>, usize)> {
-    let mut section = document.section(item)?;
-    section.name = "[tool]".to_owned();
-    section.check_keys(&[&keys::TOOL_FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
+    let section = document.table(item, "[tool]", &[&keys::TOOL_FRAME, &keys::DESCRIBED, &keys::TRANSFORM])?;
     let frame = match section.get("frame") {
-        Some(item) => {
-            let name = document.string(&item)?;
-            let known: Vec<&str> = frames.iter().map(|(name, _)| *name).collect();
-            find_name(document, item.span(), &name, &known, "frame")
-        }
+        Some(item) => read_name(document, &item, frames.iter().map(|(name, _)| *name), "frame"),
         None => Some(default),
     };
     let factors = read_factors(&section, None, &declarations.scope, document)?;
@@ -339,8 +315,7 @@ fn check_matrices(factors: &[Factor], declarations: &Declarations, document: &mu
         if let Factor::Matrix(matrix) = factor
             && let Some(mistake) = check_rigid(matrix, declarations)
         {
-            document.mistake(mistake);
-            return None;
+            return document.fail(mistake);
         }
     }
     Some(())

@@ -35,9 +35,7 @@ impl Declarations {
     }
 
     fn read_table(&mut self, item: &Item<'_>, document: &mut Document) -> Option<Table> {
-        let mut section = document.section(item)?;
-        section.name = format!("[tables.{}]", item.key);
-        section.check_keys(&[&keys::LOOKUP], document);
+        let section = document.table(item, format!("[tables.{}]", item.key), &[&keys::LOOKUP])?;
         let description = section.optional_text("description", document);
         section.optional_text("reference", document);
         let interpolation = section
@@ -63,9 +61,7 @@ impl Declarations {
         let table = Table::new(item.key.clone(), description, dimensions, points, interpolation?, outside?);
         if !table.is_finite() {
             let message = format!("the numbers of `{}` are too large to interpolate", item.key);
-            let mistake = Diagnostic::new(item.key_span.clone(), message);
-            document.mistake(mistake.help("check the units"));
-            return None;
+            return document.refuse(item.key_span.clone(), message, "check the units");
         }
         Some(table)
     }
@@ -77,18 +73,12 @@ impl Declarations {
             if let Some(columns) = columns {
                 let message = format!("`{}` must name its column of {}", item.key, columns.file);
                 let help = format!("write `{} = {{ column = \"…\", unit = \"mm\" }}`", item.key);
-                document.mistake(Diagnostic::new(item.span(), message).help(help));
-                return None;
+                return document.refuse(item.span(), message, help);
             }
             return self.read_list(item, document);
         }
-        let mut section = document.section(item)?;
-        section.name = format!("`{}`", item.key);
-        section.check_keys(&[&keys::AXIS], document);
-        let unit = match section.get("unit") {
-            Some(item) => unit(&item, &self.scope, document)?,
-            None => Unit::NONE,
-        };
+        let section = document.table(item, format!("`{}`", item.key), &[&keys::AXIS])?;
+        let unit = section.get("unit").map_or(Some(Unit::NONE), |item| unit(&item, &self.scope, document))?;
         let (numbers, places) = match columns {
             Some(columns) => {
                 let column = section.required("column", document)?;
@@ -97,19 +87,15 @@ impl Declarations {
             None => {
                 if let Some(column) = section.get("column") {
                     let message = "`column` names a column of a file, and there is no `file`";
-                    let mistake = Diagnostic::new(column.span(), message);
-                    document.mistake(
-                        mistake.help("add `file = \"NAME.csv\"` to the table, or give `values = […]`"),
-                    );
-                    return None;
+                    let help = "add `file = \"NAME.csv\"` to the table, or give `values = […]`";
+                    return document.refuse(column.span(), message, help);
                 }
                 let values = section.required("values", document)?;
                 let list = self.read_list(&values, document)?;
                 if list.dimension != Dimension::NONE {
                     let message = format!("the numbers of `{}` already have units", item.key);
-                    let mistake = Diagnostic::new(values.span(), message);
-                    document.mistake(mistake.help("remove `unit`, or the units of the numbers"));
-                    return None;
+                    let help = "remove `unit`, or the units of the numbers";
+                    return document.refuse(values.span(), message, help);
                 }
                 (list.values, list.places)
             }
@@ -132,12 +118,11 @@ impl Declarations {
                 let expected = dimension.unwrap_or(Dimension::NONE);
                 let message = format!("the numbers of `{}` must have the same dimension", item.key);
                 let mistake = Diagnostic::new(item.span(), message);
-                document.mistake(
+                return document.fail(
                     mistake
                         .label(format!("this is {found}, not {expected}"))
                         .help("give every number its unit, or write `{ values = […], unit = \"mm\" }`"),
                 );
-                return None;
             }
             axis.values.push(value);
             axis.places.push(item.span());

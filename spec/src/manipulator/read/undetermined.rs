@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Scope};
 use crate::manipulator::{Frame, Identified, Source, Undetermined};
-use crate::value::find_name;
+use crate::value::read_name;
 
 /// Reads the table; nothing is undetermined without one.
 pub(super) fn read_undetermined(
@@ -19,9 +19,7 @@ pub(super) fn read_undetermined(
     document: &mut Document,
 ) -> Option<Undetermined> {
     let Some(item) = root.get("undetermined") else { return Some(Undetermined::default()) };
-    let mut section = document.section(&item)?;
-    section.name = "[undetermined]".to_owned();
-    section.check_keys(&[&UNDETERMINED], document);
+    let section = document.table(&item, "[undetermined]", &[&UNDETERMINED])?;
     let [points, of, rows] = ["points", "of", "rows"].map(|key| section.required(key, document));
     let (points_item, of, rows_item) = (points?, of?, rows?);
     let points = numbers(&points_item, Dimension::LENGTH, "a coordinate", scope, document)?;
@@ -34,8 +32,7 @@ pub(super) fn read_undetermined(
     let help = format!("`{IDENTIFY_OUT}` writes this table; remove it if everything is determined");
     if rows.iter().any(|row| row.len() != count) {
         let message = format!("each of these directions must have {count} numbers");
-        document.mistake(Diagnostic::new(rows_item.span(), message).help(help));
-        return None;
+        return document.refuse(rows_item.span(), message, help);
     }
     let points: Option<Vec<[f64; 3]>> = points.into_iter().map(|point| point.try_into().ok()).collect();
     if points.is_none() {
@@ -45,7 +42,8 @@ pub(super) fn read_undetermined(
     Some(Undetermined { points: points?, of: all, rows })
 }
 
-fn numbers(
+/// Reads rows of numbers.
+pub(super) fn numbers(
     item: &Item<'_>,
     dimension: Dimension,
     what: &'static str,
@@ -71,21 +69,15 @@ fn undetermined(
     sources: &[Source],
     document: &mut Document,
 ) -> Option<Identified> {
-    let mut section = document.section(item)?;
-    section.name = "this entry of [undetermined]".to_owned();
-    section.span = item.span();
-    section.check_keys(&[&UNDETERMINED_OF], document);
+    let section = document.table(item, "this entry of [undetermined]", &[&UNDETERMINED_OF])?;
     if let Some(source) = section.get("source") {
-        let names: Vec<&str> = sources.iter().map(|source| source.name.as_str()).collect();
-        let text = document.string(&source)?;
-        return find_name(document, source.span(), &text, &names, "source").map(Identified::Magnitude);
+        let names = sources.iter().map(|source| source.name.as_str());
+        return read_name(document, &source, names, "source").map(Identified::Magnitude);
     }
     let error = section.required("error", document)?;
     let component =
         document.choice(&error, &Component::ALL.map(|component| (component.name(), component)))?;
     let Some(frame) = section.get("frame") else { return Some(Identified::Base(component)) };
-    let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
-    let text = document.string(&frame)?;
-    let frame = find_name(document, frame.span(), &text, &names, "frame")?;
+    let frame = read_name(document, &frame, frames.iter().map(|frame| frame.name.as_str()), "frame")?;
     Some(Identified::Error(frame, component))
 }

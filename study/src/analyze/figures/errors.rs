@@ -1,6 +1,7 @@
 //! Tool point error that a figure shows, and its configuration.
 
 use abbe::analysis::Configuration;
+use abbe::analysis::sampling::norm;
 use serde::{Deserialize, Serialize};
 
 /// Error of three rows: the signed repeatable part, and the bound ± of the random part.
@@ -15,11 +16,6 @@ impl Errors {
     pub(super) fn norm(&self) -> f64 {
         norm(self.repeatable) + norm(self.random)
     }
-}
-
-/// Returns the Euclidean norm.
-pub fn norm(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// Serialized form of a configuration.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::bins::{Bins, Merge, listed};
-use super::errors::norm;
+use abbe::analysis::sampling::norm;
 
 /// Histograms of the errors in x, y, z and of their norm.
 #[derive(Clone, Debug, Serialize)]

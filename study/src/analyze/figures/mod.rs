@@ -14,8 +14,8 @@ mod histogram;
 mod points;
 mod stick;
 
+pub use abbe::analysis::sampling::norm;
 pub use bins::{Bins, Merge, listed};
-pub use errors::norm;
 pub use extremes::{Envelope, Extremes, Mesh, Range, Worst};
 pub use figure::{Figure, FigureData, Figures};
 pub(super) use figure_builder::PartialFigure;

@@ -150,11 +150,8 @@ impl AnalysisRequest {
             (None, Some(shipped)) => shipped,
             (None, None) => {
                 let help = "give the text of the spec, or the name of a shipped manipulator";
-                return Err(mistake::with_help(
-                    &self.spec,
-                    "there is no shipped manipulator of this name",
-                    help,
-                ));
+                let message = "there is no shipped manipulator of this name";
+                return Err(mistake::with_help(&self.spec, message, help));
             }
         };
         let study = match &self.study {

@@ -14,7 +14,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_study::Machine;
-use abbe_study::export::{Export, Format, Report, SAMPLES};
+use abbe_study::export::{Export, FORMATS, Format, Needs, Report, SAMPLES};
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 
 /// Returns a shipped spec with additional sources.
@@ -22,6 +22,39 @@ pub(crate) fn machine(name: &str, sources: &str) -> Machine {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap();
     let text = format!("{}\n{sources}", shipped.spec);
     Machine::of_spec(Spec::parse(&format!("{name}.toml"), &text).unwrap(), name)
+}
+
+#[test]
+fn every_format_is_named_wherever_formats_are() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for (file, quotes) in [
+        ("docs/export.md", ["--to ", ""]),
+        ("docs/python.md", ["`\"", "\"`"]),
+        ("docs/reference/command.md", ["- ", ":"]),
+        ("python/src/exchange.rs", ["\"", "\""]),
+    ] {
+        let text = std::fs::read_to_string(root.join(file)).unwrap();
+        // The documentation alone, not the code.
+        let text = match file.ends_with(".rs") {
+            true => text.lines().filter(|line| line.trim_start().starts_with("///")).collect::<String>(),
+            false => text,
+        };
+        for format in FORMATS {
+            let [before, behind] = quotes;
+            let name = format!("{before}{}{behind}", format.name);
+            let mut ends = text.match_indices(&name).map(|(at, _)| text[at + name.len()..].chars().next());
+            let is_whole =
+                |next: Option<char>| next.is_none_or(|next| !next.is_alphanumeric() && next != '-');
+            assert!(ends.any(is_whole), "{file} does not name {}", format.name);
+        }
+    }
+    for format in FORMATS {
+        let ends = abbe_study::export::Ends { base: None, tip: None };
+        let robot = (format.needs == Needs::NominalRobot).then(|| "robot.urdf".into());
+        let nodes = (format.needs == Needs::Nodes).then_some(5);
+        let chosen = Format::choose(format.name, robot, ends, nodes);
+        assert!(chosen.is_ok(), "{}", format.name);
+    }
 }
 
 pub(crate) fn exported(machine: &Machine, format: Format) -> Report {

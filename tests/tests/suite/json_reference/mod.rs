@@ -56,7 +56,7 @@ fn names_of_options_are_those_of_the_jobs() {
     let names = [
         ("Convention", python::literal(CONVENTIONS.0.iter().map(|(_, name, _)| *name))),
         ("Criterion", python::literal(CRITERIA.0.iter().map(|(_, name, _)| *name))),
-        ("Format", python::literal(Format::NAMES.into_iter())),
+        ("Format", python::literal(Format::names())),
         (
             "Language",
             python::literal(Generate::LANGUAGES.0.iter().map(|(_, name, _): &(Language, _, _)| *name)),
