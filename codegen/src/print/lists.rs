@@ -1,6 +1,8 @@
-//! Lists of numbers that the loops of long chains read.
+//! Lists of numbers that the loops of long chains read, and all numbers of a file.
 
-use crate::program::{Sums, Table};
+use abbe_spec::Spec;
+
+use crate::program::{Operand, Routines, Sums, Table};
 
 /// A list of whole or real numbers.
 pub(super) struct List<'r> {
@@ -44,4 +46,27 @@ pub(super) fn lists<'r>(
         ]
     });
     columns.chain(parts).filter(|list| !list.values.is_empty()).collect()
+}
+
+/// Returns all numbers of the programs, sums, tables and values of a file.
+pub(super) fn numbers(spec: &Spec, routines: &Routines) -> Vec<f64> {
+    let programs = routines.programs().flat_map(|program| {
+        let operands = program.steps.iter().flat_map(|step| step.action.operands());
+        operands.chain(program.outputs.iter().copied()).filter_map(|operand| match operand {
+            Operand::Constant(value) => Some(value),
+            _ => None,
+        })
+    });
+    let sums = routines.sums.iter();
+    let sums = sums.flat_map(|sums| sums.constants.iter().copied().chain(sums.factors.iter().map(|f| f.2)));
+    let variables = spec.variables.iter().chain(&spec.passive);
+    let variables = variables.flat_map(|variable| variable.limits.into_iter().chain([variable.home]));
+    let parameters = spec.parameters.iter().map(|parameter| parameter.value);
+    let inputs = spec.inputs.iter().flat_map(|input| input.range.into_iter().chain([input.value]));
+    let tables = spec.tables.iter().flat_map(|table| {
+        let lookup = table.lookup();
+        let pieces = lookup.pieces.iter().flatten().chain(lookup.knots).copied();
+        pieces.chain([lookup.first, lookup.scale]).collect::<Vec<f64>>()
+    });
+    programs.chain(sums).chain(variables).chain(parameters).chain(inputs).chain(tables).collect()
 }

@@ -102,14 +102,16 @@ impl<L: Printer> Walker<'_, L> {
             }
     }
 
+    fn keeps_zeros(&self, array: usize) -> bool {
+        L::RESULTS == Results::Kept && self.flat.keeps_zeros(array)
+    }
+
     /// Declares a local array, or clears a result that has entries that are not written.
     fn declare(&mut self, array: usize) {
         let (name, len) = (self.name(array), self.flat.len(array));
         if L::RESULTS == Results::Created || self.flat.routine.arrays[array].role == Role::Zeros {
             self.language.zeros(&name, len);
-        } else if !self.flat.begins_whole(array)
-            && !(L::RESULTS == Results::Kept && self.flat.keeps_zeros(array))
-        {
+        } else if !self.flat.begins_whole(array) && !self.keeps_zeros(array) {
             self.language.clear(&name, len);
         }
     }

@@ -50,11 +50,11 @@ pub fn side() -> Procedure {
 pub fn least_and_greatest() -> [Procedure; 2] {
     let one = |name, documentation, is_least: bool| {
         scalar(name, documentation, ["a", "b"], |body, [a, b], y| {
-            let ends = if is_least { [&a, &b] } else { [&b, &a] };
-            // NaN if one of them is NaN.
-            body.set(y, a.clone() + b.clone());
-            body.when(ends[0].clone().is_at_least(ends[1].clone()), |body| body.set(y, b.clone()));
-            body.when(ends[1].clone().exceeds(ends[0].clone()), |body| body.set(y, a.clone()));
+            let [small, large] = if is_least { [&a, &b] } else { [&b, &a] };
+            // NaN is not comparable with itself.
+            body.set(y, a.clone());
+            body.when(a.clone().is_at_least(a.clone()), |body| body.set(y, b.clone()));
+            body.when(large.clone().exceeds(small.clone()), |body| body.set(y, a.clone()));
         })
     };
     [

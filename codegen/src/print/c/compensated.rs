@@ -4,7 +4,8 @@ use abbe_core::compensator::Status;
 use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
-use super::functions::{SIZE, documentation, head};
+use super::functions::{documentation, head};
+use super::heads::SIZE;
 use super::procedures::{CPrinter, helper};
 use super::real::Real;
 use crate::print::layout::Writer;

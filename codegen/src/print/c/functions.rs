@@ -4,20 +4,15 @@ use abbe_core::Description;
 use abbe_core::function::Signature;
 use abbe_spec::Spec;
 
+use super::heads::{RESTRICT, broken, comment};
 use super::operators::C;
 use super::procedures::CPrinter;
 use super::real::Real;
 use crate::print::flat::Flat;
-use crate::print::layout::{LINE, Writer, width};
+use crate::print::layout::Writer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
 use crate::program::{Array, Checks, Role, Routine, Routines};
-
-/// Macro of the sizes of arrays that must not overlap others.
-pub(super) const RESTRICT: &str = "ABBE_RESTRICT";
-
-/// Macro of the sizes of arrays that may overlap others.
-pub(super) const SIZE: &str = "ABBE_SIZE";
 
 /// Returns the head of a function without its end: `int pps_pose(const double q[ABBE_RESTRICT(6)],
 /// …)`. `size` is the macro of the sizes of its arrays.
@@ -52,12 +47,6 @@ fn head_of(
     });
     let declared: Vec<String> = declared.collect();
     broken(name, &declared)
-}
-
-/// Returns a head with its arguments, on several lines if it is long.
-pub(super) fn broken(name: &str, arguments: &[String]) -> String {
-    let line = format!("{name}({})", arguments.join(", "));
-    if width(&line) < LINE { line } else { format!("{name}(\n    {})", arguments.join(",\n    ")) }
 }
 
 /// Prints the documentation of a declaration, with additional status codes and a closing paragraph
@@ -126,13 +115,6 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     // The status code of the called function covers its margin.
     function.end(margin.filter(|margin| *margin != "margin"), &checks);
     writer.close("}");
-}
-
-/// Prints a block comment.
-pub(super) fn comment(writer: &mut Writer, text: &str) {
-    writer.lines("/*");
-    writer.documentation(text);
-    writer.lines(" */");
 }
 
 /// The checks of a function.

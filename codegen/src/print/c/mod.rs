@@ -6,6 +6,7 @@
 
 mod compensated;
 mod functions;
+mod heads;
 mod operators;
 mod procedures;
 mod real;
@@ -18,20 +19,21 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use self::functions::{RESTRICT, comment, documentation, function, head};
+use self::functions::{documentation, function, head};
+use self::heads::{RESTRICT, comment};
 use self::operators::HEADERS;
 use self::procedures::helper;
 pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
 use super::layout::Writer;
-use super::lists::lists;
+use super::lists::{lists, numbers};
 use super::names::{file_name, function_of, renamed};
 use super::source_file::SourceFile;
 use super::text::escaped;
 use crate::chain::Model;
 use crate::procedure::look_up;
-use crate::program::{Operand, Routines};
+use crate::program::Routines;
 
 /// Returns the header and the source of a manipulator.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {
@@ -44,26 +46,7 @@ pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real)
 
 /// Returns the first constant of the source that the type cannot represent.
 pub(super) fn lost(spec: &Spec, routines: &Routines, real: Real) -> Option<f64> {
-    let programs = routines.programs().flat_map(|program| {
-        let operands = program.steps.iter().flat_map(|step| step.action.operands());
-        operands.chain(program.outputs.iter().copied()).filter_map(|operand| match operand {
-            Operand::Constant(value) => Some(value),
-            _ => None,
-        })
-    });
-    let sums = routines.used_sums().flat_map(|sums| {
-        sums.constants.iter().copied().chain(sums.factors.iter().map(|(.., factor)| *factor))
-    });
-    let variables = spec.variables.iter().flat_map(|v| v.limits.into_iter().chain([v.home]));
-    let parameters = spec.parameters.iter().map(|parameter| parameter.value);
-    let inputs = spec.inputs.iter().flat_map(|input| input.range.into_iter().chain([input.value]));
-    let tables = spec.tables.iter().flat_map(|table| {
-        let lookup = table.lookup();
-        let pieces = lookup.pieces.iter().flatten();
-        pieces.chain(lookup.knots).chain([&lookup.first, &lookup.scale]).copied().collect::<Vec<f64>>()
-    });
-    let mut all = programs.chain(sums).chain(variables).chain(parameters).chain(inputs).chain(tables);
-    all.find(|value| !real.has(*value))
+    numbers(spec, routines).into_iter().find(|value| !real.has(*value))
 }
 
 /// Returns the header.
@@ -270,59 +253,62 @@ fn values(
     before: &str,
     with_numbers: bool,
 ) {
-    let number = |value: f64| real.number(value);
-    let mut one = |what: &str, name: &str, pairs: bool, values: Vec<f64>| {
-        if values.is_empty() {
-            return;
-        }
-        let count = if pairs { values.len() / 2 } else { values.len() };
-        let size = if pairs { format!("[{count}][2]") } else { format!("[{count}]") };
-        let head = format!("{before}const {real} {}_{name}{size}", spec.name);
-        writer.blank();
-        if !with_numbers {
-            writer.lines(&format!("/** {what} */"));
-            return writer.lines(&format!("{head};"));
-        }
-        let entries: Vec<String> = match pairs {
-            false => values.iter().map(|value| number(*value)).collect(),
-            true => values
-                .chunks(2)
-                .map(|pair| format!("{{ {}, {} }}", number(pair[0]), number(pair[1])))
-                .collect(),
-        };
-        writer.braces(&format!("{head} = "), &entries, ";");
+    let ones = |values: Vec<f64>| values.into_iter().map(|value| real.number(value)).collect();
+    let pairs = |values: Vec<[f64; 2]>| -> Vec<String> {
+        let pair = |pair: [f64; 2]| format!("{{ {} }}", pair.map(|value| real.number(value)).join(", "));
+        values.into_iter().map(pair).collect()
     };
-    let limits = spec.variables.iter().flat_map(|variable| variable.limits).collect();
-    one("Lower and upper limits of the variables.", "limits", true, limits);
-    one("Home position of the variables.", "home", false, spec.variables.iter().map(|v| v.home).collect());
-    let bounds = |bounds| {
-        let each = spec.variables.iter().filter(|_| routines.has_compensated());
-        each.map(|variable| bound(&routines.description, variable.kind, bounds)).collect::<Vec<f64>>()
-    };
-    one(
-        &format!(
-            "Largest change of a correction in a cycle, by default: {} rad, {} m.",
-            CHANGE[0], CHANGE[1]
+    let (variables, parameters) = (spec.variables.iter(), spec.parameters.iter());
+    let inputs = if takes_inputs(routines) { &spec.inputs[..] } else { &[] }.iter();
+    let corrected = variables.clone().filter(|_| routines.has_compensated());
+    let bounds =
+        |bounds| ones(corrected.clone().map(|one| bound(&routines.description, one.kind, bounds)).collect());
+    let rotations = if routines.has_compensated() { vec![1.0; 3] } else { vec![] };
+    let by_default =
+        |what: &str, [angle, length]: [f64; 2]| format!("{what}, by default: {angle} rad, {length} m.");
+    let (change, largest) = (
+        by_default("Largest change of a correction in a cycle", CHANGE),
+        by_default("Largest correction", LARGEST),
+    );
+    let lists: [(&str, &str, &str, Vec<String>); 8] = [
+        (
+            "Lower and upper limits of the variables.",
+            "limits",
+            "[2]",
+            pairs(variables.clone().map(|one| one.limits).collect()),
         ),
-        "change",
-        false,
-        bounds(CHANGE),
-    );
-    one(
-        &format!("Largest correction, by default: {} rad, {} m.", LARGEST[0], LARGEST[1]),
-        "largest",
-        false,
-        bounds(LARGEST),
-    );
-    if routines.has_compensated() {
-        one("`rotations` of the whole pose.", "whole_pose", false, vec![1.0; 3]);
+        ("Home position of the variables.", "home", "", ones(variables.map(|one| one.home).collect())),
+        (&change, "change", "", bounds(CHANGE)),
+        (&largest, "largest", "", bounds(LARGEST)),
+        ("`rotations` of the whole pose.", "whole_pose", "", ones(rotations)),
+        (
+            "Nominal values of the parameters `s`.",
+            "parameters",
+            "",
+            ones(parameters.map(|one| one.value).collect()),
+        ),
+        (
+            "Default values of the inputs `u`.",
+            "inputs",
+            "",
+            ones(inputs.clone().map(|one| one.value).collect()),
+        ),
+        (
+            "Lower and upper ends of the ranges of the inputs.",
+            "ranges",
+            "[2]",
+            pairs(inputs.map(|one| one.range).collect()),
+        ),
+    ];
+    for (what, name, end, entries) in lists.into_iter().filter(|(.., entries)| !entries.is_empty()) {
+        let head = format!("{before}const {real} {}_{name}[{}]{end}", spec.name, entries.len());
+        writer.blank();
+        if with_numbers {
+            writer.braces(&format!("{head} = "), &entries, ";");
+        } else {
+            writer.lines(&format!("/** {what} */\n{head};"));
+        }
     }
-    let nominal = spec.parameters.iter().map(|parameter| parameter.value).collect();
-    one("Nominal values of the parameters `s`.", "parameters", false, nominal);
-    let inputs = if takes_inputs(routines) { &spec.inputs[..] } else { &[] };
-    one("Default values of the inputs `u`.", "inputs", false, inputs.iter().map(|i| i.value).collect());
-    let ranges = inputs.iter().flat_map(|input| input.range).collect();
-    one("Lower and upper ends of the ranges of the inputs.", "ranges", true, ranges);
 }
 
 /// Returns `true` if a function takes inputs.

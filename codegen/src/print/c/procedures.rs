@@ -2,7 +2,7 @@
 
 use abbe_core::compensator::Status;
 
-use super::functions::{RESTRICT, broken, comment};
+use super::heads::{RESTRICT, broken, comment};
 use super::real::Real;
 use crate::print::expression::{Binding, Expression, Value};
 use crate::print::flat::{Results, filled};

@@ -5,7 +5,7 @@ use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
 use super::operators::JavaScript;
-use super::procedures::JavaScriptPrinter;
+use super::procedures::{JavaScriptPrinter, one_or_object};
 use crate::print::flat::Flat;
 use crate::print::layout::Writer;
 use crate::print::procedure::Printer;
@@ -79,24 +79,5 @@ pub(super) fn documentation(
                 writer.documentation(&format!("- `{name}`: {documentation}"));
             }
         }
-    }
-}
-
-/// Prints a block comment.
-pub(super) fn comment(writer: &mut Writer, text: &str) {
-    writer.lines("/**");
-    writer.documentation(text);
-    writer.lines(" */");
-}
-
-/// Returns the value of the only property, or an object.
-pub(super) fn one_or_object(properties: &[(&str, String)]) -> String {
-    let property = |(name, value): &(&str, String)| match name == value {
-        true => value.clone(),
-        false => format!("{name}: {value}"),
-    };
-    match properties {
-        [(_, value)] => value.clone(),
-        several => format!("{{ {} }}", several.iter().map(property).collect::<Vec<_>>().join(", ")),
     }
 }

@@ -12,9 +12,9 @@ mod procedures;
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use self::functions::{comment, function};
+use self::functions::function;
 use self::operators::number;
-use self::procedures::helper;
+use self::procedures::{comment, helper};
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;

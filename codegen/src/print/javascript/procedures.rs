@@ -2,7 +2,6 @@
 
 use abbe_core::compensator::Status;
 
-use super::functions::{comment, one_or_object};
 use super::operators::number;
 use crate::print::expression::{Expression, Value};
 use crate::print::flat::filled;
@@ -10,6 +9,25 @@ use crate::print::layout::Writer;
 use crate::print::procedure::{Called, Invocation, Printer};
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Routine, Routines, Stage};
+
+/// Prints a block comment.
+pub(super) fn comment(writer: &mut Writer, text: &str) {
+    writer.lines("/**");
+    writer.documentation(text);
+    writer.lines(" */");
+}
+
+/// Returns the value of the only property, or an object.
+pub(super) fn one_or_object(properties: &[(&str, String)]) -> String {
+    let property = |(name, value): &(&str, String)| match name == value {
+        true => value.clone(),
+        false => format!("{name}: {value}"),
+    };
+    match properties {
+        [(_, value)] => value.clone(),
+        several => format!("{{ {} }}", several.iter().map(property).collect::<Vec<_>>().join(", ")),
+    }
+}
 
 /// Prints a procedure that another one calls. `constants` is an object that has its constants.
 pub(super) fn helper(

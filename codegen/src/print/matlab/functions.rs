@@ -115,14 +115,3 @@ pub(super) fn checks<'a>(
         }
     }
 }
-
-/// Prints `name = [first second …];` with a few entries per line.
-pub(super) fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], entries: &[String]) {
-    let inner = entries.join(" ");
-    if inner.len() < 70 {
-        return writer.lines(&format!("{name} = {open}{inner}{close};"));
-    }
-    writer.lines(&format!("{name} = {open} ..."));
-    entries.chunks(4).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
-    writer.lines(&format!("{close};"));
-}

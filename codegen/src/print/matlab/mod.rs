@@ -11,14 +11,15 @@ mod procedures;
 
 use std::collections::HashSet;
 
+use abbe_core::Description;
 use abbe_core::compensator::{CHANGE, LARGEST, bound};
 use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use self::functions::{function, list};
+use self::functions::function;
 use self::operators::{WORDS, number, spelled};
-use self::procedures::helper;
+use self::procedures::{helper, list};
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
@@ -99,28 +100,26 @@ fn properties(writer: &mut Writer, routines: &Routines) {
     for (name, text) in texts {
         writer.lines(&format!("{name} = {};", quoted(text)));
     }
-    let names = |names: Vec<&str>| names.into_iter().map(quoted).collect::<Vec<_>>();
     let pair = |[lower, upper]: [f64; 2]| format!("{} {};", number(lower), number(upper));
     let numbers = |values: Vec<f64>| values.into_iter().map(number).collect::<Vec<_>>();
-    let variables = || description.variables.iter();
-    let parameters = || description.parameters.iter();
-    let inputs = || description.inputs.iter();
-    list(writer, "variables", ["{", "}"], &names(variables().map(|variable| &variable.name[..]).collect()));
-    list(
-        writer,
-        "limits",
-        ["[", "]"],
-        &variables().map(|variable| pair(variable.limits)).collect::<Vec<_>>(),
-    );
-    list(writer, "home", ["[", "]"], &numbers(variables().map(|variable| variable.home).collect()));
-    let bounds = |bounds| numbers(variables().map(|one| bound(description, one.kind, bounds)).collect());
-    list(writer, "change", ["[", "]"], &bounds(CHANGE));
-    list(writer, "largest", ["[", "]"], &bounds(LARGEST));
-    list(writer, "parameter_names", ["{", "}"], &names(parameters().map(|one| &one.name[..]).collect()));
-    list(writer, "parameters", ["[", "]"], &numbers(parameters().map(|one| one.nominal).collect()));
-    list(writer, "input_names", ["{", "}"], &names(inputs().map(|one| &one.name[..]).collect()));
-    list(writer, "inputs", ["[", "]"], &numbers(inputs().map(|one| one.nominal).collect()));
-    list(writer, "ranges", ["[", "]"], &inputs().map(|one| pair(one.range)).collect::<Vec<_>>());
+    let Description { variables, parameters, inputs, .. } = description;
+    let (variables, parameters, inputs) = (variables.iter(), parameters.iter(), inputs.iter());
+    let bounds =
+        |bounds| numbers(variables.clone().map(|one| bound(description, one.kind, bounds)).collect());
+    let (texts, values) = (["{", "}"], ["[", "]"]);
+    let properties: [(&str, [&str; 2], Vec<String>); 10] = [
+        ("variables", texts, variables.clone().map(|one| quoted(&one.name)).collect()),
+        ("limits", values, variables.clone().map(|one| pair(one.limits)).collect()),
+        ("home", values, numbers(variables.clone().map(|one| one.home).collect())),
+        ("change", values, bounds(CHANGE)),
+        ("largest", values, bounds(LARGEST)),
+        ("parameter_names", texts, parameters.clone().map(|one| quoted(&one.name)).collect()),
+        ("parameters", values, numbers(parameters.map(|one| one.nominal).collect())),
+        ("input_names", texts, inputs.clone().map(|one| quoted(&one.name)).collect()),
+        ("inputs", values, numbers(inputs.clone().map(|one| one.nominal).collect())),
+        ("ranges", values, inputs.map(|one| pair(one.range)).collect()),
+    ];
+    properties.iter().for_each(|(name, brackets, entries)| list(writer, name, *brackets, entries));
     for numbers in lists(routines.used_tables(), routines.used_sums()) {
         comment(writer, numbers.documentation);
         list(writer, &numbers.name, ["[", "]"], &numbers.entries(number));

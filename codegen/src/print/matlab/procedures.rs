@@ -1,6 +1,5 @@
 //! Statements and procedures in Matlab.
 
-use super::functions::list;
 use super::operators::number;
 use crate::print::expression::{Binding, Expression};
 use crate::print::layout::Writer;
@@ -8,6 +7,17 @@ use crate::print::procedure::{Called, Invocation, Printer, arrays};
 use crate::print::text::harmless;
 use crate::procedure::{Counter, Index, Procedure, Variable};
 use crate::program::Routines;
+
+/// Prints `name = [first second …];` with a few entries per line.
+pub(super) fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], entries: &[String]) {
+    let inner = entries.join(" ");
+    if inner.len() < 70 {
+        return writer.lines(&format!("{name} = {open}{inner}{close};"));
+    }
+    writer.lines(&format!("{name} = {open} ..."));
+    entries.chunks(4).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
+    writer.lines(&format!("{close};"));
+}
 
 /// Prints a procedure that another one calls. `constants` is a property that has its constants.
 pub(super) fn helper(

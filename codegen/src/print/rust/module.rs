@@ -1,10 +1,7 @@
 //! The module of a manipulator.
 
-use std::sync::Arc;
-
 use abbe_core::{Class, Function, Orientation};
 use abbe_spec::Spec;
-use abbe_spec::expr::Table;
 
 use super::face;
 use super::functions::{error_columns, raw_function, shares_columns};
@@ -13,7 +10,8 @@ use super::tables::{lookup_table, tables};
 use crate::chain::{Model, is_long};
 use crate::print::header::header;
 use crate::print::layout::Writer;
-use crate::program::{Operand, Program, Routines, Stage};
+use crate::print::lists::numbers;
+use crate::program::Routines;
 
 /// Counts that are sizes of arrays.
 const SIZES: [&str; 8] =
@@ -83,29 +81,7 @@ fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
     if names.any(|name| name.contains(|c: char| c.is_ascii_uppercase()) || name.contains("__")) {
         allowed.push("non_snake_case");
     }
-    let programs = || programs(routines);
-    let steps = programs().flat_map(|program| &program.steps);
-    let operands = steps.flat_map(|step| step.action.operands());
-    let constants = operands.filter_map(|operand| match operand {
-        Operand::Constant(value) => Some(value),
-        _ => None,
-    });
-    let values = spec.parameters.iter().map(|p| p.value).chain(spec.inputs.iter().map(|i| i.value));
-    let limits = spec.variables.iter().chain(&spec.passive).flat_map(|v| [v.limits[0], v.limits[1], v.home]);
-    let ranges = spec.inputs.iter().flat_map(|i| i.range);
-    let outputs = programs().flat_map(|program| &program.outputs).filter_map(|output| match output {
-        Operand::Constant(value) => Some(*value),
-        _ => None,
-    });
-    let of_table = |table: &Arc<Table>| {
-        let lookup = table.lookup();
-        let pieces = lookup.pieces.iter().flatten().chain(lookup.knots).copied();
-        pieces.chain([lookup.first, lookup.scale]).collect::<Vec<_>>()
-    };
-    let outputs = outputs.chain(spec.tables.iter().flat_map(of_table));
-    let sums = routines.sums.iter();
-    let sums = sums.flat_map(|sums| sums.constants.iter().copied().chain(sums.factors.iter().map(|f| f.2)));
-    if constants.chain(values).chain(limits).chain(ranges).chain(outputs).chain(sums).any(looks_like_named) {
+    if numbers(spec, routines).into_iter().any(looks_like_named) {
         allowed.push("clippy::approx_constant");
     }
     if is_long(spec) {
@@ -113,14 +89,6 @@ fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
         allowed.push("clippy::needless_range_loop");
     }
     allowed
-}
-
-fn programs(routines: &Routines) -> impl Iterator<Item = &Program> {
-    let stages = routines.list.iter().flat_map(|routine| &routine.stages);
-    stages.filter_map(|stage| match stage {
-        Stage::Block(block) => Some(&block.program),
-        _ => None,
-    })
 }
 
 fn used_types(spec: &Spec, model: &Model) -> Vec<&'static str> {

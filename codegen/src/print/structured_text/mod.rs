@@ -19,8 +19,9 @@ mod tables;
 use abbe_spec::Spec;
 
 use self::blocks::block;
-use self::declarations::harmless;
+use self::declarations::{comment, harmless};
 use self::operators::StructuredText;
+use self::procedures::scalar;
 use self::support::Support;
 use super::header::header;
 use super::layout::Writer;
@@ -52,7 +53,14 @@ pub(super) fn file(spec: &Spec, routines: &Routines) -> SourceFile {
     let has_compensated = routines.has_compensated();
     for support in Support::used(spec, routines, has_compensated) {
         writer.blank();
-        support.print(&mut writer, routines, &syntax.prefix);
+        match support.described() {
+            Some(procedure) => {
+                comment(&mut writer, &procedure.documentation);
+                let name = format!("{}_{}", syntax.prefix, procedure.name);
+                scalar(&mut writer, routines, &procedure, &name, &syntax.prefix, None);
+            }
+            None => writer.lines(support.text(&syntax.prefix).trim_end()),
+        }
     }
     for (table, name) in spec.tables.iter().zip(&syntax.tables) {
         tables::function(&mut writer, routines, table, name, &syntax.prefix);

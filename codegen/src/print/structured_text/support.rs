@@ -7,9 +7,6 @@ use std::collections::BTreeSet;
 use abbe_spec::Spec;
 use abbe_spec::expr::Function;
 
-use super::declarations::comment;
-use super::procedures::scalar;
-use crate::print::layout::Writer;
 use crate::procedure::{Procedure, clamped, side, sign};
 use crate::program::{Action, Operand, Routines};
 
@@ -124,21 +121,25 @@ impl Support {
         !matches!(FUNCTIONS[self as usize].2, Source::Text(_) | Source::Described(_))
     }
 
-    /// Prints the function.
-    pub(super) fn print(self, writer: &mut Writer, routines: &Routines, prefix: &str) {
+    /// Returns the function if it is described.
+    pub(super) fn described(self) -> Option<Procedure> {
+        match FUNCTIONS[self as usize].2 {
+            Source::Described(describe) => Some(describe()),
+            _ => None,
+        }
+    }
+
+    /// Returns the source of a function that is not described.
+    pub(super) fn text(self, prefix: &str) -> String {
         let text = match FUNCTIONS[self as usize].2 {
-            Source::Described(describe) => {
-                let (procedure, name) = (describe(), format!("{prefix}_{}", self.name()));
-                comment(writer, &procedure.documentation);
-                return scalar(writer, routines, &procedure, &name, prefix, None);
-            }
+            Source::Described(_) => String::new(),
             Source::Text(text) | Source::GuardedText(text) => text.to_owned(),
             Source::Guarded(parts) => {
                 let parts = ["COMMENT", "ARGUMENTS", "CONDITION", "VALUE"].into_iter().zip(parts);
                 parts.fold(GUARDED.to_owned(), |text, (part, with)| text.replace(part, with))
             }
         };
-        writer.lines(text.replace("PREFIX", prefix).replace("NAME", self.name()).trim_end());
+        text.replace("PREFIX", prefix).replace("NAME", self.name())
     }
 }
 
