@@ -1,7 +1,7 @@
 //! Bounds of sums of errors from the maximum of each part: not tight, but fast for any number of
 //! joints.
 
-use abbe_codegen::chain::{Apart, Magnitude};
+use abbe_codegen::chain::{Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::Graph;
 use abbe_spec::expr::Symbol;
 
@@ -27,7 +27,12 @@ pub struct Limits {
 /// ```text
 /// ‖δ‖ ≤ Σ_i ‖d_i‖ + ‖θ_i‖ Σ_{k > i} ‖t_k‖        ‖θ‖ ≤ Σ_i ‖θ_i‖
 /// ```
-pub fn limits(graph: &mut Graph, apart: &Apart, moving: &[Moving], fixed: &dyn Fn(Symbol) -> f64) -> Limits {
+pub fn limits(
+    graph: &mut Graph,
+    apart: &PerFrameMagnitudes,
+    moving: &[Moving],
+    fixed: &dyn Fn(Symbol) -> f64,
+) -> Limits {
     let mut size =
         |magnitude: &Magnitude| largest(graph, magnitude, moving, fixed, &EFFORT, &mut |_| true).certified;
     // Maximum distance of the tool point from each frame, last frame first.

@@ -99,7 +99,7 @@ pub enum Format {
 
 /// Reason why no format is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unfit {
+pub enum FormatMismatch {
     /// No format has this name.
     Unknown,
     /// The URDF file of the nominal robot is missing.
@@ -133,19 +133,19 @@ impl Format {
         robot: Option<PathBuf>,
         Ends { base, tip }: Ends,
         nodes: Option<usize>,
-    ) -> Result<Self, Unfit> {
-        let format = FORMATS.iter().find(|format| format.name == name).ok_or(Unfit::Unknown)?;
+    ) -> Result<Self, FormatMismatch> {
+        let format = FORMATS.iter().find(|format| format.name == name).ok_or(FormatMismatch::Unknown)?;
         let is_robot_given = robot.is_some() || base.is_some() || tip.is_some();
         if format.needs != Needs::NominalRobot && is_robot_given {
-            return Err(Unfit::NeedlessRobot);
+            return Err(FormatMismatch::NeedlessRobot);
         }
         if format.needs != Needs::Nodes && nodes.is_some() {
-            return Err(Unfit::NeedlessNodes);
+            return Err(FormatMismatch::NeedlessNodes);
         }
         let of_axis = nodes.unwrap_or(Self::NODES);
         Ok(match name {
             "dh" => Self::Dh,
-            "urdf" => Self::Urdf { file: robot.ok_or(Unfit::NoNominalRobot)?, base, tip },
+            "urdf" => Self::Urdf { file: robot.ok_or(FormatMismatch::NoNominalRobot)?, base, tip },
             "ur-calibration" => Self::UrCalibration,
             "isg-csv" => Self::IsgCsv { nodes: of_axis },
             "kinematics-comp" => Self::KinematicsComp { nodes: of_axis },

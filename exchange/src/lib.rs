@@ -42,4 +42,4 @@ mod format;
 mod placement;
 mod vector;
 
-pub use format::{FORMATS, FileFormat, Format, Needs, Unfit};
+pub use format::{FORMATS, FileFormat, Format, FormatMismatch, Needs};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abbe_report::{text, views};
 use abbe_spec::document::Document;
-use abbe_study::export::{Ends, Export, Format as Exported, SAMPLES_RANGE, Unfit};
+use abbe_study::export::{Ends, Export, Format as Exported, FormatMismatch, SAMPLES_RANGE};
 use abbe_study::import::{Format, Import, Units};
 use abbe_study::options::CONVENTIONS;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -143,10 +143,12 @@ impl Machine {
         let format = Exported::choose(to, urdf, Ends { base, tip }, nodes).map_err(|unfit| {
             let needless = |name: &str| format!("`{name}` is not for to={to:?}: leave it out");
             PyValueError::new_err(match unfit {
-                Unfit::Unknown => format!("to={to:?}: {}", one_of(Exported::names())),
-                Unfit::NoNominalRobot => "name the URDF file of the nominal robot: urdf=…".to_owned(),
-                Unfit::NeedlessNodes => needless("nodes"),
-                Unfit::NeedlessRobot => {
+                FormatMismatch::Unknown => format!("to={to:?}: {}", one_of(Exported::names())),
+                FormatMismatch::NoNominalRobot => {
+                    "name the URDF file of the nominal robot: urdf=…".to_owned()
+                }
+                FormatMismatch::NeedlessNodes => needless("nodes"),
+                FormatMismatch::NeedlessRobot => {
                     needless(given.iter().find(|(_, given)| *given).map_or("urdf", |(name, _)| *name))
                 }
             })

@@ -22,14 +22,14 @@ pub type Contents = BTreeMap<String, String>;
 
 /// Reason why a file cannot be read, and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unfit {
+pub struct UnreadableFile {
     /// Description of the problem, in one sentence.
     pub message: String,
     /// Suggested remedy.
     pub help: String,
 }
 
-impl Unfit {
+impl UnreadableFile {
     /// Creates the reason for a refusal, with a suggested fix.
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: help.into() }
@@ -44,22 +44,22 @@ impl Unfit {
     }
 }
 
-impl fmt::Display for Unfit {
+impl fmt::Display for UnreadableFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for Unfit {}
+impl std::error::Error for UnreadableFile {}
 
-impl From<Unfit> for io::Error {
-    fn from(unfit: Unfit) -> Self {
+impl From<UnreadableFile> for io::Error {
+    fn from(unfit: UnreadableFile) -> Self {
         Self::other(unfit)
     }
 }
 
 /// A file open for reading. A file that cannot be accepted gives an error that contains an
-/// [`Unfit`].
+/// [`UnreadableFile`].
 #[derive(Debug)]
 pub struct Bounded {
     source: Source,
@@ -90,7 +90,7 @@ impl Bounded {
     fn open_patiently(path: &Path, most: u64, patience: Duration) -> io::Result<Self> {
         let metadata = fs::metadata(path).map_err(|error| or_nearest(error, path))?;
         if metadata.is_dir() {
-            return Err(Unfit::new("this is a directory, not a file", "name a file in it").into());
+            return Err(UnreadableFile::new("this is a directory, not a file", "name a file in it").into());
         }
         let source = if metadata.is_file() {
             let file = File::open(path)?;
@@ -127,7 +127,7 @@ impl Bounded {
     pub fn find(contents: &Contents, path: &Path, most: u64) -> io::Result<Self> {
         let text = contents.get(&*path.to_string_lossy()).ok_or_else(|| {
             let message = "this file is not among those that come with the text that names it";
-            Unfit::new(message, "supply its contents with the text")
+            UnreadableFile::new(message, "supply its contents with the text")
         })?;
         Ok(Self { source: Source::Text(Cursor::new(text.clone())), most, left: most })
     }
@@ -154,7 +154,7 @@ impl Read for Bounded {
                             let seconds = patience.as_secs();
                             let message = format!("no data from this pipe for {seconds} s");
                             let help = "start the program that writes to it, or give the path of a file";
-                            return Err(Unfit::new(message, help).into());
+                            return Err(UnreadableFile::new(message, help).into());
                         }
                     };
                 }
@@ -179,17 +179,17 @@ fn or_nearest(error: io::Error, path: &Path) -> io::Error {
         }
         _ => None,
     };
-    let unfit = |help| Unfit::new(format!("cannot read this file: {error}"), help);
+    let unfit = |help| UnreadableFile::new(format!("cannot read this file: {error}"), help);
     help.map(|help| io::Error::new(error.kind(), unfit(help))).unwrap_or(error)
 }
 
-fn too_large(most: u64) -> Unfit {
+fn too_large(most: u64) -> UnreadableFile {
     let message = format!("this file is larger than {} MiB", most >> 20);
-    Unfit::new(message, "check that this is the right file")
+    UnreadableFile::new(message, "check that this is the right file")
 }
 
 /// Recognizes common file types that are not UTF-8 text by their first bytes.
-pub fn not_text(head: &[u8]) -> Option<Unfit> {
+pub fn not_text(head: &[u8]) -> Option<UnreadableFile> {
     const KINDS: [(&[u8], &str, &str); 10] = [
         (b"\x1f\x8b", "is compressed by gzip", "unpack it: `gunzip FILE`"),
         (b"PK\x03\x04", "is a zip archive or a spreadsheet", "unpack it, or save the sheet as CSV"),
@@ -211,7 +211,7 @@ pub fn not_text(head: &[u8]) -> Option<Unfit> {
         let help = "save it as UTF-8: `iconv -f UTF-16LE -t UTF-8 FILE`, or from UTF-16BE";
         is_utf_16.then_some(("seems to be text in UTF-16", help))
     })?;
-    Some(Unfit::new(format!("this file {what}"), help))
+    Some(UnreadableFile::new(format!("this file {what}"), help))
 }
 
 #[cfg(test)]
@@ -238,7 +238,8 @@ mod tests {
     #[test]
     fn what_never_ends_is_not_waited_for() {
         let most = 1 << 20;
-        let unfit = |result: io::Result<Vec<u8>>| Unfit::from_error(&result.unwrap_err(), "").message;
+        let unfit =
+            |result: io::Result<Vec<u8>>| UnreadableFile::from_error(&result.unwrap_err(), "").message;
         let zero = Bounded::read_all(Path::new("/dev/zero"), most);
         assert_eq!(unfit(zero), "this file is larger than 1 MiB");
         let pipe = std::env::temp_dir().join(format!("abbe-nobody-writes-{}", std::process::id()));

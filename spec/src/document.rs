@@ -11,7 +11,7 @@ use abbe_core::LengthUnit;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use crate::bounded::{Bounded, Contents, Unfit, not_text};
+use crate::bounded::{Bounded, Contents, UnreadableFile, not_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
 use crate::expr::{
     Allowed, Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Scope, TextLocation, parse_expression,
@@ -68,10 +68,12 @@ impl Document {
         let name = path.display().to_string();
         let fail =
             |text: Arc<str>, diagnostic| Diagnostics { path: name.clone(), text, list: vec![diagnostic] };
-        let unfit =
-            |Unfit { message, help }: Unfit| fail(Arc::from(""), Diagnostic::whole_file(message).help(help));
-        let bytes = Bounded::read_all(path, LARGEST)
-            .map_err(|error| unfit(Unfit::from_error(&error, "give the path of a file that can be read")))?;
+        let unfit = |UnreadableFile { message, help }: UnreadableFile| {
+            fail(Arc::from(""), Diagnostic::whole_file(message).help(help))
+        };
+        let bytes = Bounded::read_all(path, LARGEST).map_err(|error| {
+            unfit(UnreadableFile::from_error(&error, "give the path of a file that can be read"))
+        })?;
         if let Some(found) = not_text(&bytes) {
             return Err(unfit(found));
         }

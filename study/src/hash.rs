@@ -3,7 +3,7 @@
 use std::io::{self, Read};
 use std::path::Path;
 
-use abbe_spec::bounded::{Bounded, Unfit};
+use abbe_spec::bounded::{Bounded, UnreadableFile};
 use abbe_spec::diagnostic::Diagnostics;
 use sha2::{Digest, Sha256};
 
@@ -22,7 +22,7 @@ pub fn digest(text: &str) -> [u8; 32] {
 /// Returns the SHA-256 of a file, in hexadecimal as printed by `sha256sum`.
 pub fn file(file: &Path) -> Result<String, Diagnostics> {
     let fail = |error: io::Error| {
-        let Unfit { message, help } = Unfit::from_error(&error, "give the path of a file");
+        let UnreadableFile { message, help } = UnreadableFile::from_error(&error, "give the path of a file");
         mistake::with_help(file.display(), message, help)
     };
     let file = Bounded::open(file, u64::MAX).map_err(fail)?;

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::io::{self, Read};
 use std::rc::Rc;
 
-use abbe_spec::bounded::Unfit;
+use abbe_spec::bounded::UnreadableFile;
 
 /// Largest length of a row, in bytes.
 const LONGEST: usize = 4 << 20;
@@ -42,7 +42,7 @@ impl<R: Read> Read for RecordedReader<R> {
         let mut window = self.window.borrow_mut();
         if window.bytes.len() > LONGEST {
             let message = format!("the row in line {} is longer than {} MiB", window.line, LONGEST >> 20);
-            return Err(Unfit::new(message, "check for an unclosed quotation mark").into());
+            return Err(UnreadableFile::new(message, "check for an unclosed quotation mark").into());
         }
         let length = self.inner.read(buffer)?;
         window.bytes.extend_from_slice(&buffer[..length]);

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use abbe_study::export::{Ends, FORMATS, Format, SAMPLES, SAMPLES_RANGE, Unfit};
+use abbe_study::export::{Ends, FORMATS, Format, FormatMismatch, SAMPLES, SAMPLES_RANGE};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueHint};
 
@@ -73,12 +73,12 @@ impl Export {
                 Failure::new(option, message).help(format!("leave `{option}` out"))
             };
             match unfit {
-                Unfit::NoNominalRobot => {
+                FormatMismatch::NoNominalRobot => {
                     let failure = Failure::new("--to urdf", "the URDF file of the nominal robot is missing");
                     failure.help("add `--from robot.urdf`")
                 }
-                Unfit::NeedlessNodes => needless("--nodes"),
-                Unfit::NeedlessRobot | Unfit::Unknown => needless("--from"),
+                FormatMismatch::NeedlessNodes => needless("--nodes"),
+                FormatMismatch::NeedlessRobot | FormatMismatch::Unknown => needless("--from"),
             }
         })
     }

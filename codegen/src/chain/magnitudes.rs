@@ -52,12 +52,12 @@ pub struct Magnitudes {
     /// not depend on leading rotations about z.
     pub across_z: [Magnitude; 3],
     /// Parts of all magnitudes.
-    pub apart: Apart,
+    pub apart: PerFrameMagnitudes,
 }
 
 /// Parts of the errors of the tool point: norms that each depend on few joints.
 #[derive(Clone, Debug)]
-pub struct Apart {
+pub struct PerFrameMagnitudes {
     /// ‖t_k‖ from the origin of each frame to that of the next, and from the last one to the tool
     /// point.
     pub links: Vec<Magnitude>,
@@ -101,7 +101,7 @@ impl Magnitudes {
         let errors = sources::generalized_errors(g, spec, &effects);
         let axes = g.identity().axes;
         let shifts: Vec<Vector> = (1..=spec.frames.len()).map(|link| links.shift(g, link, &axes)).collect();
-        let mut apart = Apart {
+        let mut apart = PerFrameMagnitudes {
             links: shifts.into_iter().map(|shift| Magnitude::length(g, shift)).collect(),
             repeatable: sizes_apart(g, &errors),
             random: Vec::new(),

@@ -10,9 +10,9 @@
 //! maximized. `real` is the exact chain with errors and `remainder` its difference from first
 //! order. `joint_step` (by `minors`) cancels the errors to first order and `residual` is the error
 //! left after it. `inverse` solves for the joints in closed form. `dexterity` holds rows of `J_q`
-//! (`joint_columns`), `tool_compliance` the displacement per force. `equivalent_forms` and `moving`
-//! state alternative forms, from which a program takes the cheapest. `tree` builds the same
-//! quantities for frames that branch, and for loops. [`Model`] holds the results.
+//! (`joint_columns`), `tool_compliance` the displacement per force. `equivalent_forms` and
+//! `origin_form` state alternative forms, from which a program takes the cheapest. `tree` builds the
+//! same quantities for frames that branch, and for loops. [`Model`] holds the results.
 
 mod accumulate;
 mod by_source;
@@ -34,7 +34,7 @@ mod magnitudes;
 mod minors;
 mod model;
 mod moments;
-mod moving;
+mod origin_form;
 mod real;
 mod remainder;
 mod residual;
@@ -56,7 +56,7 @@ pub use frame_twist::FrameTwist;
 pub(crate) use local::Local;
 pub use local_twist::LocalTwist;
 pub(crate) use lower_pairs::lower_pairs;
-pub use magnitudes::{Apart, Magnitude, Magnitudes};
+pub use magnitudes::{Magnitude, Magnitudes, PerFrameMagnitudes};
 pub(crate) use model::is_long;
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;
@@ -67,5 +67,5 @@ pub use sources::{DeviationNode, EffectNode, deviations, effects};
 pub(crate) use symbol_jacobian::swing;
 pub use tool_compliance::ToolCompliance;
 pub use tree::LoopEquations;
-pub(crate) use tree::{CLOSED, Loops, REFINEMENTS, RealNodes};
+pub(crate) use tree::{CLOSED, ClosedLoops, REFINEMENTS, RealNodes};
 pub use walk::transform;

@@ -8,11 +8,11 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Table as LookupTable;
 
 use super::description::description;
-use super::loops::Loops;
+use super::loops::FrameLoops;
 use super::outputs::{Outputs, alternatives, fewest};
 use super::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage, Sums, Table};
 use super::select::Selections;
-use super::tree::Draft;
+use super::tree::LoopRoutineBuilder;
 use super::{Action, Operations, Program};
 use crate::chain::{EffectNode, Model, is_long};
 
@@ -38,7 +38,7 @@ impl Routines {
     /// Builds the routines of all functions. A function that gives the same results as an earlier
     /// one calls it; functions of long chains are loops; the others are straight-line programs.
     pub fn new(spec: &Spec, model: &Model) -> Self {
-        Self::with(spec, model, is_long(spec).then(|| Loops::new(spec, model)))
+        Self::with(spec, model, is_long(spec).then(|| FrameLoops::new(spec, model)))
     }
 
     /// Builds the routines without loops for any length of the chain, for checks of the loops.
@@ -46,7 +46,7 @@ impl Routines {
         Self::with(spec, model, None)
     }
 
-    fn with(spec: &Spec, model: &Model, mut loops: Option<Loops<'_>>) -> Self {
+    fn with(spec: &Spec, model: &Model, mut loops: Option<FrameLoops<'_>>) -> Self {
         let description = description(spec, model.effects.iter().map(EffectNode::effect), model.solutions());
         let mut list: Vec<Routine> = Vec::new();
         let mut selections = Selections::default();
@@ -57,7 +57,7 @@ impl Routines {
             let own = model
                 .loops
                 .as_ref()
-                .and_then(|tree| Draft::new(model, tree, &mut arrays).own_stages(function));
+                .and_then(|tree| LoopRoutineBuilder::new(model, tree, &mut arrays).own_stages(function));
             let same = |outputs: &Outputs| {
                 // The distinct entries of a tree are all entries, in an array of another shape.
                 if function == Function::ErrorJacobianDistinct {
@@ -102,7 +102,7 @@ impl Routines {
             let Signature { name, documentation, .. } = *signature;
             list.push(Routine { function: Some(function), name, documentation, arrays, stages, operations });
         }
-        let (helpers, tables, sums) = loops.map_or_else(Default::default, Loops::finish);
+        let (helpers, tables, sums) = loops.map_or_else(Default::default, FrameLoops::finish);
         list.extend(helpers);
         let lookup_tables = spec.tables.clone();
         let commands = Some(&COMPENSATED).filter(|_| !description.variables.is_empty());
@@ -259,7 +259,7 @@ fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec
 /// Returns the stages with a program that fills all results.
 fn at_once(model: &Model, arrays: &mut Vec<Array>, program: Program) -> Vec<Stage> {
     if let Some(tree) = &model.loops {
-        return Draft::new(model, tree, arrays).at_once(program, None);
+        return LoopRoutineBuilder::new(model, tree, arrays).at_once(program, None);
     }
     let filled = |(_, array): &(usize, &Array)| array.role != Role::Argument;
     let writes =
@@ -279,7 +279,8 @@ fn compensator_step(model: &Model, arrays: &mut Vec<Array>, description: &Descri
     for array in columns {
         let program = Program::new(&model.graph, &model.joint_twists.concat());
         match &model.loops {
-            Some(tree) => stages.extend(Draft::new(model, tree, arrays).at_once(program, Some(vec![array]))),
+            Some(tree) => stages
+                .extend(LoopRoutineBuilder::new(model, tree, arrays).at_once(program, Some(vec![array]))),
             None => {
                 let writes = vec![ArrayRows { array, row: Row::All }];
                 stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));

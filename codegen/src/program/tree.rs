@@ -6,20 +6,20 @@ use abbe_spec::expr::{Function as Call, Symbol};
 
 use super::routine::{Array, ArrayRows, Block, Repeated, Role, Row, Stage};
 use super::{Program, Rounded};
-use crate::chain::{CLOSED, Loops, Model, REFINEMENTS, RealNodes};
+use crate::chain::{CLOSED, ClosedLoops, Model, REFINEMENTS, RealNodes};
 use crate::graph::{Graph, Node};
 
 /// Builder of the stages of a function.
-pub(super) struct Draft<'d> {
+pub(super) struct LoopRoutineBuilder<'d> {
     model: &'d Model,
-    loops: &'d Loops,
+    loops: &'d ClosedLoops,
     arrays: &'d mut Vec<Array>,
     stages: Vec<Stage>,
 }
 
-impl<'d> Draft<'d> {
+impl<'d> LoopRoutineBuilder<'d> {
     /// Creates a draft without stages of a function with these arguments and results.
-    pub(super) fn new(model: &'d Model, loops: &'d Loops, arrays: &'d mut Vec<Array>) -> Self {
+    pub(super) fn new(model: &'d Model, loops: &'d ClosedLoops, arrays: &'d mut Vec<Array>) -> Self {
         Self { model, loops, arrays, stages: Vec::new() }
     }
 
@@ -84,7 +84,7 @@ impl<'d> Draft<'d> {
     /// q_k = home + (k / n) (q − home)        p ← p − φ_p⁻¹ φ(q_k, p)
     /// ```
     fn passive(&mut self) {
-        let Loops { passive_home, home, continuation, step, .. } = self.loops;
+        let ClosedLoops { passive_home, home, continuation, step, .. } = self.loops;
         let passive = self.array("passive");
         let mut graph = self.model.graph.clone();
         let start: Vec<Node> = passive_home.iter().map(|value| graph.constant(*value)).collect();
@@ -175,7 +175,7 @@ pub(super) fn locals(
     let Some(tree) = model.loops.as_ref().filter(|tree| !tree.passive_home.is_empty()) else {
         return Vec::new();
     };
-    let Loops { passive_home, home, continuation, .. } = tree;
+    let ClosedLoops { passive_home, home, continuation, .. } = tree;
     let mut p = passive_home.clone();
     for k in 1..=continuation + REFINEMENTS {
         let share = (k as f64 / *continuation as f64).min(1.0);

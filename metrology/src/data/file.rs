@@ -5,12 +5,12 @@ use std::io::{self, Cursor, Read};
 use std::path::Path;
 use std::sync::Arc;
 
-use abbe_spec::bounded::{Bounded, Unfit, not_text};
+use abbe_spec::bounded::{Bounded, UnreadableFile, not_text};
 use abbe_spec::cell::meant;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::above::{above_heading, stated_separator};
 use super::dialect::Dialect;
+use super::preamble::{above_heading, stated_separator};
 use super::record::Record;
 use abbe_study::lines::{Lines, RecordedReader};
 use abbe_study::mistake;
@@ -42,7 +42,7 @@ impl File {
     /// Opens a file and reads its heading.
     pub(super) fn open(file: &Path) -> Result<Self, Diagnostics> {
         let name = file.display().to_string();
-        let fail = |error: io::Error| unfit(&name, &Unfit::from_error(&error, WANTED));
+        let fail = |error: io::Error| unfit(&name, &UnreadableFile::from_error(&error, WANTED));
         let mut input = Bounded::open(file, LARGEST_FILE).map_err(fail)?;
         let mut head = Vec::new();
         input.by_ref().take(HEAD).read_to_end(&mut head).map_err(fail)?;
@@ -86,9 +86,9 @@ impl File {
 }
 
 /// Recognizes a text that is not a table by its first line.
-fn other_text(head: &[u8]) -> Option<Unfit> {
+fn other_text(head: &[u8]) -> Option<UnreadableFile> {
     if head.contains(&0) {
-        return Some(Unfit::new("this is not a text file: it contains null bytes", WANTED));
+        return Some(UnreadableFile::new("this is not a text file: it contains null bytes", WANTED));
     }
     let text = String::from_utf8_lossy(head);
     let mut lines = text.lines().map(str::trim);
@@ -105,22 +105,22 @@ fn other_text(head: &[u8]) -> Option<Unfit> {
     } else {
         return None;
     };
-    Some(Unfit::new(format!("this file is not a table; it seems to be {what}"), help))
+    Some(UnreadableFile::new(format!("this file is not a table; it seems to be {what}"), help))
 }
 
 fn unreadable(file: &str, error: &csv::Error) -> Diagnostics {
     let found = match error.kind() {
-        csv::ErrorKind::Io(error) => Unfit::from_error(error, WANTED),
+        csv::ErrorKind::Io(error) => UnreadableFile::from_error(error, WANTED),
         csv::ErrorKind::Utf8 { pos, .. } => {
             let line = pos.as_ref().map_or(1, csv::Position::line);
             let message = format!("this file has a byte near line {line} that is not UTF-8 text");
-            Unfit::new(message, "save it as UTF-8, or write names without accents")
+            UnreadableFile::new(message, "save it as UTF-8, or write names without accents")
         }
-        _ => Unfit::new(format!("cannot read this file: {error}"), WANTED),
+        _ => UnreadableFile::new(format!("cannot read this file: {error}"), WANTED),
     };
     unfit(file, &found)
 }
 
-fn unfit(file: &str, Unfit { message, help }: &Unfit) -> Diagnostics {
+fn unfit(file: &str, UnreadableFile { message, help }: &UnreadableFile) -> Diagnostics {
     mistake::with_help(file, message, help)
 }

@@ -19,7 +19,6 @@ mod drawn_pose;
 mod error;
 mod floats;
 pub mod function;
-mod lookup_table;
 mod manipulator;
 #[cfg(feature = "nalgebra")]
 mod nalgebra_views;
@@ -65,13 +64,13 @@ pub use distinct::ErrorColumns;
 pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
 pub use error::{Error, MINIMUM_MARGIN, Quantity};
 pub use function::Function;
-pub use lookup_table::LookupTable;
+
 pub use manipulator::Manipulator;
 #[cfg(feature = "nalgebra")]
 pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
 pub use pose::Pose;
 pub use remedy::Remedy;
-pub use scalar::Scalar;
+pub use scalar::{LookupTable, Scalar};
 pub use shared::{List, Text};
 #[cfg(feature = "lanes")]
 pub use twist::{roll_cosine, twist};

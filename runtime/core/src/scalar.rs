@@ -1,8 +1,12 @@
-//! The number type that generated code is generic over.
+//! The number type that generated code is generic over, and its lookup tables.
+
+mod lookup_table;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::LookupTable;
+pub use lookup_table::LookupTable;
+#[cfg(feature = "lanes")]
+pub(crate) use lookup_table::ROUND;
 
 /// Number type of generated code: `f64` and `f32` here, dual numbers or lanes elsewhere.
 ///

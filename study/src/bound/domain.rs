@@ -4,7 +4,7 @@ use abbe_spec::option::SET;
 use std::sync::Arc;
 
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
-use abbe_codegen::chain::{Apart, Magnitude};
+use abbe_codegen::chain::{Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
@@ -73,7 +73,7 @@ impl Domain {
     }
 
     /// Bounds the norms by the sum of their parts.
-    pub(super) fn limits(&self, graph: &mut Graph, apart: &Apart) -> Limits {
+    pub(super) fn limits(&self, graph: &mut Graph, apart: &PerFrameMagnitudes) -> Limits {
         abbe_bound::limits(graph, apart, &self.names(), &|symbol| home(symbol, &self.spec))
     }
 

@@ -6,7 +6,7 @@ mod options;
 
 pub use abbe_exchange::export::{ExportReport as Report, ExportedFile, Figure, PoseDifference, RotaryAxis};
 pub use abbe_exchange::urdf::Ends;
-pub use abbe_exchange::{FORMATS, Format, Needs, Unfit};
+pub use abbe_exchange::{FORMATS, Format, FormatMismatch, Needs};
 
 pub use self::job::Export;
 pub use self::options::{SAMPLES, SAMPLES_RANGE};

@@ -13,7 +13,7 @@ use std::path;
 
 use abbe::analysis::Configuration;
 use abbe::{Manipulator, VariableKind};
-use abbe_spec::bounded::{Unfit, not_text};
+use abbe_spec::bounded::{UnreadableFile, not_text};
 use abbe_spec::cell::meant;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Section};
@@ -174,7 +174,7 @@ fn read_configurations(input: impl Read, spec: &Spec) -> Result<Table, String> {
 fn describe_error(error: &csv::Error) -> String {
     match error.kind() {
         csv::ErrorKind::Io(error) => {
-            let Unfit { message, help } = Unfit::from_error(error, "");
+            let UnreadableFile { message, help } = UnreadableFile::from_error(error, "");
             if help.is_empty() { error.to_string() } else { format!("{message}; {help}") }
         }
         _ => error.to_string(),

@@ -59,7 +59,8 @@ fn command(language: Language) -> Result<Vec<String>, Missing> {
     match language {
         Language::JavaScript => tool("node", "").map(|_| words(&["node"])),
         Language::Python => python("numpy").map(|python| words(&[&python])),
-        _ => tool("octave", "").map(|_| words(&["octave", "--no-gui", "--quiet", "--norc"])),
+        Language::Matlab => tool("octave", "").map(|_| words(&["octave", "--no-gui", "--quiet", "--norc"])),
+        other => panic!("no command runs {other:?}"),
     }
 }
 
@@ -129,7 +130,8 @@ fn results(
     let script = match language {
         Language::JavaScript => "run.mjs",
         Language::Python => "run.py",
-        _ => "run.m",
+        Language::Matlab => "run.m",
+        other => panic!("no script runs {other:?}"),
     };
     let source = folder.path().join(if language == Language::JavaScript { "module.mjs" } else { &file.name });
     let [input, output, functions] = ["input", "output", "functions"].map(|name| folder.path().join(name));

@@ -66,7 +66,7 @@ impl Angle {
 
 /// Returns a multiple of the sine and cosine of the angle about a unit vector that turns `from`
 /// towards `to`; `size` is that of the two vectors. If one has no direction, the angle is `free`.
-pub(super) fn towards(
+pub(super) fn angle_between(
     g: &mut Graph,
     along: Vector,
     from: Vector,
@@ -124,7 +124,7 @@ fn roots(g: &mut Graph, [k, c, s]: [Node; 3], square: Node, rest: Node) -> [Root
     })
 }
 
-/// Returns `true` if `second` is at right angles to both others. The two angles of [`tilts`] then
+/// Returns `true` if `second` is at right angles to both others. The two angles of [`tilt_angles`] then
 /// are of opposite sign, and angles about the others half a turn apart.
 pub(super) fn are_square(g: &mut Graph, [first, second, third]: [Vector; 3], probes: &Probes) -> bool {
     let products = [g.dot(first, second), g.dot(second, third)];
@@ -141,7 +141,7 @@ pub(super) fn are_square(g: &mut Graph, [first, second, third]: [Vector; 3], pro
 /// a = b = 0        w² = |first × image|²
 /// a = ±b           w² = (1 ± m − 2 a²) |first ∓ image|² / 2
 /// ```
-pub(super) fn tilts(
+pub(super) fn tilt_angles(
     g: &mut Graph,
     [first, second, third]: [Vector; 3],
     image: Vector,

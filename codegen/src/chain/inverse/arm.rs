@@ -2,8 +2,8 @@
 
 use abbe_core::VariableKind;
 
-use super::angles::{Angle, Root, linear, towards};
-use super::lines::{Line, Probes, flat};
+use super::angles::{Angle, Root, angle_between, linear};
+use super::lines::{Line, Probes, reject};
 use super::partial::{Joint, Partial};
 use crate::graph::{Graph, Node, Vector};
 
@@ -35,7 +35,7 @@ impl Arm<'_> {
         if probes.are_parallel(g, second, third) {
             let between = probes.offset(g, second, third.at);
             let is_one = probes.are_zero(g, &between, probes.size);
-            return (!is_one && !probes.are_parallel(g, first, second)).then(|| self.flat(g, to));
+            return (!is_one && !probes.are_parallel(g, first, second)).then(|| self.planar(g, to));
         }
         if probes.are_parallel(g, first, second) {
             return Some(self.behind_parallel(g, to));
@@ -45,7 +45,7 @@ impl Arm<'_> {
         }
         let centre = probes.common_point(g, second, third)?;
         let away = g.sub_vectors(centre, first.at);
-        let away = flat(g, first.along, away);
+        let away = reject(g, first.along, away);
         (!probes.are_zero(g, &away, probes.size)).then(|| self.before_intersecting(g, to, centre))
     }
 
@@ -60,7 +60,7 @@ impl Arm<'_> {
     }
 
     /// The last two axes are parallel: the first joint brings the point to its height along them.
-    fn flat(&self, g: &mut Graph, to: Vector) -> Vec<Partial> {
+    fn planar(&self, g: &mut Graph, to: Vector) -> Vec<Partial> {
         let [first, second, third] = self.lines;
         let to = g.sub_vectors(to, first.at);
         let kept = self.probes.between(g, self.point, first.at);
@@ -90,19 +90,19 @@ impl Arm<'_> {
         let k = g.sub(k, height);
         let thirds = linear(g, [k, c, s], self.free[2], self.probes.size);
         let between = g.sub_vectors(second.at, first.at);
-        let between = flat(g, first.along, between);
+        let between = reject(g, first.along, between);
         let between = self.probes.cleaned_vector(g, between, self.probes.size);
         let to = g.sub_vectors(to, first.at);
         let mut found = Vec::new();
         for q3 in thirds {
             let u = Moved { fixed, across, beyond }.at(g, q3.angle);
             // |between + R_2 u|² = |to|² in the plane across the axes.
-            let [flat_u, flat_to] = [u, to].map(|v| flat(g, first.along, v));
-            let q2s = bends(g, second.along, [between, flat_u], flat_to, self.free[1], self.size());
+            let [flat_u, flat_to] = [u, to].map(|v| reject(g, first.along, v));
+            let q2s = elbow_angles(g, second.along, [between, flat_u], flat_to, self.free[1], self.size());
             for q2 in q2s {
                 let reached = q2.angle.turn(g, second.along, flat_u);
                 let reached = g.add_vectors(between, reached);
-                let q1 = towards(g, first.along, reached, flat_to, self.free[0], self.probes.size);
+                let q1 = angle_between(g, first.along, reached, flat_to, self.free[0], self.probes.size);
                 found.push(Partial::new(vec![Root { angle: q1.normalized(g), exists: q2.exists }, q2, q3]));
             }
         }
@@ -140,7 +140,7 @@ impl Arm<'_> {
         let seconds = to_height(g, [first.along, second.along], u, height, self.free[1], self.probes.size);
         seconds.map(|q2| {
             let reached = q2.angle.turn(g, second.along, u);
-            let q1 = towards(g, first.along, reached, to, self.free[0], self.probes.size);
+            let q1 = angle_between(g, first.along, reached, to, self.free[0], self.probes.size);
             [Root { angle: q1.normalized(g), exists: q2.exists }, q2]
         })
     }
@@ -155,7 +155,7 @@ impl Arm<'_> {
         let (half, sum) = (g.constant(0.5), g.add(tt, aa));
         let difference = g.sub(sum, kk);
         let product = g.mul(half, difference);
-        let flat_away = flat(g, first.along, away);
+        let flat_away = reject(g, first.along, away);
         let height = g.dot(first.along, away);
         let along = g.dot(first.along, to);
         let rest = g.mul(height, along);
@@ -172,7 +172,7 @@ impl Arm<'_> {
                 to_height(g, [second.along, third.along], kept, height, self.free[2], self.probes.size);
             for q3 in thirds {
                 let reached = q3.angle.turn(g, third.along, kept);
-                let q2 = towards(g, second.along, reached, back, self.free[1], self.probes.size);
+                let q2 = angle_between(g, second.along, reached, back, self.free[1], self.probes.size);
                 found.push(Partial::new(vec![q1, Root { angle: q2.normalized(g), exists: q3.exists }, q3]));
             }
         }
@@ -199,12 +199,13 @@ impl Arm<'_> {
             let between = g.sub_vectors(second.at, first.at);
             let [between, u, away] = {
                 let to = g.add_vectors(away, between);
-                [between, u, to].map(|v| flat(g, first.along, v))
+                [between, u, to].map(|v| reject(g, first.along, v))
             };
-            for q2 in bends(g, second.along, [between, u], away, self.free[1], size) {
+            for q2 in elbow_angles(g, second.along, [between, u], away, self.free[1], size) {
                 let reached = q2.angle.turn(g, second.along, u);
                 let reached = g.add_vectors(between, reached);
-                let q1 = towards(g, first.along, reached, away, self.free[0], self.probes.size).normalized(g);
+                let q1 = angle_between(g, first.along, reached, away, self.free[0], self.probes.size)
+                    .normalized(g);
                 let q1 = Root { angle: q1, exists: q2.exists };
                 found.push(Partial {
                     joints: vec![Joint::Turn(q1), Joint::Turn(q2), Joint::Slide(travel)],
@@ -301,7 +302,7 @@ pub(super) fn back_to_height(
 
 /// Returns the angles about `along`, for which `|lower + R upper|` is the length of `to`. All are
 /// vectors across `along`.
-fn bends(
+fn elbow_angles(
     g: &mut Graph,
     along: Vector,
     [lower, upper]: [Vector; 2],
@@ -334,15 +335,15 @@ pub(super) fn plane(
     let sign = probes.nominal(g, sign);
     let [lower, upper] = [(second.at, first.at), (point, second.at)].map(|(a, b)| {
         let way = probes.between(g, a, b);
-        flat(g, along, way)
+        reject(g, along, way)
     });
-    let reach = flat(g, along, reach);
+    let reach = reject(g, along, reach);
     let size = probes.size * probes.size;
     let bend = free[1].signed(g, sign);
-    bends(g, along, [lower, upper], reach, bend, size).map(|root| {
+    elbow_angles(g, along, [lower, upper], reach, bend, size).map(|root| {
         let turned = root.angle.turn(g, along, upper);
         let reached = g.add_vectors(lower, turned);
-        let q = towards(g, along, reached, reach, free[0], probes.size).normalized(g);
+        let q = angle_between(g, along, reached, reach, free[0], probes.size).normalized(g);
         let angle = root.angle.signed(g, sign);
         [Root { angle: q, exists: root.exists }, Root { angle, ..root }]
     })

@@ -194,13 +194,13 @@ impl Probes {
     /// Returns the vector from a line to a point, perpendicular to the line.
     pub(super) fn offset(&self, g: &mut Graph, line: &Line, point: Vector) -> Vector {
         let from = g.sub_vectors(point, line.at);
-        let flat = flat(g, line.along, from);
+        let flat = reject(g, line.along, from);
         self.cleaned_vector(g, flat, self.size)
     }
 }
 
 /// Returns the part of a vector perpendicular to a unit vector.
-pub(super) fn flat(g: &mut Graph, along: Vector, v: Vector) -> Vector {
+pub(super) fn reject(g: &mut Graph, along: Vector, v: Vector) -> Vector {
     let height = g.dot(along, v);
     let parallel = g.scale(height, along);
     g.sub_vectors(v, parallel)

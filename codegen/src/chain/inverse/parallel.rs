@@ -2,7 +2,7 @@
 
 use abbe_core::VariableKind;
 
-use super::angles::{Angle, Root, tilts, towards};
+use super::angles::{Angle, Root, angle_between, tilt_angles};
 use super::arm::{back_to_height, plane};
 use super::lines::{Line, Lines};
 use super::motion::Motion;
@@ -50,7 +50,7 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
         let wrist = g.add_vectors(wrist, between);
         let goal = q1.angle.turn(g, first.along, wrist);
         let goal = motion.turn_back(g, goal);
-        let fifths = tilts(g, [h, fifth.along, sixth.along], image, probes);
+        let fifths = tilt_angles(g, [h, fifth.along, sixth.along], image, probes);
         for (q5, keeps_start) in fifths.into_iter().zip([true, false]) {
             let back_5 = q5.angle.signed(g, -1.0);
             // Where the sixth axis is parallel to the others, both q_5 are one, and q_6 is free:
@@ -59,11 +59,11 @@ pub(super) fn solve(g: &mut Graph, lines: &Lines, motion: &Motion, free: [Angle;
                 free[5].signed(g, -1.0)
             } else {
                 let lever = back_5.turn(g, fifth.along, lever);
-                towards(g, sixth.along, lever, goal, free[5], probes.size).normalized(g)
+                angle_between(g, sixth.along, lever, goal, free[5], probes.size).normalized(g)
             };
             // R_6ᵀ R_5ᵀ h = Rᵀ R_1 h
             let tilted = back_5.turn(g, fifth.along, h);
-            let back_6 = towards(g, sixth.along, tilted, seen, last, 1.0).normalized(g);
+            let back_6 = angle_between(g, sixth.along, tilted, seen, last, 1.0).normalized(g);
             let q6 = back_6.signed(g, -1.0);
             let ends = back_5.turn(g, fifth.along, unit);
             let ends = back_6.turn(g, sixth.along, ends);

@@ -1,7 +1,7 @@
 //! Three revolute joints that give an orientation.
 
-use super::angles::{Angle, Root, are_square, tilts, towards};
-use super::lines::{Probes, flat};
+use super::angles::{Angle, Root, angle_between, are_square, tilt_angles};
+use super::lines::{Probes, reject};
 use crate::graph::{Graph, Vector};
 
 /// Directions of the axes of three revolute joints.
@@ -34,12 +34,12 @@ impl<'a> Wrist<'a> {
         let mark = rotated(g, unit);
         let ends = |g: &mut Graph, q2: Angle| {
             let tilted = q2.turn(g, second, third);
-            let q1 = towards(g, first, tilted, image, free, 1.0).normalized(g);
+            let q1 = angle_between(g, first, tilted, image, free, 1.0).normalized(g);
             let back = q1.signed(g, -1.0).turn(g, first, mark);
             let back = q2.signed(g, -1.0).turn(g, second, back);
-            [q1, towards(g, third, unit, back, last, 1.0)]
+            [q1, angle_between(g, third, unit, back, last, 1.0)]
         };
-        let middle = tilts(g, self.axes, image, self.probes);
+        let middle = tilt_angles(g, self.axes, image, self.probes);
         let [near, far] = middle.map(|q2| q2.angle);
         let near = ends(g, near);
         let far = if are_square(g, self.axes, self.probes) {
@@ -62,7 +62,7 @@ pub(super) fn across(g: &mut Graph, probes: &Probes, along: Vector) -> Vector {
     let least = (0..3).min_by(|a, b| parts[*a].total_cmp(&parts[*b])).unwrap_or(0);
     let mut axis = [g.zero(); 3];
     axis[least] = g.constant(1.0);
-    let flat = flat(g, along, axis);
+    let flat = reject(g, along, axis);
     let square = g.dot(flat, flat);
     let (length, one) = (g.sqrt(square), g.constant(1.0));
     let inverse = g.div(one, length);

@@ -16,7 +16,7 @@ use crate::chain::error_jacobian;
 use crate::chain::inverse::Inverse;
 use crate::chain::local_twist::local_twists;
 use crate::chain::moments::Moments;
-use crate::chain::moving;
+use crate::chain::origin_form;
 use crate::chain::real::RealChain;
 use crate::chain::rows::Rows;
 use crate::chain::sources;
@@ -122,7 +122,7 @@ impl Model {
         let parameter_local_twists = twists_of((0..spec.parameters.len()).map(Symbol::Parameter).collect());
         if !is_long(spec) {
             for errors in [&symbols, &generalized_errors] {
-                moving::equate(g, &links, errors);
+                origin_form::equate(g, &links, errors);
             }
             let poses: Vec<Frame> = frames.iter().copied().chain([tool]).collect();
             for (chain, real) in [(&real, &real_poses), (&drawn, &drawn_poses)] {

@@ -10,7 +10,7 @@ use abbe_spec::Spec;
 use super::inverse::Inverse;
 use super::local_twist::LocalTwist;
 use super::sources::EffectNode;
-use super::tree::Loops;
+use super::tree::ClosedLoops;
 use crate::graph::{Frame, Graph, Node};
 
 /// A Jacobian, or another matrix with the same six rows: columns, with rows 4–6 by the spec's
@@ -76,7 +76,7 @@ pub struct Model {
     pub(crate) inverse: Option<Inverse>,
     /// Newton's steps that close the loops, and the exact poses with errors. Only for a tree of
     /// frames.
-    pub(crate) loops: Option<Loops>,
+    pub(crate) loops: Option<ClosedLoops>,
 }
 
 impl Model {

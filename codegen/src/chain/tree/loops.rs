@@ -14,7 +14,7 @@ use crate::graph::{Frame, Graph, Node};
 
 /// Nodes that close the loops. Passive variables are local symbols, from 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Loops {
+pub(crate) struct ClosedLoops {
     /// Values of the passive variables at home, from which they are found.
     pub(crate) passive_home: Vec<f64>,
     /// Values of the joint variables at home.
@@ -45,7 +45,7 @@ pub(crate) struct RealNodes {
     pub(crate) pose: Frame,
 }
 
-impl Loops {
+impl ClosedLoops {
     pub(super) fn new(
         graph: &mut Graph,
         spec: &Spec,
@@ -119,7 +119,7 @@ impl RealNodes {
     }
 
     /// Returns `true` if the errors move the passive variables from their nominal values.
-    pub(crate) fn moves_passive(&self, nominal: &Loops) -> bool {
+    pub(crate) fn moves_passive(&self, nominal: &ClosedLoops) -> bool {
         self.step != nominal.step
     }
 

@@ -25,5 +25,5 @@ mod view;
 pub(crate) use continuation::{CLOSED, REFINEMENTS};
 pub use equations::LoopEquations;
 pub(super) use lengths::add_lengths;
-pub(crate) use loops::{Loops, RealNodes};
+pub(crate) use loops::{ClosedLoops, RealNodes};
 pub(super) use model::model;

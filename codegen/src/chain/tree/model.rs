@@ -4,7 +4,7 @@ use abbe_core::Component;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::loops::Loops;
+use super::loops::ClosedLoops;
 use super::parts::Parts;
 use crate::chain::by_source;
 use crate::chain::elastic::Loads;
@@ -72,7 +72,7 @@ pub(crate) fn model(spec: &Spec) -> Model {
     let predicted_displacement = two_forms(g, std::slice::from_ref(&generalized_errors));
     let zero = g.zero();
     let source_displacements = two_forms(g, &by_source::errors_by_source(zero, spec, &effects));
-    let loops = Loops::new(g, spec, &parts, &causes, &symbols);
+    let loops = ClosedLoops::new(g, spec, &parts, &causes, &symbols);
     let (real_pose, drawn_pose) = (loops.real.pose, loops.drawn.pose);
     Model {
         transforms,

@@ -4,13 +4,13 @@ use abbe_core::Orientation;
 use abbe_core::function::Count;
 
 use super::body::Body;
-use super::draft::{Draft, POSE, RowsArray};
+use super::routine_builder::{POSE, RoutineBuilder, RowsArray};
 use super::sums::Twists;
 use crate::chain::{Accumulated, Columns, Local, swing};
 use crate::graph::Node;
 use crate::program::routine::{Row, Stage};
 
-impl Draft<'_, '_> {
+impl RoutineBuilder<'_, '_> {
     /// Computes `J_e`: all of its columns, or only the entries that are neither zero nor repeated.
     pub(super) fn error_jacobian(&mut self, distinct: bool) {
         let terms = self.terms();

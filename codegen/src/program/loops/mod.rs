@@ -7,20 +7,20 @@
 //! frames, and `functions` has the loops of each function.
 
 mod body;
-mod draft;
 mod functions;
+mod routine_builder;
 mod span;
 mod sums;
 mod walk;
 
 use abbe_core::Function;
 
-use self::draft::Draft;
-pub(super) use self::span::Loops;
+use self::routine_builder::RoutineBuilder;
+pub(super) use self::span::FrameLoops;
 use super::routine::{Array, Routine, Stage, Sums, Table};
 use crate::chain::{Covariance, Displacement};
 
-impl Loops<'_> {
+impl FrameLoops<'_> {
     /// Returns the helper routines, tables and sums.
     pub(super) fn finish(self) -> (Vec<Routine>, Vec<Table>, Vec<Sums>) {
         (walk::helpers(&self), self.tables, self.sums)
@@ -29,7 +29,7 @@ impl Loops<'_> {
     /// Returns the stages of a function and adds the arrays that they need. Returns `None` for a
     /// function without loops.
     pub(super) fn stages(&mut self, function: Function, arrays: &mut Vec<Array>) -> Option<Vec<Stage>> {
-        let mut draft = Draft::new(self, arrays);
+        let mut draft = RoutineBuilder::new(self, arrays);
         match function {
             // The last three are no functions of long chains.
             Function::Effects

@@ -9,7 +9,7 @@ use crate::graph::Node;
 use crate::program::routine::{Sums, Table};
 
 /// Data of the loops, and their tables and sums.
-pub(in crate::program) struct Loops<'m> {
+pub(in crate::program) struct FrameLoops<'m> {
     pub(super) model: &'m Model,
     pub(super) orientation: Orientation,
     pub(super) motions: usize,
@@ -20,7 +20,7 @@ pub(in crate::program) struct Loops<'m> {
     pub(super) tables: Vec<Table>,
 }
 
-impl<'m> Loops<'m> {
+impl<'m> FrameLoops<'m> {
     pub(in crate::program) fn new(spec: &Spec, model: &'m Model) -> Self {
         let mut sum = Sum::new(&model.graph);
         let motions = sum.motions(&model.transforms);

@@ -3,8 +3,8 @@
 use abbe_core::function::Count;
 
 use super::body::Body;
-use super::draft::{Draft, POSE};
-use super::span::Loops;
+use super::routine_builder::{POSE, RoutineBuilder};
+use super::span::FrameLoops;
 use crate::chain::displaced;
 use crate::graph::Node;
 use crate::program::routine::{Array, ArrayRows, Block, Role, Routine, Row, Stage};
@@ -14,7 +14,7 @@ use crate::program::{Operations, Program};
 const CHAIN: [Count; 3] = [Count::BaseToTool, POSE[0], POSE[1]];
 
 /// Returns the helper routines: terms, links and frames.
-pub(super) fn helpers(loops: &Loops<'_>) -> Vec<Routine> {
+pub(super) fn helpers(loops: &FrameLoops<'_>) -> Vec<Routine> {
     let array = |name, shape: &[Count], role| Array { name, shape: shape.to_vec(), role };
     let terms = |role| array("terms", &[Count::Exactly(loops.terms.len())], role);
     let routine = |name, documentation, arrays, stages| Routine {
@@ -40,14 +40,14 @@ pub(super) fn helpers(loops: &Loops<'_>) -> Vec<Routine> {
     let links = routine("chain_links", "Identity, `A_1 … A_n` and the tool transform.", arrays, vec![sums]);
 
     let mut arrays = vec![terms(Role::Argument), array("frames", &CHAIN, Role::Result)];
-    let mut draft = Draft::new(loops, &mut arrays);
+    let mut draft = RoutineBuilder::new(loops, &mut arrays);
     draft.walk();
     let stages = draft.stages;
     let frames = routine("chain_frames", "Poses of `F_0 … F_n` and the tool in `F_0`.", arrays, stages);
     vec![terms_of_q, links, frames]
 }
 
-impl Draft<'_, '_> {
+impl RoutineBuilder<'_, '_> {
     /// Computes the terms that the entries of all transforms are sums of.
     pub(super) fn terms(&mut self) -> usize {
         let (q, s) = (self.array("q"), self.array("s"));

@@ -2,7 +2,7 @@
 
 use super::register::WIDEST;
 use super::{Lanes, Mask, Register, arc_tangent};
-use crate::lookup_table::ROUND;
+use crate::scalar::ROUND;
 use crate::sin_cos;
 use crate::{LookupTable, Scalar};
 

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::PathBuf;
 
-use crate::bounded::{Unfit, not_text};
+use crate::bounded::{UnreadableFile, not_text};
 use crate::cell::meant;
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::{Document, Item};
@@ -38,22 +38,23 @@ impl Columns {
         let path: PathBuf = folder.join(&file);
         let mut bytes = Vec::new();
         let opened = document.named_file(&path, LARGEST);
-        let read =
-            opened.and_then(|mut input| input.read_to_end(&mut bytes)).map_err(
-                |error| match Unfit::from_error(&error, "the path is relative to the folder of the spec") {
-                    Unfit { help, .. } if error.raw_os_error().is_some() => {
-                        Unfit::new(format!("cannot read `{file}`: {error}"), help)
-                    }
-                    Unfit { message, help } => Unfit::new(format!("`{file}`: {message}"), help),
-                },
-            );
+        let read = opened.and_then(|mut input| input.read_to_end(&mut bytes)).map_err(|error| {
+            match UnreadableFile::from_error(&error, "the path is relative to the folder of the spec") {
+                UnreadableFile { help, .. } if error.raw_os_error().is_some() => {
+                    UnreadableFile::new(format!("cannot read `{file}`: {error}"), help)
+                }
+                UnreadableFile { message, help } => UnreadableFile::new(format!("`{file}`: {message}"), help),
+            }
+        });
         let text = read.and_then(|_| match not_text(&bytes) {
-            Some(Unfit { message, help }) => Err(Unfit::new(format!("`{file}`: {message}"), help)),
+            Some(UnreadableFile { message, help }) => {
+                Err(UnreadableFile::new(format!("`{file}`: {message}"), help))
+            }
             None => Ok(bytes),
         });
         let bytes = match text {
             Ok(bytes) => bytes,
-            Err(Unfit { message, help }) => {
+            Err(UnreadableFile { message, help }) => {
                 fail(document, message, &help);
                 return None;
             }

@@ -3,7 +3,7 @@
 use abbe_spec::option::SHARD;
 use std::path::Path;
 
-use abbe_spec::bounded::{Bounded, Unfit};
+use abbe_spec::bounded::{Bounded, UnreadableFile};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::part::Part;
@@ -66,7 +66,8 @@ impl Part {
     /// Reads a part file.
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
         let bytes = Bounded::read_all(path, LONGEST).map_err(|error| {
-            let Unfit { message, help } = Unfit::from_error(&error, "give the path of a part");
+            let UnreadableFile { message, help } =
+                UnreadableFile::from_error(&error, "give the path of a part");
             mistake::with_help(path.display(), message, help)
         })?;
         Self::from_bytes(&path.display().to_string(), &bytes)

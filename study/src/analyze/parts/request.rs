@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abbe_manipulators::{MECHANISMS, SHIPPED};
 use abbe_spec::Spec;
-use abbe_spec::bounded::{Bounded, Contents, Unfit};
+use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use serde::{Deserialize, Serialize};
@@ -198,7 +198,8 @@ pub(super) fn contents(job: &Analyze) -> Result<Contents, Diagnostics> {
     for file in job.machine().spec.beside.iter().chain(&job.study().files) {
         let wrong = |message: String, help: &str| mistake::with_help(file.display(), message, help);
         let bytes = Bounded::read_all(file, left).map_err(|error| {
-            let Unfit { message, help } = Unfit::from_error(&error, "give the path of a file");
+            let UnreadableFile { message, help } =
+                UnreadableFile::from_error(&error, "give the path of a file");
             wrong(message, &help)
         })?;
         let text = String::from_utf8(bytes)

@@ -3,7 +3,7 @@
 use abbe_core::function::Count;
 
 use super::body::Body;
-use super::span::Loops;
+use super::span::FrameLoops;
 use crate::chain::Rows;
 use crate::graph::Vector;
 use crate::program::routine::{Array, ArrayRows, Repeated, Role, Row, Stage};
@@ -11,15 +11,15 @@ use crate::program::routine::{Array, ArrayRows, Repeated, Role, Row, Stage};
 /// Dimensions of a pose.
 pub(super) const POSE: [Count; 2] = [Count::Exactly(4), Count::Exactly(3)];
 
-pub(super) struct Draft<'d, 'm> {
-    pub(super) loops: &'d Loops<'m>,
+pub(super) struct RoutineBuilder<'d, 'm> {
+    pub(super) loops: &'d FrameLoops<'m>,
     arrays: &'d mut Vec<Array>,
     pub(super) stages: Vec<Stage>,
 }
 
-impl<'d, 'm> Draft<'d, 'm> {
+impl<'d, 'm> RoutineBuilder<'d, 'm> {
     /// Creates a draft without stages of a routine with these arguments and results.
-    pub(super) fn new(loops: &'d Loops<'m>, arrays: &'d mut Vec<Array>) -> Self {
+    pub(super) fn new(loops: &'d FrameLoops<'m>, arrays: &'d mut Vec<Array>) -> Self {
         Self { loops, arrays, stages: Vec::new() }
     }
 

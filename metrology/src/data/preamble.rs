@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use abbe_spec::bounded::Unfit;
+use abbe_spec::bounded::UnreadableFile;
 use csv::StringRecord;
 
 use super::dialect::{Dialect, SEPARATORS};
@@ -39,7 +39,7 @@ struct Row {
 ///
 /// They have fewer cells than the rows below, and the first line with as many cells as these has no
 /// number. All separators are tried, because a title does not reveal the one of the table.
-pub(super) fn above_heading(text: &[u8], dialect: Dialect) -> Option<Unfit> {
+pub(super) fn above_heading(text: &[u8], dialect: Dialect) -> Option<UnreadableFile> {
     std::iter::once(dialect).chain(SEPARATORS.map(|separator| dialect.separated(separator))).find_map(
         |dialect| {
             let rows = rows(text, dialect);
@@ -60,7 +60,7 @@ pub(super) fn above_heading(text: &[u8], dialect: Dialect) -> Option<Unfit> {
                 counted(first.cells, "cell", "cells"),
                 names.line
             );
-            Some(Unfit::new(message, "remove the lines above the heading, which names the columns"))
+            Some(UnreadableFile::new(message, "remove the lines above the heading, which names the columns"))
         },
     )
 }
