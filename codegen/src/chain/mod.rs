@@ -11,8 +11,8 @@
 //! order. `joint_step` (by `minors`) cancels the errors to first order and `residual` is the error
 //! left after it. `inverse` solves for the joints in closed form. `dexterity` holds rows of `J_q`
 //! (`joint_columns`), `tool_compliance` the displacement per force. `equivalent_forms` and
-//! `origin_form` state alternative forms, from which a program takes the cheapest. `tree` builds the
-//! same quantities for frames that branch, and for loops. [`Model`] holds the results.
+//! `origin_form` state alternative forms, from which a program takes the cheapest. `tree` builds
+//! the same quantities for frames that branch, and for loops. [`Model`] holds the results.
 
 mod accumulate;
 mod by_source;

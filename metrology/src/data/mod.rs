@@ -1,9 +1,9 @@
 //! Measurements: a CSV file or columns in memory, and a map (TOML) with the meaning of the columns.
 //!
-//! `docs/reference/map.md` describes all keys. `read` and `read_…` read the map, `keys` has its keys.
-//! `source` opens rows: `file` (by `dialect` and `preamble`) or `cells`; `rows` makes observations of
-//! them, by the columns of the map in `layout`; `completed` adds inputs that rows imply. `runs` reads
-//! runs of one axis, `raw_table` tables without a map; `table` is written.
+//! `docs/reference/map.md` describes all keys. `read` and `read_…` read the map, `keys` has its
+//! keys. `source` opens rows: `file` (by `dialect` and `preamble`) or `cells`; `rows` makes
+//! observations of them, by the columns of the map in `layout`; `completed` adds inputs that rows
+//! imply. `runs` reads runs of one axis, `raw_table` tables without a map; `table` is written.
 
 mod cells;
 mod choices;

@@ -1,5 +1,4 @@
-//! What terminals have: every sign in a text of a report has one in ASCII, and answers fit 80
-//! columns.
+//! Reports on terminals: every sign in a text has one in ASCII, and answers fit 80 columns.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -124,8 +124,8 @@ fn roots(g: &mut Graph, [k, c, s]: [Node; 3], square: Node, rest: Node) -> [Root
     })
 }
 
-/// Returns `true` if `second` is at right angles to both others. The two angles of [`tilt_angles`] then
-/// are of opposite sign, and angles about the others half a turn apart.
+/// Returns `true` if `second` is at right angles to both others. The two angles of [`tilt_angles`]
+/// then are of opposite sign, and angles about the others half a turn apart.
 pub(super) fn are_square(g: &mut Graph, [first, second, third]: [Vector; 3], probes: &Probes) -> bool {
     let products = [g.dot(first, second), g.dot(second, third)];
     probes.are_zero(g, &products, 1.0)
