@@ -1,8 +1,8 @@
 //! Edits of specs and other TOML files as text, and the text of what is added to them.
 //!
 //! An [`Edits`] changes values, keys and tables of a file; everything that no edit touches stays
-//! byte for byte. [`TableText`] and [`write`] format new tables, with the quotes and the digits
-//! that all written files have.
+//! byte for byte. [`TableText`] and [`mod@write`] format new tables, with the quotes and the
+//! digits that all written files have.
 
 mod table_text;
 pub mod write;
