@@ -149,33 +149,4 @@ fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Observability, deviation_beyond, f_test, student_beyond, student_factor};
-
-    #[test]
-    fn probabilities_are_those_of_the_tables() {
-        // Upper 5 % points of F: 4.96 for (1, 10), 3.33 for (5, 10), 2.21 for (4, 1000 is 2.38).
-        for (k, n, f) in [(1, 10, 4.9646), (5, 10, 3.3258), (4, 60, 2.5252), (10, 20, 2.3479)] {
-            let before = 1.0 + f * k as f64 / n as f64;
-            let found = f_test(before, 1.0, k, n);
-            assert!((found.p - 0.05).abs() < 1e-4, "{k} {n}: {}", found.p);
-        }
-        assert_eq!(f_test(1.0, 1.0, 3, 30).p, 1.0);
-        // χ² of 10: 2.5 % below 3.247, 2.5 % above 20.483.
-        for square in [3.247f64, 20.483] {
-            assert!((deviation_beyond((square / 10.0).sqrt(), 10.0) - 0.05).abs() < 2e-3);
-        }
-        // Student's t: 2.228 for 10, 12.706 for 1, 1.984 for 100.
-        for (freedom, t) in [(10.0, 2.2281), (1.0, 12.7062), (100.0, 1.98397)] {
-            assert!((student_beyond(t, freedom) - 0.05).abs() < 1e-5);
-            assert!((student_factor(0.95, freedom) - t).abs() < 1e-3);
-        }
-    }
-
-    #[test]
-    fn indices_of_known_values() {
-        let found = Observability::from_singular_values(&[2.0, 0.5], 4);
-        assert_eq!((found.condition, found.o2, found.o3, found.o4, found.o5), (4.0, 0.25, 0.5, 0.125, 0.4));
-        assert!((found.o1 - 0.5).abs() < 1e-15);
-    }
-}
+mod tests;

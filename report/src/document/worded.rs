@@ -19,7 +19,7 @@ impl Document {
     /// Adds the sentences to the numbers of the report: the answer as `answer`, and each statement
     /// by its name. Statements of one name are one text.
     pub fn worded<'r, R>(&self, report: &'r R) -> Worded<'r, R> {
-        let mut statements = BTreeMap::from([("answer", self.headline.clone())]);
+        let mut statements = BTreeMap::from([("answer", self.first_line())]);
         for (name, text) in self.statements() {
             let words: &mut String = statements.entry(name).or_default();
             let separator = if words.is_empty() { "" } else { " " };

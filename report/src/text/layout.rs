@@ -31,34 +31,18 @@ pub(crate) fn aligned(rows: &[Vec<String>], right: &[bool]) -> String {
             end += gap + width[j];
             if end > columns() && !line.is_empty() {
                 end = below.len() - 1 + width[j];
-                line.truncate(line.trim_end().len());
-                line += if cell.is_empty() { "" } else { &below };
+                line += &below;
             } else {
                 line += &" ".repeat(gap);
             }
             let fill = " ".repeat(width[j] - length(cell));
             line += &if right[j] { fill + cell } else { format!("{cell}{fill}") };
         }
-        line.trim_end().to_owned() + "\n"
+        let lines: Vec<&str> = line.lines().map(str::trim_end).filter(|line| !line.is_empty()).collect();
+        lines.join("\n") + "\n"
     };
     rows.iter().map(line).collect()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::table::at_width;
-    use super::aligned;
-
-    #[test]
-    fn what_has_no_room_stands_below() {
-        let row = |cells: [&str; 4]| cells.map(str::to_owned).to_vec();
-        let long = "a sentence of forty letters and no more";
-        let rows = [row(["one", "1.0", long, long]), row(["two", "12.0", "", "short"])];
-        let text = at_width(100, || aligned(&rows, &[false, true, false, false]));
-        assert!(text.lines().count() == 2 && text.lines().all(|line| line.len() <= 100), "{text}");
-        let text = at_width(60, || aligned(&rows, &[false, true, false, false]));
-        let expected =
-            ["  one    1.0   ", long, "\n        ", long, "\n  two   12.0\n        short\n"].concat();
-        assert_eq!(text, expected);
-    }
-}
+mod tests;

@@ -36,6 +36,11 @@ impl<'t> Edits<'t> {
     ///     Some(())
     /// });
     /// assert_eq!(edited.as_deref(), Some("[inputs]  # drift\nt = \"21 K\"\nu = 0\n\n"));
+    /// let edited = Edits::apply("a = {}", |root, edits| {
+    ///     edits.set(&root.get("a")?, "b", 1);
+    ///     Some(())
+    /// });
+    /// assert_eq!(edited.as_deref(), Some("a = { b = 1 }"));
     /// ```
     pub fn apply(text: &'t str, edit: impl FnOnce(&Section<'_>, &mut Self) -> Option<()>) -> Option<String> {
         let table = Document::new("", text).tables(text)?;
@@ -76,7 +81,8 @@ impl<'t> Edits<'t> {
                 self.insert(first.span().end, format!(", {key} = {value}"));
             }
             None if self.is_inline(table) => {
-                self.insert(table.span().start + 1, format!(" {key} = {value}, "));
+                let separator = if section.items().next().is_some() { "," } else { "" };
+                self.insert(table.span().start + 1, format!(" {key} = {value}{separator} "));
             }
             Some(first) => {
                 let before = &self.text[..first.key_span.start];

@@ -81,39 +81,4 @@ pub(super) fn dot(graph: &mut Graph, a: &[Node], b: &[Node]) -> Node {
 }
 
 #[cfg(test)]
-mod tests {
-    use abbe_spec::expr::Symbol;
-
-    use super::*;
-
-    /// Both solutions satisfy their equations, also where elimination without pivots would divide
-    /// by zero.
-    #[test]
-    fn solutions_satisfy_the_equations() {
-        let mut graph = Graph::new();
-        let g = &mut graph;
-        let entries: Vec<Node> = (0..25).map(|i| g.symbol(Symbol::Local(i))).collect();
-        let zero = g.zero();
-        let columns: Vec<Vec<Node>> = (0..5)
-            .map(|j| (0..5).map(|i| if (i + j) % 4 == 0 { zero } else { entries[5 * j + i] }).collect())
-            .collect();
-        let right: Vec<Node> = (0..5).map(|i| g.symbol(Symbol::Parameter(i))).collect();
-        let factored = Factored::new(g, columns.clone());
-        let (x, y) = (factored.solve(g, &right), factored.solve_row(g, &right));
-        let rows: Vec<Vec<Node>> = (0..5).map(|i| columns.iter().map(|column| column[i]).collect()).collect();
-        let mut residuals: Vec<Node> = Vec::new();
-        for k in 0..5 {
-            for product in [dot(g, &rows[k], &x), dot(g, &columns[k], &y)] {
-                residuals.push(g.sub(product, right[k]));
-            }
-        }
-        let value = |symbol| match symbol {
-            Symbol::Local(i) => (1.7 * i as f64).sin(),
-            Symbol::Parameter(i) => 1.0 + i as f64,
-            _ => f64::NAN,
-        };
-        for residual in graph.evaluate(&residuals, value) {
-            assert!(residual.abs() < 1e-13, "{residual}");
-        }
-    }
-}
+mod tests;

@@ -1,0 +1,51 @@
+//! Tests of `unit.rs`.
+
+use super::*;
+
+#[test]
+fn micro_sign_is_accepted() {
+    for (sign, letter) in [("µm", "um"), ("μm", "um"), ("µrad", "urad"), ("μrad", "urad")] {
+        assert_eq!(Unit::named(sign), Unit::named(letter));
+    }
+}
+
+#[test]
+fn conversions_are_exact_where_they_can_be() {
+    let convert = |number, name, length| Unit::named(name).unwrap().convert(number, length);
+    assert_eq!(convert(718.0, "mm", LengthUnit::Millimetre), 718.0);
+    assert_eq!(convert(718.0, "mm", LengthUnit::Metre), 0.718);
+    assert_eq!(convert(90.0, "deg", LengthUnit::Metre), std::f64::consts::FRAC_PI_2);
+    assert_eq!(convert(1.0, "N", LengthUnit::Millimetre), 1000.0);
+    assert_eq!(convert(210.0, "GPa", LengthUnit::Millimetre), 210e6);
+    assert_eq!(convert(1.0, "inch", LengthUnit::Millimetre), 25.4);
+    assert_eq!(convert(1.0, "inch", LengthUnit::Metre), 0.0254);
+    assert_eq!(convert(1.0, "lb", LengthUnit::Metre), 0.453_592_37);
+    assert_eq!(convert(2.0, "t", LengthUnit::Metre), 2000.0);
+    assert_eq!(convert(3.0, "cm", LengthUnit::Millimetre), 30.0);
+    assert_eq!(convert(7.0, "nm", LengthUnit::Metre), 7e-9);
+    assert_eq!(convert(3.0, "mN", LengthUnit::Metre), 3e-3);
+    assert_eq!(convert(5.0, "kPa", LengthUnit::Metre), 5e3);
+    assert_eq!(convert(1.5, "h", LengthUnit::Metre), 5400.0);
+    assert_eq!(convert(1.5, "min", LengthUnit::Metre), 90.0);
+    assert_eq!(convert(7.0, "%", LengthUnit::Metre), 0.07);
+    assert_eq!([convert(7.0, "ppm", LengthUnit::Metre), convert(7.0, "urad", LengthUnit::Metre)], [7e-6; 2]);
+    let right = std::f64::consts::FRAC_PI_2;
+    assert_eq!(convert(5400.0, "arcmin", LengthUnit::Metre), right);
+    assert_eq!(convert(324_000.0, "arcsec", LengthUnit::Metre), right);
+}
+
+#[test]
+fn factors_of_products_are_exact_too() {
+    let inch = Unit::named("inch").unwrap();
+    let area = Unit::NONE.times(inch, 2).unwrap();
+    assert_eq!(area.convert(1.0, LengthUnit::Millimetre), 645.16);
+    let speed = inch.times(Unit::named("min").unwrap(), -1).unwrap();
+    assert_eq!(speed.convert(60.0, LengthUnit::Millimetre), 25.4);
+}
+
+#[test]
+fn every_name_has_a_unit() {
+    for name in UNIT_NAMES {
+        assert!(Unit::named(name).is_some(), "{name}");
+    }
+}
