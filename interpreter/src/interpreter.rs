@@ -4,16 +4,13 @@ use std::sync::{Arc, OnceLock};
 
 use abbe::analysis::Sweepable;
 use abbe::lanes::{self, Batches, Tiles};
-use abbe::{Description, Error, Function, Input, Manipulator, Parameter, Pose, Quantity, checks, open_pose};
+use abbe::{Description, Error, Function, Input, Manipulator, Parameter, Pose, Quantity, checks};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::{Routines, parameter_derivatives};
 use abbe_spec::Spec;
 
 use crate::lanes::{Batch, Block};
 use crate::tape::Tape;
-
-/// Number of elements of a pose.
-const POSE: usize = 12;
 
 /// A manipulator that runs from its spec, without a compiler.
 #[derive(Clone, Debug)]
@@ -175,19 +172,6 @@ impl Interpreter {
         }
         Ok(())
     }
-
-    /// Evaluates a function, copies its last result to a slice, checks and returns all results.
-    fn fill(&self, function: Function, arguments: &[&[f64]], filled: &mut [f64]) -> Result<Vec<f64>, Error> {
-        let description = &self.description;
-        let Some((last, others)) = function.signature().results.split_last() else { return Ok(Vec::new()) };
-        let row: usize = last.shape[1..].iter().map(|count| count.value(description)).product();
-        count(last.quantity, last.shape[0].value(description), filled.len() / row)?;
-        let values = self.unchecked(function, arguments)?;
-        let first: usize = others.iter().map(|array| array.len(description)).sum();
-        filled.copy_from_slice(&values[first..][..filled.len()]);
-        self.check(function, &values)?;
-        Ok(values)
-    }
 }
 
 impl Manipulator for Interpreter {
@@ -195,83 +179,24 @@ impl Manipulator for Interpreter {
         &self.description
     }
 
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        count(Quantity::Pose, self.description.frames.len() + 1, transforms.len())?;
-        let values = self.run(Function::Transforms, &[q, s])?;
-        for (transform, values) in transforms.iter_mut().zip(values.chunks_exact(POSE)) {
-            *transform = pose_of(values);
-        }
-        Ok(())
-    }
-
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        Ok(pose_of(&self.run(Function::Pose, &[q, s])?))
-    }
-
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Ok(pose_of(&self.fill(Function::ErrorJacobian, &[q, s], columns.as_flattened_mut())?))
-    }
-
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Ok(pose_of(&self.fill(Function::JointJacobian, &[q, s], columns.as_flattened_mut())?))
-    }
-
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Ok(pose_of(&self.fill(Function::ParameterJacobian, &[q, s], columns.as_flattened_mut())?))
-    }
-
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        self.fill(Function::Effects, &[q, s, u], effects).map(drop)
-    }
-
-    fn generalized_errors(
+    fn evaluate(
         &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        self.fill(Function::GeneralizedErrors, &[q, s, u], errors.as_flattened_mut()).map(drop)
-    }
-
-    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
-        Ok(Some(pose_of(&self.run(Function::DrawnPose, &[q, s, u, magnitudes])?)))
-    }
-
-    fn displaced_pose(&self, q: &[f64], s: &[f64], errors: &[[f64; 6]]) -> Result<Pose, Error> {
-        if !self.description.has_loops() {
-            return open_pose(&self.description, |transforms| self.transforms(q, s, transforms), errors);
+        for (array, values) in function.signature().results.iter().zip(&*results) {
+            let [rows, of_one] = array.rows(&self.description);
+            count(array.quantity, rows, values.len() / of_one.max(1))?;
         }
-        Ok(pose_of(&self.run(Function::DisplacedPose, &[q, s, errors.as_flattened()])?))
-    }
-
-    fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), Error> {
-        let expected = self.description.passive().count();
-        count(Quantity::Passive, expected, passive.len())?;
-        if expected > 0 {
-            passive.copy_from_slice(&self.run(Function::Passive, &[q, s])?);
+        let values = self.unchecked(function, arguments)?;
+        let mut rest = values.as_slice();
+        for result in results {
+            let (these, others) = rest.split_at(result.len());
+            result.copy_from_slice(these);
+            rest = others;
         }
-        Ok(())
-    }
-
-    fn inverse(
-        &self,
-        q: &[f64],
-        s: &[f64],
-        target: &Pose,
-        solutions: &mut [f64],
-        found: &mut [f64],
-    ) -> Result<(), Error> {
-        let (rows, joints) = (self.description.solutions, self.description.variables.len());
-        count(Quantity::Solutions, rows * joints, solutions.len())?;
-        count(Quantity::Solutions, rows, found.len())?;
-        if rows > 0 {
-            let values = self.run(Function::Inverse, &[q, s, target.0.as_flattened()])?;
-            let (first, last) = values.split_at(rows * joints);
-            solutions.copy_from_slice(first);
-            found.copy_from_slice(last);
-        }
-        Ok(())
+        self.check(function, &values)
     }
 }
 

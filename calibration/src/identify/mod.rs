@@ -30,20 +30,15 @@
 //! #         };
 //! #         &DESCRIPTION
 //! #     }
-//! #     fn transforms(&self, q: &[f64], _: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-//! #         for (transform, (angle, length)) in transforms.iter_mut().zip(q.iter().zip([450.0, 400.0])) {
+//! #     fn evaluate(&self, function: Function, arguments: &[&[f64]], results: &mut [&mut [f64]]) -> Result<(), Error> {
+//! #         if function != Function::Transforms { return Ok(()) }
+//! #         for (transform, (angle, length)) in results[0].chunks_mut(12).zip(arguments[0].iter().zip([450.0, 400.0])) {
 //! #             let (s, c) = angle.sin_cos();
-//! #             *transform = Pose([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0], [length * c, length * s, 0.0]]);
+//! #             transform.copy_from_slice(&[c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0, length * c, length * s, 0.0]);
 //! #         }
-//! #         transforms[2] = Pose::IDENTITY;
+//! #         results[0][24..].copy_from_slice(Pose::IDENTITY.0.as_flattened());
 //! #         Ok(())
 //! #     }
-//! #     fn pose(&self, _: &[f64], _: &[f64]) -> Result<Pose, Error> { unimplemented!() }
-//! #     fn error_jacobian(&self, _: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<Pose, Error> { unimplemented!() }
-//! #     fn joint_jacobian(&self, _: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<Pose, Error> { unimplemented!() }
-//! #     fn parameter_jacobian(&self, _: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<Pose, Error> { unimplemented!() }
-//! #     fn effects(&self, _: &[f64], _: &[f64], _: &[f64], _: &mut [f64]) -> Result<(), Error> { Ok(()) }
-//! #     fn generalized_errors(&self, _: &[f64], _: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<(), Error> { Ok(()) }
 //! # }
 //! # fn main() -> Result<(), Failure> {
 //! // A planar arm of 450 and 400 mm, and an instrument with 0.01 mm that measures its tool point.

@@ -7,7 +7,7 @@ use super::search::Search;
 use super::target_search::Problem;
 use crate::by_hand::{Pps, Puma};
 use crate::{Configuration, ReachError, sampling};
-use abbe_core::{Delegate, Description, Frame, List, Manipulator, Pose};
+use abbe_core::{Description, Error, Frame, Function, List, Manipulator, Pose};
 
 /// Manipulator with an altered promise of lower pairs.
 struct Opaque<'a>(&'a dyn Manipulator, Description);
@@ -21,15 +21,18 @@ impl<'a> Opaque<'a> {
     }
 }
 
-impl<'a> Delegate for Opaque<'a> {
-    type Original = dyn Manipulator + 'a;
-
-    fn original(&self) -> &Self::Original {
-        self.0
+impl Manipulator for Opaque<'_> {
+    fn description(&self) -> &Description {
+        &self.1
     }
 
-    fn described(&self) -> &Description {
-        &self.1
+    fn evaluate(
+        &self,
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
+    ) -> Result<(), Error> {
+        self.0.evaluate(function, arguments, results)
     }
 }
 

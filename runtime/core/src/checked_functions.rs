@@ -25,7 +25,7 @@ macro_rules! checked_functions {
         /// Functions that fill arrays and check the results.
         mod checked {
             use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES, raw};
-            $crate::for_each_function!($crate::checked_arrays);
+            $crate::for_each_function!($crate::checked_arrays, of_all);
             $crate::checked_functions!(@inside $($with)?);
         }
 
@@ -87,68 +87,22 @@ macro_rules! checked_functions {
                 &DESCRIPTION
             }
 
-            fn transforms(
+            fn evaluate(
                 &self,
-                q: &[f64],
-                s: &[f64],
-                transforms: &mut [$crate::Pose],
+                function: $crate::Function,
+                arguments: &[&[f64]],
+                results: &mut [&mut [f64]],
             ) -> Result<(), $crate::Error> {
-                let (q, s) = $crate::checked_functions!(@arguments q, s);
-                let transforms = $crate::checks::result($crate::Quantity::Pose, transforms)?;
-                let mut columns = [[[0.0; 3]; 4]; FRAMES + 1];
-                checked::transforms(q, s, &mut columns)?;
-                *transforms = columns.map($crate::Pose);
-                Ok(())
+                match function {
+                    $crate::Function::Passive | $crate::Function::DisplacedPose => {
+                        $crate::checked_functions!(@of_loops $($with)?: function, arguments, results)
+                    }
+                    $crate::Function::Inverse => {
+                        $crate::checked_functions!(@of_inverse $($with)?: function, arguments, results)
+                    }
+                    _ => checked::of_all(function, arguments, results),
+                }
             }
-
-            fn pose(&self, q: &[f64], s: &[f64]) -> Result<$crate::Pose, $crate::Error> {
-                let (q, s) = $crate::checked_functions!(@arguments q, s);
-                let mut pose = [[0.0; 3]; 4];
-                checked::pose(q, s, &mut pose)?;
-                Ok($crate::Pose(pose))
-            }
-
-            $crate::checked_functions!(@jacobian error_jacobian);
-            $crate::checked_functions!(@jacobian joint_jacobian);
-            $crate::checked_functions!(@jacobian parameter_jacobian);
-
-            fn effects(
-                &self,
-                q: &[f64],
-                s: &[f64],
-                u: &[f64],
-                effects: &mut [f64],
-            ) -> Result<(), $crate::Error> {
-                let (q, s, u) = $crate::checked_functions!(@arguments q, s, u);
-                checked::effects(q, s, u, $crate::checks::result($crate::Quantity::Effects, effects)?)
-            }
-
-            fn generalized_errors(
-                &self,
-                q: &[f64],
-                s: &[f64],
-                u: &[f64],
-                errors: &mut [[f64; 6]],
-            ) -> Result<(), $crate::Error> {
-                let (q, s, u) = $crate::checked_functions!(@arguments q, s, u);
-                let errors = $crate::checks::result($crate::Quantity::Errors, errors)?;
-                checked::generalized_errors(q, s, u, errors)
-            }
-
-            fn drawn_pose(
-                &self,
-                q: &[f64],
-                s: &[f64],
-                u: &[f64],
-                magnitudes: &[f64],
-            ) -> Result<Option<$crate::Pose>, $crate::Error> {
-                let (q, s, u, magnitudes) = $crate::checked_functions!(@arguments q, s, u, magnitudes);
-                let mut pose = [[0.0; 3]; 4];
-                checked::drawn_pose(q, s, u, magnitudes, &mut pose)?;
-                Ok(Some($crate::Pose(pose)))
-            }
-
-            $crate::checked_functions!(@methods $($with)?);
         }
     };
     (@outside) => {};
@@ -165,73 +119,20 @@ macro_rules! checked_functions {
     (@inside) => {};
     (@inside loops) => {
         use super::PASSIVE;
-        $crate::for_each_function_of_loops!($crate::checked_arrays);
+        $crate::for_each_function_of_loops!($crate::checked_arrays, of_loops);
     };
     (@inside inverse) => {
         use super::SOLUTIONS;
-        $crate::for_each_function_of_inverse!($crate::checked_arrays);
+        $crate::for_each_function_of_inverse!($crate::checked_arrays, of_inverse);
     };
-    (@methods) => {};
-    (@methods inverse) => {
-        fn inverse(
-            &self,
-            q: &[f64],
-            s: &[f64],
-            target: &$crate::Pose,
-            solutions: &mut [f64],
-            found: &mut [f64],
-        ) -> Result<(), $crate::Error> {
-            let (q, s) = $crate::checked_functions!(@arguments q, s);
-            $crate::checks::finite($crate::Quantity::Pose, target.0.as_flattened())?;
-            let solutions: &mut [f64; VARIABLES * SOLUTIONS] =
-                $crate::checks::result($crate::Quantity::Solutions, solutions)?;
-            let found = $crate::checks::result($crate::Quantity::Solutions, found)?;
-            let mut rows = [[0.0; VARIABLES]; SOLUTIONS];
-            checked::inverse(q, s, &target.0, &mut rows, found)?;
-            solutions.copy_from_slice(rows.as_flattened());
-            Ok(())
-        }
+    (@of_loops loops: $($arguments:ident),+) => {
+        checked::of_loops($($arguments),+)
     };
-    (@methods loops) => {
-        fn displaced_pose(
-            &self,
-            q: &[f64],
-            s: &[f64],
-            errors: &[[f64; 6]],
-        ) -> Result<$crate::Pose, $crate::Error> {
-            let (q, s) = $crate::checked_functions!(@arguments q, s);
-            $crate::checks::finite($crate::Quantity::Errors, errors.as_flattened())?;
-            let errors = $crate::checks::frames(errors)?;
-            let mut pose = [[0.0; 3]; 4];
-            checked::displaced_pose(q, s, errors, &mut pose)?;
-            Ok($crate::Pose(pose))
-        }
-
-        fn passive(&self, q: &[f64], s: &[f64], passive: &mut [f64]) -> Result<(), $crate::Error> {
-            let (q, s) = $crate::checked_functions!(@arguments q, s);
-            checked::passive(q, s, $crate::checks::result($crate::Quantity::Passive, passive)?)
-        }
+    (@of_inverse inverse: $($arguments:ident),+) => {
+        checked::of_inverse($($arguments),+)
     };
-    (@jacobian $jacobian:ident) => {
-        fn $jacobian(
-            &self,
-            q: &[f64],
-            s: &[f64],
-            columns: &mut [[f64; 6]],
-        ) -> Result<$crate::Pose, $crate::Error> {
-            let (q, s) = $crate::checked_functions!(@arguments q, s);
-            let columns = $crate::checks::result($crate::Quantity::Jacobian, columns)?;
-            let mut pose = [[0.0; 3]; 4];
-            checked::$jacobian(q, s, &mut pose, columns)?;
-            Ok($crate::Pose(pose))
-        }
-    };
-    (@arguments $($argument:ident),+) => {
-        ($($crate::checks::argument(
-            &DESCRIPTION,
-            $crate::function_array!($argument: $crate::array_quantity),
-            $argument,
-        )?),+)
+    (@$list:ident $($with:ident)?: $function:ident, $($arguments:ident),+) => {
+        Err($crate::Error::NoFunction($function))
     };
 }
 
@@ -267,25 +168,51 @@ macro_rules! checked_function {
     )+};
 }
 
-/// Defines the functions that take their results as arguments. Their arguments have been checked.
+/// Defines the functions that take their results as arguments, which have been checked, and the one
+/// that evaluates any of them.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! checked_arrays {
-    (: $($function:ident = $name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?:
-        $documentation:literal $(, $note:literal)?;)+) => {$(
-        pub(super) fn $name(
-            $($argument: &$crate::function_array!($argument: $crate::array_type),)+
-            $($result: &mut $crate::function_array!($result: $crate::array_type)),+
+    ($any:ident: $($function:ident = $name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?:
+        $documentation:literal $(, $note:literal)?;)+) => {
+        $(
+            pub(super) fn $name(
+                $($argument: &$crate::function_array!($argument: $crate::array_type),)+
+                $($result: &mut $crate::function_array!($result: $crate::array_type)),+
+            ) -> Result<(), $crate::Error> {
+                $crate::checks::margin(raw::$name($($argument,)+ $($result),+))?;
+                $($crate::checks::result_is_finite(
+                    &super::DESCRIPTION,
+                    $crate::function_array!($result: $crate::array_quantity),
+                    $crate::checks::FlatArray::as_flat($result),
+                )?;)+
+                Ok(())
+            }
+        )+
+
+        #[inline]
+        pub(super) fn $any(
+            function: $crate::Function,
+            arguments: &[&[f64]],
+            results: &mut [&mut [f64]],
         ) -> Result<(), $crate::Error> {
-            $crate::checks::margin(raw::$name($($argument,)+ $($result),+))?;
-            $($crate::checks::result_is_finite(
-                &super::DESCRIPTION,
-                $crate::function_array!($result: $crate::array_quantity),
-                $crate::checks::FlatArray::as_flat($result),
-            )?;)+
-            Ok(())
+            let (mut arguments, mut results) = (arguments.iter(), results.iter_mut());
+            match function {
+                $($crate::Function::$function => $name(
+                    $($crate::checks::argument(
+                        &super::DESCRIPTION,
+                        $crate::function_array!($argument: $crate::array_quantity),
+                        arguments.next(),
+                    )?,)+
+                    $($crate::checks::result(
+                        $crate::function_array!($result: $crate::array_quantity),
+                        results.next(),
+                    )?),+
+                ),)+
+                _ => Err($crate::Error::NoFunction(function)),
+            }
         }
-    )+};
+    };
 }
 
 /// Expands to the [`Quantity`](crate::Quantity) of an array of the table.

@@ -2,27 +2,27 @@
 
 use crate::{Description, Error, Input, MINIMUM_MARGIN, Quantity, Scalar};
 
-/// Returns the values of an argument as an array. Fails unless there are exactly `N`, all finite,
-/// and inputs within their ranges.
-pub fn argument<'v, const N: usize>(
+/// Returns the values of an argument as an array. Fails unless there are exactly as many, all
+/// finite, and inputs within their ranges.
+pub fn argument<'v, A: FlatArray>(
     description: &Description,
     quantity: Quantity,
-    values: &'v [f64],
-) -> Result<&'v [f64; N], Error> {
-    let array = values.try_into().map_err(|_| count(quantity, N, values.len()))?;
+    values: Option<&&'v [f64]>,
+) -> Result<&'v A, Error> {
+    let values = values.copied().unwrap_or_default();
+    let array = A::from_flat(values).ok_or_else(|| count::<A>(quantity, values.len()))?;
     given(description, quantity, values)?;
     Ok(array)
 }
 
-/// Returns a result slice as an array. Fails unless it holds exactly `N` values.
-pub fn result<T, const N: usize>(quantity: Quantity, values: &mut [T]) -> Result<&mut [T; N], Error> {
+/// Returns a result slice as an array. Fails unless it has exactly as many values.
+pub fn result<'v, A: FlatArray>(
+    quantity: Quantity,
+    values: Option<&'v mut &mut [f64]>,
+) -> Result<&'v mut A, Error> {
+    let values = values.map(|values| &mut **values).unwrap_or_default();
     let found = values.len();
-    values.try_into().map_err(|_| count(quantity, N, found))
-}
-
-/// Returns the errors of the frames as an array. Fails unless there are exactly `N` frames.
-pub fn frames<const N: usize>(errors: &[[f64; 6]]) -> Result<&[[f64; 6]; N], Error> {
-    errors.try_into().map_err(|_| count(Quantity::Errors, N, errors.len()))
+    A::from_flat_mut(values).ok_or_else(|| count::<A>(quantity, found))
 }
 
 /// Checks that the values of an argument are finite, and inputs within their ranges.
@@ -32,35 +32,77 @@ pub fn given(description: &Description, quantity: Quantity, values: &[f64]) -> R
 }
 
 /// Array that a function takes or fills.
-pub trait FlatArray {
+pub trait FlatArray: Sized + 'static {
     /// Array of zeros.
     const ZERO: Self;
 
+    /// Number of rows, and of values in each: 6 in a column, 12 in a pose.
+    const SHAPE: [usize; 2];
+
     /// Returns its numbers in memory order.
     fn as_flat(&self) -> &[f64];
+
+    /// Returns numbers in memory order as an array, if there are as many.
+    fn from_flat(values: &[f64]) -> Option<&Self>;
+
+    /// Returns numbers in memory order as an array, if there are as many.
+    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self>;
 }
 
 impl<const N: usize> FlatArray for [f64; N] {
     const ZERO: Self = [0.0; N];
+    const SHAPE: [usize; 2] = [N, 1];
 
     fn as_flat(&self) -> &[f64] {
         self
+    }
+
+    fn from_flat(values: &[f64]) -> Option<&Self> {
+        values.try_into().ok()
+    }
+
+    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self> {
+        values.try_into().ok()
     }
 }
 
 impl<const M: usize, const N: usize> FlatArray for [[f64; M]; N] {
     const ZERO: Self = [[0.0; M]; N];
+    const SHAPE: [usize; 2] = [N, M];
 
     fn as_flat(&self) -> &[f64] {
         self.as_flattened()
+    }
+
+    fn from_flat(values: &[f64]) -> Option<&Self> {
+        let (rows, rest) = values.as_chunks();
+        rows.try_into().ok().filter(|_| rest.is_empty())
+    }
+
+    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self> {
+        let (rows, rest) = values.as_chunks_mut();
+        rows.try_into().ok().filter(|_| rest.is_empty())
     }
 }
 
 impl<const L: usize, const M: usize, const N: usize> FlatArray for [[[f64; L]; M]; N] {
     const ZERO: Self = [[[0.0; L]; M]; N];
+    const SHAPE: [usize; 2] = [N, L * M];
 
     fn as_flat(&self) -> &[f64] {
         self.as_flattened().as_flattened()
+    }
+
+    fn from_flat(values: &[f64]) -> Option<&Self> {
+        let (rows, rest) = values.as_chunks();
+        let (planes, others) = rows.as_chunks();
+        planes.try_into().ok().filter(|_| rest.is_empty() && others.is_empty())
+    }
+
+    fn from_flat_mut(values: &mut [f64]) -> Option<&mut Self> {
+        let (rows, rest) = values.as_chunks_mut();
+        let (planes, others) = rows.as_chunks_mut();
+        planes.try_into().ok().filter(|_| rest.is_empty() && others.is_empty())
     }
 }
 
@@ -129,6 +171,8 @@ pub fn use_case(description: &Description, q: &[f64], s: &[f64], u: &[f64]) -> R
     given(description, Quantity::Inputs, u)
 }
 
-fn count(quantity: Quantity, expected: usize, found: usize) -> Error {
-    Error::Count { quantity, expected, found }
+/// Returns the error of an array with another number of values.
+fn count<A: FlatArray>(quantity: Quantity, found: usize) -> Error {
+    let [expected, row] = A::SHAPE;
+    Error::Count { quantity, expected, found: found / row }
 }

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::Function;
+
 /// Smallest margin `cos ρ` at which Euler rows are returned.
 ///
 /// Below it the rows would be amplified a million times or more.
@@ -100,6 +102,8 @@ pub enum Error {
         /// Declared range.
         range: [f64; 2],
     },
+    /// The manipulator does not have a function.
+    NoFunction(Function),
     /// The loops do not close: no values of the passive variables were found that close them.
     NotClosed,
     /// Roll is at ±90°, where the Euler rows are singular.
@@ -121,6 +125,7 @@ impl fmt::Display for Error {
             Self::OutOfRange { input, value, range: [lower, upper] } => {
                 write!(f, "input {input} is {value}, outside its range {lower} … {upper}")
             }
+            Self::NoFunction(function) => write!(f, "this manipulator has no function {}", function.name()),
             Self::NotClosed => f.write_str(
                 "the loops do not close at these joint values: no values of the passive joints were found",
             ),

@@ -13,6 +13,7 @@ macro_rules! functions {
         $documentation:literal $(, $note:literal)?;)+) => {
         /// Function of a manipulator: generated, interpreted, and evaluated in batches.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub enum Function {
             $(#[doc = $documentation] $function,)+
         }

@@ -15,28 +15,21 @@
 //! #         };
 //! #         &DESCRIPTION
 //! #     }
-//! #     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-//! #         transforms.copy_from_slice(&[self.pose(q, s)?, Pose::IDENTITY]);
+//! #     fn evaluate(&self, function: Function, arguments: &[&[f64]], results: &mut [&mut [f64]]) -> Result<(), Error> {
+//! #         let [d] = *arguments[0] else { return Err(Error::Count { quantity: Quantity::Variables, expected: 1, found: arguments[0].len() }) };
+//! #         if !d.is_finite() { return Err(Error::NotFinite { quantity: Quantity::Variables, index: 0 }) }
+//! #         results[0].iter_mut().zip([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, d, 0.0, 0.0]).for_each(|(x, v)| *x = v);
+//! #         if let (2, [_, columns]) = (arguments.len(), &mut *results) { columns.fill(0.0) }
+//! #         match function {
+//! #             Function::Transforms => results[0][12..].copy_from_slice(Pose::IDENTITY.0.as_flattened()),
+//! #             Function::ErrorJacobian => for (column, row) in [0, 1, 2, 4, 5, 3].into_iter().enumerate() { results[1][6 * column + row] = 1.0 },
+//! #             Function::JointJacobian => results[1][0] = 1.0,
+//! #             Function::Pose | Function::ParameterJacobian | Function::Effects => {}
+//! #             Function::GeneralizedErrors => results[0].fill(0.0),
+//! #             other => return Err(Error::NoFunction(other)),
+//! #         }
 //! #         Ok(())
 //! #     }
-//! #     fn pose(&self, q: &[f64], _: &[f64]) -> Result<Pose, Error> {
-//! #         let mut pose = Pose::IDENTITY;
-//! #         let &[d] = q else { return Err(Error::Count { quantity: Quantity::Variables, expected: 1, found: q.len() }) };
-//! #         if !d.is_finite() { return Err(Error::NotFinite { quantity: Quantity::Variables, index: 0 }) }
-//! #         pose.0[3][0] = d;
-//! #         Ok(pose)
-//! #     }
-//! #     fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-//! #         for (column, row) in columns.iter_mut().zip([0, 1, 2, 4, 5, 3]) { *column = [0.0; 6]; column[row] = 1.0; }
-//! #         self.pose(q, s)
-//! #     }
-//! #     fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-//! #         columns[0] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-//! #         self.pose(q, s)
-//! #     }
-//! #     fn parameter_jacobian(&self, q: &[f64], s: &[f64], _: &mut [[f64; 6]]) -> Result<Pose, Error> { self.pose(q, s) }
-//! #     fn effects(&self, q: &[f64], s: &[f64], _: &[f64], _: &mut [f64]) -> Result<(), Error> { self.pose(q, s).map(|_| ()) }
-//! #     fn generalized_errors(&self, q: &[f64], s: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<(), Error> { self.pose(q, s).map(|_| ()) }
 //! # }
 //! // One line in your tests:
 //! abbe::test_manipulator!(abbe::lanes::OneByOne(Slide));

@@ -11,7 +11,6 @@ mod checked_functions;
 pub mod checks;
 pub mod compensator;
 mod component;
-mod delegate;
 mod description;
 pub mod distinct;
 #[cfg(feature = "std")]
@@ -54,7 +53,6 @@ pub use chain::{
     chain, deviation, displacement, euler_margin, located, real_pose, rotation_vector, tool_pose,
 };
 pub use component::Component;
-pub use delegate::Delegate;
 pub use description::{
     Branch, Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter,
     Source, Variable, VariableKind,

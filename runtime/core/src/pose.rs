@@ -1,10 +1,13 @@
 //! A rigid motion as the columns of its matrix.
 
+use bytemuck::TransparentWrapper;
+
 /// Rigid motion: the upper three rows of a homogeneous matrix, column-major (x, y, z axes and
 /// position).
 ///
 /// Lengths are in the manipulator's unit. The function that returns a pose documents its frames.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, TransparentWrapper)]
+#[repr(transparent)]
 pub struct Pose<T = f64>(pub [[T; 3]; 4]);
 
 impl Pose {

@@ -23,6 +23,7 @@ impl Remedy for Error {
             }
             Self::OutOfRange { .. } => "give another value, or widen the input's `range` in the spec",
             Self::Count { .. } => "give as many values as the manipulator has",
+            Self::NoFunction(_) => "implement it in `Manipulator::evaluate`",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Jobs as library calls without the command.
 
 use abbe::lanes::{Batches, Tiles};
-use abbe::{Delegate, Error, Function};
+use abbe::{Description, Error, Function, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_study::analyze::{Agreement, Analyze};
 use abbe_study::check::{Check, laws};
@@ -77,11 +77,18 @@ fn joints_beyond_limits_are_noted_and_a_job_can_be_stopped() {
 /// Manipulator whose batches return a wrong value for the last configuration.
 struct Forgetful(Interpreter);
 
-impl Delegate for Forgetful {
-    type Original = Interpreter;
+impl Manipulator for Forgetful {
+    fn description(&self) -> &Description {
+        self.0.description()
+    }
 
-    fn original(&self) -> &Interpreter {
-        &self.0
+    fn evaluate(
+        &self,
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
+    ) -> Result<(), Error> {
+        Manipulator::evaluate(&self.0, function, arguments, results)
     }
 }
 

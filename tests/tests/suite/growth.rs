@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use abbe::analysis::{Measurement, Parts, Workspace, identifiable_in_parts, random_joint_samples};
 use abbe::laws::{self, DERIVATIVE_TOLERANCE};
-use abbe::{Description, Error, Manipulator, Pose};
+use abbe::{Description, Error, Function, Manipulator};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::Routines;
 use abbe_interpreter::Interpreter;
@@ -31,49 +31,26 @@ impl Counted {
         let result = run(self);
         (self.transforms.load(Ordering::Relaxed) - before, result)
     }
-
-    fn spoil(&self, columns: &mut [[f64; 6]]) {
-        if let Some((column, by)) = self.off {
-            columns[column][1] += by;
-        }
-    }
 }
 
 impl Manipulator for Counted {
     fn description(&self) -> &Description {
         self.robot.description()
     }
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        self.transforms.fetch_add(1, Ordering::Relaxed);
-        self.robot.transforms(q, s, transforms)
-    }
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        self.robot.pose(q, s)
-    }
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.robot.error_jacobian(q, s, columns)
-    }
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let pose = self.robot.joint_jacobian(q, s, columns)?;
-        self.spoil(columns);
-        Ok(pose)
-    }
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let pose = self.robot.parameter_jacobian(q, s, columns)?;
-        self.spoil(columns);
-        Ok(pose)
-    }
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        self.robot.effects(q, s, u, effects)
-    }
-    fn generalized_errors(
+    fn evaluate(
         &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        self.robot.generalized_errors(q, s, u, errors)
+        self.transforms.fetch_add(usize::from(function == Function::Transforms), Ordering::Relaxed);
+        Manipulator::evaluate(&self.robot, function, arguments, results)?;
+        if let (Function::JointJacobian | Function::ParameterJacobian, [_, columns], Some((column, by))) =
+            (function, results, self.off)
+        {
+            columns[6 * column + 1] += by;
+        }
+        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use abbe::lanes::{self, Batches, Evaluate, OneByOne, Tiles};
-use abbe::{Description, Error, Function, LookupTable, Manipulator, Pose, Scalar, laws};
+use abbe::{Description, Error, Function, LookupTable, Manipulator, Scalar, laws};
 use abbe_tests::golden::measured::Measured;
 use abbe_tests::languages::{arguments, configurations};
 use abbe_tests::thorough;
@@ -169,7 +169,7 @@ macro_rules! functions {
         /// Fills the results of a function.
         fn generated(function: Function, given: &[Counted], results: &mut [Counted]) -> Option<()> {
             match function {
-                $(Function::$function => Evaluate::<lanes::$function>::evaluate(&Measured, given, results),)+
+                $(Function::$function => Evaluate::<lanes::$function>::evaluate_lanes(&Measured, given, results),)+
                 Function::Passive | Function::DisplacedPose | Function::Inverse => None,
             }
         }
@@ -186,7 +186,7 @@ struct Mutant {
 
 impl Mutant {
     /// Returns the results of a function, and the number of operations of each kind.
-    fn evaluate(&self, function: Function, given: &[f64]) -> (Vec<f64>, [usize; Kind::ALL.len()]) {
+    fn mutated(&self, function: Function, given: &[f64]) -> (Vec<f64>, [usize; Kind::ALL.len()]) {
         let given: Vec<Counted> = given.iter().copied().map(Counted).collect();
         let wrong = self.wrong.filter(|_| function == self.function);
         CALL.set(Call { counts: [0; Kind::ALL.len()], wrong });
@@ -204,20 +204,11 @@ impl Mutant {
         let mut given = vec![0.0; arguments.rows()];
         for configuration in 0..arguments.count() {
             arguments.copy_rows(0..arguments.rows(), configuration, &mut given);
-            for (row, value) in self.evaluate(function, &given).0.into_iter().enumerate() {
+            for (row, value) in self.mutated(function, &given).0.into_iter().enumerate() {
                 results.set_value(row, configuration, value);
             }
         }
         Ok(())
-    }
-
-    /// Fills the numbers that follow the pose of a function, if it has one, and returns the pose.
-    fn fill(&self, function: Function, given: &[&[f64]], numbers: &mut [f64]) -> Pose {
-        let (results, _) = self.evaluate(function, &given.concat());
-        let (pose, rest) = results.split_at(results.len() - numbers.len());
-        numbers.copy_from_slice(rest);
-        let pose = pose.as_chunks::<3>().0;
-        Pose(std::array::from_fn(|axis| pose.get(axis).copied().unwrap_or_default()))
     }
 
     /// Returns the largest change of a result by the mutation, relative to the largest result.
@@ -225,7 +216,7 @@ impl Mutant {
         let right = Self { wrong: None, ..*self };
         let change = |given: &Vec<f64>| {
             let given = arguments(self, self.function.signature(), given);
-            let [(right, _), (wrong, _)] = [right, *self].map(|robot| robot.evaluate(self.function, &given));
+            let [(right, _), (wrong, _)] = [right, *self].map(|robot| robot.mutated(self.function, &given));
             let largest = right.iter().fold(0.0, |largest: f64, number| largest.max(number.abs()));
             let changes = right.iter().zip(&wrong).map(|(right, wrong)| (right - wrong).abs());
             // Not a number is a change.
@@ -249,43 +240,19 @@ impl Manipulator for Mutant {
     fn description(&self) -> &Description {
         Measured.description()
     }
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        Measured.transforms(q, s, transforms)?;
-        let (results, _) = self.evaluate(Function::Transforms, &[q, s].concat());
-        let numbers = transforms.iter_mut().flat_map(|pose| pose.0.as_flattened_mut());
-        numbers.zip(results).for_each(|(number, result)| *number = result);
-        Ok(())
-    }
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        Measured.pose(q, s)?;
-        Ok(self.fill(Function::Pose, &[q, s], &mut []))
-    }
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Measured.error_jacobian(q, s, columns)?;
-        Ok(self.fill(Function::ErrorJacobian, &[q, s], columns.as_flattened_mut()))
-    }
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Measured.joint_jacobian(q, s, columns)?;
-        Ok(self.fill(Function::JointJacobian, &[q, s], columns.as_flattened_mut()))
-    }
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Measured.parameter_jacobian(q, s, columns)?;
-        Ok(self.fill(Function::ParameterJacobian, &[q, s], columns.as_flattened_mut()))
-    }
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        Measured.effects(q, s, u, effects)?;
-        self.fill(Function::Effects, &[q, s, u], effects);
-        Ok(())
-    }
-    fn generalized_errors(
+    fn evaluate(
         &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        Measured.generalized_errors(q, s, u, errors)?;
-        self.fill(Function::GeneralizedErrors, &[q, s, u], errors.as_flattened_mut());
+        Measured.evaluate(function, arguments, results)?;
+        let (values, _) = self.mutated(function, &arguments.concat());
+        results
+            .iter_mut()
+            .flat_map(|result| &mut **result)
+            .zip(values)
+            .for_each(|(into, value)| *into = value);
         Ok(())
     }
 }
@@ -304,7 +271,7 @@ fn are_all_found() {
     for function in Function::ALL {
         let right = Mutant { function, wrong: None };
         assert!(!right.is_found(20), "{}", function.name());
-        let (_, counts) = right.evaluate(function, &arguments(&right, function.signature(), &given[0]));
+        let (_, counts) = right.mutated(function, &arguments(&right, function.signature(), &given[0]));
         for (kind, count) in Kind::ALL.into_iter().zip(counts) {
             let indices = (count / 2..count).chain(0..count / 2);
             let all = indices.map(|index| (index, Mutant { function, wrong: Some((kind, index)) }));

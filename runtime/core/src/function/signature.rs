@@ -90,6 +90,12 @@ impl Array {
         self.shape.iter().map(|count| count.value(description)).product()
     }
 
+    /// Returns the number of rows, and of values in each.
+    pub fn rows(&self, description: &Description) -> [usize; 2] {
+        let value = |count: &Count| count.value(description);
+        [self.shape.first().map_or(0, value), self.shape.iter().skip(1).map(value).product()]
+    }
+
     /// Returns whether the array is empty for this manipulator.
     pub fn is_empty(&self, description: &Description) -> bool {
         self.len(description) == 0

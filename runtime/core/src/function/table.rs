@@ -19,12 +19,13 @@ macro_rules! for_each_function {
     };
 }
 
-/// Passes the functions that only manipulators with loops have to the macro `$then`.
+/// Passes the functions that only manipulators with loops have to the macro `$then`, after an
+/// optional identifier.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! for_each_function_of_loops {
-    ($then:path) => {
-        $crate::function_of_loops_table!($then, {});
+    ($then:path $(, $passed_on:ident)?) => {
+        $crate::function_of_loops_table!($then, { $($passed_on)? });
     };
 }
 
@@ -43,7 +44,7 @@ macro_rules! for_each_function_of_inverse {
 #[macro_export]
 macro_rules! for_all_functions {
     ($then:path) => {
-        $crate::function_of_loops_table!($crate::function_of_inverse_before, { $then });
+        $crate::function_of_loops_table!($crate::function_of_inverse_before, { { $then } });
     };
 }
 
@@ -71,7 +72,7 @@ macro_rules! function_table_before {
 macro_rules! function_of_loops_table {
     ($then:path, { $($passed_on:tt)* }) => {
         $then! {
-            $({ $passed_on })*:
+            $($passed_on)*:
 
             Passive = passive(q, s) -> (passive):
                 "Passive variables for which all loops close, reached continuously from home as `q` moves from home to its \

@@ -10,7 +10,7 @@ macro_rules! evaluate_functions {
         $documentation:literal $(, $note:literal)?;)+) => {$(
         impl $crate::lanes::Evaluate<$crate::lanes::$function> for $manipulator {
             #[inline(always)]
-            fn evaluate<T: $crate::Scalar>(&self, mut arguments: &[T], mut results: &mut [T]) -> Option<()> {
+            fn evaluate_lanes<T: $crate::Scalar>(&self, mut arguments: &[T], mut results: &mut [T]) -> Option<()> {
                 $(let $argument = $crate::lanes::Rows::<T>::take(&mut arguments)?;)+
                 $(let $result = $crate::lanes::Rows::<T>::fill(&mut results)?;)+
                 $crate::lanes::put_margin::<T, _>(raw::$name::<T>($($argument,)+ $($result),+), results)

@@ -3,7 +3,7 @@
 use super::{Batches, Tiles, check};
 use crate::twist::twist;
 use crate::{
-    Delegate, Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, euler_margin,
+    Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, euler_margin,
     repeatable_magnitudes,
 };
 
@@ -15,11 +15,18 @@ use crate::{
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OneByOne<M>(pub M);
 
-impl<M: Manipulator> Delegate for OneByOne<M> {
-    type Original = M;
+impl<M: Manipulator> Manipulator for OneByOne<M> {
+    fn description(&self) -> &Description {
+        self.0.description()
+    }
 
-    fn original(&self) -> &M {
-        &self.0
+    fn evaluate(
+        &self,
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
+    ) -> Result<(), Error> {
+        self.0.evaluate(function, arguments, results)
     }
 }
 

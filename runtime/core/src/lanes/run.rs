@@ -22,7 +22,7 @@ pub trait Evaluate<F: Named>: Manipulator {
     /// rows.
     ///
     /// Everything it calls must be `#[inline(always)]`, as in any [`Kernel`].
-    fn evaluate<T: Scalar>(&self, arguments: &[T], results: &mut [T]) -> Option<()>;
+    fn evaluate_lanes<T: Scalar>(&self, arguments: &[T], results: &mut [T]) -> Option<()>;
 }
 
 /// Evaluates a function at all configurations, in the lanes of the instruction set of the tiles.
@@ -61,7 +61,7 @@ impl<M: Evaluate<F> + ?Sized, F: Named> Kernel for Over<'_, M, F> {
     #[inline(always)]
     fn run<R: Register>(self) {
         for tile in 0..self.arguments.tiles() {
-            self.manipulator.evaluate(self.arguments.tile::<R>(tile), self.results.tile_mut::<R>(tile));
+            self.manipulator.evaluate_lanes(self.arguments.tile::<R>(tile), self.results.tile_mut::<R>(tile));
         }
     }
 }

@@ -5,7 +5,7 @@ mod by_hand;
 use self::by_hand::{Pps, Puma};
 use super::*;
 use crate::lanes::OneByOne;
-use crate::{Description, Error, Manipulator, Pose};
+use crate::{Description, Error, Function, Manipulator};
 
 #[test]
 fn right_robots_pass_by_a_wide_margin() {
@@ -31,34 +31,17 @@ impl Manipulator for Wrong {
     fn description(&self) -> &Description {
         Pps.description()
     }
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        Pps.transforms(q, s, transforms)
-    }
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        Pps.pose(q, s)
-    }
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let pose = Pps.error_jacobian(q, s, columns)?;
-        self.0(columns);
-        Ok(pose)
-    }
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Pps.joint_jacobian(q, s, columns)
-    }
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        Pps.parameter_jacobian(q, s, columns)
-    }
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        Pps.effects(q, s, u, effects)
-    }
-    fn generalized_errors(
+    fn evaluate(
         &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        Pps.generalized_errors(q, s, u, errors)
+        Pps.evaluate(function, arguments, results)?;
+        if let (Function::ErrorJacobian, [_, columns]) = (function, results) {
+            self.0(columns.as_chunks_mut().0);
+        }
+        Ok(())
     }
 }
 

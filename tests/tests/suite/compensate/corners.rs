@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use abbe::analysis::{compensated, sampling};
 use abbe::compensator::{Status, norms};
-use abbe::{Delegate, Description, Manipulator};
+use abbe::{Description, Error, Function, Manipulator};
 use abbe_interpreter::Interpreter;
 use abbe_tests::thorough;
 
@@ -14,16 +14,19 @@ use super::{with_errors, within};
 /// Counts the calls of a manipulator.
 struct Counted<'a>(&'a Interpreter, AtomicUsize);
 
-impl Delegate for Counted<'_> {
-    type Original = Interpreter;
-
-    fn original(&self) -> &Interpreter {
-        self.1.fetch_add(1, Ordering::Relaxed);
-        self.0
+impl Manipulator for Counted<'_> {
+    fn description(&self) -> &Description {
+        self.0.description()
     }
 
-    fn described(&self) -> &Description {
-        self.0.description()
+    fn evaluate(
+        &self,
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
+    ) -> Result<(), Error> {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        Manipulator::evaluate(self.0, function, arguments, results)
     }
 }
 

@@ -149,90 +149,102 @@ fn column(turns: bool, v: [f64; 3], p: [f64; 3], tool: &Pose) -> [f64; 6] {
     [lever[0], lever[1], lever[2], turned[1] - sin_roll * pitch, turned[2], pitch]
 }
 
+fn error_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    let transforms = transforms(q, s)?;
+    let tool = chain(&transforms);
+    for (i, columns) in columns.chunks_exact_mut(6).enumerate() {
+        let prefix = chain(&transforms[..=i]);
+        for (entry, component) in columns.iter_mut().zip(Component::ALL) {
+            let axis = prefix.0[component.axis()];
+            *entry = column(component.is_rotation(), axis, prefix.position(), &tool);
+        }
+    }
+    checks::margin(roll_cosine(&tool))?;
+    Ok(tool)
+}
+
+fn joint_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    let transforms = transforms(q, s)?;
+    let tool = chain(&transforms);
+    for (i, (entry, (offset, axis))) in columns.iter_mut().zip(JOINTS).enumerate() {
+        let prefix = chain(&transforms[..i]).then(&translation(0.0, offset, 0.0));
+        *entry = column(i >= 3, prefix.0[axis], prefix.position(), &tool);
+    }
+    checks::margin(roll_cosine(&tool))?;
+    Ok(tool)
+}
+
+fn parameter_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    let tool = chain(&transforms(q, s)?);
+    for (i, entry) in columns.iter_mut().enumerate() {
+        *entry = column(false, tool.0[i], tool.position(), &tool);
+    }
+    Ok(tool)
+}
+
+fn effects(q: &[f64], s: &[f64], u: &[f64], into: &mut [f64]) -> Result<(), Error> {
+    check(Quantity::Variables, q, 6)?;
+    check(Quantity::Parameters, s, 3)?;
+    check(Quantity::Inputs, u, 0)?;
+    let phase = PI * q[0] / 1600.0;
+    into[0] = -0.000_062 * q[0] - 0.060_706 * phase.sin();
+    into[1] = 0.000_062 + 0.000_119 * phase.cos();
+    into[2] = 0.000_063;
+    // Cantilever of length L with a load W at its end, 700 mm from the spin axis along the
+    // couch.
+    let (load, lever, length) = (2806.0, 700.0, 718.0 + q[2]);
+    let (bending, torsion) = (2.354e13, 3.245e13);
+    let (sin, cos) = q[3].sin_cos();
+    let (moment, torque) = (load * lever * cos, load * lever * sin);
+    let square = length * length;
+    into[3] = -(load * length * square / 3.0 + moment * square / 2.0) / bending;
+    into[4] = (load * square / 2.0 + moment * length) / bending;
+    into[5] = -torque * length / torsion;
+    into[6..9].fill(0.04);
+    for (i, &sign) in SIGNS.iter().enumerate() {
+        let size = if i % 6 < 3 { 0.6586 } else { 0.6586e-3 };
+        into[9 + i] = if sign == b'+' { size } else { -size };
+    }
+    Ok(())
+}
+
 impl Manipulator for Pps {
     fn description(&self) -> &Description {
         &DESCRIPTION
     }
 
-    fn transforms(&self, q: &[f64], s: &[f64], into: &mut [Pose]) -> Result<(), Error> {
-        into.copy_from_slice(&transforms(q, s)?);
-        Ok(())
-    }
-
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        Ok(chain(&transforms(q, s)?))
-    }
-
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let transforms = transforms(q, s)?;
-        let tool = chain(&transforms);
-        for (i, columns) in columns.chunks_exact_mut(6).enumerate() {
-            let prefix = chain(&transforms[..=i]);
-            for (entry, component) in columns.iter_mut().zip(Component::ALL) {
-                let axis = prefix.0[component.axis()];
-                *entry = column(component.is_rotation(), axis, prefix.position(), &tool);
-            }
-        }
-        checks::margin(roll_cosine(&tool))?;
-        Ok(tool)
-    }
-
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let transforms = transforms(q, s)?;
-        let tool = chain(&transforms);
-        for (i, (entry, (offset, axis))) in columns.iter_mut().zip(JOINTS).enumerate() {
-            let prefix = chain(&transforms[..i]).then(&translation(0.0, offset, 0.0));
-            *entry = column(i >= 3, prefix.0[axis], prefix.position(), &tool);
-        }
-        checks::margin(roll_cosine(&tool))?;
-        Ok(tool)
-    }
-
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let tool = chain(&transforms(q, s)?);
-        for (i, entry) in columns.iter_mut().enumerate() {
-            *entry = column(false, tool.0[i], tool.position(), &tool);
-        }
-        Ok(tool)
-    }
-
-    fn generalized_errors(
+    fn evaluate(
         &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        let description = self.description();
-        let mut effects = vec![0.0; description.effects.len()];
-        self.effects(q, s, u, &mut effects)?;
-        description.generalized_errors(&effects, errors);
-        Ok(())
-    }
-
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], into: &mut [f64]) -> Result<(), Error> {
-        check(Quantity::Variables, q, 6)?;
-        check(Quantity::Parameters, s, 3)?;
-        check(Quantity::Inputs, u, 0)?;
-        let phase = PI * q[0] / 1600.0;
-        into[0] = -0.000_062 * q[0] - 0.060_706 * phase.sin();
-        into[1] = 0.000_062 + 0.000_119 * phase.cos();
-        into[2] = 0.000_063;
-        // Cantilever of length L with a load W at its end, 700 mm from the spin axis along the
-        // couch.
-        let (load, lever, length) = (2806.0, 700.0, 718.0 + q[2]);
-        let (bending, torsion) = (2.354e13, 3.245e13);
-        let (sin, cos) = q[3].sin_cos();
-        let (moment, torque) = (load * lever * cos, load * lever * sin);
-        let square = length * length;
-        into[3] = -(load * length * square / 3.0 + moment * square / 2.0) / bending;
-        into[4] = (load * square / 2.0 + moment * length) / bending;
-        into[5] = -torque * length / torsion;
-        into[6..9].fill(0.04);
-        for (i, &sign) in SIGNS.iter().enumerate() {
-            let size = if i % 6 < 3 { 0.6586 } else { 0.6586e-3 };
-            into[9 + i] = if sign == b'+' { size } else { -size };
-        }
+        let pose = match (function, arguments, &mut *results) {
+            (Function::Transforms, &[q, s], [into]) => {
+                let poses = transforms(q, s)?;
+                into.copy_from_slice(&poses.map(|pose| pose.0.concat()).concat());
+                return Ok(());
+            }
+            (Function::Pose, &[q, s], _) => chain(&transforms(q, s)?),
+            (Function::ErrorJacobian, &[q, s], [_, columns]) => {
+                error_jacobian(q, s, columns.as_chunks_mut().0)?
+            }
+            (Function::JointJacobian, &[q, s], [_, columns]) => {
+                joint_jacobian(q, s, columns.as_chunks_mut().0)?
+            }
+            (Function::ParameterJacobian, &[q, s], [_, columns]) => {
+                parameter_jacobian(q, s, columns.as_chunks_mut().0)?
+            }
+            (Function::Effects, &[q, s, u], [into]) => return effects(q, s, u, into),
+            (Function::GeneralizedErrors, &[q, s, u], [into]) => {
+                let mut values = vec![0.0; DESCRIPTION.effects.len()];
+                effects(q, s, u, &mut values)?;
+                DESCRIPTION.generalized_errors(&values, into.as_chunks_mut().0);
+                return Ok(());
+            }
+            _ => return Err(Error::NoFunction(function)),
+        };
+        results[0].copy_from_slice(pose.0.as_flattened());
         Ok(())
     }
 }

@@ -73,66 +73,78 @@ static DESCRIPTION: Description = Description {
     solutions: 0,
 };
 
+fn error_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    let transforms = transforms(q, s)?;
+    let tool = chain(&transforms);
+    for (i, columns) in columns.chunks_exact_mut(6).enumerate() {
+        let frame = chain(&transforms[..=i]);
+        for (entry, component) in columns.iter_mut().zip(Component::ALL) {
+            *entry = column(component.is_rotation(), component.axis(), &frame, &tool);
+        }
+    }
+    Ok(tool)
+}
+
+fn joint_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    let transforms = transforms(q, s)?;
+    let tool = chain(&transforms);
+    for (i, entry) in columns.iter_mut().enumerate() {
+        *entry = column(true, 2, &chain(&transforms[..i]), &tool);
+    }
+    Ok(tool)
+}
+
+fn parameter_jacobian(q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+    let tool = chain(&transforms(q, s)?);
+    for (entry, axis) in columns.iter_mut().zip([0, 2]) {
+        *entry = column(false, axis, &tool, &tool);
+    }
+    Ok(tool)
+}
+
+fn effects(q: &[f64], s: &[f64], u: &[f64], _: &mut [f64]) -> Result<(), Error> {
+    check(Quantity::Inputs, u, 0)?;
+    transforms(q, s).map(|_| ())
+}
+
 impl Manipulator for Puma {
     fn description(&self) -> &Description {
         &DESCRIPTION
     }
 
-    fn transforms(&self, q: &[f64], s: &[f64], into: &mut [Pose]) -> Result<(), Error> {
-        into.copy_from_slice(&transforms(q, s)?);
-        Ok(())
-    }
-
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        Ok(chain(&transforms(q, s)?))
-    }
-
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let transforms = transforms(q, s)?;
-        let tool = chain(&transforms);
-        for (i, columns) in columns.chunks_exact_mut(6).enumerate() {
-            let frame = chain(&transforms[..=i]);
-            for (entry, component) in columns.iter_mut().zip(Component::ALL) {
-                *entry = column(component.is_rotation(), component.axis(), &frame, &tool);
-            }
-        }
-        Ok(tool)
-    }
-
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let transforms = transforms(q, s)?;
-        let tool = chain(&transforms);
-        for (i, entry) in columns.iter_mut().enumerate() {
-            *entry = column(true, 2, &chain(&transforms[..i]), &tool);
-        }
-        Ok(tool)
-    }
-
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let tool = chain(&transforms(q, s)?);
-        for (entry, axis) in columns.iter_mut().zip([0, 2]) {
-            *entry = column(false, axis, &tool, &tool);
-        }
-        Ok(tool)
-    }
-
-    fn generalized_errors(
+    fn evaluate(
         &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
+        function: Function,
+        arguments: &[&[f64]],
+        results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        let description = self.description();
-        let mut effects = vec![0.0; description.effects.len()];
-        self.effects(q, s, u, &mut effects)?;
-        description.generalized_errors(&effects, errors);
+        let pose = match (function, arguments, &mut *results) {
+            (Function::Transforms, &[q, s], [into]) => {
+                let poses = transforms(q, s)?;
+                into.copy_from_slice(&poses.map(|pose| pose.0.concat()).concat());
+                return Ok(());
+            }
+            (Function::Pose, &[q, s], _) => chain(&transforms(q, s)?),
+            (Function::ErrorJacobian, &[q, s], [_, columns]) => {
+                error_jacobian(q, s, columns.as_chunks_mut().0)?
+            }
+            (Function::JointJacobian, &[q, s], [_, columns]) => {
+                joint_jacobian(q, s, columns.as_chunks_mut().0)?
+            }
+            (Function::ParameterJacobian, &[q, s], [_, columns]) => {
+                parameter_jacobian(q, s, columns.as_chunks_mut().0)?
+            }
+            (Function::Effects, &[q, s, u], [into]) => return effects(q, s, u, into),
+            (Function::GeneralizedErrors, &[q, s, u], [into]) => {
+                let mut values = vec![0.0; DESCRIPTION.effects.len()];
+                effects(q, s, u, &mut values)?;
+                DESCRIPTION.generalized_errors(&values, into.as_chunks_mut().0);
+                return Ok(());
+            }
+            _ => return Err(Error::NoFunction(function)),
+        };
+        results[0].copy_from_slice(pose.0.as_flattened());
         Ok(())
-    }
-
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], _: &mut [f64]) -> Result<(), Error> {
-        check(Quantity::Inputs, u, 0)?;
-        transforms(q, s).map(|_| ())
     }
 }
 
