@@ -1,11 +1,14 @@
 //! Quantities that are generated for a manipulator, as nodes of one graph.
 //!
-//! `build` makes those of a chain of frames; `names` names their nodes.
+//! `build` makes them from the kinematics of frames, `chain` or `tree`; `names` names their nodes.
 
 mod build;
-pub(super) mod names;
+mod chain;
+mod names;
 
 use abbe_spec::Spec;
+
+pub(super) use self::build::{Kinematics, Machine, magnitudes};
 
 use super::inverse::Inverse;
 use super::local_twist::LocalTwist;

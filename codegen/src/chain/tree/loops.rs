@@ -1,6 +1,5 @@
 //! Newton's steps that close the loops, of the nominal machine and with errors.
 
-use abbe_core::Class;
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Closure, Spec};
 
@@ -8,6 +7,7 @@ use super::closure::{self, Ends};
 use super::continuation::{Continuation, home};
 use super::factored::Factored;
 use super::parts::Parts;
+use crate::chain::model::magnitudes;
 use crate::chain::real::RealChain;
 use crate::chain::sources::{Causes, PlacedErrors};
 use crate::graph::{Frame, Graph, Node};
@@ -56,13 +56,8 @@ impl ClosedLoops {
         let Continuation { start: passive_home, steps: continuation } = Continuation::new(spec);
         let residual = parts.residual(graph);
         let step = parts.factored.solve(graph, &residual);
-        let repeatable = spec.enabled_sources().map(|source| source.class == Class::Repeatable);
-        let magnitudes: Vec<Node> =
-            repeatable.map(|one| graph.constant(if one { 1.0 } else { 0.0 })).collect();
-        let real = RealNodes::new(graph, spec, causes, &magnitudes);
-        let magnitudes: Vec<Node> =
-            (0..spec.enabled_sources().count()).map(|i| graph.symbol(Symbol::Magnitude(i))).collect();
-        let drawn = RealNodes::new(graph, spec, causes, &magnitudes);
+        let [real, drawn] =
+            magnitudes(graph, spec).map(|magnitudes| RealNodes::new(graph, spec, causes, &magnitudes));
         let displaced = RealNodes::displaced(graph, spec, errors);
         Self {
             passive_home,

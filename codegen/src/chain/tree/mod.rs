@@ -2,7 +2,7 @@
 //!
 //! `view` holds the poses of the frames below one of them, and moves them; `closure` states the
 //! equations φ of a loop and their rates under such motions. `factored` solves `φ_p x = b` in
-//! straight-line code. `parts` eliminates the passive variables, and `model` reads off the nodes:
+//! straight-line code. `parts` eliminates the passive variables, and `model` gives the model its kinematics:
 //!
 //! ```text
 //! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε
@@ -26,4 +26,4 @@ pub(crate) use continuation::{CLOSED, REFINEMENTS};
 pub use equations::LoopEquations;
 pub(super) use lengths::add_lengths;
 pub(crate) use loops::{ClosedLoops, RealNodes};
-pub(super) use model::model;
+pub(super) use model::Tree;
