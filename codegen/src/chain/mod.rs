@@ -27,6 +27,7 @@ mod frame_twist;
 mod inverse;
 mod joint_columns;
 mod joint_step;
+mod kinematics;
 mod local;
 mod local_twist;
 mod lower_pairs;

@@ -22,6 +22,7 @@ mod manipulator;
 #[cfg(feature = "nalgebra")]
 mod nalgebra_views;
 mod pose;
+mod quantity;
 mod remedy;
 mod scalar;
 mod shared;
@@ -60,13 +61,14 @@ pub use description::{
 pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]
 pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
-pub use error::{Error, MINIMUM_MARGIN, Quantity};
+pub use error::{Error, MINIMUM_MARGIN};
 pub use function::Function;
 
 pub use manipulator::Manipulator;
 #[cfg(feature = "nalgebra")]
 pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
 pub use pose::Pose;
+pub use quantity::Quantity;
 pub use remedy::Remedy;
 pub use scalar::{LookupTable, Scalar};
 pub use shared::{List, Text};

@@ -1,6 +1,5 @@
 //! The nodes of a chain or a tree of frames.
 
-use abbe_core::Class;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
@@ -10,64 +9,38 @@ use super::{Jacobian, Model};
 use crate::chain::by_source;
 use crate::chain::elastic::Loads;
 use crate::chain::inverse::Inverse;
+use crate::chain::kinematics::{Kinematics, symbols};
 use crate::chain::local_twist::LocalTwist;
 use crate::chain::rows::Rows;
 use crate::chain::sources::{self, Causes};
 use crate::chain::tree::{ClosedLoops, Tree};
 use crate::chain::walk::transform;
-use crate::graph::{Frame, Graph, Node, Vector};
-
-/// Kinematics of frames, from which all nodes are built in the order of the methods.
-pub(crate) trait Kinematics {
-    /// Returns the poses of the frames and of the tool point in `F_0`.
-    fn poses(&self) -> (&[Frame], Frame);
-
-    /// Returns the six columns of `J_e` of each frame, and for each frame its entries that are
-    /// neither zero nor repeated.
-    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>);
-
-    /// Returns the velocity of the tool point and the rotation per unit of each symbol.
-    fn twists(&self, graph: &mut Graph, symbols: &[Symbol]) -> Vec<[Vector; 2]>;
-
-    /// Prepares sums over the frames, and returns the margin of their rows, if it is another node.
-    fn prepare_sums(&mut self, graph: &mut Graph, spec: &Spec) -> Option<Option<Node>>;
-
-    /// Returns `J_e ε`, summed over the frames.
-    fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6];
-
-    /// Returns the columns of `J_e diag(σ²) J_eᵀ`.
-    fn covariance(&self, graph: &mut Graph, columns: &[[Node; 6]], variances: &[[Node; 6]])
-    -> Vec<[Node; 6]>;
-
-    /// Returns what chains and trees have in forms of their own.
-    fn machine(self, graph: &mut Graph, spec: &Spec, causes: &Causes, errors: [&[[Node; 6]]; 2]) -> Machine;
-}
+use crate::graph::{Frame, Graph, Node};
 
 /// The machine with its errors, and what only chains or only trees have; see the fields of
 /// [`Model`].
-pub(crate) struct Machine {
-    pub(crate) real_pose: Frame,
-    pub(crate) drawn_pose: Frame,
-    pub(crate) real_errors: Option<Vec<[Node; 6]>>,
-    pub(crate) drawn_errors: Vec<[Node; 6]>,
-    pub(crate) local_twists: [Vec<LocalTwist>; 2],
-    pub(crate) inverse: Option<Inverse>,
-    pub(crate) loops: Option<ClosedLoops>,
+pub(super) struct Machine {
+    pub(super) real_pose: Frame,
+    pub(super) drawn_pose: Frame,
+    pub(super) real_errors: Option<Vec<[Node; 6]>>,
+    pub(super) drawn_errors: Vec<[Node; 6]>,
+    pub(super) local_twists: [Vec<LocalTwist>; 2],
+    pub(super) inverse: Option<Inverse>,
+    pub(super) loops: Option<ClosedLoops>,
 }
 
-/// Returns the magnitudes that select the repeatable sources, and the symbols of all.
-pub(crate) fn magnitudes(graph: &mut Graph, spec: &Spec) -> [Vec<Node>; 2] {
-    let repeatable = spec.enabled_sources().map(|source| source.class == Class::Repeatable);
-    let selected = repeatable.map(|one| graph.constant(if one { 1.0 } else { 0.0 })).collect();
-    [selected, (0..spec.enabled_sources().count()).map(|i| graph.symbol(Symbol::Magnitude(i))).collect()]
-}
-
-/// Returns the symbols of the variables and of the parameters.
-pub(crate) fn symbols(spec: &Spec) -> [Vec<Symbol>; 2] {
-    [
-        (0..spec.variables.len()).map(Symbol::Variable).collect(),
-        (0..spec.parameters.len()).map(Symbol::Parameter).collect(),
-    ]
+impl Machine {
+    fn of_loops(loops: ClosedLoops) -> Self {
+        Self {
+            real_pose: loops.real.pose,
+            drawn_pose: loops.drawn.pose,
+            real_errors: None,
+            drawn_errors: Vec::new(),
+            local_twists: [Vec::new(), Vec::new()],
+            inverse: None,
+            loops: Some(loops),
+        }
+    }
 }
 
 impl Model {
@@ -76,14 +49,23 @@ impl Model {
         let mut graph = Graph::with_tables(&spec.tables);
         if spec.is_serial() {
             let chain = Chain::new(&mut graph, spec);
-            Self::of(graph, spec, chain)
+            Self::from_kinematics(graph, spec, chain, Chain::machine)
         } else {
             let tree = Tree::new(&mut graph, spec);
-            Self::of(graph, spec, tree)
+            Self::from_kinematics(graph, spec, tree, |tree, g, spec, causes, [errors, _]| {
+                Machine::of_loops(tree.loops(g, spec, causes, errors))
+            })
         }
     }
 
-    fn of(mut graph: Graph, spec: &Spec, mut kinematics: impl Kinematics) -> Self {
+    /// Builds the nodes that chains and trees share, then the machine with its errors from its
+    /// causes, the symbols of the errors and the errors of the sources.
+    fn from_kinematics<K: Kinematics>(
+        mut graph: Graph,
+        spec: &Spec,
+        mut kinematics: K,
+        machine: impl FnOnce(K, &mut Graph, &Spec, &Causes, [&[[Node; 6]]; 2]) -> Machine,
+    ) -> Self {
         let g = &mut graph;
         let (frames, tool) = kinematics.poses();
         let frames = frames.to_vec();
@@ -130,7 +112,7 @@ impl Model {
         };
         let predicted_displacement = two_ways(std::slice::from_ref(&generalized_errors));
         let source_displacements = two_ways(&by_source::errors_by_source(zero, spec, &effects));
-        let machine = kinematics.machine(g, spec, &causes, [&errors, &generalized_errors]);
+        let machine = machine(kinematics, g, spec, &causes, [&errors, &generalized_errors]);
         let [joint_local_twists, parameter_local_twists] = machine.local_twists;
         Self {
             graph,

@@ -3,7 +3,7 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::build::{Kinematics, Machine, magnitudes, symbols};
+use super::build::Machine;
 use super::is_long;
 use crate::chain::accumulate::{Accumulated, Links};
 use crate::chain::by_source;
@@ -11,6 +11,7 @@ use crate::chain::covariance::Covariance;
 use crate::chain::equivalent_forms::EquivalentForms;
 use crate::chain::error_jacobian::{self, Columns};
 use crate::chain::inverse::Inverse;
+use crate::chain::kinematics::{Kinematics, magnitudes, symbols};
 use crate::chain::local_twist::local_twists;
 use crate::chain::moments::Moments;
 use crate::chain::origin_form;
@@ -49,46 +50,15 @@ impl Chain {
         let steps = Steps::new(graph, Vec::new());
         Self { frames, tool, path, ends, steps, by_frame: Vec::new(), along: None }
     }
-}
 
-impl Kinematics for Chain {
-    fn poses(&self) -> (&[Frame], Frame) {
-        (&self.frames, self.tool)
-    }
-
-    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>) {
-        let moments = Moments::new(graph, &self.frames, &self.tool, &self.path, &self.ends);
-        self.by_frame = error_jacobian::columns(graph, &self.frames, moments, rows);
-        self.steps = Steps::new(graph, std::mem::take(&mut self.path));
-        let columns = self.by_frame.iter().flat_map(|columns| columns.dense(graph)).collect();
-        (columns, self.by_frame.iter().map(|columns| columns.distinct(rows)).collect())
-    }
-
-    fn twists(&self, graph: &mut Graph, symbols: &[Symbol]) -> Vec<[Vector; 2]> {
-        symbols.iter().map(|symbol| twist(graph, &self.steps, *symbol, self.tool.position)).collect()
-    }
-
-    fn prepare_sums(&mut self, graph: &mut Graph, spec: &Spec) -> Option<Option<Node>> {
-        let links = Links::new(graph, spec);
-        let last_axis = links.last_axis(graph, spec.orientation);
-        let rows = Rows::new(graph, spec.orientation, last_axis);
-        let margin = rows.margin();
-        self.along = Some((links, rows));
-        Some(margin)
-    }
-
-    fn displacement(&self, graph: &mut Graph, _: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
-        let Some((links, rows)) = &self.along else { return [graph.zero(); 6] };
-        by_source::along(graph, links, rows, errors)
-    }
-
-    fn covariance(&self, graph: &mut Graph, _: &[[Node; 6]], variances: &[[Node; 6]]) -> Vec<[Node; 6]> {
-        let Some((links, rows)) = &self.along else { return Vec::new() };
-        let none = Covariance::none(graph);
-        links.accumulate(graph, variances, none).rows(graph, rows)
-    }
-
-    fn machine(self, graph: &mut Graph, spec: &Spec, causes: &Causes, errors: [&[[Node; 6]]; 2]) -> Machine {
+    /// Returns the exact chain with errors, and what only chains have.
+    pub(super) fn machine(
+        self,
+        graph: &mut Graph,
+        spec: &Spec,
+        causes: &Causes,
+        errors: [&[[Node; 6]]; 2],
+    ) -> Machine {
         let [repeatable, drawn] = magnitudes(graph, spec);
         let real = RealChain::new(graph, spec, causes, repeatable);
         let drawn = RealChain::new(graph, spec, causes, drawn);
@@ -128,5 +98,43 @@ impl Kinematics for Chain {
             inverse: Inverse::new(graph, spec),
             loops: None,
         }
+    }
+}
+
+impl Kinematics for Chain {
+    fn poses(&self) -> (&[Frame], Frame) {
+        (&self.frames, self.tool)
+    }
+
+    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>) {
+        let moments = Moments::new(graph, &self.frames, &self.tool, &self.path, &self.ends);
+        self.by_frame = error_jacobian::columns(graph, &self.frames, moments, rows);
+        self.steps = Steps::new(graph, std::mem::take(&mut self.path));
+        let columns = self.by_frame.iter().flat_map(|columns| columns.dense(graph)).collect();
+        (columns, self.by_frame.iter().map(|columns| columns.distinct(rows)).collect())
+    }
+
+    fn twists(&self, graph: &mut Graph, symbols: &[Symbol]) -> Vec<[Vector; 2]> {
+        symbols.iter().map(|symbol| twist(graph, &self.steps, *symbol, self.tool.position)).collect()
+    }
+
+    fn prepare_sums(&mut self, graph: &mut Graph, spec: &Spec) -> Option<Option<Node>> {
+        let links = Links::new(graph, spec);
+        let last_axis = links.last_axis(graph, spec.orientation);
+        let rows = Rows::new(graph, spec.orientation, last_axis);
+        let margin = rows.margin();
+        self.along = Some((links, rows));
+        Some(margin)
+    }
+
+    fn displacement(&self, graph: &mut Graph, _: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
+        let Some((links, rows)) = &self.along else { return [graph.zero(); 6] };
+        by_source::along(graph, links, rows, errors)
+    }
+
+    fn covariance(&self, graph: &mut Graph, _: &[[Node; 6]], variances: &[[Node; 6]]) -> Vec<[Node; 6]> {
+        let Some((links, rows)) = &self.along else { return Vec::new() };
+        let none = Covariance::none(graph);
+        links.accumulate(graph, variances, none).rows(graph, rows)
     }
 }

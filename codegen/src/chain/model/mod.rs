@@ -8,8 +8,6 @@ mod names;
 
 use abbe_spec::Spec;
 
-pub(super) use self::build::{Kinematics, Machine, magnitudes};
-
 use super::inverse::Inverse;
 use super::local_twist::LocalTwist;
 use super::sources::EffectNode;

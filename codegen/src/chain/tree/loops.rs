@@ -7,7 +7,7 @@ use super::closure::{self, Ends};
 use super::continuation::{Continuation, home};
 use super::factored::Factored;
 use super::parts::Parts;
-use crate::chain::model::magnitudes;
+use crate::chain::kinematics::magnitudes;
 use crate::chain::real::RealChain;
 use crate::chain::sources::{Causes, PlacedErrors};
 use crate::graph::{Frame, Graph, Node};

@@ -2,7 +2,7 @@
 //!
 //! `view` holds the poses of the frames below one of them, and moves them; `closure` states the
 //! equations φ of a loop and their rates under such motions. `factored` solves `φ_p x = b` in
-//! straight-line code. `parts` eliminates the passive variables, and `model` gives the model its kinematics:
+//! straight-line code. `parts` eliminates the passive variables, and `model` gives the kinematics:
 //!
 //! ```text
 //! φ(q, p, ε) = 0        δp = −φ_p⁻¹ (φ_ε ε + φ_q δq)        J_e = J_ε − J_p φ_p⁻¹ φ_ε

@@ -6,7 +6,7 @@ use abbe_spec::expr::Symbol;
 
 use super::loops::ClosedLoops;
 use super::parts::Parts;
-use crate::chain::model::{Kinematics, Machine};
+use crate::chain::kinematics::Kinematics;
 use crate::chain::rows::Rows;
 use crate::chain::sources::Causes;
 use crate::graph::{Frame, Graph, Node, Vector};
@@ -17,6 +17,17 @@ pub(crate) struct Tree<'s>(Parts<'s>);
 impl<'s> Tree<'s> {
     pub(crate) fn new(graph: &mut Graph, spec: &'s Spec) -> Self {
         Self(Parts::new(graph, spec))
+    }
+
+    /// Returns the closed loops of the machine with its errors.
+    pub(crate) fn loops(
+        self,
+        graph: &mut Graph,
+        spec: &Spec,
+        causes: &Causes,
+        errors: &[[Node; 6]],
+    ) -> ClosedLoops {
+        ClosedLoops::new(graph, spec, &self.0, causes, errors)
     }
 }
 
@@ -69,24 +80,5 @@ impl Kinematics for Tree<'_> {
             }
         }
         sums
-    }
-
-    fn machine(
-        self,
-        graph: &mut Graph,
-        spec: &Spec,
-        causes: &Causes,
-        [errors, _]: [&[[Node; 6]]; 2],
-    ) -> Machine {
-        let loops = ClosedLoops::new(graph, spec, &self.0, causes, errors);
-        Machine {
-            real_pose: loops.real.pose,
-            drawn_pose: loops.drawn.pose,
-            real_errors: None,
-            drawn_errors: Vec::new(),
-            local_twists: [Vec::new(), Vec::new()],
-            inverse: None,
-            loops: Some(loops),
-        }
     }
 }

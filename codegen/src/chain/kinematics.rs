@@ -1,0 +1,46 @@
+//! Kinematics of frames, which a chain and a tree of frames have in forms of their own.
+
+use abbe_core::Class;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
+
+use super::rows::Rows;
+use crate::graph::{Frame, Graph, Node, Vector};
+
+/// Kinematics of frames, from which all nodes are built in the order of the methods.
+pub(crate) trait Kinematics {
+    /// Returns the poses of the frames and of the tool point in `F_0`.
+    fn poses(&self) -> (&[Frame], Frame);
+
+    /// Returns the six columns of `J_e` of each frame, and for each frame its entries that are
+    /// neither zero nor repeated.
+    fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>);
+
+    /// Returns the velocity of the tool point and the rotation per unit of each symbol.
+    fn twists(&self, graph: &mut Graph, symbols: &[Symbol]) -> Vec<[Vector; 2]>;
+
+    /// Prepares sums over the frames, and returns the margin of their rows, if it is another node.
+    fn prepare_sums(&mut self, graph: &mut Graph, spec: &Spec) -> Option<Option<Node>>;
+
+    /// Returns `J_e ε`, summed over the frames.
+    fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6];
+
+    /// Returns the columns of `J_e diag(σ²) J_eᵀ`.
+    fn covariance(&self, graph: &mut Graph, columns: &[[Node; 6]], variances: &[[Node; 6]])
+    -> Vec<[Node; 6]>;
+}
+
+/// Returns the magnitudes that select the repeatable sources, and the symbols of all.
+pub(crate) fn magnitudes(graph: &mut Graph, spec: &Spec) -> [Vec<Node>; 2] {
+    let repeatable = spec.enabled_sources().map(|source| source.class == Class::Repeatable);
+    let selected = repeatable.map(|one| graph.constant(if one { 1.0 } else { 0.0 })).collect();
+    [selected, (0..spec.enabled_sources().count()).map(|i| graph.symbol(Symbol::Magnitude(i))).collect()]
+}
+
+/// Returns the symbols of the variables and of the parameters.
+pub(crate) fn symbols(spec: &Spec) -> [Vec<Symbol>; 2] {
+    [
+        (0..spec.variables.len()).map(Symbol::Variable).collect(),
+        (0..spec.parameters.len()).map(Symbol::Parameter).collect(),
+    ]
+}
