@@ -54,12 +54,11 @@ pub fn limits(
         sums
     };
     let repeatable = sums(&apart.repeatable);
-    let mut squares = [0.0_f64; 2];
+    let mut random = [0.0_f64; 2];
     for source in &apart.random {
         let own = sums(source);
-        squares = std::array::from_fn(|i| (squares[i] + (own[i] * own[i]).next_up()).next_up());
+        random = std::array::from_fn(|i| (random[i] + own[i]).next_up());
     }
-    let random = squares.map(|square| square.sqrt().next_up());
     let of = |i: usize| [repeatable[i], random[i], (repeatable[i] + random[i]).next_up()];
     Limits { position: of(0), rotation: of(1) }
 }

@@ -1,6 +1,6 @@
 //! The largest value of a node over a box.
 
-use abbe_codegen::chain::Magnitude;
+use abbe_codegen::chain::{DIRECTION, Magnitude};
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::expr::Symbol;
 
@@ -14,7 +14,7 @@ use crate::search::{Bound, Search};
 use crate::tape::Tape;
 
 /// Bounds the largest value of a nonnegative node over the box of the moving names, with all other
-/// symbols `fixed`.
+/// symbols `fixed`, and over all directions of a sum of errors.
 ///
 /// The bound holds for the node in real arithmetic, with the constants of the graph taken as exact.
 /// `watch` receives the progress after every round and ends the search by returning `false`. The
@@ -34,7 +34,8 @@ pub fn largest(
     }
     let depends = graph.symbols(&[node]);
     let is_active = |name: &Moving| depends.contains(&name.symbol) && name.range[0] < name.range[1];
-    let active: Vec<Moving> = moving.iter().copied().filter(is_active).collect();
+    let direction = DIRECTION.map(|(symbol, range)| Moving { symbol, range, home: 0.0, start: 0.0 });
+    let active: Vec<Moving> = moving.iter().copied().chain(direction).filter(is_active).collect();
     let symbols: Vec<Symbol> = active.iter().map(|name| name.symbol).collect();
     let slopes: Vec<Node> = symbols.iter().map(|symbol| graph.diff(node, *symbol)).collect();
     let still = |symbol: Symbol| {

@@ -12,6 +12,7 @@ use abbe_manipulators::{MECHANISMS, SHIPPED, Shipped};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::{Expression, Symbol};
+use abbe_spec::option::{NamedOption, option};
 use abbe_spec::{Factor, Magnitude, Source, Spec};
 
 use crate::calibration::{
@@ -101,6 +102,11 @@ impl Machine {
         self.fixed_inputs.extend(changes.inputs());
         self.set_parameters.extend(changes.parameters());
         self.stated_changes.extend_from_slice(changes.stated());
+    }
+
+    /// Iterates over the changes that were made by options.
+    pub fn stated_changes(&self) -> impl Iterator<Item = NamedOption> {
+        self.stated_changes.iter().map(|(name, value)| option(name, value))
     }
 
     /// Adds the uncertainty of the repeatable errors as normal random sources, after all others: σ

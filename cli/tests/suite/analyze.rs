@@ -281,6 +281,15 @@ fn what_cannot_be_reached_is_counted_with_its_reason() {
     assert_eq!((&report["configurations"], &report["unreachable"]), (&1.into(), &3.into()));
     let mut reader = csv::Reader::from_path(out.join("unreachable.csv")).unwrap();
     assert_eq!(reader.records().count(), 3);
+    // What cannot be reached does not keep a tolerance, unless the study permits it.
+    for (permitted, status) in [("", 1), (", unreachable = 0.74", 1), (", unreachable = 0.75", 0)] {
+        let tolerance = format!("title = \"Beyond\"\ntolerance = {{ position = \"9 mm\"{permitted} }}");
+        let text = OUT_OF_REACH.replace("title = \"Beyond the travels\"", &tolerance);
+        let study = write(folder.path(), "judged.toml", &text);
+        let run = abbe(&["analyze", "pps", "--study", study.to_str().unwrap(), "--check"]);
+        let said = run.stdout.contains("NOT MET: 3 of 4 configurations cannot be reached, tolerance 9 mm");
+        assert_eq!((run.status, said), (status, status == 1), "{}", run.stdout);
+    }
 
     let study = write(folder.path(), "far.toml", &OUT_OF_REACH.replace("1846 mm", "18 m"));
     let run = abbe(&["analyze", "pps", "--study", study.to_str().unwrap()]);

@@ -6,7 +6,7 @@ use tempfile::tempdir;
 use crate::bad_input::refused;
 use crate::running::{abbe, full, json, write};
 
-const KINDS: [&str; 3] = ["repeatable", "random", "radius"];
+const KINDS: [&str; 3] = ["repeatable", "random", "total"];
 const ERRORS: [&str; 5] = ["norm", "x", "y", "z", "orientation"];
 
 fn number(value: &Value) -> f64 {
@@ -49,6 +49,41 @@ fn a_normal_source_stands_at_three_standard_deviations() {
     assert!((sampled - 0.12).abs() < 1e-12, "{sampled}");
 }
 
+/// A tolerance is met in the box only if the worst case of all signs keeps it: two errors of 0.1
+/// mrad at 1 m are up to 0.2 mm. What a normal error exceeds is said.
+#[test]
+fn a_tolerance_is_met_by_the_worst_case() {
+    let folder = tempdir().unwrap();
+    let arm = |distribution: &str| {
+        let source = |name: &str| {
+            format!(
+                "[[source]]\nname = \"{name}\"\nclass = \"random\"\ndistribution = \"{distribution}\"\n\
+                 joint = \"q1\"\nerror = \"0.1 mrad\"\n"
+            )
+        };
+        let text = format!(
+            "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"a\"\n\
+             variable = {{ name = \"q1\", kind = \"revolute\", limits = [\"-90 deg\", \"90 deg\"] }}\n\
+             transform = \"Rz(q1)\"\n[tool]\ntransform = \"Tx(1000)\"\n{}{}",
+            source("encoder"),
+            source("zero")
+        );
+        write(folder.path(), &format!("{distribution}.toml"), &text)
+    };
+    let verdict = |distribution: &str, tolerance: &str| {
+        let study = format!(
+            "[study]\ntitle = \"Arc\"\ntolerance = \"{tolerance}\"\n[workspace.joints]\nsamples = 9\n"
+        );
+        let study = write(folder.path(), "study.toml", &study);
+        let (arm, study) = (arm(distribution), study.to_str().unwrap().to_owned());
+        abbe(&["bound", arm.to_str().unwrap(), "--study", &study]).stdout.lines().next().unwrap().to_owned()
+    };
+    assert!(verdict("uniform", "0.15 mm").ends_with("tolerance 0.15 mm EXCEEDED: 0.2 mm found"));
+    assert!(verdict("uniform", "0.201 mm").ends_with("MET everywhere in the box, to first order"));
+    assert!(verdict("normal", "0.61 mm").ends_with("MET everywhere in the box at 3 σ, to first order"));
+    assert!(verdict("normal", "0.5 mm").ends_with("EXCEEDED: 0.6 mm found"));
+}
+
 /// Sampled errors lie below the bound, and close to it where the workspace is the box.
 #[test]
 fn nothing_that_is_sampled_exceeds_it() {
@@ -59,7 +94,9 @@ fn nothing_that_is_sampled_exceeds_it() {
             let sampled = number(&analysis["combined"][sampled]);
             let certified = number(&bound[kind]["norm"]["certified"]);
             assert!(sampled <= certified * (1.0 + 1e-12), "{name} {kind}: {sampled} > {certified}");
-            assert!(sampled >= 0.7 * number(&bound[kind]["norm"]["found"]), "{name} {kind}: {sampled}");
+            // The root sum of squares of several random errors is far below their worst case.
+            let least = if kind == "repeatable" { 0.7 } else { 0.3 };
+            assert!(sampled >= least * number(&bound[kind]["norm"]["found"]), "{name} {kind}: {sampled}");
             // With sources of one class only, the total is not repeated.
             if let Some(own) = analysis["certified"][kind]["certified"].as_f64() {
                 assert!(sampled <= own * (1.0 + 1e-12), "{name} {kind}: {sampled} > {own}");

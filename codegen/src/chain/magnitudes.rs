@@ -1,11 +1,13 @@
 //! Magnitudes of the tool point's errors, as nodes to be maximized.
 //!
-//! A norm is the same in the axes of any frame. The norm of a source's effect is taken in the axes
-//! of the first frame that the source affects, so that the joints before that frame drop out.
+//! A norm is the same in the axes of any frame. The norm of a sum is taken in the axes of the first
+//! frame that its sources affect, so that the joints before that frame drop out.
+
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use abbe_core::{Class, Orientation};
 use abbe_spec::Spec;
-use abbe_spec::expr::Function;
+use abbe_spec::expr::{Function, Symbol};
 
 use super::accumulate::Links;
 use super::by_source::errors_by_source;
@@ -34,26 +36,35 @@ impl Magnitude {
     }
 }
 
-/// Magnitudes of the errors of the tool point. The five entries are the norm of the position error,
-/// its components along x, y and z of `F_0`, and the norm of rows 4–6.
+/// Magnitudes of the errors of the tool point in the worst case: the largest sizes of sums in which
+/// each random source has any value within its bound (3σ for a normal distribution). The five
+/// entries are the norm of the position error, its components along x, y and z of `F_0`, and the
+/// norm of rows 4–6.
+///
+/// The largest norm of a sum `Σ t_i v_i` with every `t_i` from −1 to 1 is the largest value of `Σ
+/// |u·v_i|` over all unit vectors u. Norms of several sources are therefore nodes of the two angles
+/// of u, too, the [`DIRECTION`], and are to be maximized over these.
 #[derive(Clone, Debug)]
 pub struct Magnitudes {
     /// The graph of the nodes.
     pub graph: Graph,
     /// Signed sum of the enabled repeatable sources.
     pub repeatable: [Magnitude; 5],
-    /// Root sum of squares of the enabled random sources at their bounds (3σ for a normal
-    /// distribution).
+    /// Sum of the enabled random sources with any signs.
     pub random: [Magnitude; 5],
-    /// Sum of the repeatable and random magnitudes.
-    pub radius: [Magnitude; 5],
-    /// Upper bounds of the errors along x and along y, for each kind: the norm of both, or for
-    /// random sources the largest root sum of squares along a direction perpendicular to z. They do
-    /// not depend on leading rotations about z.
+    /// Sum of all sources, the random ones with any signs.
+    pub total: [Magnitude; 5],
+    /// Upper bounds of the errors along x and along y, for each kind: the norm of both. They do not
+    /// depend on leading rotations about z.
     pub across_z: [Magnitude; 3],
     /// Parts of all magnitudes.
     pub apart: PerFrameMagnitudes,
 }
+
+/// Azimuth and elevation of the direction along which errors are added, and their ranges: half a
+/// sphere, for errors have either sign.
+pub const DIRECTION: [(Symbol, [f64; 2]); 2] =
+    [(Symbol::Local(0), [0.0, PI]), (Symbol::Local(1), [-FRAC_PI_2, FRAC_PI_2])];
 
 /// Parts of the errors of the tool point: norms that each depend on few joints.
 #[derive(Clone, Debug)]
@@ -78,7 +89,7 @@ fn sizes_apart(graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<[Magnitude; 2]> {
 
 /// Displacement of the tool point caused by errors of frames.
 struct ToolDisplacement {
-    /// δ in the axes of the first frame with an error.
+    /// δ in the axes of the first frame with an error of the kind.
     shift: Vector,
     /// δ in `F_0`.
     along: Vector,
@@ -106,67 +117,100 @@ impl Magnitudes {
             repeatable: sizes_apart(g, &errors),
             random: Vec::new(),
         };
-        let repeatable = ToolDisplacement::by(g, spec, &links, &rows, &errors);
-        let mut sums = [zero; 5];
-        let mut parts: [Vec<Node>; 5] = Default::default();
-        // Σ x², Σ y², Σ x y.
-        let mut spread = [zero; 3];
-        let mut spread_parts = Vec::new();
-        let errors = errors_by_source(zero, spec, &effects);
-        for (source, errors) in spec.enabled_sources().zip(&errors) {
+        let mut random = Vec::new();
+        let by_source = errors_by_source(zero, spec, &effects);
+        for (source, errors) in spec.enabled_sources().zip(&by_source) {
             if let Class::Random(distribution) = source.class {
                 let bound = g.constant(distribution.bound());
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
                 let at_bound: Vec<[Node; 6]> = at_bound.collect();
                 apart.random.push(sizes_apart(g, &at_bound));
-                let moved = ToolDisplacement::by(g, spec, &links, &rows, &at_bound);
-                let squares = moved.squares(g);
-                sums = std::array::from_fn(|i| g.add(sums[i], squares[i]));
-                parts.iter_mut().zip(moved.parts()).for_each(|(parts, own)| parts.extend(own));
-                let [x, y] = moved.across_z;
-                let products = [(x, x), (y, y), (x, y)].map(|(a, b)| g.mul(a, b));
-                spread = std::array::from_fn(|i| g.add(spread[i], products[i]));
-                spread_parts.extend([x, y]);
+                random.push(at_bound);
             }
         }
-        let squared = |node, parts| Magnitude { node, squared: true, parts };
-        let across = repeatable.across_z.map(|part| g.mul(part, part));
-        let across = [
-            squared(g.add(across[0], across[1]), repeatable.across_z.to_vec()),
-            squared(largest_eigenvalue(g, spread), spread_parts),
-        ];
-        let (squares, sizes, own) = (repeatable.squares(g), repeatable.sizes(g), repeatable.parts());
-        let repeatable = std::array::from_fn(|i| squared(squares[i], own[i].clone()));
-        let random = std::array::from_fn(|i| squared(sums[i], parts[i].clone()));
-        let radius = std::array::from_fn(|i| both(g, sizes[i], &repeatable[i], &random[i]));
-        let size = g.sqrt(across[0].node);
-        let radius_across = both(g, size, &across[0], &across[1]);
-        let [first, second] = across;
-        Self { graph, repeatable, random, radius, across_z: [first, second, radius_across], apart }
+        let repeatable = vec![errors];
+        let all = [&repeatable[..], &random].concat();
+        let [repeatable, random, total] = [repeatable, random, all].map(|kind| {
+            let moves = |errors: &[Node; 6]| *errors != [zero; 6];
+            let first = kind.iter().filter_map(|errors| errors.iter().position(moves)).min();
+            let first = first.unwrap_or(spec.frames.len());
+            let moved: Vec<ToolDisplacement> = kind
+                .iter()
+                .map(|errors| ToolDisplacement::by(g, spec, &links, &rows, errors, first))
+                .collect();
+            (largest_of(g, &moved), largest_across_z(g, &moved))
+        });
+        let across_z = [repeatable.1, random.1, total.1];
+        Self { graph, repeatable: repeatable.0, random: random.0, total: total.0, across_z, apart }
     }
 }
 
-/// Returns the sum of the repeatable and the random magnitude.
-fn both(graph: &mut Graph, size: Node, repeatable: &Magnitude, random: &Magnitude) -> Magnitude {
-    let other = graph.sqrt(random.node);
-    let parts = [&repeatable.parts[..], &random.parts].concat();
-    Magnitude { node: graph.add(size, other), squared: false, parts }
+/// Returns the largest magnitudes of the sum of displacements with any signs.
+fn largest_of(graph: &mut Graph, moved: &[ToolDisplacement]) -> [Magnitude; 5] {
+    let along = |axis: usize| moved.iter().map(|moved| vec![moved.along[axis]]).collect::<Vec<_>>();
+    let norm = |of: fn(&ToolDisplacement) -> Vector| moved.iter().map(|moved| of(moved).to_vec()).collect();
+    let vectors = [norm(|moved| moved.shift), along(0), along(1), along(2), norm(|moved| moved.turn)];
+    vectors.map(|vectors| largest_sum(graph, &vectors))
 }
 
-/// Returns the largest eigenvalue `(a + b)/2 + √(((a − b)/2)² + c²)` of the matrix (a c; c b).
-fn largest_eigenvalue(graph: &mut Graph, [a, b, c]: [Node; 3]) -> Node {
-    let half = graph.constant(0.5);
-    let [sum, difference] = [graph.add(a, b), graph.sub(a, b)].map(|node| graph.mul(half, node));
-    let squares = [difference, c].map(|node| graph.mul(node, node));
-    let radicand = graph.add(squares[0], squares[1]);
-    let root = graph.sqrt(radicand);
-    graph.add(sum, root)
+/// Returns the largest norm of x and y behind the leading rotations about z.
+fn largest_across_z(graph: &mut Graph, moved: &[ToolDisplacement]) -> Magnitude {
+    let vectors: Vec<Vec<Node>> = moved.iter().map(|moved| moved.across_z.to_vec()).collect();
+    largest_sum(graph, &vectors)
+}
+
+/// Returns the largest norm of the sum of vectors of one, two or three entries with any signs.
+fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>]) -> Magnitude {
+    let zero = graph.zero();
+    let vectors: Vec<&Vec<Node>> =
+        vectors.iter().filter(|vector| vector.iter().any(|entry| *entry != zero)).collect();
+    let dot = |graph: &mut Graph, first: &[Node], second: &[Node]| {
+        first.iter().zip(second).fold(zero, |sum, (a, b)| {
+            let product = graph.mul(*a, *b);
+            graph.add(sum, product)
+        })
+    };
+    if let [vector] = vectors[..] {
+        return Magnitude { node: dot(graph, vector, vector), squared: true, parts: vector.clone() };
+    }
+    let unit = direction(graph, vectors.first().map_or(1, |vector| vector.len()));
+    let parts: Vec<Node> = vectors.into_iter().map(|vector| dot(graph, vector, &unit)).collect();
+    let node = parts.iter().fold(zero, |sum, part| {
+        let size = graph.call(Function::Abs, *part);
+        graph.add(sum, size)
+    });
+    Magnitude { node, squared: false, parts }
+}
+
+/// Returns a unit vector of one, two or three entries.
+fn direction(graph: &mut Graph, entries: usize) -> Vec<Node> {
+    if entries == 1 {
+        return vec![graph.constant(1.0)];
+    }
+    let [azimuth, elevation] = DIRECTION.map(|(symbol, _)| {
+        let angle = graph.symbol(symbol);
+        [Function::Cos, Function::Sin].map(|function| graph.call(function, angle))
+    });
+    match entries {
+        2 => azimuth.to_vec(),
+        _ => {
+            let [x, y] = azimuth.map(|part| graph.mul(elevation[0], part));
+            vec![x, y, elevation[1]]
+        }
+    }
 }
 
 impl ToolDisplacement {
-    fn by(graph: &mut Graph, spec: &Spec, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> Self {
-        let zero = graph.zero();
-        let first = errors.iter().position(|errors| *errors != [zero; 6]).unwrap_or(errors.len());
+    /// Computes the displacement by errors; `shift` is in the axes of frame `first`, before which
+    /// there are none.
+    fn by(
+        graph: &mut Graph,
+        spec: &Spec,
+        links: &Links,
+        rows: &Rows,
+        errors: &[[Node; 6]],
+        first: usize,
+    ) -> Self {
         let none = Displacement::none(graph);
         let Displacement { shift, mut turn } = links.accumulate_to(graph, errors, first, none);
         let none = Displacement::none(graph);
@@ -177,26 +221,5 @@ impl ToolDisplacement {
             turn = [four, five, six];
         }
         Self { shift, along: [x, y, z], across_z: [across_x, across_y], turn }
-    }
-
-    /// Returns the numbers of which each of the five magnitudes is a norm.
-    fn parts(&self) -> [Vec<Node>; 5] {
-        let [x, y, z] = self.along.map(|part| vec![part]);
-        [self.shift.to_vec(), x, y, z, self.turn.to_vec()]
-    }
-
-    fn squares(&self, graph: &mut Graph) -> [Node; 5] {
-        let [x, y, z] = self.along.map(|part| graph.mul(part, part));
-        let [shift, turn] = [self.shift, self.turn].map(|vector| graph.dot(vector, vector));
-        [shift, x, y, z, turn]
-    }
-
-    fn sizes(&self, graph: &mut Graph) -> [Node; 5] {
-        let [x, y, z] = self.along.map(|part| graph.call(Function::Abs, part));
-        let [shift, turn] = [self.shift, self.turn].map(|vector| {
-            let square = graph.dot(vector, vector);
-            graph.sqrt(square)
-        });
-        [shift, x, y, z, turn]
     }
 }

@@ -57,7 +57,7 @@ pub use frame_twist::FrameTwist;
 pub(crate) use local::Local;
 pub use local_twist::LocalTwist;
 pub(crate) use lower_pairs::lower_pairs;
-pub use magnitudes::{Magnitude, Magnitudes, PerFrameMagnitudes};
+pub use magnitudes::{DIRECTION, Magnitude, Magnitudes, PerFrameMagnitudes};
 pub(crate) use model::is_long;
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;

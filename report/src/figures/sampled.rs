@@ -27,7 +27,7 @@ pub(crate) fn scene(report: &Report) -> Option<Scene> {
     let (mut bars, mut lines, mut texts) = (Vec::new(), Vec::new(), Vec::new());
     for (i, row) in rows.iter().enumerate() {
         let (low, high) = (-(i as f64) - 0.36, -(i as f64) + 0.06);
-        bars.push([[0.0, low], [errors.show(row.sampled), high]]);
+        bars.extend(row.sampled.map(|sampled| [[0.0, low], [errors.show(sampled), high]]));
         let found = Some(errors.show(row.bound.found)).filter(|_| !contains_more);
         let certified = row.bound.certified.map(|certified| errors.show(certified));
         lines.extend(found.into_iter().chain(certified).map(|at| vec![[at, low], [at, high]]));
@@ -74,6 +74,7 @@ fn label(row: &NormComparison, errors: &Quantity, contains_more: bool) -> String
         true => String::new(),
         false => format!("at least {} {unit}, ", rounded_down(found, decimals)),
     };
-    let sampled = fixed(errors.show(row.sampled), decimals);
-    format!("{}: {sampled} {unit} sampled; {at_least}at most {at_most} {unit}", row.sources)
+    let sampled =
+        row.sampled.map(|sampled| format!("{} {unit} sampled; ", fixed(errors.show(sampled), decimals)));
+    format!("{}: {}{at_least}at most {at_most} {unit}", row.sources, sampled.unwrap_or_default())
 }

@@ -3,7 +3,7 @@
 use abbe_study::bound::{Dexterity, ErrorBound, ErrorBounds, LowerBound, Margin, Report};
 use abbe_study::number::{self, error_unit, of_symbol, unbroken};
 
-use super::shared::place;
+use super::shared::{any_values, place};
 use crate::document::{Document, Section, Table, first, joined, number as figures, words};
 
 /// Describes certified bounds of errors.
@@ -33,7 +33,7 @@ pub fn bound(report: &Report) -> Document {
 /// Tabulates the norm of the position and of the orientation errors of each kind.
 fn largest(report: &Report) -> Table {
     let kinds = report.kinds();
-    let named = [("repeatable", &report.repeatable), ("random", &report.random), ("total", &report.radius)];
+    let named = [("repeatable", &report.repeatable), ("random", &report.random), ("total", &report.total)];
     let is_there = |errors: &ErrorBounds| kinds.iter().any(|(_, there)| std::ptr::eq(*there, errors));
     let named = named.into_iter().filter(|(_, errors)| is_there(errors));
     let columns = [words(""), figures("found"), figures("no more than"), words("")];
@@ -41,9 +41,12 @@ fn largest(report: &Report) -> Table {
 }
 
 fn facts(report: &Report) -> Vec<(&'static str, String)> {
-    let worst = if report.radius.norm.label.is_empty() { "home" } else { &report.radius.norm.label };
+    let worst = if report.total.norm.label.is_empty() { "home" } else { &report.total.norm.label };
     let mut facts =
         vec![("Study", report.study.title.clone()), ("Worst", place(worst)), ("Box", domain(report))];
+    if report.kinds().iter().any(|(_, errors)| std::ptr::eq(*errors, &report.random)) {
+        facts.push(("Covers", any_values(&report.spec).to_owned()));
+    }
     let sentences = [("Exact", first_order_remainder(report)), ("Step", after_one_step(report))];
     facts.extend(sentences.into_iter().filter_map(|(name, sentence)| Some((name, sentence?))));
     let lower = |value: f64| number::rounded_down(value, number::decimals(value, 3));
@@ -64,8 +67,8 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
 fn headline(report: &Report) -> String {
     let (factor, unit) = error_unit(report.length);
     let verdicts = [
-        (report.margin, &report.radius.norm, unit, factor),
-        (report.orientation_margin, &report.radius.orientation, "mrad", 1e3),
+        (report.margin, &report.total.norm, unit, factor),
+        (report.orientation_margin, &report.total.orientation, "mrad", 1e3),
     ];
     let verdicts: Vec<String> = verdicts
         .into_iter()
@@ -79,8 +82,10 @@ fn headline(report: &Report) -> String {
 
 fn verdict(report: &Report, margin: &Margin, largest: &ErrorBound, unit: &str, factor: f64) -> String {
     let tolerance = format!("tolerance {} {unit}", number::digits(factor * margin.tolerance, 3));
+    // A normal error has no bound.
+    let at = if is_bounded(report) { "" } else { " at 3 σ" };
     match margin.certified {
-        Some(left) if left >= 0.0 => format!("{tolerance} MET everywhere in the box, to first order"),
+        Some(left) if left >= 0.0 => format!("{tolerance} MET everywhere in the box{at}, to first order"),
         _ if margin.found < 0.0 && report.contains_more => {
             format!("{tolerance} UNDECIDED: it is exceeded in the joint box, which is larger than the study")
         }
@@ -89,6 +94,11 @@ fn verdict(report: &Report, margin: &Margin, largest: &ErrorBound, unit: &str, f
         }
         _ => format!("{tolerance} UNDECIDED: no larger error was found, but none can be excluded"),
     }
+}
+
+/// Returns whether all errors are bounded.
+fn is_bounded(report: &Report) -> bool {
+    report.spec.enabled_sources().all(|source| source.class.is_bounded())
 }
 
 /// Formats the norms of the position and of the orientation errors of one kind.
@@ -146,10 +156,11 @@ fn errors(report: &Report, kinds: &[(&str, &ErrorBounds)]) -> Section {
         }
         false => "",
     };
+    let normal = if is_bounded(report) { "" } else { ", with normal errors within 3 σ" };
     let meaning = format!(
         "The true maximum of each error lies between both numbers: the first was found at this \
-         configuration, and no error in the box exceeds the second.{unknown} All to first order, ΔX = \
-         J_e ε. {} boxes were examined.",
+         configuration, and no error in the box exceeds the second{normal}.{unknown} All to first order, \
+         ΔX = J_e ε. {} boxes were examined.",
         report.boxes
     );
     let margins = [

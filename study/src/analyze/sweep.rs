@@ -152,6 +152,7 @@ impl Sweep<'_> {
         let report = Report {
             manipulator: spec.name.clone(),
             configurations: budget.configurations,
+            changes: machine.stated_changes().collect(),
             unreachable: budget.unreachable.count,
             combined: CombinedReport::new(&budget.combined, &sites),
             title: study.title.clone(),
@@ -225,7 +226,8 @@ impl Sweep<'_> {
         sites: &ErrorSites,
         compensated: Option<(CompensationBasis, CompensatedSweep)>,
     ) -> Result<Option<Verdicts>, Diagnostics> {
-        let Study { tolerance, orientation_tolerance, probability, judged, .. } = *self.study;
+        let Study { tolerance, orientation_tolerance, probability, .. } = *self.study;
+        let reach = [budget.configurations, budget.unreachable.count];
         let distribution = |index, measurand, correction: Option<Correction<'_>>| {
             let errors = self.at(index, |configuration| errors_at(self.manipulator, configuration))?;
             Ok::<_, Diagnostics>(errors.distribution(measurand, correction))
@@ -273,7 +275,7 @@ impl Sweep<'_> {
             }
             _ => None,
         };
-        Ok(Verdicts::new(probability, judged, as_built, compensated))
+        Ok(Verdicts::new(self.study, reach, as_built, compensated))
     }
 
     /// Returns the uncertainty budget at the configuration with the largest standard uncertainty;

@@ -26,11 +26,11 @@ const MOST_RANDOM: usize = 2_000;
 pub struct CertifiedNorms {
     /// Norm of the sum of the repeatable sources, with signs; `None` if there are none.
     pub repeatable: Option<ErrorBound>,
-    /// Norm of the root sum of squares of the random sources at their bounds; `None` if there are
-    /// none.
+    /// Norm of the sum of the random sources with any values within their bounds; `None` if there
+    /// are none.
     pub random: Option<ErrorBound>,
-    /// Sum of both norms; `None` unless there are sources of both classes.
-    pub radius: Option<ErrorBound>,
+    /// Norm of the sum of all sources; `None` unless there are sources of both classes.
+    pub total: Option<ErrorBound>,
     /// Indicates that the enclosing box is larger than the workspace.
     pub contains_more: bool,
 }
@@ -48,7 +48,7 @@ impl CertifiedNorms {
         }
         let mut magnitudes = Magnitudes::new(&domain.spec);
         let norms =
-            [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(|five| five[0].clone());
+            [&magnitudes.repeatable, &magnitudes.random, &magnitudes.total].map(|five| five[0].clone());
         let moving = domain.moving_count();
         let boxes = WORK / (magnitudes.graph.len() * moving * moving).max(1);
         let effort = Effort { boxes: boxes.min(20_000), samples: SAMPLES, ..Effort::default() };
@@ -64,13 +64,13 @@ impl CertifiedNorms {
         Some(Self {
             repeatable: largest(0, repeatable),
             random: largest(1, random),
-            radius: largest(2, repeatable && random),
+            total: largest(2, repeatable && random),
             contains_more: !study.region.is_box(),
         })
     }
 
     /// Returns the bound for all sources together.
     pub fn all_sources(&self) -> Option<&ErrorBound> {
-        self.radius.as_ref().or(self.repeatable.as_ref()).or(self.random.as_ref())
+        self.total.as_ref().or(self.repeatable.as_ref()).or(self.random.as_ref())
     }
 }

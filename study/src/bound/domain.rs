@@ -4,7 +4,7 @@ use abbe_spec::option::SET;
 use std::sync::Arc;
 
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
-use abbe_codegen::chain::{Magnitude, PerFrameMagnitudes};
+use abbe_codegen::chain::{DIRECTION, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
@@ -17,8 +17,8 @@ use crate::number;
 use crate::study_file::Study;
 use crate::workspace::Span;
 
-/// Largest number of names that may move. The search for the remainder moves one more.
-const MOST_NAMES: usize = MOST_MOVING - 1;
+/// Largest number of names that may move. The search for the worst case moves two more.
+const MOST_NAMES: usize = MOST_MOVING - DIRECTION.len();
 
 /// Box of joints, parameters and inputs that encloses the configurations of a study.
 pub(super) struct Domain {

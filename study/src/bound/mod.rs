@@ -66,7 +66,7 @@ impl Bound {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
         let domain = Domain::new(machine, study)?;
-        let Magnitudes { mut graph, repeatable, random, radius, across_z, apart } =
+        let Magnitudes { mut graph, repeatable, random, total, across_z, apart } =
             Magnitudes::new(&domain.spec);
         let limits = domain.limits(&mut graph, &apart);
         // Euler angles are no rotation vector, so the limit on it does not apply.
@@ -79,9 +79,9 @@ impl Bound {
         let repeatable = searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), notes)?;
         let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), notes)?;
         // With sources of one class only, the combined error is that of the class.
-        let [repeatable, random, radius] = match Classes::enabled(&domain.spec) {
+        let [repeatable, random, total] = match Classes::enabled(&domain.spec) {
             Classes { repeatable: true, random: true } => {
-                let both = searches.error_bounds(&mut graph, &radius, &across_z[2], at_most(2), notes)?;
+                let both = searches.error_bounds(&mut graph, &total, &across_z[2], at_most(2), notes)?;
                 let both = both.tighten_by_sum(&repeatable, &random);
                 // No part is larger than the sum.
                 [repeatable.tighten(&both), random.tighten(&both), both]
@@ -99,7 +99,7 @@ impl Bound {
             dexterity = searches.run(notes, |_, watch| domain.dexterity(&self.effort, watch))?;
             stiffness = searches.run(notes, |_, watch| domain.stiffness(&self.effort, watch))?;
         }
-        let errors = [repeatable, random, radius];
+        let errors = [repeatable, random, total];
         let others = OtherBounds { remainder, after_one_step, dexterity, stiffness };
         let report = Report::new(domain, study, &self.effort, errors, others);
         report.warn(notes);

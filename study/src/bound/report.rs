@@ -30,10 +30,10 @@ pub struct Report {
     pub gap: f64,
     /// Errors of the repeatable sources, with signs.
     pub repeatable: ErrorBounds,
-    /// Errors of the random sources at their bounds, root sum of squares.
+    /// Errors of the random sources together, each with any value within its bound.
     pub random: ErrorBounds,
-    /// Sums of the repeatable and random errors.
-    pub radius: ErrorBounds,
+    /// Errors of all sources together: the worst case.
+    pub total: ErrorBounds,
     /// First-order error of the repeatable sources; `None` if there are none.
     pub remainder: Option<Remainder>,
     /// Error of the repeatable sources after one step of compensation; `None` without repeatable
@@ -186,7 +186,7 @@ pub struct LowerBound {
 }
 
 /// Margin between the largest error and a tolerance, to first order, in the length unit or rad. The
-/// error is the sum of repeatable and random norms; a negative margin exceeds the tolerance.
+/// error is that of all sources in the worst case; a negative margin exceeds the tolerance.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Margin {
     /// Tolerance: the length unit, or rad.
@@ -257,12 +257,12 @@ impl Report {
         Domain { spec, spans: moving_spans }: Domain,
         study: &Study,
         effort: &Effort,
-        [repeatable, random, radius]: [ErrorBounds; 3],
+        [repeatable, random, total]: [ErrorBounds; 3],
         OtherBounds { remainder, after_one_step, dexterity, stiffness }: OtherBounds,
     ) -> Self {
         let of_both = matches!(Classes::enabled(&spec), Classes { repeatable: true, random: true });
-        // With sources of one class only, `radius` is a copy and is not counted.
-        let kinds = [Some(&repeatable), Some(&random), of_both.then_some(&radius)];
+        // With sources of one class only, `total` is a copy and is not counted.
+        let kinds = [Some(&repeatable), Some(&random), of_both.then_some(&total)];
         let all = || kinds.into_iter().flatten().flat_map(ErrorBounds::all);
         let spans =
             moving_spans.iter().map(|span| (spec.name_of(span.symbol).to_owned(), span.range)).collect();
@@ -275,13 +275,13 @@ impl Report {
         let complete = all().all(|largest| largest.complete) && least.clone().all(|least| least.complete);
         let left = after_one_step.as_ref();
         let margin = study.tolerance.map(|tolerance| {
-            Margin::new(tolerance, &radius.norm, left.and_then(|left| left.position), &random.norm)
+            Margin::new(tolerance, &total.norm, left.and_then(|left| left.position), &random.norm)
         });
         let is_rotation = spec.orientation == Orientation::RotationVector;
         let orientation_margin = study.orientation_tolerance.map(|tolerance| {
             // Euler angles are no rotation vector and cannot be added to one.
             let left = left.and_then(|left| left.orientation).filter(|_| is_rotation);
-            Margin::new(tolerance, &radius.orientation, left, &random.orientation)
+            Margin::new(tolerance, &total.orientation, left, &random.orientation)
         });
         Self {
             manipulator: spec.name.clone(),
@@ -289,7 +289,7 @@ impl Report {
             gap: effort.gap,
             repeatable,
             random,
-            radius,
+            total,
             remainder,
             after_one_step,
             margin,
@@ -311,8 +311,8 @@ impl Report {
         let Classes { repeatable, random } = Classes::enabled(&self.spec);
         let kinds = [
             ("Repeatable sources, with their signs", &self.repeatable, repeatable),
-            ("Random sources at their bounds, root sum of squares", &self.random, random),
-            ("Both, added", &self.radius, repeatable && random),
+            ("Random sources, with any values within their bounds", &self.random, random),
+            ("All sources: the worst case", &self.total, repeatable && random),
         ];
         kinds.into_iter().filter(|(.., any)| *any).map(|(title, errors, _)| (title, errors)).collect()
     }

@@ -37,6 +37,8 @@ abbe_spec::tables! {
         "orientation": POSITIVE, "rad", "none", "Permitted norm of rows 4 to 6";
         "probability": Number("number between 0 and 1"), "1", "`0.95`",
             "Probability with which the tolerance must be met in every configuration";
+        "unreachable": Number("share between 0 and 1"), "1", "`0`",
+            "Share of the configurations that may be unreachable: with more of them the tolerance is not met";
         "machine": Choice(|| words(&MACHINES)), "-", "`\"compensated\"` if the study has `[compensation]`, else `\"as-built\"`",
             "Machine whose verdict counts, for `--check`, too: with its repeatable errors, or with these corrected";
     ]

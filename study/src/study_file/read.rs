@@ -94,6 +94,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         publisher: head.optional_text("publisher", document),
         tolerance: tolerance.position,
         orientation_tolerance: tolerance.orientation,
+        unreachable: tolerance.unreachable,
         probability: tolerance.probability,
         judged: tolerance.machine.unwrap_or(default),
         changes: read_changes(&head, document, spec, &moved),

@@ -23,6 +23,8 @@ pub struct Study {
     pub tolerance: Option<f64>,
     /// Permitted norm of rows 4–6, in rad.
     pub orientation_tolerance: Option<f64>,
+    /// Largest share of the configurations that may be unreachable if a tolerance is to be met.
+    pub unreachable: f64,
     /// Probability with which a tolerance must be met.
     pub probability: f64,
     /// Machine whose verdict counts.
@@ -90,6 +92,7 @@ impl Study {
             publisher: String::new(),
             tolerance: None,
             orientation_tolerance: None,
+            unreachable: 0.0,
             probability: Tolerance::default().probability,
             judged: JudgedMachine::AsBuilt,
             changes: Changes::default(),

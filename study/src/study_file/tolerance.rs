@@ -17,13 +17,15 @@ pub(super) struct Tolerance {
     pub(super) orientation: Option<f64>,
     /// Probability with which the tolerance must be met; 0.95 by default.
     pub(super) probability: f64,
+    /// Largest share of the configurations that may be unreachable; 0 by default.
+    pub(super) unreachable: f64,
     /// Machine whose verdict counts; `None` if the study does not say.
     pub(super) machine: Option<JudgedMachine>,
 }
 
 impl Default for Tolerance {
     fn default() -> Self {
-        Self { position: None, orientation: None, probability: 0.95, machine: None }
+        Self { position: None, orientation: None, probability: 0.95, unreachable: 0.0, machine: None }
     }
 }
 
@@ -51,6 +53,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance
     };
     let orientation = number("orientation", f64::INFINITY, "write an angle such as \"0.5 mrad\"");
     let probability = number("probability", 1.0, "write 0.95 for 95 %");
+    let unreachable = number("unreachable", 1.0, "write 0.1 for 10 %");
     let machine = section.get("machine").and_then(|item| document.choice(&item, &MACHINES));
     if position.is_none() && orientation.is_none() {
         let mistake = Diagnostic::new(item.span(), "this tolerance is empty").label("no limit is given");
@@ -58,13 +61,14 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance
     }
     // A value that is present but invalid has already been reported.
     let unread = |given: Option<Option<f64>>| given == Some(None);
-    if unread(position) || unread(orientation) || unread(probability) {
+    if [position, orientation, probability, unreachable].into_iter().any(unread) {
         return None;
     }
     Some(Tolerance {
         position: position.flatten(),
         orientation: orientation.flatten(),
         probability: probability.flatten().unwrap_or(Tolerance::default().probability),
+        unreachable: unreachable.flatten().unwrap_or_default(),
         machine,
     })
 }

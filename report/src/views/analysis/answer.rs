@@ -9,12 +9,14 @@ use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self as numbers, error_unit, fixed, percent, steady};
 use abbe_study::study_file::JudgedMachine;
 
+use abbe_spec::option::NamedOption;
+
 use super::agreement::agreement_text;
 use super::conclusions::{exact, singular_sentence};
 use super::verdict::stated_probability;
 use crate::document::{Section, Table, first, number, words};
 use crate::unit;
-use crate::views::shared::place;
+use crate::views::shared::{any_values, place};
 
 /// Number of sources shown one by one.
 const SHOWN: usize = 5;
@@ -26,24 +28,40 @@ pub(super) fn answer(report: &Report) -> Section {
 
 pub(super) fn headline(report: &Report) -> String {
     let at = numbers::counted(report.configurations, "configuration", "configurations");
-    let Some(verdict) = report.verdict() else {
+    let Some(verdicts) = &report.verdicts else {
         return format!("no tolerance stated; {at}");
-    };
-    let verdict = match verdict {
-        Verdict::Met => "MET",
-        Verdict::MetWithProbability => "MET with the required probability",
-        Verdict::NotMet => "NOT MET",
     };
     let tolerances = [Measurand::Position, Measurand::Orientation]
         .into_iter()
         .filter_map(|measurand| Some(unit::with_symbol(report, measurand, report.tolerance(measurand)?)));
     let tolerances = tolerances.collect::<Vec<_>>().join(" and ");
-    let machine = match report.verdicts.as_ref().map(|verdicts| (verdicts.machine, &verdicts.compensated)) {
-        Some((JudgedMachine::Compensated, _)) => ", compensated",
-        Some((JudgedMachine::AsBuilt, Some(_))) => " as built",
+    let machine = match (verdicts.machine, &verdicts.compensated) {
+        (JudgedMachine::Compensated, _) => " after compensation",
+        (JudgedMachine::AsBuilt, Some(_)) => " as built",
         _ => "",
     };
-    format!("{verdict}{machine}, tolerance {tolerances} at {at}")
+    let other = match verdicts.machine {
+        JudgedMachine::Compensated if verdicts.as_built.all().any(|one| one.verdict == Verdict::NotMet) => {
+            "; as built NOT MET"
+        }
+        _ => "",
+    };
+    if let Some(unreachable) = verdicts.unreachable {
+        let all = report.configurations + report.unreachable;
+        return format!(
+            "NOT MET: {unreachable} of {all} configurations cannot be reached, tolerance {tolerances}"
+        );
+    }
+    let least = verdicts.all().min_by(|a, b| a.compliance.probability.total_cmp(&b.compliance.probability));
+    let (verdict, probability) = match (verdicts.verdict, least) {
+        (Verdict::MetWithProbability, Some(least)) => {
+            let required = numbers::at_least(verdicts.probability_required);
+            ("MET", format!(": P {}, {required} required", stated_probability(least)))
+        }
+        (Verdict::NotMet, _) => ("NOT MET", String::new()),
+        _ => ("MET", String::new()),
+    };
+    format!("{verdict}{machine}{probability}, tolerance {tolerances} at {at}{other}")
 }
 
 /// Decimals that show the largest error to four digits.
@@ -58,7 +76,7 @@ fn figures(report: &Report) -> Table {
     let certified = |largest: Option<&ErrorBound>| match largest.map(|largest| (largest.certified, largest)) {
         None | Some((None, _)) => String::new(),
         Some((Some(most), largest)) if largest.is_close() => {
-            format!("certified at most {}", numbers::rounded_up(factor * most, decimals))
+            format!("worst case at most {}", numbers::rounded_up(factor * most, decimals))
         }
         Some(_) => "not bounded closely".to_owned(),
     };
@@ -172,6 +190,10 @@ fn times(factor: f64) -> String {
 
 fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Study", report.title.clone())];
+    if !report.changes.is_empty() {
+        let changes: Vec<String> = report.changes.iter().map(NamedOption::to_string).collect();
+        facts.push(("Changed", changes.join(" ")));
+    }
     if let Some(worst) = report.configuration(report.budget.combined.radius.configuration) {
         facts.push(("Worst", place(&report.label(worst))));
     }
@@ -183,18 +205,10 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if !report.spec.is_serial() {
         facts.push(("Certified", format!("nothing: {NOT_CERTIFIED}")));
     }
-    let (factor, unit) = error_unit(report.length);
-    let [bounded, radius] =
-        [report.budget.combined.bounded_radius, report.budget.combined.radius].map(|largest| largest.value);
-    if report.certified.is_some() && bounded > radius * (1.0 + 1e-9) {
-        let bounded = numbers::rounded_up(factor * bounded, decimals(report));
-        facts.push((
-            "Certified",
-            format!(
-                "repeatable + root sum of squares of random bounds; all bounds at once: {bounded} {unit}"
-            ),
-        ));
+    if report.certified.as_ref().is_some_and(|certified| certified.random.is_some()) {
+        facts.push(("Certified", format!("worst case over the joint box, {}", any_values(&report.spec))));
     }
+    let (factor, unit) = error_unit(report.length);
     let published = &report.comparisons;
     let missed: Vec<String> = published
         .iter()

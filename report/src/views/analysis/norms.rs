@@ -1,4 +1,4 @@
-//! Sampled norms beside certified upper bounds.
+//! Certified upper bounds of norms, beside sampled ones.
 
 use abbe_study::analyze::{NOT_CERTIFIED, NormComparison, Report};
 use abbe_study::number::{self, unbroken};
@@ -14,7 +14,7 @@ pub(super) fn norm_comparison_table(report: &Report) -> Option<Table> {
         let place = if bound.label.is_empty() { "home" } else { &bound.label };
         vec![
             sources.to_owned(),
-            number::fixed(sampled, decimals),
+            sampled.map(|sampled| number::fixed(sampled, decimals)).unwrap_or_default(),
             number::rounded_down(bound.found, decimals),
             certified.unwrap_or_else(|| "not known".to_owned()),
             unbroken(place),
@@ -35,10 +35,9 @@ pub(super) fn certified_norms(report: &Report) -> Option<String> {
     let compared =
         report.norm_comparisons().into_iter().filter_map(|NormComparison { sources, sampled, bound }| {
             let certified = number::rounded_up(bound.certified?, decimals(report));
-            Some(format!(
-                "{certified} {unit} of {sources} ({} sampled)",
-                number::fixed(sampled, decimals(report))
-            ))
+            let sampled =
+                sampled.map(|sampled| format!(" ({} sampled)", number::fixed(sampled, decimals(report))));
+            Some(format!("{certified} {unit} of {sources}{}", sampled.unwrap_or_default()))
         });
     let compared: Vec<String> = compared.collect();
     (!compared.is_empty()).then(|| {

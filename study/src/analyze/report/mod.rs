@@ -22,6 +22,7 @@ use std::sync::Arc;
 
 use abbe::analysis::{Budget, Configuration, Measurand};
 use abbe_spec::Spec;
+use abbe_spec::option::NamedOption;
 use serde::Serialize;
 
 pub use combined::{CombinedReport, LongestEllipsoid, Radii, RootMeanSquares};
@@ -59,6 +60,9 @@ pub struct Report {
     pub configurations: usize,
     /// Number of configurations that could not be reached.
     pub unreachable: usize,
+    /// Changes of the spec by options, in their order.
+    #[serde(skip)]
+    pub changes: Vec<NamedOption>,
     /// Position errors of each enabled source alone.
     pub sources: Vec<SourceReport>,
     /// Position errors of all sources together.

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::error_sites::ErrorSites;
 use crate::number::Named;
-use crate::study_file::JudgedMachine;
+use crate::study_file::{JudgedMachine, Study};
 
 /// Fixed seed of the draws for verdicts and uncertainty budgets, which stand in for integrals.
 pub(in crate::analyze) const SEED: u64 = 0;
@@ -19,6 +19,10 @@ pub struct Verdicts {
     pub machine: JudgedMachine,
     /// Required probability of meeting each tolerance.
     pub probability_required: f64,
+    /// Number of unreachable configurations, if they are more than the study permits: the tolerance
+    /// is then not met.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unreachable: Option<usize>,
     /// Verdicts on the machine as built.
     #[serde(flatten)]
     pub as_built: MachineVerdicts,
@@ -72,18 +76,22 @@ impl MachineVerdicts {
 impl Verdicts {
     /// Combines the verdicts; returns `None` if there is no tolerance.
     pub(in crate::analyze) fn new(
-        probability_required: f64,
-        judged: JudgedMachine,
+        study: &Study,
+        [reached, unreachable]: [usize; 2],
         as_built: MachineVerdicts,
         compensated: Option<CompensatedVerdicts>,
     ) -> Option<Self> {
-        let machine = if compensated.is_some() { judged } else { JudgedMachine::AsBuilt };
+        let machine = if compensated.is_some() { study.judged } else { JudgedMachine::AsBuilt };
         let counting = match (&compensated, machine) {
             (Some(compensated), JudgedMachine::Compensated) => &compensated.verdicts,
             _ => &as_built,
         };
         let verdict = counting.all().map(|one| one.verdict).max_by_key(|one| *one as u8)?;
-        Some(Self { verdict, machine, probability_required, as_built, compensated })
+        let permitted = study.unreachable * (reached + unreachable) as f64;
+        let unreachable = Some(unreachable).filter(|count| *count as f64 > permitted);
+        let verdict = unreachable.map_or(verdict, |_| Verdict::NotMet);
+        let probability_required = study.probability;
+        Some(Self { verdict, machine, probability_required, unreachable, as_built, compensated })
     }
 
     /// Iterates over the verdicts on the machine that counts, position first.
@@ -105,7 +113,8 @@ pub enum Verdict {
     Met,
     /// Met with at least the required probability at each evaluated configuration.
     MetWithProbability,
-    /// Met with less than the required probability at some configuration.
+    /// Met with less than the required probability at some configuration, or too many configurations
+    /// are unreachable.
     NotMet,
 }
 

@@ -59,11 +59,11 @@ fn bounded(
 
 /// Returns the magnitudes of the repeatable sources, of the random ones, and of their sum.
 fn kinds(magnitudes: &Magnitudes) -> [[Magnitude; 5]; 3] {
-    [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(Clone::clone)
+    [&magnitudes.repeatable, &magnitudes.random, &magnitudes.total].map(Clone::clone)
 }
 
-/// Returns the errors of the repeatable sources, the random ones, and their sum: each the norm, x,
-/// y, z, and the norm of rows 4–6.
+/// Returns the errors of the repeatable sources, of the random ones in the worst case, and of all in
+/// the worst case: each the norm, x, y, z, and the norm of rows 4–6.
 fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
     let description = robot.description();
     let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
@@ -77,21 +77,37 @@ fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
             *sum += value * entry;
         }
     }
-    let (mut repeatable, mut squares) = ([0.0; 6], [0.0; 6]);
+    let mut repeatable = [0.0; 6];
+    let mut random = Vec::new();
     for (source, moved) in description.sources.iter().zip(&moved) {
-        for i in 0..6 {
-            match source.class {
-                Class::Repeatable => repeatable[i] += moved[i],
-                // At its bound: 3σ for a normal one.
-                Class::Random(distribution) => squares[i] += (distribution.bound() * moved[i]).powi(2),
-            }
+        match source.class {
+            Class::Repeatable => (0..6).for_each(|i| repeatable[i] += moved[i]),
+            // At its bound: 3σ for a normal one.
+            Class::Random(distribution) => random.push(moved.map(|part| distribution.bound() * part)),
         }
     }
-    let norm = |squares: &[f64]| squares.iter().sum::<f64>().sqrt();
-    let own = repeatable.map(|value| value * value);
-    let five = |s: [f64; 6]| [norm(&s[..3]), s[0].sqrt(), s[1].sqrt(), s[2].sqrt(), norm(&s[3..])];
-    let (first, second) = (five(own), five(squares));
-    Some([first, second, std::array::from_fn(|i| first[i] + second[i])])
+    Some([
+        most_of_all_signs(&repeatable, &[]),
+        most_of_all_signs(&[0.0; 6], &random),
+        most_of_all_signs(&repeatable, &random),
+    ])
+}
+
+/// Returns the largest sizes of a displacement and others with every pattern of signs: the norm, x,
+/// y, z, and the norm of rows 4–6.
+fn most_of_all_signs(fixed: &[f64; 6], free: &[[f64; 6]]) -> [f64; 5] {
+    let mut most = [0.0_f64; 5];
+    for signs in 0..1_u32 << free.len() {
+        let mut sum = *fixed;
+        for (k, moved) in free.iter().enumerate() {
+            let sign = if signs >> k & 1 == 0 { 1.0 } else { -1.0 };
+            sum.iter_mut().zip(moved).for_each(|(sum, part)| *sum += sign * part);
+        }
+        let norm = |part: &[f64]| part.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        let five = [norm(&sum[..3]), sum[0].abs(), sum[1].abs(), sum[2].abs(), norm(&sum[3..])];
+        most = std::array::from_fn(|i| most[i].max(five[i]));
+    }
+    most
 }
 
 /// Returns a part of the box of joints and inputs: often wide, sometimes narrow or a point,
@@ -300,6 +316,41 @@ fn is(bound: &Bound, exact: f64) {
     );
 }
 
+/// Returns one joint with a tool 1 m from its axis, and random errors of the tool point there: along
+/// the arm (x), across it (y, by the given angles in mrad) and along the axis (z), in mm.
+fn one_joint(angles: &[f64], [x, z]: [f64; 2]) -> Spec {
+    let mut text = String::from(
+        "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"a\"\n\
+         variable = { name = \"q1\", kind = \"revolute\", limits = [\"-90 deg\", \"90 deg\"] }\n\
+         transform = \"Rz(q1)\"\n[tool]\ntransform = \"Tx(1000)\"\n",
+    );
+    let angles = angles.iter().map(|angle| format!("joint = \"q1\"\nerror = \"{angle} mrad\""));
+    let lengths = [("e_x", x), ("e_z", z)].into_iter().filter(|(_, length)| *length != 0.0);
+    let lengths = lengths.map(|(error, length)| format!("at = \"a\"\nerrors = {{ {error} = {length} }}"));
+    for (i, source) in angles.chain(lengths).enumerate() {
+        text += &format!("[[source]]\nname = \"s{i}\"\nclass = \"random\"\n{source}\n");
+    }
+    Spec::parse("arm.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"))
+}
+
+/// Errors of two encoders of one joint may have the same sign: their worst case is the sum, not the
+/// root sum of squares. Perpendicular errors add as a right angle.
+#[test]
+fn worst_cases_by_hand_are_enclosed() {
+    let effort = Effort { gap: 1e-7, boxes: 200_000, ..Effort::default() };
+    let cases = [
+        (one_joint(&[0.1, 0.1], [0.0; 2]), 0.2),
+        (one_joint(&[0.1, 0.2, 0.3], [0.0; 2]), 0.6),
+        (one_joint(&[0.3], [0.4, 0.0]), 0.5),
+        (one_joint(&[0.1, 0.2], [0.4, 1.2]), 1.3),
+    ];
+    for (spec, exact) in cases {
+        let mut magnitudes = Magnitudes::new(&spec);
+        let total = magnitudes.total[0].clone();
+        is(&bounded(&spec, &mut magnitudes, &total, &moving(&spec), &effort), exact);
+    }
+}
+
 #[test]
 fn maxima_that_are_known_exactly_are_enclosed() {
     let effort = Effort { gap: 1e-7, boxes: 200_000, ..Effort::default() };
@@ -311,12 +362,12 @@ fn maxima_that_are_known_exactly_are_enclosed() {
         let spec = two_bars(limits);
         let all = moving(&spec);
         let mut magnitudes = Magnitudes::new(&spec);
-        let [repeatable, random, radius] = kinds(&magnitudes);
+        let [repeatable, random, total] = kinds(&magnitudes);
         let across_z = magnitudes.across_z.clone();
         let mut bounded = |magnitude: &Magnitude| bounded(&spec, &mut magnitudes, magnitude, &all, &effort);
         is(&bounded(&repeatable[0]), 1e-3 * reach);
         is(&bounded(&random[0]), 2e-3 * 300.0);
-        is(&bounded(&radius[0]), 1e-3 * reach + 0.6);
+        is(&bounded(&total[0]), 1e-3 * reach + 0.6);
         is(&bounded(&repeatable[4]), 1e-3);
         // The first joint can turn the maximum into x or y of F_0.
         is(&bounded(&repeatable[1]), 1e-3 * reach);
