@@ -1015,13 +1015,13 @@ class ExportedFile(Fields):
 class Extrapolation(Fields):
     """Configurations outside the ranges on which the errors of a spec were fitted."""
 
-    outside: int
+    count: int
     """Number of configurations outside the ranges."""
 
     all: int
     """Number of all configurations."""
 
-    known: ToolPointDeviation | None
+    standard_deviation: ToolPointDeviation | None
     """Standard deviation of the tool point; None if the spec states no covariance."""
 
 
@@ -1248,16 +1248,6 @@ class Gain(Fields):
     """Probability of a mean at least as far from 0 by chance if both models are equally good: paired t-test."""
 
 
-class Held(Fields):
-    """Unknown that is fixed at zero, and the combination it is equivalent to."""
-
-    name: str
-    """Name of the unknown."""
-
-    acts_as: list[list[str | float]]
-    """Names and factors of the equivalent combination of parameters; empty if the unknown has no effect."""
-
-
 class HiddenNumber(Fields):
     """Number of the machine that is hidden, or confused with a hidden one."""
 
@@ -1347,21 +1337,21 @@ class IdentifyReport(Report):
     """Combinations of unknowns that cannot be distinguished, with the reason."""
 
     unexplained: int
-    """Number of undetermined combinations that `groups` and `not_known` do not explain; normally 0."""
+    """Number of undetermined combinations that `groups` and `weakly_determined` do not explain; normally 0."""
 
     parameters: list[Parameter]
     """Kept unknowns, which stand for the identifiable combinations."""
 
-    meanings: list[JointError]
+    joint_errors: list[JointError]
     """Significant errors expressed as errors of joint zeros, parameters and Denavit-Hartenberg numbers."""
 
-    not_known: list[WeaklyDetermined]
+    weakly_determined: list[WeaklyDetermined]
     """Errors that these data determine poorly compared with their prior; they are fixed at zero."""
 
     magnitudes: list[Magnitude]
     """Magnitudes of sources of the spec that were unknown."""
 
-    held: list[Held]
+    redundant: list[Redundant]
     """Unknowns that are fixed at zero because they are equivalent to kept ones."""
 
     correlations: list[Pair]
@@ -1401,7 +1391,7 @@ class IdentifyReport(Report):
     test_rows_of_the_fit: int
     """Number of test rows that are identical to fitted rows. They cannot assess the fit."""
 
-    outside: TestExtrapolation | None
+    extrapolated: TestExtrapolation | None
     """Test rows outside the fitted ranges of joints and inputs; none if there are no such rows."""
 
     cross_validation: CrossValidation
@@ -2383,7 +2373,7 @@ class Parameter(Fields):
     unit: str
     """Unit: the length unit, rad, or empty."""
 
-    hardly_known: bool
+    prior_dominated: bool
     """Is true if the standard deviation exceeds half of the prior's: the data contribute little."""
 
 
@@ -2462,7 +2452,7 @@ class PlanReport(Report):
     machine: Counts
     """Number of identifiable errors of base and frames alone, without targets on the tool."""
 
-    not_known: list[WeaklyDetermined]
+    weakly_determined: list[WeaklyDetermined]
     """Errors that these rows will determine poorly compared with their prior."""
 
     condition: float | None
@@ -2746,6 +2736,16 @@ class ReadingErrors(Fields):
 
     Unit: `unit` of the instrument.
     """
+
+
+class Redundant(Fields):
+    """Unknown that is fixed at zero, and the combination it is equivalent to."""
+
+    name: str
+    """Name of the unknown."""
+
+    acts_as: list[list[str | float]]
+    """Names and factors of the equivalent combination of parameters; empty if the unknown has no effect."""
 
 
 class Remainder(Fields):
@@ -3194,18 +3194,11 @@ class TermGain(Fields):
 class TestExtrapolation(Fields):
     """Test rows outside the fitted ranges of joints and inputs."""
 
-    rows: int
+    count: int
     """Number of such rows."""
 
-    known_outside: float | None
-    """Standard deviation of the tool point there, root mean square over these rows, in the length unit; `null` if the
-    spec cannot be written.
-    """
-
-    known_within: float | None
-    """Standard deviation of the tool point within the fitted ranges, root mean square over them, in the length unit;
-    `null` if the spec cannot be written.
-    """
+    standard_deviation: ToolPointDeviation | None
+    """Standard deviation of the tool point; `null` if the spec cannot be written."""
 
 
 class ToleranceVerdict(Fields):
@@ -3274,13 +3267,13 @@ class ToolPointDeviation(Fields):
     Unit: length unit.
     """
 
-    outside: float
+    extrapolated: float
     """Root mean square over the configurations outside the ranges.
 
     Unit: length unit.
     """
 
-    outside_max: float
+    extrapolated_max: float
     """Largest value outside the ranges.
 
     Unit: length unit.

@@ -17,11 +17,11 @@ const SAMPLES: usize = 500;
 #[derive(Clone, Debug, Serialize)]
 pub struct Extrapolation {
     /// Number of configurations outside the ranges.
-    pub outside: usize,
+    pub count: usize,
     /// Number of all configurations.
     pub all: usize,
     /// Standard deviation of the tool point; `None` if the spec states no covariance.
-    pub known: Option<ToolPointDeviation>,
+    pub standard_deviation: Option<ToolPointDeviation>,
     /// Warning in a sentence, for texts and pages.
     #[serde(skip)]
     pub sentence: String,
@@ -34,9 +34,9 @@ pub struct ToolPointDeviation {
     /// Root mean square over configurations within the ranges.
     pub within: f64,
     /// Root mean square over the configurations outside the ranges.
-    pub outside: f64,
+    pub extrapolated: f64,
     /// Largest value outside the ranges.
-    pub outside_max: f64,
+    pub extrapolated_max: f64,
 }
 
 /// Counts the configurations outside the ranges on which the errors of a spec were fitted, and
@@ -69,21 +69,21 @@ pub fn warn_of_extrapolation<'r>(
     if outside.is_empty() {
         return None;
     }
-    let known = ToolPointDeviation::new(spec, manipulator, is_measured, &outside);
+    let standard_deviation = ToolPointDeviation::new(spec, manipulator, is_measured, &outside);
     let named = spec.fitted.iter().zip(&counts).filter(|(_, count)| **count > 0);
     let named = named.map(|(fitted, count)| {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
         format!("{} beyond {lower} … {upper} in {count}", spec.name_of(fitted.symbol))
     });
     let named = named.collect::<Vec<_>>().join(", ");
-    let deviation_there = known.map_or(String::new(), |known| known.sentence(spec));
+    let deviation_there = standard_deviation.map_or(String::new(), |deviation| deviation.sentence(spec));
     let count = outside.len();
     let warning = format!(
         "{count} of {all} {what} are outside the ranges on which the errors of this spec were \
          fitted ({named}); there, predictions are extrapolations{deviation_there}"
     );
     notes.warn(&warning);
-    Some(Extrapolation { outside: count, all, known, sentence: format!("{warning}.") })
+    Some(Extrapolation { count, all, standard_deviation, sentence: format!("{warning}.") })
 }
 
 impl ToolPointDeviation {
@@ -102,14 +102,14 @@ impl ToolPointDeviation {
         let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
         let beyond = prediction.deviations(beyond);
         let within = prediction.deviations(within(spec));
-        let outside_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
-        Some(Self { within: rms(&within)?, outside: rms(&beyond)?, outside_max })
+        let extrapolated_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
+        Some(Self { within: rms(&within)?, extrapolated: rms(&beyond)?, extrapolated_max })
     }
 
     fn sentence(&self, spec: &Spec) -> String {
-        let [within, outside, most] =
-            [self.within, self.outside, self.outside_max].map(|value| number::length(value, spec.length));
-        let times = number::digits(self.outside / self.within, 2);
+        let [within, outside, most] = [self.within, self.extrapolated, self.extrapolated_max]
+            .map(|value| number::length(value, spec.length));
+        let times = number::digits(self.extrapolated / self.within, 2);
         format!(
             ". The covariance of these errors gives the tool point a standard deviation of \
              {outside} there (at most {most}), {times} times the {within} within the ranges. \

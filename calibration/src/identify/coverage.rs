@@ -74,7 +74,7 @@ fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, ma
         let found = fit(model, &data, &options(model, loss)).unwrap();
         wronged += f64::from(u8::from(found.rejected(&data).next().is_some())) / machines as f64;
         let mut expected = truth.clone();
-        for (k, act_as) in &found.identifiable.held {
+        for (k, act_as) in &found.identifiable.redundant {
             act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
         }
         let factors = [0.6827, 0.95].map(|share| student_factor(share, found.freedom));

@@ -125,7 +125,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
     // To first order, the same start with the unidentifiable unknowns at zero.
     let mut start = at.clone();
-    for (k, act_as) in &identifiable.held {
+    for (k, act_as) in &identifiable.redundant {
         act_as.iter().for_each(|(j, factor)| start[*j] += factor * at[*k]);
     }
     let start = identifiable.kept.iter().map(|k| start[*k]).collect();

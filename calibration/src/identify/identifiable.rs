@@ -39,7 +39,7 @@ pub struct Identifiable {
     pub kept: Vec<usize>,
     /// Unknowns fixed at zero, each with its equivalent:
     /// `column = Σ factor × column of a kept unknown`.
-    pub held: Vec<(usize, Vec<(usize, f64)>)>,
+    pub redundant: Vec<(usize, Vec<(usize, f64)>)>,
     /// Unknowns fixed at zero that have no equivalent but are weakly determined by these data, one
     /// for each combination.
     pub weak: Vec<Weak>,
@@ -58,8 +58,8 @@ impl Identifiable {
     /// Returns the combination of kept unknowns that an unknown is equivalent to, as a factor for
     /// each kept unknown.
     pub fn kept_coordinates(&self, unknown: usize) -> Vec<f64> {
-        let held = self.held.iter().find(|(held, _)| *held == unknown);
-        let factor = |kept: &usize| match held {
+        let redundant = self.redundant.iter().find(|(redundant, _)| *redundant == unknown);
+        let factor = |kept: &usize| match redundant {
             Some((_, acts_as)) => acts_as.iter().find(|(k, _)| k == kept).map_or(0.0, |(_, factor)| *factor),
             None => f64::from(u8::from(*kept == unknown)),
         };
@@ -238,7 +238,7 @@ impl Columns {
     fn identifiable(self, kept: Vec<usize>, errors: usize, rows: usize) -> Identifiable {
         let basis = self.unit.select_columns(&kept);
         let all = 0..self.unit.ncols();
-        let held: Vec<(usize, Vec<(usize, f64)>)> =
+        let redundant: Vec<(usize, Vec<(usize, f64)>)> =
             all.filter(|k| !kept.contains(k)).map(|k| (k, self.combination(&basis, k, &kept))).collect();
         let gap = match (kept.len().checked_sub(1), self.singular_values.get(kept.len())) {
             (Some(last), Some(next)) if *next > 0.0 => self.singular_values[last] / next,
@@ -254,7 +254,7 @@ impl Columns {
             weak,
             inexact,
             kept,
-            held,
+            redundant,
             singular_values: self.singular_values,
             observability,
             gap,

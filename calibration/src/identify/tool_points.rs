@@ -77,7 +77,7 @@ impl ToolPoints {
             }
             (rest > 1e-6 * all && all > 0.0).then_some((*k, (rest / n).sqrt()))
         };
-        let mut unseen: Vec<(usize, f64)> = identifiable.held.iter().filter_map(beside).collect();
+        let mut unseen: Vec<(usize, f64)> = identifiable.redundant.iter().filter_map(beside).collect();
         unseen.sort_by(|a, b| (b.1 * size(b.0)).total_cmp(&(a.1 * size(a.0))));
         unseen
     }

@@ -90,8 +90,8 @@ fn ur5_is_as_good_as_measured() -> Result<(), Missing> {
     is_as_the_readme_has_it("UR5", &report, &richer);
     // Two directions are weakly determined: only the small offset of the target from the last axis
     // makes them observable.
-    assert_eq!(report["not_known"].as_array().map(Vec::len), Some(2));
-    assert!(report["parameters"].as_array().unwrap().iter().all(|p| p["hardly_known"] == false));
+    assert_eq!(report["weakly_determined"].as_array().map(Vec::len), Some(2));
+    assert!(report["parameters"].as_array().unwrap().iter().all(|p| p["prior_dominated"] == false));
     Ok(())
 }
 

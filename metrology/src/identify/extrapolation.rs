@@ -11,13 +11,9 @@ use abbe_study::extrapolation::ToolPointDeviation;
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct TestExtrapolation {
     /// Number of such rows.
-    pub rows: usize,
-    /// Standard deviation of the tool point there, root mean square over these rows, in the length
-    /// unit; `null` if the spec cannot be written.
-    pub known_outside: Option<f64>,
-    /// Standard deviation of the tool point within the fitted ranges, root mean square over them,
-    /// in the length unit; `null` if the spec cannot be written.
-    pub known_within: Option<f64>,
+    pub count: usize,
+    /// Standard deviation of the tool point; `null` if the spec cannot be written.
+    pub standard_deviation: Option<ToolPointDeviation>,
 }
 
 impl TestExtrapolation {
@@ -34,12 +30,8 @@ impl TestExtrapolation {
         if outside.is_empty() {
             return None;
         }
-        let known =
+        let standard_deviation =
             written.and_then(|written| ToolPointDeviation::new(written.spec(), written, true, &outside));
-        Some(Self {
-            rows: outside.len(),
-            known_outside: known.map(|known| known.outside),
-            known_within: known.map(|known| known.within),
-        })
+        Some(Self { count: outside.len(), standard_deviation })
     }
 }

@@ -41,7 +41,7 @@ pub struct FoundModel {
     /// is its index in this matrix.
     pub covariance: Vec<Vec<f64>>,
     /// Significant errors as numbers of the chain, with their alternatives.
-    pub(super) meanings: Vec<JointError>,
+    pub(super) joint_errors: Vec<JointError>,
     /// Errors that the measurements could not determine.
     pub(super) undetermined: UndeterminedDirections,
     /// Standard deviation along each axis of the position errors that the model does not explain,

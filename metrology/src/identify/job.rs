@@ -35,7 +35,9 @@ use super::plausibility::{check_lengths, tool_note};
 use super::point_residuals::{EvaluatedModel, PointResidual};
 use super::profiles::find_profiles;
 use super::read_back::{ReadBack, not_read_back, read_back};
-use super::report::{Certainty, Compared, CrossValidation, Held, Indices, LeftOut, Pair, Report, TermGain};
+use super::report::{
+    Certainty, Compared, CrossValidation, Indices, LeftOut, Pair, Redundant, Report, TermGain,
+};
 use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::Solved;
@@ -261,10 +263,10 @@ fn report(
     let difference = difference.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let converted = Some(&joint_errors).filter(|_| difference <= CONVERSION_TOLERANCE * left);
     let explanations = Explanations::new(spec, setup, model, fit, rows).map_err(fail)?;
-    let meanings = joint_errors.joint_errors(&explanations, model, fit);
+    let joint_errors = joint_errors.joint_errors(&explanations, model, fit);
     let found = FoundModel {
         derived: derived.to_vec(),
-        meanings: meanings.clone(),
+        joint_errors: joint_errors.clone(),
         undetermined: UndeterminedDirections::new(setup, solved, converted, rows).map_err(fail)?,
         estimated: instruments.iter().chain(&coordinates).filter(|one| one.estimated).cloned().collect(),
         unexplained: unexplained(setup, solved, rows, left).map_err(fail)?,
@@ -290,7 +292,6 @@ fn report(
          from the station"
             .to_owned()
     });
-    let extrapolation = test.and_then(extrapolation);
     let points = if settings.points { points(solved, data, test)? } else { Vec::new() };
     Ok(Report {
         name: spec.name.clone(),
@@ -304,15 +305,15 @@ fn report(
         observability: Indices { o1: o.o1, o2: o.o2, o3: o.o3, o4: o.o4, o5: o.o5 },
         unexplained: (model.unknowns.len() - identifiable.rank)
             .saturating_sub(groups.len() + identifiable.weak.len()),
-        not_known: WeaklyDetermined::all(model, identifiable, spec.length),
+        weakly_determined: WeaklyDetermined::all(model, identifiable, spec.length),
         groups,
-        meanings,
+        joint_errors,
         magnitudes: magnitudes(spec, solved),
         parameters,
-        held: identifiable
-            .held
+        redundant: identifiable
+            .redundant
             .iter()
-            .map(|(k, acts_as)| Held {
+            .map(|(k, acts_as)| Redundant {
                 name: name(*k),
                 acts_as: acts_as.iter().map(|(j, factor)| (name(*j), *factor)).collect(),
             })
@@ -332,7 +333,7 @@ fn report(
         test: test_sizes,
         test_rows_of_the_fit: overlap,
         accepted,
-        outside: extrapolation,
+        extrapolated: test.and_then(extrapolation),
         cross_validation: CrossValidation {
             folds: settings.folds.clamp(2, Configurations::new(rows).count.max(2)),
             configurations: cross_validated.configurations,

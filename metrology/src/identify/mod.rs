@@ -104,8 +104,8 @@ pub use outliers::shown_lines;
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
-    TermGain,
+    Certainty, Compared, CrossValidation, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Redundant,
+    Report, TermGain,
 };
 pub use spec_writer::IdentifiedSpec;
 pub use terms::{Angle, Basis, ErrorSite, Term, Wave};

@@ -98,7 +98,7 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Par
                 _ if rotation => "rad",
                 _ => spec.length.symbol(),
             },
-            hardly_known: hardly.contains(k),
+            prior_dominated: hardly.contains(k),
         }
     };
     fit.identifiable.kept.iter().map(parameter).collect()

@@ -47,20 +47,20 @@ pub struct Report {
     pub observability: Indices,
     /// Combinations of unknowns that cannot be distinguished, with the reason.
     pub groups: Vec<Indistinguishable>,
-    /// Number of undetermined combinations that `groups` and `not_known` do not explain; normally
-    /// 0.
+    /// Number of undetermined combinations that `groups` and `weakly_determined` do not explain;
+    /// normally 0.
     pub unexplained: usize,
     /// Kept unknowns, which stand for the identifiable combinations.
     pub parameters: Vec<Parameter>,
     /// Significant errors expressed as errors of joint zeros, parameters and Denavit-Hartenberg
     /// numbers.
-    pub meanings: Vec<JointError>,
+    pub joint_errors: Vec<JointError>,
     /// Errors that these data determine poorly compared with their prior; they are fixed at zero.
-    pub not_known: Vec<WeaklyDetermined>,
+    pub weakly_determined: Vec<WeaklyDetermined>,
     /// Magnitudes of sources of the spec that were unknown.
     pub magnitudes: Vec<Magnitude>,
     /// Unknowns that are fixed at zero because they are equivalent to kept ones.
-    pub held: Vec<Held>,
+    pub redundant: Vec<Redundant>,
     /// Pairs of parameters with an absolute correlation above 0.9.
     pub correlations: Vec<Pair>,
     /// Factor of the stated uncertainty that explains the residuals.
@@ -87,7 +87,7 @@ pub struct Report {
     /// Number of test rows that are identical to fitted rows. They cannot assess the fit.
     pub test_rows_of_the_fit: usize,
     /// Test rows outside the fitted ranges of joints and inputs; none if there are no such rows.
-    pub outside: Option<TestExtrapolation>,
+    pub extrapolated: Option<TestExtrapolation>,
     /// Position errors of cross-validation.
     pub cross_validation: CrossValidation,
     /// Verdict on the declared limits, if there are any.
@@ -216,7 +216,7 @@ pub struct Parameter {
     /// Unit: the length unit, rad, or empty.
     pub unit: &'static str,
     /// Is true if the standard deviation exceeds half of the prior's: the data contribute little.
-    pub hardly_known: bool,
+    pub prior_dominated: bool,
 }
 
 /// Identified magnitude of a source of the spec.
@@ -242,7 +242,7 @@ pub struct Magnitude {
 
 /// Unknown that is fixed at zero, and the combination it is equivalent to.
 #[derive(Clone, Debug, Serialize)]
-pub struct Held {
+pub struct Redundant {
     /// Name of the unknown.
     pub name: String,
     /// Names and factors of the equivalent combination of parameters; empty if the unknown has no

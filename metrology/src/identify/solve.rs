@@ -129,7 +129,7 @@ impl Solved<'_> {
     /// Returns the magnitudes fixed at their declared values that act as an unknown, with their
     /// factors: the value of the unknown stands for the sum.
     pub(super) fn held_magnitudes(&self, spec: &Spec, unknown: usize) -> Vec<(String, f64)> {
-        let held = self.fit.identifiable.held.iter().filter_map(|(k, acts_as)| {
+        let held = self.fit.identifiable.redundant.iter().filter_map(|(k, acts_as)| {
             let own = self.own_magnitude(*k)?;
             let (_, factor) = acts_as.iter().find(|(kept, _)| *kept == unknown)?;
             Some((spec.sources[own.source].name.clone(), *factor))

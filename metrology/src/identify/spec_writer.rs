@@ -179,7 +179,8 @@ impl FoundModel {
             _ => format!("{} of the value", digits((standard_deviation / magnitude).abs(), 2)),
         };
         let own = term.name(spec);
-        let alternatives = self.meanings.iter().filter(|one| term.basis == Basis::One && own == one.number);
+        let alternatives =
+            self.joint_errors.iter().filter(|one| term.basis == Basis::One && own == one.number);
         let alternatives = alternatives.flat_map(|one| &one.alternatives).map(|one| one.number.as_str());
         let alternatives = match alternatives.collect::<Vec<_>>() {
             names if names.is_empty() => String::new(),

@@ -155,7 +155,7 @@ impl Plan {
             rank: observed.rank,
             unknowns: model.unknowns.len(),
             machine: Counts::new(&model, &observed),
-            not_known: WeaklyDetermined::all(&model, &observed, machine.spec.length),
+            weakly_determined: WeaklyDetermined::all(&model, &observed, machine.spec.length),
             condition: observed.observability.condition,
             log_det: design.log_det,
             exchanges: design.exchanges,

@@ -30,7 +30,7 @@ pub struct Report {
     /// Number of identifiable errors of base and frames alone, without targets on the tool.
     pub machine: Counts,
     /// Errors that these rows will determine poorly compared with their prior.
-    pub not_known: Vec<WeaklyDetermined>,
+    pub weakly_determined: Vec<WeaklyDetermined>,
     /// Condition number of the kept columns of the design matrix, each scaled to unit length.
     #[serde(serialize_with = "abbe_study::finite::or_null")]
     pub condition: f64,

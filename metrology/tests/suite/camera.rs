@@ -143,8 +143,8 @@ fn a_camera_identifies_the_machine_on_tool_and_in_room() {
         // 0.2 px at 350 to 700 mm, with a focal length of 800 px.
         assert!((0.1..0.2).contains(&figures.after.mean), "{case}: {figures:?}");
         for (number, truth) in [("zero of q3", 1.2e-3), ("zero of q4", -0.9e-3), ("zero of q5", 1.5e-3)] {
-            let found = report.meanings.iter().find(|one| one.number == number);
-            let found = found.unwrap_or_else(|| panic!("{case}: no {number} in {:?}", report.meanings));
+            let found = report.joint_errors.iter().find(|one| one.number == number);
+            let found = found.unwrap_or_else(|| panic!("{case}: no {number} in {:?}", report.joint_errors));
             let z = (found.value - truth) / found.standard_deviation;
             assert!(z.abs() < 4.0 && found.standard_deviation < 2e-4, "{case}: {number} {found:?}");
         }

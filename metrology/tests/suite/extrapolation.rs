@@ -85,11 +85,12 @@ fn identify_and_measure_state_the_same_deviations() {
     let (report, written) = identified(0, Some(far.clone()));
     let job = Measure { machine: written, map: map(), data: far, accept: Acceptance::default() };
     let measured = job.run(&mut ()).unwrap().extrapolated.unwrap();
-    let (stated, known) = (report.outside.unwrap(), measured.known.unwrap());
+    let (stated, known) = (report.extrapolated.unwrap(), measured.standard_deviation.unwrap());
     println!("{stated:?} {known:?}");
-    assert_eq!(stated.rows, measured.outside);
-    for (stated, known) in [(stated.known_outside, known.outside), (stated.known_within, known.within)] {
-        assert!((stated.unwrap() / known - 1.0).abs() < 1e-9, "{stated:?} {known}");
+    assert_eq!(stated.count, measured.count);
+    let stated = stated.standard_deviation.unwrap();
+    for (stated, known) in [(stated.extrapolated, known.extrapolated), (stated.within, known.within)] {
+        assert!((stated / known - 1.0).abs() < 1e-9, "{stated:?} {known}");
     }
 }
 
@@ -139,18 +140,21 @@ fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
     };
     let mut heard = RecordedNotes::default();
     let said = measure(&far, &mut heard).unwrap();
-    assert_eq!((said.outside, said.all), (40, 40));
-    let known = said.known.unwrap();
+    assert_eq!((said.count, said.all), (40, 40));
+    let known = said.standard_deviation.unwrap();
     let (within, outside) = (scatter(&machines, &near), scatter(&machines, &far));
     println!(
         "within {within:.4} (said {:.4}), outside {outside:.4} (said {:.4})",
-        known.within, known.outside
+        known.within, known.extrapolated
     );
     // With 20 machines and a few dominant directions, the standard deviation of the scatter is
     // about 10 %.
     assert!((0.75..1.33).contains(&(known.within / within)), "{known:?} {within}");
-    assert!((0.75..1.33).contains(&(known.outside / outside)), "{known:?} {outside}");
-    assert!(known.outside > 1.5 * known.within && known.outside_max > known.outside, "{known:?}");
+    assert!((0.75..1.33).contains(&(known.extrapolated / outside)), "{known:?} {outside}");
+    assert!(
+        known.extrapolated > 1.5 * known.within && known.extrapolated_max > known.extrapolated,
+        "{known:?}"
+    );
     assert!(
         heard.0[0].contains("times the") && heard.0[0].contains("extrapolations"),
         "{heard:?}",
@@ -163,7 +167,11 @@ fn stated_uncertainty_agrees_with_the_scatter_outside_the_ranges() {
     let job =
         Compensate { machine: machines[0].clone(), map: map(), data: far, poses: false, tolerance: 1e-3 };
     let report = job.run(&mut ()).unwrap();
-    let (again, other) = (report.extrapolated.unwrap().known.unwrap(), report.other_tool.unwrap());
-    assert!(again.outside > known.outside && again.within > 2.0 * known.within, "{again:?} {known:?}");
-    assert!((other.by_noise / known.outside - 1.0).abs() < 1e-9, "{other:?} {known:?}");
+    let (again, other) =
+        (report.extrapolated.unwrap().standard_deviation.unwrap(), report.other_tool.unwrap());
+    assert!(
+        again.extrapolated > known.extrapolated && again.within > 2.0 * known.within,
+        "{again:?} {known:?}"
+    );
+    assert!((other.by_noise / known.extrapolated - 1.0).abs() < 1e-9, "{other:?} {known:?}");
 }

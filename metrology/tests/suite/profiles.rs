@@ -257,8 +257,9 @@ fn the_covariance_of_a_joint_is_that_of_its_error() {
     }
     let job = Measure { machine: arm, map, data, accept: Acceptance::default() };
     let report = job.run(&mut ()).unwrap();
-    let known = report.extrapolated.expect("rows are outside").known.expect("there is a covariance");
-    assert!((known.within - 0.01).abs() < 1e-9 && (known.outside - 0.01).abs() < 1e-9, "{known:?}");
+    let known =
+        report.extrapolated.expect("rows are outside").standard_deviation.expect("there is a covariance");
+    assert!((known.within - 0.01).abs() < 1e-9 && (known.extrapolated - 0.01).abs() < 1e-9, "{known:?}");
 }
 
 /// Displacements between rows are refused if profiles are asked for by name.

@@ -294,8 +294,8 @@ fn a_reflector_on_the_last_axis() {
     let guess = way.map("", "");
     let report = identify(&guess, measured(&way.truth(""), 60, 1), None);
     assert!(report.condition < 1000.0, "{}", report.condition);
-    assert!(!report.not_known.is_empty());
-    for weak in &report.not_known {
+    assert!(!report.weakly_determined.is_empty());
+    for weak in &report.weakly_determined {
         assert!(weak.standard_deviation > 0.5 * weak.expected, "{weak:?}");
     }
     for parameter in report.parameters.iter().filter(|parameter| parameter.unit == "rad") {

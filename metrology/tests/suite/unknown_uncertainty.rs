@@ -98,7 +98,7 @@ fn contacts_of_unknown_uncertainty_do_not_shrink_the_machine() {
     assert!(far.is_empty(), "{far:?}");
     let note = report.notes.iter().find(|note| note.contains("do not determine the scale")).unwrap();
     assert!(note.contains("relative to that of `e_x2`, which is taken as nominal, 425 mm"), "{note}");
-    assert!(report.held.iter().any(|held| held.name == "e_x2"), "{:?}", report.held);
+    assert!(report.redundant.iter().any(|held| held.name == "e_x2"), "{:?}", report.redundant);
 }
 
 /// Too few values for an estimate are refused with their number; what is estimated has degrees of

@@ -66,8 +66,8 @@ fn facts(map: &Map, report: &Report) -> Vec<(&'static str, String)> {
         facts.push(("Hidden", mounting.statement.clone()));
         facts.push(("Mount", mounting.advice.clone()));
     }
-    if !report.not_known.is_empty() {
-        let names: Vec<&str> = report.not_known.iter().map(|error| error.name.as_str()).collect();
+    if !report.weakly_determined.is_empty() {
+        let names: Vec<&str> = report.weakly_determined.iter().map(|error| error.name.as_str()).collect();
         let text = "poorly determined by these rows; an identification would fix them at zero";
         facts.push(("Weak", format!("{}: {text}", first(&names, NAMED))));
     }
@@ -107,11 +107,11 @@ fn about(report: &Report) -> Section {
             first(&unseen, NAMED)
         )
     });
-    let weak = (!report.not_known.is_empty()).then(|| {
+    let weak = (!report.weakly_determined.is_empty()).then(|| {
         format!(
             "Poorly determined by these rows: {}. Other configurations, a target farther from the axes or a \
              better instrument determine them.",
-            joined(report.not_known.iter().map(|error| error.name.as_str()))
+            joined(report.weakly_determined.iter().map(|error| error.name.as_str()))
         )
     });
     Section::full("Prediction")

@@ -125,7 +125,7 @@ pub(super) fn other_tool(tool: &OtherTool, length: &str) -> String {
 
 /// Returns the number of rows outside the fitted ranges.
 pub(super) fn extrapolated(rows: &Extrapolation) -> String {
-    format!("{} of {} rows are outside the identified ranges", rows.outside, rows.all)
+    format!("{} of {} rows are outside the identified ranges", rows.count, rows.all)
 }
 
 /// Returns the first texts under one name, and the number of the others.

@@ -133,9 +133,9 @@ fn errors_that_a_target_on_an_axis_cannot_tell_apart_are_named_together() {
     let seeds = sample_size(30);
     for seed in 0..seeds as u64 {
         let report = identified(0.0, seed);
-        println!("{:?}", report.meanings.iter().map(|one| &one.sentence).collect::<Vec<_>>());
-        let meaning = report.meanings.iter().find(|one| names_the_truth(one));
-        let meaning = meaning.unwrap_or_else(|| panic!("{seed}: {:?}", report.meanings));
+        println!("{:?}", report.joint_errors.iter().map(|one| &one.sentence).collect::<Vec<_>>());
+        let meaning = report.joint_errors.iter().find(|one| names_the_truth(one));
+        let meaning = meaning.unwrap_or_else(|| panic!("{seed}: {:?}", report.joint_errors));
         assert!(!meaning.alternatives.is_empty(), "{meaning:?}");
         for expected in ["zero of q5", "a of A5", "cannot tell which (the target is on the axis of q6)"] {
             assert!(meaning.sentence.contains(expected), "{expected}: {}", meaning.sentence);
@@ -154,8 +154,8 @@ fn errors_that_a_target_on_an_axis_cannot_tell_apart_are_named_together() {
 fn a_target_beside_the_axis_names_the_error_alone() {
     for seed in 0..sample_size(10) as u64 {
         let report = identified(100.0, seed);
-        let meaning = report.meanings.iter().find(|one| names_the_truth(one));
-        let meaning = meaning.unwrap_or_else(|| panic!("{seed}: {:?}", report.meanings));
+        let meaning = report.joint_errors.iter().find(|one| names_the_truth(one));
+        let meaning = meaning.unwrap_or_else(|| panic!("{seed}: {:?}", report.joint_errors));
         assert_eq!(meaning.number, "zero of q5", "{meaning:?}");
         assert!(meaning.alternatives.iter().all(|one| one.number != "a of A5"), "{meaning:?}");
     }

@@ -175,7 +175,7 @@ fn stated((position, turn): ([f64; 3], [f64; 4])) -> Pose {
 /// Errors that cannot be distinguished from others are held at zero; the others then contain them.
 fn z_scores(case: &Case, sign: f64, report: &Report) -> [Vec<f64>; 4] {
     let mut expected: BTreeMap<&str, f64> = TRUTH.map(|(name, value)| (name, sign * value)).into();
-    for held in &report.held {
+    for held in &report.redundant {
         let truth = expected.get(held.name.as_str()).copied().unwrap_or_default();
         for (name, factor) in &held.acts_as {
             *expected.entry(name).or_default() += factor * truth;
@@ -184,7 +184,7 @@ fn z_scores(case: &Case, sign: f64, report: &Report) -> [Vec<f64>; 4] {
     let expected = |name: &str| expected.get(name).copied().unwrap_or_default();
     let zeros =
         [("zero of q2", "e_r1"), ("zero of q3", "e_r2"), ("zero of q4", "e_r3"), ("zero of q5", "e_r4")];
-    let zeros = report.meanings.iter().filter_map(|one| {
+    let zeros = report.joint_errors.iter().filter_map(|one| {
         let (_, name) = zeros.iter().find(|(number, _)| *number == one.number)?;
         let (_, truth) = TRUTH.iter().find(|(of, _)| of == name)?;
         Some((one.value - sign * truth) / one.standard_deviation)

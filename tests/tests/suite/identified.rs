@@ -140,7 +140,11 @@ fn a_named_source_is_kept_before_errors_that_act_alike() {
         (found.value - 1.5).abs() < 4.0 * found.standard_deviation.expect("it can be known"),
         "{found:?}"
     );
-    assert!(report.meanings.iter().all(|meaning| meaning.number != "zero of q2"), "{:?}", report.meanings);
+    assert!(
+        report.joint_errors.iter().all(|meaning| meaning.number != "zero of q2"),
+        "{:?}",
+        report.joint_errors
+    );
     // A source without an observable effect is reported.
     let hidden = zero.replace("joint = \"q2\"\nerror = \"1 mrad\"", "frame = \"wrist 3\"\ne_p = \"1 mrad\"");
     let report = job(&ur5(&hidden), "exact", POINT, &data).run(&mut ()).unwrap();
@@ -197,7 +201,7 @@ fn zeros_of_joints_are_told_in_words() {
         let joint =
             |number: &str| number.strip_prefix("zero of q").map(|joint| joint.parse::<usize>().unwrap());
         let mut said = Vec::new();
-        for meaning in &report.meanings {
+        for meaning in &report.joint_errors {
             let Some(joint) = joint(&meaning.number) else { continue };
             let truth = 1e-3 * ZEROS[joint - 1];
             assert!((meaning.value - truth).abs() < 4.5 * meaning.standard_deviation, "{meaning:?}, {truth}");

@@ -89,8 +89,8 @@ fn advised_place_shows_the_numbers_with_the_promised_standard_deviations() {
         let found = identified_at(at(), arm(0.0, &sources), arm(0.0, ""), &data, 0.01, seed);
         for (i, (name, value)) in truth.into_iter().enumerate() {
             let promised = mounting.numbers.iter().find(|number| number.name == name).expect("the number");
-            let one = found.meanings.iter().find(|one| one.number == name);
-            let one = one.unwrap_or_else(|| panic!("{seed}: {:?}", found.meanings));
+            let one = found.joint_errors.iter().find(|one| one.number == name);
+            let one = one.unwrap_or_else(|| panic!("{seed}: {:?}", found.joint_errors));
             assert!(one.alternatives.is_empty(), "{one:?}");
             squares[i] += ((one.value - value) / promised.standard_deviation_there).powi(2);
             ratios[i] += one.standard_deviation / promised.standard_deviation_there;
@@ -98,7 +98,10 @@ fn advised_place_shows_the_numbers_with_the_promised_standard_deviations() {
         if seed == 0 {
             let found = identified_at(at(), arm(0.0, &sources), arm(0.0, ""), "", 0.01, seed);
             assert!(
-                found.meanings.iter().all(|one| one.number != "zero of q5" || !one.alternatives.is_empty())
+                found
+                    .joint_errors
+                    .iter()
+                    .all(|one| one.number != "zero of q5" || !one.alternatives.is_empty())
             );
         }
     }

@@ -39,7 +39,7 @@ fn counted(robot: &dyn Manipulator, moved: &[usize], points: usize, base: bool) 
         }
     }
     // Fixed unknowns act as their equivalents.
-    for (k, act_as) in &known.held {
+    for (k, act_as) in &known.redundant {
         let (_, rows) = residuals(&model, &data[7], &zero);
         for row in rows {
             let sum: f64 = act_as.iter().map(|(j, factor)| row[*j] * factor).sum();

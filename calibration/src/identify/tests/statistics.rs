@@ -54,7 +54,7 @@ fn stated_deviations_are_true() {
         assert_eq!(found.identifiable.rank, 16);
         // All 36 errors are nonzero; the kept ones take on their equivalents.
         let mut expected = truth.clone();
-        for (k, act_as) in &found.identifiable.held {
+        for (k, act_as) in &found.identifiable.redundant {
             act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
         }
         for (k, deviation) in found.standard_deviations().iter().enumerate() {

@@ -115,7 +115,7 @@ fn the_test_file_decides_nothing() {
         let more = test.map_or(Vec::new(), |test| vec!["--test", path(test)]);
         let mut report =
             bench.identify(&data, &[&["--terms", "joint", "--out", path(&out)][..], &more].concat());
-        for of_the_test in ["test", "outside", "files", "statements"] {
+        for of_the_test in ["test", "extrapolated", "files", "statements"] {
             report.as_object_mut().unwrap().remove(of_the_test);
         }
         (report, std::fs::read_to_string(out).unwrap())
@@ -188,7 +188,7 @@ fn the_page_has_the_surest_numbers_of_the_chain() {
     let bench = Bench { spec, ..Bench::new(POINT) };
     let data = bench.file("data.csv", &bench.simulated(&["--samples", "200", "--seed", "1"]));
     let report = bench.identify(&data, &[]);
-    let meanings = report["meanings"].as_array().unwrap();
+    let meanings = report["joint_errors"].as_array().unwrap();
     assert!(meanings.len() > 6, "{meanings:#?}");
     let identify = ["identify", "ur5", path(&data), "--map", path(&bench.map)];
     let (answer, all) = (prints(&identify), full(&identify));

@@ -151,7 +151,7 @@ fn identification(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Resu
 /// contribute to the kept ones they are equivalent to.
 fn z_scores(report: &Report) -> Vec<(String, f64)> {
     let mut expected: BTreeMap<&str, f64> = TRUTH.into_iter().collect();
-    for held in &report.held {
+    for held in &report.redundant {
         let truth = TRUTH.iter().find(|(name, _)| *name == held.name).map_or(0.0, |(_, value)| *value);
         for (name, factor) in &held.acts_as {
             *expected.entry(name).or_default() += factor * truth;

@@ -105,7 +105,7 @@ fn significant(report: &Report) -> Table {
     let columns =
         [words("significant errors"), number("value"), number("± 1 σ"), words(""), words("in the chain")];
     let row = |parameter: &&Parameter| {
-        let meaning = report.meanings.iter().find(|meaning| meaning.in_place_of == parameter.name);
+        let meaning = report.joint_errors.iter().find(|meaning| meaning.in_place_of == parameter.name);
         let name = match &parameter.frame_name {
             Some(frame) => format!("{} ({frame})", parameter.name),
             None => parameter.name.clone(),
@@ -156,8 +156,8 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
         facts.push(("Profiles", text));
     }
     let mut known = format!("{} of {} unknowns identifiable", report.rank, report.unknowns);
-    if !report.not_known.is_empty() {
-        let names: Vec<&str> = report.not_known.iter().map(|one| one.name.as_str()).collect();
+    if !report.weakly_determined.is_empty() {
+        let names: Vec<&str> = report.weakly_determined.iter().map(|one| one.name.as_str()).collect();
         known += &format!("; poorly determined and fixed at zero: {}", first(&names, 4));
     }
     facts.push(("Rank", known));
@@ -176,12 +176,13 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
 
 /// Returns the number of test rows beyond the fitted ranges, with the uncertainty there.
 fn extrapolation(report: &Report) -> Option<String> {
-    let outside = report.outside.as_ref()?;
+    let rows = report.extrapolated.as_ref()?;
     let (factor, unit) = error_unit(report.length);
     let mut fact =
-        counted(outside.rows, "test row beyond the fitted ranges", "test rows beyond the fitted ranges");
-    if let (Some(there), Some(within)) = (outside.known_outside, outside.known_within) {
-        let [there, within] = [there, within].map(|value| digits(factor * value, 2));
+        counted(rows.count, "test row beyond the fitted ranges", "test rows beyond the fitted ranges");
+    if let Some(deviation) = rows.standard_deviation {
+        let [there, within] =
+            [deviation.extrapolated, deviation.within].map(|value| digits(factor * value, 2));
         fact += &format!(": σ of the tool point {there} {unit} there, {within} {unit} within");
     }
     Some(fact)

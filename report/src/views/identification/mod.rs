@@ -95,10 +95,10 @@ fn machine(report: &Report) -> Section {
     };
     let correlated = (!report.correlations.is_empty())
         .then(|| format!("Correlated by more than 0.9: {}{more}.", joined(correlated)));
-    let prior = report.parameters.iter().any(|parameter| parameter.hardly_known).then(|| {
+    let prior = report.parameters.iter().any(|parameter| parameter.prior_dominated).then(|| {
         format!("Prior-dominated: the prior has more influence on these errors than the data (`{PRIOR}`).")
     });
-    let meanings = report.meanings.iter().map(|meaning| meaning.sentence.clone());
+    let meanings = report.joint_errors.iter().map(|meaning| meaning.sentence.clone());
     let magnitudes = report.magnitudes.iter().map(|one| one.sentence.clone());
     Section::full("Errors of the machine")
         .table(estimates(report, "All others are fixed at zero", of_machine(report)))
@@ -124,7 +124,7 @@ fn estimates<'r>(report: &Report, caption: &str, parameters: impl Iterator<Item 
             None => parameter.name.clone(),
         };
         let significance = fixed(significance(parameter).min(9999.0), 1);
-        let remark = if parameter.hardly_known { "prior-dominated" } else { "" };
+        let remark = if parameter.prior_dominated { "prior-dominated" } else { "" };
         let frame = parameter.frame_name.clone().unwrap_or_default();
         [name, frame, value, deviation, unit, significance, remark.to_owned()]
     }))
@@ -132,13 +132,13 @@ fn estimates<'r>(report: &Report, caption: &str, parameters: impl Iterator<Item 
 
 /// Lists errors that are fixed at zero because the data determine them poorly.
 fn poorly_determined(report: &Report) -> Option<String> {
-    let all = report.not_known.iter().map(|one| {
+    let all = report.weakly_determined.iter().map(|one| {
         let (factor, unit) = angle_in_mrad(one.unit);
         let [deviation, expected] =
             [one.standard_deviation, one.expected].map(|value| digits(value * factor, 2));
         format!("{} (± {deviation} {unit}, expected ± {expected} {unit})", one.name)
     });
-    (!report.not_known.is_empty()).then(|| {
+    (!report.weakly_determined.is_empty()).then(|| {
         format!(
             "Poorly determined by these data; fixed at zero and not written: {}. In brackets the \
              standard deviation from the data, which is more than half of the expected one. Other \
