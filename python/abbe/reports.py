@@ -72,10 +72,13 @@ class Alternative(Fields):
     """Name: `zero of q5`, `a of shoulder`, `e_x of wrist`."""
 
     value: float
-    """Value that replaces the named error, in the length unit or rad."""
+    """Value that replaces the named error, in `unit`."""
 
     standard_deviation: float
-    """Standard deviation of the value, in the length unit or rad."""
+    """Standard deviation of the value, in `unit`."""
+
+    unit: str
+    """Unit: the length unit, or rad."""
 
 
 class AnalyzeReport(Report):
@@ -799,8 +802,11 @@ class DoctorReport(Report):
     others: list[Finding]
     """Best of the interpretations that do not fit."""
 
-    sentence: str
-    """Conclusion in one sentence."""
+    still: list[str]
+    """Names of the joints that do not move in these rows."""
+
+    moved: list[str]
+    """Names of the joints that move in these rows."""
 
     map: str | None
     """Map of the first interpretation; None if no interpretation fits."""
@@ -1345,6 +1351,9 @@ class IdentifyReport(Report):
     joint_errors: list[JointError]
     """Significant errors expressed as errors of joint zeros, parameters and Denavit-Hartenberg numbers."""
 
+    target_on_axis: str | None
+    """Last revolute joint, if all targets are on its axis; some errors cannot be distinguished then."""
+
     weakly_determined: list[WeaklyDetermined]
     """Errors that these data determine poorly compared with their prior; they are fixed at zero."""
 
@@ -1506,8 +1515,34 @@ class Indistinguishable(Fields):
     act_as: list[list[str | float]]
     """Equivalent combination; empty if these unknowns have no effect on the measurement."""
 
-    reason: str
-    """Reason, in words."""
+    reason: Literal["unknown_mounting", "single_target", "unknown_placement"] | IndistinguishableReason
+    """Reason."""
+
+
+class IndistinguishableReason(Fields):
+    """Reason why errors cannot be distinguished."""
+
+    revolute: str | None = None
+    """Errors about and along the axis of this revolute joint act as those of the next frame."""
+
+    prismatic: str | None = None
+    """Translations, and rotations about the axis of this prismatic joint, act as those of the next frame."""
+
+    not_moved: str | None = None
+    """This joint does not move in these data."""
+
+    fixed: IndistinguishableReasonFixed | None = None
+    """No joint moves this frame relative to the previous one."""
+
+
+class IndistinguishableReasonFixed(Fields):
+    """No joint moves this frame relative to the previous one."""
+
+    frame: int
+    """Number of the frame, from 1."""
+
+    name: str
+    """Name of the frame."""
 
 
 class Input(Fields):
@@ -1621,16 +1656,16 @@ class JointError(Fields):
     """Name of the number: `zero of q2`, `reach`, `a of shoulder`."""
 
     value: float
-    """Actual minus nominal value, in the length unit or rad."""
+    """Actual minus nominal value, in `unit`."""
 
     standard_deviation: float
-    """Standard deviation of the value, in the length unit or rad."""
+    """Standard deviation of the value, in `unit`."""
+
+    unit: str
+    """Unit: the length unit, or rad."""
 
     alternatives: list[Alternative]
     """Other errors that explain the data as well in place of this one."""
-
-    sentence: str
-    """Statement of the result in one sentence, with the alternatives."""
 
 
 class JointProfile(Fields):
@@ -1677,9 +1712,6 @@ class JointProfiles(Fields):
 
     joints: list[JointProfile]
     """Profile of each joint that has one."""
-
-    sentence: str
-    """Statement of the result in one sentence."""
 
 
 class KnownDistanceFit(Fields):
@@ -1918,8 +1950,8 @@ class Magnitude(Fields):
     stands for this magnitude plus their sum.
     """
 
-    sentence: str
-    """Statement of the result in one sentence."""
+    prior_dominated: bool
+    """Is true if the standard deviation exceeds half of the declared one: the data contribute little."""
 
 
 class Margin(Fields):
@@ -2844,9 +2876,6 @@ class ResidualDrift(Fields):
     ends: list[float]
     """Mean residual distance of the first tenth and of the last tenth of the rows, in the length unit."""
 
-    sentence: str
-    """Statement of the result in words."""
-
 
 class ResidualTest(Fields):
     """Test of the errors minus the repeatable sources against the uncertainty of the instrument: the χ² test by which
@@ -3144,8 +3173,8 @@ class Table(Fields):
 class TargetMounting(Fields):
     """Numbers of the machine that the targets of a plan hide, and a place for a target that shows them."""
 
-    reason: str | None
-    """Reason, if it is known: `the target is on the axis of q6`."""
+    target_on_axis: str | None
+    """Last revolute joint, if all targets are on its axis."""
 
     numbers: list[HiddenNumber]
     """Hidden numbers, then those that they are confused with."""

@@ -28,8 +28,9 @@ impl Machine {
     /// largest position residual of an interpretation that fits, in the length unit or as text with
     /// a unit.
     ///
-    /// `.sentence` states the result. `.found` lists the interpretations that fit. `.map` is the
-    /// text of the map of the first one, or None; `.report(folder)` writes it as doctor.map.toml.
+    /// `.statements["answer"]` states the result. `.found` lists the interpretations that fit.
+    /// `.map` is the text of the map of the first one, or None; `.report(folder)` writes it as
+    /// doctor.map.toml.
     /// If the interpretation changes the spec, `.load()` returns the corrected machine, and
     /// doctor.spec.toml is its spec.
     ///

@@ -5,7 +5,6 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::columns::Columns;
 use super::kinematics::Kinematics;
 use super::report::{Finding, Report};
-use super::sentence::sentence;
 use super::{alternatives, map_writer};
 use crate::data::Source;
 use crate::interpretations::{
@@ -84,16 +83,22 @@ impl Doctor<'_> {
         };
         let found: Vec<Finding> = found.iter().map(finding).collect();
         let others: Vec<Finding> = others.iter().map(finding).collect();
+        let is_still = |joint: usize| columns.joints.iter().all(|row| row[joint] == columns.joints[0][joint]);
+        let names = |is_one: &dyn Fn(usize) -> bool| {
+            let joints = (0..spec.variables.len()).filter(|joint| is_one(*joint));
+            joints.map(|joint| spec.variables[joint].name.clone()).collect()
+        };
         Ok(Report {
             name: spec.name.clone(),
             length: spec.length.symbol(),
             rows: columns.joints.len(),
+            still: names(&|joint| is_still(joint)),
+            moved: names(&|joint| !is_still(joint)),
             fits: !found.is_empty(),
             simpler: simpler.as_ref().map(finding),
             joints: columns.joint_names,
             seen: columns.pose_names,
             within,
-            sentence: sentence(&found, &others, spec, within, &columns.joints),
             found,
             others,
             map,

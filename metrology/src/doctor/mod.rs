@@ -1,10 +1,10 @@
 //! Finds the convention of unknown data: the interpretation under which joints and poses agree with
 //! a spec.
 //!
-//! `job` runs the search and fills the `report`, with its answer in `sentence`. `columns` reads the
-//! data, `kinematics` evaluates the spec in parts, and `alternatives` lists the interpretations
-//! that the search (`interpretations`) tries. `map_writer` writes the map of the best
-//! interpretation, `corrected_spec` the spec if it has to change.
+//! `job` runs the search and fills the `report`. `columns` reads the data, `kinematics` evaluates
+//! the spec in parts, and `alternatives` lists the interpretations that the search
+//! (`interpretations`) tries. `map_writer` writes the map of the best interpretation,
+//! `corrected_spec` the spec if it has to change.
 
 mod alternatives;
 mod columns;
@@ -13,7 +13,6 @@ mod job;
 mod kinematics;
 mod map_writer;
 mod report;
-mod sentence;
 
 pub use self::job::Doctor;
 pub use self::report::{Finding, Report};

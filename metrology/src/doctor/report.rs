@@ -46,8 +46,10 @@ pub struct Report {
     pub simpler: Option<Finding>,
     /// Best of the interpretations that do not fit.
     pub others: Vec<Finding>,
-    /// Conclusion in one sentence.
-    pub sentence: String,
+    /// Names of the joints that do not move in these rows.
+    pub still: Vec<String>,
+    /// Names of the joints that move in these rows.
+    pub moved: Vec<String>,
     /// Map of the first interpretation; `None` if no interpretation fits.
     pub map: Option<String>,
     /// Corrections that the map cannot express and that belong in the spec or the file, one

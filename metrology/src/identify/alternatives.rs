@@ -12,7 +12,7 @@ use abbe_spec::Spec;
 use nalgebra::{Cholesky, DVector, Dyn};
 use serde::Serialize;
 
-use super::chain_numbers::{ChainError, chain_errors, frame_error, phrase};
+use super::chain_numbers::{ChainError, chain_errors, error_unit, frame_error};
 use super::priors::Prior;
 use super::setup::Setup;
 
@@ -28,21 +28,17 @@ const INDEPENDENT: f64 = 1e-6;
 /// Largest distance of a target on an axis, as a share of the arm length.
 const ON_AXIS: f64 = 1e-3;
 
-/// Number of alternatives in a sentence.
-const SHOWN: usize = 3;
-
 /// Another error that explains the data as well as the named one (likelihood ratio, 95 %).
 #[derive(Clone, Debug, Serialize)]
 pub struct Alternative {
     /// Name: `zero of q5`, `a of shoulder`, `e_x of wrist`.
     pub number: String,
-    /// Value that replaces the named error, in the length unit or rad.
+    /// Value that replaces the named error, in `unit`.
     pub value: f64,
-    /// Standard deviation of the value, in the length unit or rad.
+    /// Standard deviation of the value, in `unit`.
     pub standard_deviation: f64,
-    /// Is true for an angle.
-    #[serde(skip)]
-    is_angle: bool,
+    /// Unit: the length unit, or rad.
+    pub unit: &'static str,
 }
 
 /// Significant errors of a fit.
@@ -63,33 +59,24 @@ pub(super) struct Explanations<'a> {
     candidates: Vec<ChainError>,
     /// Standard deviations of the default prior: of a length and of an angle.
     expected: [f64; 2],
-    /// Reason for alternatives that follows from the position of the target.
-    pub(super) reason: Option<String>,
 }
 
 impl<'a> Explanations<'a> {
-    pub(super) fn new(
-        spec: &'a Spec,
-        setup: &Setup,
-        model: &'a Model<'a>,
-        fit: &'a Fit,
-        rows: &[Observation],
-    ) -> Result<Self, Failure> {
+    pub(super) fn new(spec: &'a Spec, setup: &Setup, model: &'a Model<'a>, fit: &'a Fit) -> Self {
         let mut candidates = chain_errors(spec);
         let plain = spec.frames.iter().enumerate().filter(|(_, frame)| frame.convention.is_none());
         let of_frames =
             plain.flat_map(|(frame, _)| Component::ALL.map(|component| frame_error(spec, frame, component)));
         candidates.extend(of_frames.collect::<Vec<_>>());
         let share = Prior::DEFAULT_SHARE;
-        Ok(Self {
+        Self {
             spec,
             model,
             fit,
             cholesky: fit.covariance.clone().cholesky(),
             candidates,
             expected: [share * setup.arm, share],
-            reason: target_on_axis(setup, rows)?,
-        })
+        }
     }
 
     /// Returns the alternatives to one of the significant numbers, the best explanation first.
@@ -153,7 +140,7 @@ impl<'a> Explanations<'a> {
                 number: one.name.clone(),
                 value,
                 standard_deviation: relative * value.abs(),
-                is_angle: one.is_angle,
+                unit: error_unit(self.spec, one.is_angle),
             };
             alternatives.push((explained(&direction), alternative));
         }
@@ -186,25 +173,6 @@ impl<'a> Explanations<'a> {
             beside.basis.extend(rest.map(|rest| rest.normalize()));
         }
         Some(beside)
-    }
-
-    /// Formats alternatives as the end of a sentence; empty if there are none.
-    pub(super) fn sentence(&self, alternatives: &[Alternative]) -> String {
-        if alternatives.is_empty() {
-            return String::new();
-        }
-        let shown = alternatives
-            .iter()
-            .take(SHOWN)
-            .map(|one| phrase(self.spec, &one.number, one.is_angle, one.value, one.standard_deviation));
-        let shown: String = shown.map(|phrase| format!(", or {phrase}")).collect();
-        let more = match alternatives.len().saturating_sub(SHOWN) {
-            0 => String::new(),
-            1 => ", or 1 other error".to_owned(),
-            more => format!(", or one of {more} other errors"),
-        };
-        let reason = self.reason.as_ref().map_or(String::new(), |reason| format!(" ({reason})"));
-        format!("{shown}{more}: these data cannot tell which{reason}")
     }
 }
 
@@ -248,7 +216,7 @@ fn is_equal(a: &DVector<f64>, b: &DVector<f64>) -> bool {
     (a - b).norm() <= size || (a + b).norm() <= size
 }
 
-/// Returns a sentence if all targets are on the axis of the last revolute joint.
+/// Returns the name of the last revolute joint if all targets are on its axis.
 ///
 /// A rotation by θ moves a point at the distance r from the axis by `2 r sin(θ/2)`.
 pub(crate) fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Option<String>, Failure> {
@@ -272,5 +240,5 @@ pub(crate) fn target_on_axis(setup: &Setup, rows: &[Observation]) -> Result<Opti
         moved / (2.0 * (ANGLE / 2.0).sin())
     };
     let is_on_axis = model.targets.iter().all(|target| radius(target) <= ON_AXIS * setup.arm);
-    Ok(is_on_axis.then(|| format!("the target is on the axis of {}", variable.name)))
+    Ok(is_on_axis.then(|| variable.name.to_string()))
 }

@@ -13,7 +13,7 @@ use abbe_spec::{ChainNumber, Spec};
 use serde::Serialize;
 
 use super::alternatives::{Alternative, Explanations, Significant};
-use super::chain_numbers::{chain_numbers, constant_errors, is_angle, phrase};
+use super::chain_numbers::{chain_numbers, constant_errors, error_unit, is_angle};
 use super::setup::Setup;
 use super::solve::Solved;
 use super::terms::{self, ErrorSite, Term};
@@ -47,14 +47,14 @@ pub struct JointError {
     pub in_place_of: String,
     /// Name of the number: `zero of q2`, `reach`, `a of shoulder`.
     pub number: String,
-    /// Actual minus nominal value, in the length unit or rad.
+    /// Actual minus nominal value, in `unit`.
     pub value: f64,
-    /// Standard deviation of the value, in the length unit or rad.
+    /// Standard deviation of the value, in `unit`.
     pub standard_deviation: f64,
+    /// Unit: the length unit, or rad.
+    pub unit: &'static str,
     /// Other errors that explain the data as well in place of this one.
     pub alternatives: Vec<Alternative>,
-    /// Statement of the result in one sentence, with the alternatives.
-    pub sentence: String,
 }
 
 impl JointError {
@@ -110,7 +110,7 @@ impl AsJointErrors {
         Self { numbers, others, covariance: basis.covariance(), forms: basis.forms }
     }
 
-    /// Returns the significant errors, with their alternatives and a sentence each.
+    /// Returns the significant errors, with their alternatives.
     pub(super) fn joint_errors(
         &self,
         explanations: &Explanations,
@@ -202,11 +202,9 @@ impl FoundNumber {
     ) -> JointError {
         let Self { name: number, number: of, index, value, standard_deviation, .. } = self.clone();
         let in_place_of = model.name(model.unknowns[fit.identifiable.kept[index]]);
-        let spec = explanations.spec;
-        let phrase = phrase(spec, &number, is_angle(spec, of), value, standard_deviation);
+        let unit = error_unit(explanations.spec, is_angle(explanations.spec, of));
         let alternatives = explanations.alternatives(&number, value, standard_deviation, significant);
-        let sentence = format!("{phrase} ({in_place_of}){}", explanations.sentence(&alternatives));
-        JointError { in_place_of, number, value, standard_deviation, alternatives, sentence }
+        JointError { in_place_of, number, value, standard_deviation, unit, alternatives }
     }
 }
 

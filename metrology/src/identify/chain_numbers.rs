@@ -7,13 +7,8 @@ use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_spec::expr::{Dimension, Motion, Symbol};
 use abbe_spec::{ChainNumber, DhNumber, Spec};
 
-use abbe_study::number::digits;
-
 /// Number of configurations at which an error must be equal to count as constant.
 const SAMPLES: usize = 5;
-
-/// Beginning of the name of a joint's zero.
-const ZERO_OF: &str = "zero of ";
 
 /// Number of the chain that is equivalent to constant errors of one frame.
 pub(crate) struct ChainError {
@@ -51,7 +46,7 @@ pub(crate) fn frame_error(spec: &Spec, frame: usize, component: Component) -> Ch
 /// Denavit-Hartenberg numbers.
 pub(super) fn chain_numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
     let joints = spec.variables.iter().enumerate();
-    let joints = joints.map(|(i, joint)| (format!("{ZERO_OF}{}", joint.name), ChainNumber::Joint(i)));
+    let joints = joints.map(|(i, joint)| (format!("zero of {}", joint.name), ChainNumber::Joint(i)));
     let parameters = spec.parameters.iter().enumerate();
     let parameters = parameters.map(|(i, parameter)| (parameter.name.clone(), ChainNumber::Parameter(i)));
     let frames = spec.frames.iter().enumerate().filter(|(_, frame)| frame.convention.is_some());
@@ -119,21 +114,7 @@ pub(super) fn is_angle(spec: &Spec, number: ChainNumber) -> bool {
     }
 }
 
-/// Formats the error of a number, such as `a of elbow is 0.2 ± 0.01 mm less than nominal`.
-pub(super) fn phrase(
-    spec: &Spec,
-    number: &str,
-    is_angle: bool,
-    value: f64,
-    standard_deviation: f64,
-) -> String {
-    let (factor, unit) = if is_angle { (1e3, "mrad") } else { (1.0, spec.length.symbol()) };
-    let size =
-        format!("{} ± {} {unit}", digits(value.abs() * factor, 3), digits(standard_deviation * factor, 2));
-    match (number.starts_with(ZERO_OF), value < 0.0) {
-        (true, true) => format!("the {number} is offset by -{size}"),
-        (true, false) => format!("the {number} is offset by {size}"),
-        (false, true) => format!("{number} is {size} less than nominal"),
-        (false, false) => format!("{number} is {size} more than nominal"),
-    }
+/// Returns the unit of the error of a number.
+pub(super) fn error_unit(spec: &Spec, is_angle: bool) -> &'static str {
+    if is_angle { "rad" } else { spec.length.symbol() }
 }

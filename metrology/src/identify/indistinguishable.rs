@@ -4,8 +4,6 @@ use abbe::identify::{Group, Model, Reason, Unknown, groups};
 use abbe::{Component, Description, Error, VariableKind};
 use serde::Serialize;
 
-use abbe_study::number;
-
 /// Combination of unknowns that is equivalent to another, or that has no effect on the measurement.
 #[derive(Clone, Debug, Serialize)]
 pub struct Indistinguishable {
@@ -13,8 +11,34 @@ pub struct Indistinguishable {
     pub these: Vec<(String, f64)>,
     /// Equivalent combination; empty if these unknowns have no effect on the measurement.
     pub act_as: Vec<(String, f64)>,
-    /// Reason, in words.
-    pub reason: String,
+    /// Reason.
+    pub reason: IndistinguishableReason,
+}
+
+/// Reason why errors cannot be distinguished.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IndistinguishableReason {
+    /// Errors about and along the axis of this revolute joint act as those of the next frame.
+    Revolute(String),
+    /// Translations, and rotations about the axis of this prismatic joint, act as those of the
+    /// next frame.
+    Prismatic(String),
+    /// This joint does not move in these data.
+    NotMoved(String),
+    /// No joint moves this frame relative to the previous one.
+    Fixed {
+        /// Number of the frame, from 1.
+        frame: usize,
+        /// Name of the frame.
+        name: String,
+    },
+    /// The mounting of the target on the tool is unknown.
+    UnknownMounting,
+    /// Rotations about a single target do not move it.
+    SingleTarget,
+    /// The placement of the instruments is unknown: motions of the whole machine act as it.
+    UnknownPlacement,
 }
 
 /// Returns all combinations that cannot be distinguished if only the variables in `moved` move and
@@ -39,14 +63,10 @@ pub(crate) fn indistinguishable(
         let is_base = |(unknown, _): &(Unknown, f64)| matches!(unknown, Unknown::Base(..));
         !group.these.is_empty() && group.these.iter().all(is_base)
     });
-    all.extend(of_base.map(|group| {
-        Indistinguishable {
-            these: group.act_as.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect(),
-            act_as: Vec::new(),
-            reason: "the placement of the instruments is unknown: motions of the whole machine \
-                are indistinguishable from it"
-                .to_owned(),
-        }
+    all.extend(of_base.map(|group| Indistinguishable {
+        these: group.act_as.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect(),
+        act_as: Vec::new(),
+        reason: IndistinguishableReason::UnknownPlacement,
     }));
     Ok(all)
 }
@@ -59,66 +79,23 @@ impl Indistinguishable {
         Self {
             these: named(&group.these),
             act_as: named(&group.act_as),
-            reason: reason(group.reason, description),
+            reason: IndistinguishableReason::new(group.reason, description),
         }
     }
 }
 
-impl Indistinguishable {
-    /// Formats the combination as a sentence, such as `e_z1 acts as e_z2`.
-    pub fn sentence(&self) -> String {
-        let these = combination(&self.these);
-        let verb = if self.these.len() == 1 { "acts" } else { "act" };
-        if self.act_as.is_empty() {
-            format!("{these} cannot be observed")
-        } else {
-            format!("{these} {verb} as {}", combination(&self.act_as))
+impl IndistinguishableReason {
+    fn new(reason: Reason, description: &Description) -> Self {
+        let name = |variable: usize| description.variables[variable].name.to_string();
+        match reason {
+            Reason::Commutes(variable) => match description.variables[variable].kind {
+                VariableKind::Revolute => Self::Revolute(name(variable)),
+                VariableKind::Prismatic => Self::Prismatic(name(variable)),
+            },
+            Reason::Still(variable) => Self::NotMoved(name(variable)),
+            Reason::Fixed(i) => Self::Fixed { frame: i + 1, name: description.frames[i].name.to_string() },
+            Reason::Tool => Self::UnknownMounting,
+            Reason::Unseen => Self::SingleTarget,
         }
-    }
-}
-
-/// Formats a combination, such as `e_r2 − 425 e_y2`.
-pub(super) fn combination(terms: &[(String, f64)]) -> String {
-    let mut text = String::new();
-    for (name, factor) in terms {
-        let size = number::digits(factor.abs(), 4);
-        let factor_text = if size == "1" { String::new() } else { format!("{size} ") };
-        let sign = match (text.is_empty(), *factor < 0.0) {
-            (true, false) => "",
-            (true, true) => "−",
-            (false, false) => " + ",
-            (false, true) => " − ",
-        };
-        text += &format!("{sign}{factor_text}{name}");
-    }
-    text
-}
-
-/// Describes the reason with the names of the spec.
-fn reason(reason: Reason, description: &Description) -> String {
-    let name = |variable: usize| &description.variables[variable].name;
-    match reason {
-        Reason::Commutes(variable) => match description.variables[variable].kind {
-            VariableKind::Revolute => {
-                format!(
-                    "{} is revolute: errors about and along its axis are indistinguishable from \
-                     those of the next frame",
-                    name(variable)
-                )
-            }
-            VariableKind::Prismatic => {
-                format!(
-                    "{} is prismatic: translations, and rotations about its axis, are \
-                     indistinguishable from those of the next frame",
-                    name(variable)
-                )
-            }
-        },
-        Reason::Still(variable) => format!("{} does not move in these data", name(variable)),
-        Reason::Fixed(frame) => {
-            format!("the frame {} ({}) is fixed", frame + 1, description.frames[frame].name)
-        }
-        Reason::Tool => "the mounting of the target on the tool is unknown".to_owned(),
-        Reason::Unseen => "rotations about a single target do not move it".to_owned(),
     }
 }

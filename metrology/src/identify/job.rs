@@ -12,7 +12,7 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::alternatives::Explanations;
+use super::alternatives::{Explanations, target_on_axis};
 use super::as_joint_errors::AsJointErrors;
 use super::between_stations::include_between_stations;
 use super::candidates::competing;
@@ -262,7 +262,7 @@ fn report(
     let difference = joint_errors.difference(spec, setup, solved, rows);
     let difference = difference.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let converted = Some(&joint_errors).filter(|_| difference <= CONVERSION_TOLERANCE * left);
-    let explanations = Explanations::new(spec, setup, model, fit, rows).map_err(fail)?;
+    let explanations = Explanations::new(spec, setup, model, fit);
     let joint_errors = joint_errors.joint_errors(&explanations, model, fit);
     let found = FoundModel {
         derived: derived.to_vec(),
@@ -278,8 +278,7 @@ fn report(
         // The fit is not lost.
         Err(mistake) => (Some(not_read_back(&mistake)), None),
     };
-    let drift_test = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
-    let drift_test = drift_test.map_err(|failure| mistake::whole(&data.file, &failure))?;
+    let drift = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x).map_err(fail)?;
     let extrapolation = |test: &Data| match &written {
         Some(written) => {
             TestExtrapolation::new(&found.fitted, &found.as_written(spec, test), Some(&written.machine))
@@ -308,6 +307,7 @@ fn report(
         weakly_determined: WeaklyDetermined::all(model, identifiable, spec.length),
         groups,
         joint_errors,
+        target_on_axis: target_on_axis(setup, rows).map_err(fail)?,
         magnitudes: magnitudes(spec, solved),
         parameters,
         redundant: identifiable
@@ -348,7 +348,7 @@ fn report(
             .collect(),
         tried: chosen.tried,
         profiles: solved.profiles.clone(),
-        drift: drift_test.map(|drift| ResidualDrift::new(drift, setup.description.length)),
+        drift: drift.map(ResidualDrift::new),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,
         notes: solved

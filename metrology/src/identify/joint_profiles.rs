@@ -1,13 +1,11 @@
 //! Profiles of joints as results: for the report, and by name for the spec.
 
-use abbe_spec::Spec;
-use abbe_spec::expr::Symbol;
 use serde::Serialize;
 
 use super::gain::Gain;
 use super::profile_table::ProfileTable;
 use crate::sizes::Sizes;
-use abbe_study::number::{self, digits};
+use abbe_study::number::digits;
 
 /// Profiles of joints, and the accuracy with and without them.
 #[derive(Clone, Debug, Serialize)]
@@ -25,8 +23,6 @@ pub struct JointProfiles {
     pub standard_deviation: f64,
     /// Profile of each joint that has one.
     pub joints: Vec<JointProfile>,
-    /// Statement of the result in one sentence.
-    pub sentence: String,
 }
 
 /// Profile of a joint.
@@ -49,28 +45,6 @@ pub struct JointProfile {
     pub variable: usize,
     #[serde(skip)]
     pub(super) table: ProfileTable,
-}
-
-impl JointProfiles {
-    pub(super) fn sentence(&self, spec: &Spec) -> String {
-        let length = |value: f64| number::length(value, spec.length);
-        let joint = |one: &JointProfile| {
-            let [from, to] =
-                one.range.map(|end| number::of_symbol(end, Symbol::Variable(one.variable), spec));
-            format!("{} ({from} … {to})", one.joint)
-        };
-        let joints: Vec<String> = self.joints.iter().map(joint).collect();
-        let p = if self.gain.p < 1e-12 { "below 1e-12".to_owned() } else { digits(self.gain.p, 2) };
-        format!(
-            "Joint profiles reduce the mean cross-validation error from {} to {} (paired by configuration, p \
-             {p}) and add {} to the standard deviation of the tool point: {}. Beyond these ranges the value \
-             at the end holds; only rows over whole turns give whole profiles.",
-            length(self.before.mean),
-            length(self.after.mean),
-            length(self.standard_deviation),
-            joints.join(", ")
-        )
-    }
 }
 
 impl JointProfile {

@@ -94,7 +94,7 @@ pub use families::{Family, Harmonics};
 pub use found_model::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use found_placement::{FoundInstrument, FoundPlacement, FoundStation, PlacementAtStation};
 pub use gain::Gain;
-pub use indistinguishable::Indistinguishable;
+pub use indistinguishable::{Indistinguishable, IndistinguishableReason};
 pub use instruments::InstrumentFit;
 pub use job::Identify;
 pub use joint_profiles::{JointProfile, JointProfiles};

@@ -3,13 +3,11 @@
 use abbe::identify::{Camera, FixtureGeometry, Unknown};
 use abbe_spec::Spec;
 
-use super::indistinguishable::combination;
 use super::magnitude::OwnMagnitude;
 use super::report::{Kind, Magnitude, Parameter};
 use super::setup::Setup;
 use super::solve::Solved;
 use abbe_study::IsoAxis;
-use abbe_study::number::digits;
 
 /// Returns the identified magnitudes of the sources of the spec.
 pub(super) fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
@@ -22,37 +20,17 @@ pub(super) fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
         let declared_deviation = own.declared.standard_deviation;
         let standard_deviation = k.and_then(|k| deviations[k]);
         let value = declared + k.map_or(0.0, |k| fit.x[k]);
-        let before = match declared_deviation {
-            Some(deviation) => format!("{} ± {}", digits(declared, 3), digits(deviation, 2)),
-            None => digits(declared, 3),
-        };
-        let stands_for: Vec<(String, f64)> = k.map_or(Vec::new(), |k| solved.held_magnitudes(spec, k));
-        let combination = match &stands_for[..] {
-            [] => String::new(),
-            others => {
-                let own = (source.clone(), 1.0);
-                let all = std::iter::once(own).chain(others.iter().cloned()).collect::<Vec<_>>();
-                format!("; these data determine the combination {} only", combination(&all))
-            }
-        };
-        let sentence = match standard_deviation {
-            Some(deviation) if k.is_some_and(|k| fit.weakly_determined().contains(&k)) => format!(
-                "the magnitude of {source} is {} ± {}, which these data determine less well than \
-                 the spec: {before}",
-                digits(value, 3),
-                digits(deviation, 2)
-            ),
-            Some(deviation) => format!(
-                "the magnitude of {source} is {} ± {} (in the spec: {before}){combination}",
-                digits(value, 4),
-                digits(deviation, 2)
-            ),
-            None => format!(
-                "the magnitude of {source} is indistinguishable from other errors in these data; \
-                 in the spec: {before}"
-            ),
-        };
-        Magnitude { source, declared, declared_deviation, value, standard_deviation, stands_for, sentence }
+        let stands_for = k.map_or(Vec::new(), |k| solved.held_magnitudes(spec, k));
+        let prior_dominated = k.is_some_and(|k| fit.weakly_determined().contains(&k));
+        Magnitude {
+            source,
+            declared,
+            declared_deviation,
+            value,
+            standard_deviation,
+            stands_for,
+            prior_dominated,
+        }
     };
     own.iter().map(one).collect()
 }

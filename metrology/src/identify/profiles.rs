@@ -247,16 +247,14 @@ impl FoundProfiles {
         joints.iter_mut().for_each(|joint| joint.standard_deviation *= sigma);
         let deviation = tool_point_deviation(spec, &setup, &data.observations, &joints).map_err(fail)?;
         let [before, after] = [&first.cross_validated, &self.fitted.cross_validated].map(Distances::figures);
-        let mut profiles = JointProfiles {
+        let profiles = JointProfiles {
             before: before.into(),
             after: after.into(),
             gain: self.comparison.into(),
             effective: self.fitted.effective(),
             standard_deviation: deviation,
             joints,
-            sentence: String::new(),
         };
-        profiles.sentence = profiles.sentence(spec);
         let (simple, simple_x) = (first.simple, first.simple_x);
         let cross_validated = self.fitted.cross_validated;
         Ok((setup, Solved { simple, simple_x, cross_validated, profiles: Some(profiles), ..solved }))

@@ -55,6 +55,9 @@ pub struct Report {
     /// Significant errors expressed as errors of joint zeros, parameters and Denavit-Hartenberg
     /// numbers.
     pub joint_errors: Vec<JointError>,
+    /// Last revolute joint, if all targets are on its axis; some errors cannot be distinguished
+    /// then.
+    pub target_on_axis: Option<String>,
     /// Errors that these data determine poorly compared with their prior; they are fixed at zero.
     pub weakly_determined: Vec<WeaklyDetermined>,
     /// Magnitudes of sources of the spec that were unknown.
@@ -236,8 +239,9 @@ pub struct Magnitude {
     /// Magnitudes fixed at their declared values that act as this one in these data, with their
     /// factors: the value stands for this magnitude plus their sum.
     pub stands_for: Vec<(String, f64)>,
-    /// Statement of the result in one sentence.
-    pub sentence: String,
+    /// Is true if the standard deviation exceeds half of the declared one: the data contribute
+    /// little.
+    pub prior_dominated: bool,
 }
 
 /// Unknown that is fixed at zero, and the combination it is equivalent to.

@@ -238,9 +238,8 @@ impl Measure {
         if !map.states_uncertainty() {
             (evaluated.explained.inside, evaluated.explained.likely) = (None, None);
         }
-        let residual_drift = drift(&setup.real, rows, &[]);
-        let residual_drift =
-            residual_drift.map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
+        let drift = drift(&setup.real, rows, &[])
+            .map_err(|failure| mistake::whole(&evaluated.data.file, &failure))?;
         let file = evaluated.data.file.clone();
         let report = Report {
             name: machine.spec.name.clone(),
@@ -258,7 +257,7 @@ impl Measure {
             repeated: iso9283::repeated(&evaluated.visits, setup.pose || setup.ideal.targets_of(0).len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
-            drift: residual_drift.map(|drift| ResidualDrift::new(drift, setup.description.length)),
+            drift: drift.map(ResidualDrift::new),
             unusable: evaluated.data.unusable.len(),
             record: map.record.with_options(self.options()),
             file: evaluated.data.summary(),

@@ -24,10 +24,56 @@ pub fn doctor(report: &Report) -> Document {
     facts.extend(some("In spec", of_spec, SHOWN));
     Document {
         kind: "Diagnosis of data",
-        headline: report.sentence.clone(),
+        headline: conclusion(report),
         sections: vec![Section::answer().facts(facts), details(report)],
         ..Document::default()
     }
+}
+
+/// States the interpretation that fits, or the one that comes closest.
+fn conclusion(report: &Report) -> String {
+    let Report { found, others, length, .. } = report;
+    let (first, rest) = match &found[..] {
+        [] => {
+            let nearest =
+                others.first().map_or("no interpretation of these columns fits".to_owned(), |one| {
+                    let turns = one.angle.map_or(String::new(), |angle| {
+                        format!(
+                            " of the positions and {}° of the orientations",
+                            digits(angle.to_degrees(), 3)
+                        )
+                    });
+                    let [left, within] = [one.residual, report.within].map(|value| digits(value, 3));
+                    format!("the closest leaves {left} {length}{turns}, and the limit is {within} {length}")
+                });
+            return format!("No interpretation fits: {nearest}. {}", advice(report));
+        }
+        [first, rest @ ..] => (first, rest.len()),
+    };
+    let (error, words) = (digits(first.residual, 3), &first.words);
+    match rest {
+        0 => format!("One interpretation fits, with an error of {error} {length}: {words}."),
+        _ => format!(
+            "{} interpretations fit these rows equally well; the simplest has an error of {error} \
+             {length}: {words}.",
+            rest + 1
+        ),
+    }
+}
+
+/// States what to check if no interpretation fits.
+fn advice(report: &Report) -> String {
+    let Report { still, moved, .. } = report;
+    if still.is_empty() {
+        return "Check that these are data of this machine, and which columns are the joints.".to_owned();
+    }
+    let verb = if still.len() == 1 { "does" } else { "do" };
+    format!(
+        "{} {verb} not move in these rows, only {}: too little to tell whether they are data of this \
+         machine. Use rows in which every joint moves.",
+        still.join(", "),
+        moved.join(", ")
+    )
 }
 
 fn details(report: &Report) -> Section {

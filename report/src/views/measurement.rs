@@ -7,7 +7,7 @@ use abbe_spec::option::IDENTIFY_OUT;
 use abbe_study::number::{counted, digits, error_unit, fixed, percent};
 
 use super::shared::{
-    accepted, data_rows, extrapolated, first_rows, instrument, other_tool, residual_verdict,
+    accepted, data_rows, drift_clauses, extrapolated, first_rows, instrument, other_tool, residual_verdict,
 };
 use crate::document::{Card, Document, Section, Table, number, words};
 use crate::figures::measured;
@@ -158,7 +158,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         facts.push(("Distance", format!("corner to line of sight {mean} mean, {max} max")));
     }
     facts.extend(agreement(report));
-    facts.extend(report.drift.iter().map(|order| ("Drift", order.sentence.clone())));
+    facts.extend(report.drift.iter().map(|order| ("Drift", drift_clauses(order, report.unit).concat())));
     facts.extend(report.other_tool.iter().map(|tool| ("Tool", other_tool(tool, report.length))));
     facts.extend(report.extrapolated.iter().map(|rows| ("Outside", extrapolated(rows))));
     if report.base_fitted {

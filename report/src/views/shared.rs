@@ -3,8 +3,9 @@
 use abbe::LengthUnit;
 use abbe_metrology::AcceptanceVerdict;
 use abbe_metrology::data::{Base, Layout, Map, Summary};
+use abbe_metrology::identify::ResidualDrift;
 use abbe_spec::Spec;
-use abbe_study::number::{digits, error_unit, quantity, short, unbroken};
+use abbe_study::number::{digits, error_unit, length, percent, quantity, short, unbroken};
 use abbe_study::{Extrapolation, OtherTool};
 
 use crate::document::{Section, Verdict, first, joined};
@@ -82,6 +83,48 @@ pub(super) fn residual_verdict(factor: f64, p: f64, missing: &str, or: &str) -> 
              better than stated{or}."
         ),
     }
+}
+
+/// States the drift of residuals: the first clause, and the rest.
+pub(super) fn drift_clauses(drift: &ResidualDrift, unit: LengthUnit) -> [String; 2] {
+    let lag = digits(drift.lag_1, 2);
+    let what = match drift.follows {
+        "distance" => "their distance".to_owned(),
+        axis => format!("along {axis}"),
+    };
+    let by = length(drift.change.abs(), unit);
+    let [first, last] = drift.ends.map(|end| length(end, unit));
+    let ends = format!("Mean error of the first tenth of the rows {first}, of the last {last}.");
+    let [summary, rest] = match (drift.is_drift, drift.settling) {
+        (true, Some(share)) => [
+            format!(
+                "The residuals may settle with time, {what} by {by} with a time constant of {} of the run",
+                percent(share, 1.0)
+            ),
+            format!(
+                "; the machine may be warming up, or a mounting settling. {ends} Measure when the machine \
+                 is warm, or leave the first rows out."
+            ),
+        ],
+        (true, None) => [
+            format!("The residuals may drift with time, {what} by {by} from the first row to the last"),
+            format!(". {ends}"),
+        ],
+        (false, _) if drift.p_of_lag_1 <= drift.false_alarms => [
+            format!("The residuals show no drift, but successive rows are correlated ({lag})"),
+            ": the machine may have errors that the model does not have and that change slowly along the \
+             measured path. Standard deviations may be too small."
+                .to_owned(),
+        ],
+        _ => {
+            return ["The residuals show no drift with the order of the rows", "."].map(str::to_owned);
+        }
+    };
+    let test = format!(
+        " Correlation of successive rows {lag} (permutation test, false-alarm rate 1 in {:.0}).",
+        1.0 / drift.false_alarms
+    );
+    [summary, rest + &test]
 }
 
 /// Returns the facts about the instrument and what it measures.

@@ -294,7 +294,7 @@ fn two_targets_need_another_one() {
     let mounting = planned_by(&tracked(exact, &two)).mounting.expect("hidden numbers");
     println!("{}\n{}", mounting.statement, mounting.advice);
     assert_eq!(mounting.statement, "these rows cannot tell e_s of A6 (about y) from a of A6");
-    assert!(mounting.is_additional && mounting.reason.is_none());
+    assert!(mounting.is_additional && mounting.target_on_axis.is_none());
     assert!(mounting.advice.starts_with("an additional target at ("), "{}", mounting.advice);
     assert!(mounting.advice.contains("from the first one, known exactly: "), "{}", mounting.advice);
     let [x, y, z] = mounting.position.map(|x| format!("\"{x} mm\""));

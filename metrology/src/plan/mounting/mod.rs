@@ -124,7 +124,7 @@ impl Assessed<'_> {
             }
         };
         let mut mounted = TargetMounting {
-            reason: target_on_axis(self.setup, rows)?,
+            target_on_axis: target_on_axis(self.setup, rows)?,
             numbers: place.named.iter().map(number).collect(),
             position: std::array::from_fn(|i| mounting.planned[i] + place.by[i]),
             distance: length(place.by),

@@ -6,8 +6,8 @@ use serde::Serialize;
 /// them.
 #[derive(Clone, Debug, Serialize)]
 pub struct TargetMounting {
-    /// Reason, if it is known: `the target is on the axis of q6`.
-    pub reason: Option<String>,
+    /// Last revolute joint, if all targets are on its axis.
+    pub target_on_axis: Option<String>,
     /// Hidden numbers, then those that they are confused with.
     pub numbers: Vec<HiddenNumber>,
     /// Advised position of a target in the frame of the tool, in the length unit.

@@ -45,8 +45,8 @@ pub(super) fn statement(mounting: &TargetMounting) -> String {
     let larger = named.iter().filter(|group| group.len() > 2);
     phrases.extend(larger.map(|group| format!("tell {} apart", all(group))));
     let hidden = format!("these rows cannot {}", phrases.join(", or "));
-    match &mounting.reason {
-        Some(reason) => format!("{reason}: {hidden}"),
+    match &mounting.target_on_axis {
+        Some(joint) => format!("the target is on the axis of {joint}: {hidden}"),
         None => hidden,
     }
 }

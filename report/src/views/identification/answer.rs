@@ -6,7 +6,7 @@ use abbe_spec::option::FULL;
 use abbe_study::number::{counted, digits, error_unit, fixed};
 
 use crate::document::{Section, Table, first, number, words};
-use crate::views::shared::{angle_in_mrad, first_notes, first_rows, residual_verdict};
+use crate::views::shared::{angle_in_mrad, drift_clauses, first_notes, first_rows, residual_verdict};
 
 /// Number of errors on the first screen.
 const SHOWN: usize = 5;
@@ -168,7 +168,9 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
     facts.extend(extrapolation(report).map(|sentence| ("Outside", sentence)));
     let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.p_of_lag_1 <= drift.false_alarms;
     let drift = report.drift.iter().filter(is_found);
-    facts.extend(drift.map(|drift| ("Drift", format!("{}; see {FULL}", drift.summary))));
+    facts.extend(
+        drift.map(|drift| ("Drift", format!("{}; see {FULL}", drift_clauses(drift, spec.length)[0]))),
+    );
     facts.extend(first_rows(&report.files));
     facts.extend(first_notes(&report.notes));
     facts

@@ -2,18 +2,21 @@
 
 mod accuracy;
 mod answer;
+mod errors;
+mod indistinguishable;
 
 use abbe_metrology::data::Map;
-use abbe_metrology::identify::{Indistinguishable, Kind, Parameter, Report, Sizes};
+use abbe_metrology::identify::{Kind, Report, Sizes};
 use abbe_spec::Spec;
-use abbe_spec::option::PRIOR;
 use abbe_study::number::{digits, error_unit, fixed};
 
-use super::shared::{NOTES, accepted, angle_in_mrad, data_rows, instrument, notes};
-use crate::document::{Card, Document, Section, Table, joined, number, words};
+use super::shared::{NOTES, accepted, data_rows, instrument, notes};
+use crate::document::{Card, Document, Section};
 use crate::figures::residuals::{ErrorNames, Residual, scenes};
 use accuracy::{accuracy, profiles, terms};
-use answer::{answer, estimate, headline, of_machine, significance};
+use answer::{answer, headline};
+use errors::{estimates, machine};
+pub(super) use indistinguishable::indistinguishable;
 
 /// Describes an identification; `spec` and `map` are those of the job.
 pub fn identification(spec: &Spec, map: &Map, report: &Report) -> Document {
@@ -85,71 +88,6 @@ fn figures(spec: &Spec, report: &Report) -> Vec<Section> {
     vec![section("Rows of the fit, without outliers", false), section("Test rows", true)]
 }
 
-fn machine(report: &Report) -> Section {
-    let correlated = report.correlations.iter().take(8);
-    let correlated =
-        correlated.map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)));
-    let more = match report.correlations.len().saturating_sub(8) {
-        0 => String::new(),
-        more => format!("; {more} more pairs"),
-    };
-    let correlated = (!report.correlations.is_empty())
-        .then(|| format!("Correlated by more than 0.9: {}{more}.", joined(correlated)));
-    let prior = report.parameters.iter().any(|parameter| parameter.prior_dominated).then(|| {
-        format!("Prior-dominated: the prior has more influence on these errors than the data (`{PRIOR}`).")
-    });
-    let meanings = report.joint_errors.iter().map(|meaning| meaning.sentence.clone());
-    let magnitudes = report.magnitudes.iter().map(|one| one.sentence.clone());
-    Section::full("Errors of the machine")
-        .table(estimates(report, "All others are fixed at zero", of_machine(report)))
-        .list(
-            "equivalent_errors",
-            "Equivalent joint offsets and DH errors (in place of the error in brackets)",
-            meanings.collect(),
-        )
-        .list("magnitudes", "Estimated magnitudes of sources of the spec", magnitudes.collect())
-        .state("prior_dominated", prior)
-        .state("poorly_determined", poorly_determined(report))
-        .state("correlated", correlated)
-}
-
-/// Lists estimates with their standard deviations.
-fn estimates<'r>(report: &Report, caption: &str, parameters: impl Iterator<Item = &'r Parameter>) -> Table {
-    let columns =
-        [words("error"), words("of"), number("value"), number("σ"), words(""), number("value/σ"), words("")];
-    Table::new(caption, columns).rows(parameters.map(|parameter| {
-        let [value, deviation, unit] = estimate(report, parameter);
-        let name = match &parameter.iso {
-            Some(iso) => format!("{} ({iso})", parameter.name),
-            None => parameter.name.clone(),
-        };
-        let significance = fixed(significance(parameter).min(9999.0), 1);
-        let remark = if parameter.prior_dominated { "prior-dominated" } else { "" };
-        let frame = parameter.frame_name.clone().unwrap_or_default();
-        [name, frame, value, deviation, unit, significance, remark.to_owned()]
-    }))
-}
-
-/// Lists errors that are fixed at zero because the data determine them poorly.
-fn poorly_determined(report: &Report) -> Option<String> {
-    let all = report.weakly_determined.iter().map(|one| {
-        let (factor, unit) = angle_in_mrad(one.unit);
-        let [deviation, expected] =
-            [one.standard_deviation, one.expected].map(|value| digits(value * factor, 2));
-        format!("{} (± {deviation} {unit}, expected ± {expected} {unit})", one.name)
-    });
-    (!report.weakly_determined.is_empty()).then(|| {
-        format!(
-            "Poorly determined by these data; fixed at zero and not written: {}. In brackets the \
-             standard deviation from the data, which is more than half of the expected one. Other \
-             configurations, a target farther from the axes or a better instrument determine them: \
-             `abbe plan {}` predicts how well.",
-            joined(all),
-            report.name
-        )
-    })
-}
-
 /// Lists the placement of the machine and of what is mounted on its tool.
 fn placement(report: &Report) -> Section {
     let placed = report.parameters.iter().filter(|parameter| parameter.kind != Kind::Machine);
@@ -196,16 +134,4 @@ fn identifiable(report: &Report) -> Section {
                  (columns of unit length)."
             ),
         )
-}
-
-/// Lists unknowns that cannot be distinguished, by the reason.
-pub(super) fn indistinguishable(groups: &[Indistinguishable]) -> Table {
-    let mut reasons: Vec<[String; 2]> = Vec::new();
-    for group in groups {
-        match reasons.last_mut() {
-            Some([reason, all]) if *reason == group.reason => *all += &format!("\n{}", group.sentence()),
-            _ => reasons.push([group.reason.clone(), group.sentence()]),
-        }
-    }
-    Table::new("", [words("because"), words("indistinguishable errors")]).rows(reasons)
 }

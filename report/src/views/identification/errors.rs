@@ -1,0 +1,147 @@
+//! Errors of the machine: estimates, equivalent errors of joints, and magnitudes of sources.
+
+use abbe_metrology::identify::{JointError, Magnitude, Parameter, Report};
+use abbe_spec::option::PRIOR;
+use abbe_study::number::{digits, fixed};
+
+use super::answer::{estimate, of_machine, significance};
+use super::indistinguishable::combination;
+use crate::document::{Section, Table, joined, number, words};
+use crate::views::shared::angle_in_mrad;
+
+/// Number of alternatives in a sentence.
+const SHOWN: usize = 3;
+
+pub(super) fn machine(report: &Report) -> Section {
+    let correlated = report.correlations.iter().take(8);
+    let correlated =
+        correlated.map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)));
+    let more = match report.correlations.len().saturating_sub(8) {
+        0 => String::new(),
+        more => format!("; {more} more pairs"),
+    };
+    let correlated = (!report.correlations.is_empty())
+        .then(|| format!("Correlated by more than 0.9: {}{more}.", joined(correlated)));
+    let prior = report.parameters.iter().any(|parameter| parameter.prior_dominated).then(|| {
+        format!("Prior-dominated: the prior has more influence on these errors than the data (`{PRIOR}`).")
+    });
+    let joint_errors = report.joint_errors.iter().map(|error| joint_error(error, report));
+    Section::full("Errors of the machine")
+        .table(estimates(report, "All others are fixed at zero", of_machine(report)))
+        .list(
+            "equivalent_errors",
+            "Equivalent joint offsets and DH errors (in place of the error in brackets)",
+            joint_errors.collect(),
+        )
+        .list(
+            "magnitudes",
+            "Estimated magnitudes of sources of the spec",
+            report.magnitudes.iter().map(magnitude).collect(),
+        )
+        .state("prior_dominated", prior)
+        .state("poorly_determined", poorly_determined(report))
+        .state("correlated", correlated)
+}
+
+/// Lists estimates with their standard deviations.
+pub(super) fn estimates<'r>(
+    report: &Report,
+    caption: &str,
+    parameters: impl Iterator<Item = &'r Parameter>,
+) -> Table {
+    let columns =
+        [words("error"), words("of"), number("value"), number("σ"), words(""), number("value/σ"), words("")];
+    Table::new(caption, columns).rows(parameters.map(|parameter| {
+        let [value, deviation, unit] = estimate(report, parameter);
+        let name = match &parameter.iso {
+            Some(iso) => format!("{} ({iso})", parameter.name),
+            None => parameter.name.clone(),
+        };
+        let significance = fixed(significance(parameter).min(9999.0), 1);
+        let remark = if parameter.prior_dominated { "prior-dominated" } else { "" };
+        let frame = parameter.frame_name.clone().unwrap_or_default();
+        [name, frame, value, deviation, unit, significance, remark.to_owned()]
+    }))
+}
+
+/// Lists errors that are fixed at zero because the data determine them poorly.
+fn poorly_determined(report: &Report) -> Option<String> {
+    let all = report.weakly_determined.iter().map(|one| {
+        let (factor, unit) = angle_in_mrad(one.unit);
+        let [deviation, expected] =
+            [one.standard_deviation, one.expected].map(|value| digits(value * factor, 2));
+        format!("{} (± {deviation} {unit}, expected ± {expected} {unit})", one.name)
+    });
+    (!report.weakly_determined.is_empty()).then(|| {
+        format!(
+            "Poorly determined by these data; fixed at zero and not written: {}. In brackets the \
+             standard deviation from the data, which is more than half of the expected one. Other \
+             configurations, a target farther from the axes or a better instrument determine them: \
+             `abbe plan {}` predicts how well.",
+            joined(all),
+            report.name
+        )
+    })
+}
+
+/// States a joint error with its alternatives.
+fn joint_error(error: &JointError, report: &Report) -> String {
+    let JointError { in_place_of, number, value, standard_deviation, unit, alternatives } = error;
+    let named = number_error(number, *value, *standard_deviation, unit);
+    if alternatives.is_empty() {
+        return format!("{named} ({in_place_of})");
+    }
+    let shown = alternatives.iter().take(SHOWN);
+    let shown = shown.map(|one| number_error(&one.number, one.value, one.standard_deviation, one.unit));
+    let shown: String = shown.map(|other| format!(", or {other}")).collect();
+    let more = match alternatives.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        1 => ", or 1 other error".to_owned(),
+        more => format!(", or one of {more} other errors"),
+    };
+    let on_axis = report.target_on_axis.iter();
+    let reason: String = on_axis.map(|joint| format!(" (the target is on the axis of {joint})")).collect();
+    format!("{named} ({in_place_of}){shown}{more}: these data cannot tell which{reason}")
+}
+
+/// States the error of a number, such as `a of elbow is 0.2 ± 0.01 mm less than nominal`.
+fn number_error(name: &str, value: f64, standard_deviation: f64, unit: &'static str) -> String {
+    let (factor, unit) = angle_in_mrad(unit);
+    let size =
+        format!("{} ± {} {unit}", digits(value.abs() * factor, 3), digits(standard_deviation * factor, 2));
+    match (name.starts_with("zero of "), value < 0.0) {
+        (true, true) => format!("the {name} is offset by -{size}"),
+        (true, false) => format!("the {name} is offset by {size}"),
+        (false, true) => format!("{name} is {size} less than nominal"),
+        (false, false) => format!("{name} is {size} more than nominal"),
+    }
+}
+
+/// States the magnitude of a source.
+fn magnitude(found: &Magnitude) -> String {
+    let Magnitude { source, declared, declared_deviation, value, standard_deviation, stands_for, .. } = found;
+    let deviation = declared_deviation.map(|deviation| format!(" ± {}", digits(deviation, 2)));
+    let before = digits(*declared, 3) + &deviation.unwrap_or_default();
+    let Some(deviation) = standard_deviation.map(|deviation| digits(deviation, 2)) else {
+        return format!(
+            "the magnitude of {source} is indistinguishable from other errors in these data; in the \
+             spec: {before}"
+        );
+    };
+    if found.prior_dominated {
+        return format!(
+            "the magnitude of {source} is {} ± {deviation}, which these data determine less well than \
+             the spec: {before}",
+            digits(*value, 3)
+        );
+    }
+    let combined = (!stands_for.is_empty()).then(|| {
+        let all = [&[(source.clone(), 1.0)], &stands_for[..]].concat();
+        format!("; these data determine the combination {} only", combination(&all))
+    });
+    format!(
+        "the magnitude of {source} is {} ± {deviation} (in the spec: {before}){}",
+        digits(*value, 4),
+        combined.unwrap_or_default()
+    )
+}
