@@ -6,6 +6,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::TERMS;
 
 use super::report::Compared;
+use super::setup::Setup;
 use super::solve::Solved;
 use crate::data::Data;
 use abbe_study::{mistake, number};
@@ -46,6 +47,30 @@ pub(super) fn compare(
         gain: gain.into(),
         gain_of_terms,
     })
+}
+
+/// Returns an error if the fit ends worse than it began: the model then does not describe these
+/// data.
+pub(super) fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup) -> Result<(), Diagnostics> {
+    let (before, after) = (compared.before.rms, compared.after.rms);
+    if after <= 1.5 * before || after <= 10.0 * setup.real.uncertainty.length {
+        return Ok(());
+    }
+    let length = |value| number::length(value, setup.description.length);
+    let message = format!(
+        "the fit increases the errors: the root mean square is {} with the nominal machine and {} \
+         with the fitted one",
+        length(before),
+        length(after)
+    );
+    let help = match setup.pose {
+        true => {
+            "check the orientation convention and `angle_uncertainty`: positions and orientations \
+             contradict each other"
+        }
+        false => "check `uncertainty`, and check that these are measurements of this machine",
+    };
+    Err(mistake::with_help(&data.file, message, help))
 }
 
 impl Compared {

@@ -1,9 +1,12 @@
 //! Test rows outside the fitted ranges, and the uncertainty of the machine there.
 
+use std::borrow::Cow;
+
 use abbe_interpreter::Interpreter;
-use abbe_spec::Fitted;
+use abbe_spec::Spec;
 use serde::Serialize;
 
+use super::found_model::FoundModel;
 use crate::data::Data;
 use abbe_study::extrapolation::ToolPointDeviation;
 
@@ -17,14 +20,19 @@ pub struct TestExtrapolation {
 }
 
 impl TestExtrapolation {
-    /// Returns none if there are no such rows. `test` has the inputs of the written spec, if it was
-    /// written.
+    /// Returns none if there are no such rows. `written` is the machine of the written spec.
     ///
     /// The deviations follow from the covariance of the written spec, as in `measure`. Errors that
     /// the model lacks are not included.
-    pub(super) fn new(fitted: &[Fitted], test: &Data, written: Option<&Interpreter>) -> Option<Self> {
+    pub(super) fn new(
+        found: &FoundModel,
+        spec: &Spec,
+        test: &Data,
+        written: Option<&Interpreter>,
+    ) -> Option<Self> {
+        let test = written.map_or(Cow::Borrowed(test), |_| found.as_written(spec, test));
         let places = test.observations.iter().map(|row| (&row.q[..], &row.u[..]));
-        let fitted = written.map_or(fitted, |written| &written.spec().fitted);
+        let fitted = written.map_or(&found.fitted, |written| &written.spec().fitted);
         let outside = places.filter(|(q, u)| fitted.iter().any(|range| range.is_outside(q, u)));
         let outside = outside.collect::<Vec<_>>();
         if outside.is_empty() {

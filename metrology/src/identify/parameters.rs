@@ -1,10 +1,10 @@
 //! Values of the identified unknowns, for the report.
 
-use abbe::identify::{Camera, FixtureGeometry, Unknown};
+use abbe::identify::{Camera, Fit, FixtureGeometry, Identifiable, Model, Unknown};
 use abbe_spec::Spec;
 
 use super::magnitude::OwnMagnitude;
-use super::report::{Kind, Magnitude, Parameter};
+use super::report::{Kind, Magnitude, Pair, Parameter, Redundant};
 use super::setup::Setup;
 use super::solve::Solved;
 use abbe_study::IsoAxis;
@@ -80,4 +80,21 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Par
         }
     };
     fit.identifiable.kept.iter().map(parameter).collect()
+}
+
+/// Returns the unknowns that are fixed at zero because they are equivalent to kept ones.
+pub(super) fn redundant(model: &Model, identifiable: &Identifiable) -> Vec<Redundant> {
+    let name = |k: &usize| model.name(model.unknowns[*k]);
+    let one = |(k, acts_as): &(usize, Vec<(usize, f64)>)| Redundant {
+        name: name(k),
+        acts_as: acts_as.iter().map(|(j, factor)| (name(j), *factor)).collect(),
+    };
+    identifiable.redundant.iter().map(one).collect()
+}
+
+/// Returns the pairs of parameters with an absolute correlation above 0.9.
+pub(super) fn correlated(model: &Model, fit: &Fit) -> Vec<Pair> {
+    let name = |k: usize| model.name(model.unknowns[k]);
+    let pairs = fit.correlations(0.9).into_iter();
+    pairs.map(|(a, b, correlation)| Pair { of: [name(a), name(b)], correlation }).collect()
 }

@@ -1,6 +1,13 @@
 //! Residuals of every point, for plots.
 
+use std::collections::HashSet;
+
 use abbe::identify::{Failure, Model, Observation, Scratch};
+use abbe_spec::diagnostic::Diagnostics;
+
+use super::solve::Solved;
+use crate::data::Data;
+use abbe_study::mistake;
 
 /// Residuals of a measured point, in the frame of the instrument and the length unit.
 #[derive(Clone, Debug)]
@@ -26,14 +33,14 @@ pub struct PointResidual {
 }
 
 /// Model with values of its unknowns.
-pub(super) struct EvaluatedModel<'m> {
+struct EvaluatedModel<'m> {
     model: &'m Model<'m>,
     x: &'m [f64],
     scratch: Scratch,
 }
 
 impl<'m> EvaluatedModel<'m> {
-    pub(super) fn new(model: &'m Model<'m>, x: &'m [f64]) -> Self {
+    fn new(model: &'m Model<'m>, x: &'m [f64]) -> Self {
         Self { model, x, scratch: model.scratch() }
     }
 
@@ -44,7 +51,7 @@ impl<'m> EvaluatedModel<'m> {
 
     /// Returns the residuals of a row. `self` is the identified model, `before` the one with only
     /// base and tool fitted.
-    pub(super) fn residuals(
+    fn residuals(
         &mut self,
         before: &mut EvaluatedModel,
         row: &Observation,
@@ -66,4 +73,24 @@ impl<'m> EvaluatedModel<'m> {
         };
         Ok(both.map(one).collect())
     }
+}
+
+/// Returns the residuals of every point, for plots.
+pub(super) fn points(
+    solved: &Solved,
+    data: &Data,
+    test: Option<&Data>,
+) -> Result<Vec<PointResidual>, Diagnostics> {
+    let Solved { simple, simple_x, model, fit, .. } = solved;
+    let (mut before, mut after) = (EvaluatedModel::new(simple, simple_x), EvaluatedModel::new(model, &fit.x));
+    let rejected: HashSet<u64> = fit.rejected(&data.observations).map(|row| row.line).collect();
+    let mut points = Vec::new();
+    for (data, is_test) in [(data, false)].into_iter().chain(test.map(|test| (test, true))) {
+        for row in &data.observations {
+            let is_rejected = !is_test && rejected.contains(&row.line);
+            let here = after.residuals(&mut before, row, is_test, is_rejected);
+            points.extend(here.map_err(|failure| mistake::whole(&data.file, &failure))?);
+        }
+    }
+    Ok(points)
 }

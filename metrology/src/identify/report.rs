@@ -1,7 +1,7 @@
 //! Report of an identification.
 
 use abbe::Pose;
-use abbe::identify::student_factor;
+use abbe::identify::{Fit, Independent, deviation_beyond, student_factor};
 use serde::Serialize;
 
 use super::as_joint_errors::JointError;
@@ -162,6 +162,20 @@ pub struct Certainty {
 }
 
 impl Certainty {
+    pub(super) fn new(fit: &Fit) -> Self {
+        Self {
+            configurations: fit.configurations,
+            counted: match fit.independent {
+                Independent::Numbers => "numbers",
+                Independent::Points => "points",
+                Independent::Configurations => "configurations",
+            },
+            freedom: fit.freedom,
+            factor_95: student_factor(0.95, fit.freedom),
+            p_of_factor: deviation_beyond(fit.sigma, fit.freedom),
+        }
+    }
+
     /// Returns the coverage factor at which all of `count` intervals together hold with 95 %
     /// (Bonferroni): the limit for the errors that are called significant.
     pub fn factor_of_all(&self, count: usize) -> f64 {

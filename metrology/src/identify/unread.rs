@@ -3,8 +3,11 @@
 use std::borrow::Cow;
 
 use abbe::identify::{Measurement, Model, Observation};
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::{MEASURE_NEW_STATION, TEST};
 
 use crate::data::Data;
+use abbe_study::mistake;
 
 /// Returns for each observable whether its instrument was read in any of the rows.
 pub(super) fn read(model: &Model, rows: &[Observation]) -> Vec<bool> {
@@ -24,11 +27,7 @@ pub(super) fn read(model: &Model, rows: &[Observation]) -> Vec<bool> {
 /// read, and the rows without any other.
 ///
 /// Returns none if no row is left.
-pub(super) fn without_unread<'d>(
-    model: &Model,
-    fitted: &[Observation],
-    test: Cow<'d, Data>,
-) -> Option<Cow<'d, Data>> {
+fn without_unread<'d>(model: &Model, fitted: &[Observation], test: Cow<'d, Data>) -> Option<Cow<'d, Data>> {
     let read = read(model, fitted);
     let unknown = model
         .observables
@@ -46,4 +45,29 @@ pub(super) fn without_unread<'d>(
         row.count() > 0
     });
     (!test.observations.is_empty()).then_some(Cow::Owned(test))
+}
+
+/// Returns the test rows at the stations of the fit, with the readings whose instruments it
+/// located.
+pub(super) fn comparable<'d>(
+    test: &'d Data,
+    data: &Data,
+    model: &Model,
+) -> Result<Cow<'d, Data>, Diagnostics> {
+    let placed = test.at_stations(data).map_err(|name| unknown_station(test, &name))?;
+    without_unread(model, &data.observations, placed).ok_or_else(|| nothing_placed(&test.file))
+}
+
+fn unknown_station(test: &Data, name: &str) -> Diagnostics {
+    let message = format!("there is no station `{}` in the fitted data", name.escape_debug());
+    let help = format!("fit a station of the identified machine by `{MEASURE_NEW_STATION}`");
+    mistake::with_help(&test.file, message, help)
+}
+
+/// Returns the error that the test rows read only instruments that the fitted rows do not read.
+fn nothing_placed(file: &str) -> Diagnostics {
+    let message = "the fitted rows read none of the instruments of these rows, whose places are unknown";
+    let help =
+        format!("fit rows that read the same instruments, or omit {TEST} and rely on cross-validation");
+    mistake::with_help(file, message, help)
 }
