@@ -8,14 +8,15 @@
 //! In the other direction, `accumulate` goes from the tip to the base over the `local` motions and
 //! adds every frame's errors: `displacement`, `covariance`, `by_source`, and the `magnitudes` to be
 //! maximized. `real` is the exact chain with errors and `remainder` its difference from first
-//! order. `joint_step` (by `minors`) cancels the errors to first order and `residual` is the error
-//! left after it. `inverse` solves for the joints in closed form. `dexterity` holds rows of `J_q`
-//! (`joint_columns`), `tool_compliance` the displacement per force. `equivalent_forms` and
+//! order. `joint_step` (by `minors`) cancels the errors to first order, `compensation_residual` is
+//! the error left after it. `inverse` solves for the joints in closed form. `dexterity` holds rows
+//! of `J_q` (`joint_columns`), `tool_compliance` the displacement per force. `equivalent_forms` and
 //! `origin_form` state alternative forms, from which a program takes the cheapest. `tree` builds
 //! the same quantities for frames that branch, and for loops. [`Model`] holds the results.
 
 mod accumulate;
 mod by_source;
+mod compensation_residual;
 mod covariance;
 mod deviation;
 mod dexterity;
@@ -38,7 +39,6 @@ mod moments;
 mod origin_form;
 mod real;
 mod remainder;
-mod residual;
 mod rows;
 mod six;
 mod sources;
@@ -48,6 +48,7 @@ mod tree;
 mod walk;
 
 pub(crate) use accumulate::Accumulated;
+pub use compensation_residual::CompensationResidual;
 pub(crate) use covariance::Covariance;
 pub use deviation::{frame_twists, joint_twist};
 pub use dexterity::Dexterity;
@@ -62,7 +63,6 @@ pub(crate) use model::is_long;
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;
 pub use remainder::Remainder;
-pub use residual::Residual;
 pub(crate) use rows::Rows;
 pub use sources::{DeviationNode, EffectNode, deviations, effects};
 pub(crate) use symbol_jacobian::swing;

@@ -11,7 +11,7 @@ use core::ops::ControlFlow;
 use super::bounds::Bounds;
 use super::joint_chain::{JointChain, scaled};
 use super::lane_chain::LaneChain;
-use super::residual::Residual;
+use super::pose_error::PoseError;
 use super::target_search::{
     Descent, DescentEnd, ITERATIONS, Patience, Problem, REACHED, ROUNDING, STAGNATION, TargetSearch,
 };
@@ -59,8 +59,8 @@ struct LaneStates<R: Register, const ROWS: usize> {
     active: Vec<Lanes<R>>,
     limits: Vec<[Lanes<R>; 2]>,
     target: [[Lanes<R>; 3]; 4],
-    here: Residual<R, ROWS>,
-    there: Residual<R, ROWS>,
+    here: PoseError<R, ROWS>,
+    there: PoseError<R, ROWS>,
     /// Norm at the candidate.
     after: Lanes<R>,
 }
@@ -205,8 +205,8 @@ impl<R: Register, const ROWS: usize> LaneStates<R, ROWS> {
             active: vec![zero; count],
             limits: vec![[zero; 2]; count],
             target: [[zero; 3]; 4],
-            here: Residual::new(count),
-            there: Residual::new(count),
+            here: PoseError::new(count),
+            there: PoseError::new(count),
             after: zero,
         }
     }

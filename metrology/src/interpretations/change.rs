@@ -74,14 +74,8 @@ impl Change {
     pub(super) fn fitted(&self, oriented: bool) -> usize {
         match self {
             Self::Zero { .. } => 1,
-            Self::BaseElsewhere => 6,
-            Self::ToolElsewhere => {
-                if oriented {
-                    6
-                } else {
-                    3
-                }
-            }
+            Self::ToolElsewhere if !oriented => 3,
+            Self::BaseElsewhere | Self::ToolElsewhere => 6,
             _ => 0,
         }
     }

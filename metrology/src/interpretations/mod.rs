@@ -2,7 +2,7 @@
 //! (`doctor`), or as a test of what a map states (`identify`, `measure`, `monitor`).
 //!
 //! An `interpretation` consists of units, a `pose_format` and `change`s. `joints` applies it to the
-//! columns of joints, `observed` to the measurements. `search` computes the `residual` of each
+//! columns of joints, `observed` to the measurements. `search` computes the `pose_residual` of each
 //! interpretation with zeros (`zeros`), base and tool (`registration`) fitted in closed form.
 //! `ranked` selects those that no simpler one explains, and `words` describes them and formats
 //! questions.
@@ -12,9 +12,9 @@ mod interpretation;
 mod joints;
 mod observed;
 mod pose_format;
+mod pose_residual;
 mod ranked;
 mod registration;
-mod residual;
 mod search;
 pub(crate) mod words;
 mod zeros;

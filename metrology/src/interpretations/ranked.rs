@@ -1,7 +1,7 @@
 //! Ranking of interpretations by number of differences, then by residual.
 
 use super::interpretation::Interpretation;
-use super::residual::{Residual, squares};
+use super::pose_residual::{PoseResidual, squares};
 use super::search::{Candidate, Tolerance};
 
 /// Residual, as a share of the spread, below which data are free of noise.
@@ -85,8 +85,8 @@ pub(crate) fn ranked(
 }
 
 /// Returns the smallest residual for each number of degrees of freedom.
-fn best<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Vec<Residual> {
-    let mut best: Vec<Residual> = Vec::new();
+fn best<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Vec<PoseResidual> {
+    let mut best: Vec<PoseResidual> = Vec::new();
     for Candidate { residual, .. } in candidates {
         match best.iter_mut().find(|best| best.freedom == residual.freedom) {
             Some(best) if best.both <= residual.both => {}

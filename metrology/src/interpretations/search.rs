@@ -7,8 +7,8 @@ use super::change::Change;
 use super::interpretation::Interpretation;
 use super::joints::{JointUnits, Length, configurations, joint_values};
 use super::observed::{Observed, spread};
+use super::pose_residual::{PoseResidual, squares};
 use super::registration::registered;
-use super::residual::{Residual, squares};
 use super::zeros::{ZeroForm, minimum};
 use abbe_study::{Notes, mistake};
 
@@ -45,7 +45,7 @@ pub(crate) trait Chain {
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
     pub(crate) interpretation: Interpretation,
-    pub(crate) residual: Residual,
+    pub(crate) residual: PoseResidual,
     /// Poses predicted by the spec for this interpretation.
     pub(super) predicted: Vec<Pose>,
     /// Pose of the fitted tool in the tool frame of the spec, if it is fitted.
@@ -256,7 +256,7 @@ impl<'a> Search<'a> {
                 (joints.to_vec(), predicted[0].clone(), None)
             };
             let left = squares(&predicted, &seen.poses, oriented);
-            let residual = Residual::new(left, rows, oriented, lever, [numbers, fitted]);
+            let residual = PoseResidual::new(left, rows, oriented, lever, [numbers, fitted]);
             let turns = self.chain.kinds().contains(&VariableKind::Revolute);
             let slides = self.chain.kinds().contains(&VariableKind::Prismatic);
             let interpretation = Interpretation {

@@ -28,7 +28,7 @@ pub(crate) struct Residual<'r> {
     pub(crate) after: [f64; 3],
 }
 
-/// ErrorNames of both errors; `before` is empty if there is only one.
+/// Names of both errors; `before` is empty if there is only one.
 pub(crate) struct ErrorNames {
     pub(crate) before: &'static str,
     pub(crate) after: &'static str,

@@ -10,7 +10,7 @@ const CHECKED: usize = 10_000;
 const KEPT: usize = 8;
 
 /// Errors of the compensated machine over a workspace.
-pub(super) struct CompensatedSweep {
+pub(super) struct CompensatedErrors {
     /// Number of evaluated configurations.
     pub(super) checked: usize,
     /// Errors of position and orientation.
@@ -35,7 +35,7 @@ pub(super) struct CompensatedExtremes {
     least_likely: Vec<(f64, usize)>,
 }
 
-impl CompensatedSweep {
+impl CompensatedErrors {
     /// Evaluates a workspace; at most [`CHECKED`] configurations of it, evenly spaced. Only the
     /// errors of position are evaluated without a tolerance.
     pub(super) fn new(

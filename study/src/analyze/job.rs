@@ -8,7 +8,7 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::parts::shard::Shard;
 use super::report::Report;
-use super::sweep::{Sweep, SweepData, not_evaluated};
+use super::sweep::{AnalysisSweep, PartialAnalysis, not_evaluated};
 use crate::changes::Changes;
 use crate::machine::Machine;
 use crate::mistake;
@@ -122,18 +122,18 @@ impl Analyze {
         &self,
         chunks: impl FnOnce(usize) -> Range<usize>,
         notes: &mut dyn Notes,
-    ) -> Result<SweepData, Diagnostics> {
+    ) -> Result<PartialAnalysis, Diagnostics> {
         self.with_sweep(notes, |sweep, notes| sweep.run(chunks(sweep.budget.chunks()), None, notes))
     }
 
     /// Returns the report from the data of all shards, in shard order.
     pub(super) fn report_on_parts(
         &self,
-        parts: Vec<(String, Shard, SweepData)>,
+        parts: Vec<(String, Shard, PartialAnalysis)>,
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
         self.with_sweep(notes, |sweep, notes| {
-            let mut all: Option<SweepData> = None;
+            let mut all: Option<PartialAnalysis> = None;
             for (name, shard, part) in parts {
                 let fits = part.budget.chunks() == shard.chunks(sweep.budget.chunks()) && sweep.fits(&part);
                 let put = match &mut all {
@@ -158,7 +158,7 @@ impl Analyze {
     fn with_sweep<T>(
         &self,
         notes: &mut dyn Notes,
-        work: impl FnOnce(&Sweep<'_>, &mut dyn Notes) -> Result<T, Diagnostics>,
+        work: impl FnOnce(&AnalysisSweep<'_>, &mut dyn Notes) -> Result<T, Diagnostics>,
     ) -> Result<T, Diagnostics> {
         let Self { machine, study, monte_carlo, seed, figures, .. } = self;
         let manipulator = &*machine.evaluator(!self.interpret);
@@ -170,7 +170,7 @@ impl Analyze {
         let options = BudgetOptions { tolerances };
         let budget = BudgetSweep::new(manipulator, workspace, options)
             .map_err(|refused| not_evaluated(machine, workspace, &refused, description))?;
-        let sweep = Sweep {
+        let sweep = AnalysisSweep {
             machine,
             study,
             monte_carlo: *monte_carlo,

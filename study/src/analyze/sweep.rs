@@ -13,7 +13,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
 use super::calibration::LargestCalibrationErrors;
-use super::compensated::CompensatedSweep;
+use super::compensated::CompensatedErrors;
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
 use super::loop_condition::LoopCondition;
@@ -39,7 +39,7 @@ const EXTRAPOLATED: usize = 2000;
 
 /// Data gathered over some chunks of a workspace.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct SweepData {
+pub(super) struct PartialAnalysis {
     /// Data of the error sources.
     pub(super) budget: PartialBudget,
     /// Errors of the calibration; `None` if the spec has no covariance.
@@ -49,7 +49,7 @@ pub(super) struct SweepData {
 }
 
 /// Sweep over the workspace of a study.
-pub(super) struct Sweep<'a> {
+pub(super) struct AnalysisSweep<'a> {
     pub(super) machine: &'a Machine,
     pub(super) study: &'a Study,
     pub(super) monte_carlo: Option<usize>,
@@ -63,14 +63,14 @@ pub(super) struct Sweep<'a> {
     pub(super) budget: BudgetSweep<'a>,
 }
 
-impl Sweep<'_> {
+impl AnalysisSweep<'_> {
     /// Sweeps some chunks of the workspace.
     pub(super) fn run(
         &self,
         chunks: Range<usize>,
         rows: Option<&mut dyn FnMut(&Row)>,
         notes: &mut dyn Notes,
-    ) -> Result<SweepData, Diagnostics> {
+    ) -> Result<PartialAnalysis, Diagnostics> {
         let range = self.budget.configurations(&chunks);
         let builder = self.figures.then(|| FiguresBuilder::new(self.study, self.manipulator.description()));
         notes.progress(0, range.len());
@@ -83,7 +83,7 @@ impl Sweep<'_> {
         // An interrupted sweep returns an incomplete part; do not use it.
         notes.go_on()?;
         let calibration = calibration.map(|(errors, _)| errors);
-        Ok(SweepData { budget, calibration, figures: builder.map(FiguresBuilder::data) })
+        Ok(PartialAnalysis { budget, calibration, figures: builder.map(FiguresBuilder::data) })
     }
 
     /// Returns the index of the first of the sources that are the calibration, if there are any.
@@ -92,7 +92,7 @@ impl Sweep<'_> {
     }
 
     /// Returns whether data can belong to this sweep. They may come from a file.
-    pub(super) fn fits(&self, data: &SweepData) -> bool {
+    pub(super) fn fits(&self, data: &PartialAnalysis) -> bool {
         let calibration = match &data.calibration {
             None => self.first_part().is_none(),
             Some(errors) => self.first_part().is_some() && errors.fits(self.workspace.len()),
@@ -102,7 +102,7 @@ impl Sweep<'_> {
 
     /// Appends the data of the chunks that follow. Returns false if they do not follow or have
     /// other figures.
-    pub(super) fn append(&self, all: &mut SweepData, next: SweepData) -> bool {
+    pub(super) fn append(&self, all: &mut PartialAnalysis, next: PartialAnalysis) -> bool {
         let figures = match (all.figures.take(), next.figures) {
             (None, None) => Some(None),
             (Some(here), Some(next)) => {
@@ -120,7 +120,7 @@ impl Sweep<'_> {
     }
 
     /// Returns the report on all gathered data.
-    pub(super) fn report(&self, data: SweepData, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub(super) fn report(&self, data: PartialAnalysis, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let spec = &named_as_one(&machine.spec);
         let mut budget = self.budget.finish(data.budget);
@@ -209,14 +209,14 @@ impl Sweep<'_> {
 
     /// Evaluates the compensated machine over the workspace, if the study has a tolerance or states
     /// what compensation leaves.
-    fn compensated(&self) -> Result<Option<(CompensationBasis, CompensatedSweep)>, Diagnostics> {
+    fn compensated(&self) -> Result<Option<(CompensationBasis, CompensatedErrors)>, Diagnostics> {
         let tolerances = [self.study.tolerance, self.study.orientation_tolerance];
         let Some((basis, residuals, together)) = self.correction() else { return Ok(None) };
         if tolerances == [None; 2] && basis != CompensationBasis::Stated {
             return Ok(None);
         }
         let correction = Correction { residuals: &residuals, together };
-        let swept = CompensatedSweep::new(self.manipulator, self.workspace, correction, tolerances);
+        let swept = CompensatedErrors::new(self.manipulator, self.workspace, correction, tolerances);
         Ok(Some((basis, swept.map_err(|refused| self.not_evaluated(&refused))?)))
     }
 
@@ -224,7 +224,7 @@ impl Sweep<'_> {
         &self,
         budget: &Budget,
         sites: &ErrorSites,
-        compensated: Option<(CompensationBasis, CompensatedSweep)>,
+        compensated: Option<(CompensationBasis, CompensatedErrors)>,
     ) -> Result<Option<Verdicts>, Diagnostics> {
         let Study { tolerance, orientation_tolerance, probability, .. } = *self.study;
         let reach = [budget.configurations, budget.unreachable.count];

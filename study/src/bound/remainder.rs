@@ -41,8 +41,8 @@ impl Domain {
         if !Classes::enabled(&self.spec).repeatable {
             return None;
         }
-        let chain::Residual { mut graph, point, turn, share } =
-            chain::Residual::new(&self.spec.with_held_tables())?;
+        let chain::CompensationResidual { mut graph, point, turn, share } =
+            chain::CompensationResidual::new(&self.spec.with_held_tables())?;
         let mut largest = |magnitude: &Magnitude, before: f64| {
             let mut watch = |progress: &Progress| {
                 let is_given_up = progress.certified.is_infinite() && progress.boxes >= GIVE_UP_BOXES;

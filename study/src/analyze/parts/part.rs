@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::request::{self, AnalysisRequest};
 use super::shard::Shard;
-use crate::analyze::sweep::SweepData;
+use crate::analyze::sweep::PartialAnalysis;
 use crate::finite::finite;
 use crate::mistake;
 use crate::notes::Notes;
@@ -24,7 +24,7 @@ pub struct Part {
     /// Contents of the tables and paths, in part 1 alone: a merge opens no file that a part names.
     pub(super) files: Contents,
     pub(super) shard: Shard,
-    pub(super) gathered: SweepData,
+    pub(super) gathered: PartialAnalysis,
 }
 
 /// Program version and machine, on which the last bits of all results depend.

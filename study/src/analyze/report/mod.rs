@@ -41,7 +41,7 @@ pub use tolerance_verdict::{
 };
 pub use uncertainty_budget::{SourceUncertainty, UncertaintyBudget};
 
-use super::compensated::CompensatedSweep;
+use super::compensated::CompensatedErrors;
 use super::figures::Figures;
 use super::first_order::FirstOrder;
 use super::loop_condition::LoopCondition;
@@ -162,7 +162,7 @@ pub struct RemainingErrors {
 }
 
 impl RemainingErrors {
-    pub(super) fn new(swept: &CompensatedSweep) -> Self {
+    pub(super) fn new(swept: &CompensatedErrors) -> Self {
         let position = &swept.extremes[Measurand::Position as usize];
         Self { residual: position.repeatable.value, total: position.radius.value }
     }

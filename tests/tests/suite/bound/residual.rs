@@ -4,7 +4,7 @@ use abbe::analysis::{compensated, sampling};
 use abbe::compensator::norms;
 use abbe::{Class, Manipulator, Orientation, VariableKind, deviation, drawn_pose};
 use abbe_bound::{Bound, Effort, Moving, largest};
-use abbe_codegen::chain::{Magnitude, Residual};
+use abbe_codegen::chain::{CompensationResidual, Magnitude};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
@@ -16,7 +16,7 @@ use super::{given, home, moving, part, place, robot, robots};
 
 /// Returns the bounds of ½ ‖p″‖ and ½ ‖ω′‖ over a box.
 fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<[Bound; 2]> {
-    let Residual { mut graph, point, turn, share } = Residual::new(spec)?;
+    let CompensationResidual { mut graph, point, turn, share } = CompensationResidual::new(spec)?;
     let share = Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 };
     let moving = [box_, &[share]].concat();
     let mut of = |magnitude: &Magnitude| {

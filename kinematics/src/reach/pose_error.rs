@@ -1,4 +1,4 @@
-//! Residual of a chain of lower pairs, its joint Jacobian, and the damped step: in lanes.
+//! Pose error of a chain of lower pairs, its joint Jacobian, and the damped step: in lanes.
 
 // Loops instead of closures, which could be compiled without the instruction set.
 #![allow(clippy::needless_range_loop)]
@@ -14,7 +14,7 @@ const LEAST_COSINE: f64 = 1e-3;
 
 /// Rows 1–3 in arm lengths. Rows 4–6, for poses, are the axis of the remaining rotation times
 /// `2 sin θ/2`.
-pub(super) struct Residual<R: Register, const ROWS: usize> {
+pub(super) struct PoseError<R: Register, const ROWS: usize> {
     pub(super) rows: [Lanes<R>; ROWS],
     /// Norm of the rows. Its rotation part is exact beyond a right angle, too.
     pub(super) norm: Lanes<R>,
@@ -24,7 +24,7 @@ pub(super) struct Residual<R: Register, const ROWS: usize> {
     axes: Vec<[Vector<R>; 2]>,
 }
 
-impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
+impl<R: Register, const ROWS: usize> PoseError<R, ROWS> {
     pub(super) fn new(joints: usize) -> Self {
         let zero = Lanes::constant(0.0);
         Self {

@@ -26,7 +26,7 @@ use crate::graph::{Graph, Node, Vector};
 /// joints is `t e(q + t d)`. An error with kinks or jumps is `t e(q) + t² (e(q + d) − e(q))`, which
 /// is smooth in t.
 #[derive(Clone, Debug)]
-pub struct Residual {
+pub struct CompensationResidual {
     /// The graph of the nodes.
     pub graph: Graph,
     /// ½ ‖p″(t)‖.
@@ -37,7 +37,7 @@ pub struct Residual {
     pub share: Symbol,
 }
 
-impl Residual {
+impl CompensationResidual {
     /// Builds the residual of a checked spec. Returns `None` for fewer than three joints, or if the
     /// transforms have kinks.
     pub fn new(spec: &Spec) -> Option<Self> {

@@ -5,7 +5,7 @@ use abbe::identify::f_test;
 
 /// Residuals as root mean squares.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Residual {
+pub(crate) struct PoseResidual {
     pub(crate) position: f64,
     /// Residual of orientations in rad; none if they were not measured.
     pub(crate) angle: Option<f64>,
@@ -35,7 +35,7 @@ fn square(a: [f64; 3], b: [f64; 3]) -> f64 {
     x * x + y * y + z * z
 }
 
-impl Residual {
+impl PoseResidual {
     /// Computes the residual from sums of squares over `rows`, with angles times `lever`; the last
     /// argument is the numbers of measured values and of fitted parameters.
     pub(super) fn new(
