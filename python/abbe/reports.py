@@ -1266,14 +1266,17 @@ class HiddenNumber(Fields):
     confused_with: list[str]
     """Names of the numbers that it is confused with: the correlation is above one half."""
 
+    unit: str
+    """Unit: the length unit, or rad."""
+
     prior: float
-    """Standard deviation of the prior, in the length unit or rad."""
+    """Standard deviation of the prior, in `unit`."""
 
     standard_deviation: float
-    """Predicted standard deviation after the planned measurement, in the length unit or rad."""
+    """Predicted standard deviation after the planned measurement, in `unit`."""
 
     standard_deviation_there: float
-    """Predicted standard deviation with the advised target at the same configurations, in the length unit or rad."""
+    """Predicted standard deviation with the advised target at the same configurations, in `unit`."""
 
 
 class Home(Fields):
@@ -3188,11 +3191,11 @@ class TargetMounting(Fields):
     is_additional: bool
     """Is true if the advised target is an additional one; otherwise it replaces the planned one."""
 
-    statement: str
-    """Statement of the hidden numbers in one sentence."""
+    planned_targets: int
+    """Number of planned targets."""
 
-    advice: str
-    """Advice in one sentence, with the predicted standard deviations."""
+    is_exact: bool
+    """Is true if the place of the planned targets is known exactly, as that of the advised target must be."""
 
 
 class TermGain(Fields):

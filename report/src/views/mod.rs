@@ -12,6 +12,7 @@ mod exported;
 mod identification;
 mod measurement;
 mod monitoring;
+mod mounting;
 mod plan;
 mod positioning;
 mod shared;

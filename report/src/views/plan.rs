@@ -7,6 +7,7 @@ use abbe_spec::option::MODEL_ERROR_LENGTH;
 use abbe_study::number::{digits, error_unit, quantity};
 
 use super::identification::indistinguishable;
+use super::mounting;
 use crate::document::{Document, Section, Table, first, joined, number, words};
 
 /// Number of errors named on the first screen.
@@ -63,8 +64,8 @@ fn facts(map: &Map, report: &Report) -> Vec<(&'static str, String)> {
         facts.push(("Unseen", format!("{}: {text}", first(&names, NAMED))));
     }
     if let Some(mounting) = &report.mounting {
-        facts.push(("Hidden", mounting.statement.clone()));
-        facts.push(("Mount", mounting.advice.clone()));
+        facts.push(("Hidden", mounting::statement(mounting)));
+        facts.push(("Mount", mounting::advice(mounting, report.length)));
     }
     if !report.weakly_determined.is_empty() {
         let names: Vec<&str> = report.weakly_determined.iter().map(|error| error.name.as_str()).collect();

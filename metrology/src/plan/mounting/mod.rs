@@ -19,7 +19,6 @@
 mod numbers;
 mod places;
 mod report;
-mod sentences;
 
 use abbe::identify::{Failure, Measurement, Model, Observation};
 use abbe_spec::Spec;
@@ -117,24 +116,21 @@ impl Assessed<'_> {
                 name: names[*i].clone(),
                 is_hidden: place.shown.contains(i),
                 confused_with,
+                unit: if numbers.list[*i].is_angle { "rad" } else { self.spec.length.symbol() },
                 prior: numbers.expected[*i],
                 standard_deviation: planned.deviation(*i),
                 standard_deviation_there: there.deviation(*i),
-                is_angle: numbers.list[*i].is_angle,
             }
         };
-        let mut mounted = TargetMounting {
+        Ok(Some(TargetMounting {
             target_on_axis: target_on_axis(self.setup, rows)?,
             numbers: place.named.iter().map(number).collect(),
             position: std::array::from_fn(|i| mounting.planned[i] + place.by[i]),
             distance: length(place.by),
             is_additional: mounting.is_additional,
-            statement: String::new(),
-            advice: String::new(),
-        };
-        mounted.statement = sentences::statement(&mounted);
-        mounted.advice = sentences::advice(&mounted, model, self.spec.length);
-        Ok(Some(mounted))
+            planned_targets: model.targets.len(),
+            is_exact: !model.unknowns.iter().any(|unknown| unknown.is_tool()),
+        }))
     }
 
     /// Returns the nearest place that brings most of what the best one does, with the uncertainty

@@ -17,10 +17,11 @@ pub struct TargetMounting {
     pub distance: f64,
     /// Is true if the advised target is an additional one; otherwise it replaces the planned one.
     pub is_additional: bool,
-    /// Statement of the hidden numbers in one sentence.
-    pub statement: String,
-    /// Advice in one sentence, with the predicted standard deviations.
-    pub advice: String,
+    /// Number of planned targets.
+    pub planned_targets: usize,
+    /// Is true if the place of the planned targets is known exactly, as that of the advised target
+    /// must be.
+    pub is_exact: bool,
 }
 
 /// Number of the machine that is hidden, or confused with a hidden one.
@@ -32,14 +33,13 @@ pub struct HiddenNumber {
     pub is_hidden: bool,
     /// Names of the numbers that it is confused with: the correlation is above one half.
     pub confused_with: Vec<String>,
-    /// Standard deviation of the prior, in the length unit or rad.
+    /// Unit: the length unit, or rad.
+    pub unit: &'static str,
+    /// Standard deviation of the prior, in `unit`.
     pub prior: f64,
-    /// Predicted standard deviation after the planned measurement, in the length unit or rad.
+    /// Predicted standard deviation after the planned measurement, in `unit`.
     pub standard_deviation: f64,
-    /// Predicted standard deviation with the advised target at the same configurations, in the
-    /// length unit or rad.
+    /// Predicted standard deviation with the advised target at the same configurations, in
+    /// `unit`.
     pub standard_deviation_there: f64,
-    /// Is true for an angle.
-    #[serde(skip)]
-    pub(super) is_angle: bool,
 }

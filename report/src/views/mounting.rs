@@ -1,10 +1,10 @@
 //! Sentences about hidden numbers and the place of a target that shows them.
 
-use abbe::identify::Model;
-use abbe::{Component, LengthUnit};
+use abbe::Component;
+use abbe_metrology::plan::{HiddenNumber, TargetMounting};
+use abbe_study::number::{digits, error_unit};
 
-use super::report::{HiddenNumber, TargetMounting};
-use abbe_study::number::digits;
+use super::shared::angle_in_mrad;
 
 /// Number of standard deviations in the advice.
 const SHOWN: usize = 4;
@@ -62,32 +62,31 @@ fn with_axis(name: &str) -> String {
 }
 
 /// Says where to mount the target, and how well the numbers are known then.
-pub(super) fn advice(mounting: &TargetMounting, model: &Model, unit: LengthUnit) -> String {
-    let in_millimetres = 1e3 * unit.in_metres();
-    let [x, y, z] = mounting.position.map(|x| digits(x * in_millimetres, 4));
+pub(super) fn advice(mounting: &TargetMounting, length: &str) -> String {
+    let (factor, unit) = error_unit(length);
+    let [x, y, z] = mounting.position.map(|x| digits(x * factor, 4));
     let what = if mounting.is_additional { "an additional target" } else { "the target" };
-    let from = match model.targets.len() {
+    let from = match mounting.planned_targets {
         1 if mounting.is_additional => "the planned one",
         1 => "the planned place",
         _ => "the first one",
     };
     let falls = |number: &HiddenNumber| {
-        let (factor, symbol) = if number.is_angle { (1e3, "mrad") } else { (in_millimetres, "mm") };
+        let (factor, unit) = if number.unit == "rad" { angle_in_mrad("rad") } else { (factor, unit) };
         let [before, there] =
             [number.standard_deviation, number.standard_deviation_there].map(|s| digits(factor * s, 2));
-        format!("{} from {before} to {there} {symbol}", with_axis(&number.name))
+        format!("{} from {before} to {there} {unit}", with_axis(&number.name))
     };
     let mut numbers: Vec<String> = mounting.numbers.iter().take(SHOWN).map(falls).collect();
     let more = mounting.numbers.len() - numbers.len();
     if more > 0 {
         numbers.push(format!("{more} more"));
     }
-    let is_exact = !model.unknowns.iter().any(|unknown| unknown.is_tool());
-    let exactly = if is_exact { ", known exactly" } else { "" };
+    let exactly = if mounting.is_exact { ", known exactly" } else { "" };
     format!(
-        "{what} at ({x}, {y}, {z}) mm in the frame of the tool, {} mm from {from}{exactly}: at the same configurations σ \
+        "{what} at ({x}, {y}, {z}) {unit} in the frame of the tool, {} {unit} from {from}{exactly}: at the same configurations σ \
          falls for {}",
-        digits(mounting.distance * in_millimetres, 3),
+        digits(mounting.distance * factor, 3),
         numbers.join(", ")
     )
 }
