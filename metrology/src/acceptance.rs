@@ -104,19 +104,5 @@ impl Acceptance {
     }
 }
 
-impl AcceptanceVerdict {
-    /// Returns the verdict in a sentence.
-    pub fn sentence(&self, length: LengthUnit) -> String {
-        let limit = |limit: &LimitCheck| {
-            let [value, most] = [limit.value, limit.limit].map(|value| number::length(value, length));
-            let more = if limit.met { "" } else { ", exceeded" };
-            format!("{} {value} (limit {most}){more}", limit.figure)
-        };
-        let limits: Vec<String> = self.limits.iter().map(limit).collect();
-        let verdict = if self.met { "Accepted" } else { "Not accepted" };
-        format!("{verdict} on {}: {}.", self.rows, limits.join("; "))
-    }
-}
-
 #[cfg(test)]
 mod tests;

@@ -18,7 +18,7 @@ const SHOWN: usize = 8;
 /// Describes a measurement; `spec` and `map` are those of the job.
 pub fn measurement(spec: &Spec, map: &Map, report: &Report) -> Document {
     let headline = match &report.accepted {
-        Some(accepted) => accepted.sentence(report.unit),
+        Some(verdict) => accepted(verdict, report.unit).text,
         None => format!(
             "{} measured at {}",
             counted(report.rows, "row", "rows"),

@@ -1,9 +1,9 @@
 //! Parts that several views have.
 
 use abbe::LengthUnit;
-use abbe_metrology::AcceptanceVerdict;
 use abbe_metrology::data::{Base, Layout, Map, Summary};
 use abbe_metrology::identify::ResidualDrift;
+use abbe_metrology::{AcceptanceVerdict, LimitCheck};
 use abbe_spec::Spec;
 use abbe_study::number::{digits, error_unit, length, percent, quantity, short, unbroken};
 use abbe_study::{Extrapolation, OtherTool};
@@ -27,8 +27,15 @@ pub(super) fn p_value(p: f64) -> String {
     if p < 1e-12 { "below 1e-12".to_owned() } else { digits(p, 2) }
 }
 
-pub(super) fn accepted(verdict: &AcceptanceVerdict, length: LengthUnit) -> Verdict {
-    Verdict { is_met: verdict.met, text: verdict.sentence(length) }
+pub(super) fn accepted(verdict: &AcceptanceVerdict, unit: LengthUnit) -> Verdict {
+    let limit = |limit: &LimitCheck| {
+        let [value, most] = [limit.value, limit.limit].map(|value| length(value, unit));
+        let more = if limit.met { "" } else { ", exceeded" };
+        format!("{} {value} (limit {most}){more}", limit.figure)
+    };
+    let words = if verdict.met { "Accepted" } else { "Not accepted" };
+    let limits: Vec<String> = verdict.limits.iter().map(limit).collect();
+    Verdict { is_met: verdict.met, text: format!("{words} on {}: {}.", verdict.rows, limits.join("; ")) }
 }
 
 /// Returns the facts about data files: their rows, and the first of those that cannot be used.

@@ -56,21 +56,6 @@ impl LoopCondition {
         Some(found)
     }
 
-    /// Returns the condition in one sentence.
-    pub fn sentence(&self) -> String {
-        let Self { configurations, largest, at } = self;
-        let largest = number::digits(*largest, 3);
-        match self.is_nearly_singular() {
-            true => format!(
-                "nearly singular at {at}: the condition number of φ_p is {largest}, above {NEARLY_SINGULAR}; \
-                 errors in the loops are magnified there"
-            ),
-            false => format!(
-                "the condition number of φ_p is at most {largest}, at {at}, of {configurations} configurations"
-            ),
-        }
-    }
-
     /// Returns whether the machine comes near a singular configuration.
     pub fn is_nearly_singular(&self) -> bool {
         self.largest > NEARLY_SINGULAR

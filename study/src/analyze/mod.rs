@@ -33,6 +33,4 @@ pub use report::{
     RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict, UncertaintyBudget,
     Verdict, Verdicts,
 };
-pub use unreachable::{
-    UnreachableReason, first_unreachable, unreachable_reason, unreachable_reasons, unreachable_summary,
-};
+pub use unreachable::{UnreachableReason, unreachable_reason, unreachable_reasons, unreachable_summary};

@@ -1,13 +1,10 @@
 //! Unreachable configurations of the workspace, with reasons.
 
-use abbe::analysis::{Configuration, ReachError, Unreachable, UnreachableSummary};
+use abbe::analysis::{ReachError, Unreachable, UnreachableSummary};
 use abbe_spec::Spec;
 use serde::Serialize;
 
 use crate::number;
-
-/// Number of configurations that are listed individually.
-const SHOWN: usize = 3;
 
 /// Reason why configurations are unreachable, with its count.
 #[derive(Clone, Debug, Serialize)]
@@ -38,22 +35,6 @@ pub fn unreachable_reasons(unreachable: &UnreachableSummary, spec: &Spec) -> Vec
 pub fn unreachable_summary(unreachable: &UnreachableSummary, spec: &Spec) -> String {
     let reasons = unreachable_reasons(unreachable, spec);
     reasons.iter().map(|r| format!("{} ({})", r.reason, r.count)).collect::<Vec<_>>().join(", ")
-}
-
-/// Describes the first few unreachable configurations: the requested point or configuration, and
-/// the reason.
-pub fn first_unreachable(unreachable: &UnreachableSummary, home: &Configuration, spec: &Spec) -> Vec<String> {
-    let shown = unreachable.first.iter().take(SHOWN).map(|unreachable| {
-        let requested = match unreachable.point {
-            Some(point) => {
-                let [x, y, z] = point.map(number::short);
-                format!("({x}, {y}, {z}) {}", spec.length.symbol())
-            }
-            None => number::configuration(&unreachable.requested, home, spec),
-        };
-        format!("{requested}: {}", unreachable_reason(unreachable, spec))
-    });
-    shown.collect()
 }
 
 /// Describes the reason with names and units.

@@ -12,7 +12,7 @@ use abbe_study::study_file::JudgedMachine;
 use abbe_spec::option::NamedOption;
 
 use super::agreement::agreement_text;
-use super::conclusions::{exact, singular_sentence};
+use super::conclusions::{exact, loop_condition, singular_sentence};
 use super::verdict::stated_probability;
 use crate::document::{Section, Table, first, number, words};
 use crate::unit;
@@ -230,7 +230,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         facts.push(("Reach", format!("{} configurations unreachable: {reasons}", unreachable.count)));
     }
     let nearly_singular = report.loops.as_ref().filter(|loops| loops.is_nearly_singular());
-    facts.extend(nearly_singular.map(|loops| ("Loops", loops.sentence())));
+    facts.extend(nearly_singular.map(|loops| ("Loops", loop_condition(loops))));
     if report.singular() > 0 {
         facts.push(("Euler", singular_sentence(report)));
     }

@@ -4,7 +4,7 @@ use abbe::analysis::Measurand;
 
 use super::norms;
 use crate::unit::{self, decimals};
-use abbe_study::analyze::{AfterCompensation, RemainingErrors, Report};
+use abbe_study::analyze::{AfterCompensation, LoopCondition, NEARLY_SINGULAR, RemainingErrors, Report};
 use abbe_study::number::{self, percent, short};
 
 /// Returns the results in sentences: tolerance, enclosing sphere, compensation, first-order
@@ -19,9 +19,24 @@ pub(super) fn conclusions(report: &Report) -> Vec<String> {
         report.compensation.as_ref().map(|compensation| residual(report, compensation)),
         norms::certified_norms(report),
         Some(first_order(report)),
-        report.loops.as_ref().map(|loops| format!("Loops: {}.", loops.sentence())),
+        report.loops.as_ref().map(|loops| format!("Loops: {}.", loop_condition(loops))),
     ];
     sentences.into_iter().flatten().collect()
+}
+
+/// States how well the loops determine the passive variables.
+pub(super) fn loop_condition(loops: &LoopCondition) -> String {
+    let LoopCondition { configurations, largest, at } = loops;
+    let largest = number::digits(*largest, 3);
+    match loops.is_nearly_singular() {
+        true => format!(
+            "nearly singular at {at}: the condition number of φ_p is {largest}, above {NEARLY_SINGULAR}; \
+             errors in the loops are magnified there"
+        ),
+        false => format!(
+            "the condition number of φ_p is at most {largest}, at {at}, of {configurations} configurations"
+        ),
+    }
 }
 
 /// Returns what first order is compared with.

@@ -22,6 +22,9 @@ use verdict::{verdict_line, verdict_sentences};
 use crate::document::{Card, Document, Figure, Section, Verdict};
 use crate::unit::{self, decimals};
 
+/// Number of unreachable configurations that are listed.
+const SHOWN: usize = 3;
+
 /// Describes an error budget over a workspace, with the figures of its page, the first of which
 /// stand above all tables. `sampled` is the figure of the certified norms, and `left_out` are
 /// disabled sources whose figures are missing.
@@ -134,8 +137,16 @@ fn workspace(report: &Report) -> Section {
     let inputs = report.inputs().join(", ");
     let mut facts = vec![("Covers", report.workspace.clone())];
     facts.push(("Reached", format!("{}, {}", budget.configurations, unreachable(report))));
-    let examples = analyze::first_unreachable(&budget.unreachable, &report.home, spec);
-    facts.extend(examples.into_iter().map(|example| ("", format!("- {example}"))));
+    facts.extend(budget.unreachable.first.iter().take(SHOWN).map(|unreachable| {
+        let requested = match unreachable.point {
+            Some(point) => {
+                let [x, y, z] = point.map(number::short);
+                format!("({x}, {y}, {z}) {}", spec.length.symbol())
+            }
+            None => number::configuration(&unreachable.requested, &report.home, spec),
+        };
+        ("", format!("- {requested}: {}", analyze::unreachable_reason(unreachable, spec)))
+    }));
     facts.push(("Home", unbroken(&number::variables(&report.home.q, spec))));
     if !inputs.is_empty() {
         facts.push(("Inputs", unbroken(&inputs)));

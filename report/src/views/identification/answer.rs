@@ -6,7 +6,9 @@ use abbe_spec::option::FULL;
 use abbe_study::number::{counted, digits, error_unit, fixed};
 
 use crate::document::{Section, Table, first, number, words};
-use crate::views::shared::{angle_in_mrad, drift_clauses, first_notes, first_rows, residual_verdict};
+use crate::views::shared::{
+    accepted, angle_in_mrad, drift_clauses, first_notes, first_rows, residual_verdict,
+};
 
 /// Number of errors on the first screen.
 const SHOWN: usize = 5;
@@ -138,7 +140,7 @@ pub(super) fn estimate(report: &Report, parameter: &Parameter) -> [String; 3] {
 fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
     let (factor, unit) = error_unit(report.length);
     let mut facts = vec![("Residual", residuals(report))];
-    facts.extend(report.accepted.iter().map(|accepted| ("Limits", accepted.sentence(spec.length))));
+    facts.extend(report.accepted.iter().map(|verdict| ("Limits", accepted(verdict, spec.length).text)));
     if !report.terms.is_empty() {
         let names: Vec<&str> = report.terms.iter().map(|term| term.name.as_str()).collect();
         let text =
