@@ -1,7 +1,7 @@
 //! Interpretations to try for data without a map.
 
 use super::kinematics::Kinematics;
-use crate::interpretations::{Chain, Change, Trial};
+use crate::interpretations::{Chain, Change, SIGNS, Trial};
 
 /// Returns the trials in two stages: single changes and pairs; then all combinations of signs and,
 /// for up to six joints, all permutations.
@@ -109,13 +109,10 @@ fn is_tried_together(joint_changes: &[Change], end_changes: &[Change]) -> bool {
 /// Returns all combinations of more than two signs, and all permutations of four to six joints.
 fn signs_and_orders(count: usize) -> Vec<Vec<Change>> {
     let mut sets = Vec::new();
-    if count <= 8 {
-        for signs in 0..1_u32 << count {
-            let joints: Vec<usize> = (0..count).filter(|i| signs >> i & 1 == 1).collect();
-            if joints.len() > 2 {
-                sets.push(vec![Change::Reversed(joints)]);
-            }
-        }
+    if count <= SIGNS {
+        let all: Vec<usize> = (0..count).collect();
+        let reversals = Change::reversals(&all).filter(|reversed| reversed.cost() > 2);
+        sets.extend(reversals.map(|reversed| vec![reversed]));
     }
     if (4..=6).contains(&count) {
         sets.extend(permutations(count).into_iter().map(|order| vec![Change::Order(order)]));

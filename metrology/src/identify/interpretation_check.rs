@@ -14,7 +14,8 @@ use super::registered::{for_each_point, registered};
 use super::setup::Setup;
 use crate::data::{Data, Map};
 use crate::interpretations::{
-    Chain, Change, Interpretation, MOST, Observed, Parts, Ranked, Search, Tolerance, Trial, ranked, words,
+    Chain, Change, Interpretation, MOST, Observed, Parts, Ranked, SIGNS, Search, Tolerance, Trial, ranked,
+    words,
 };
 use abbe_study::{mistake, number};
 
@@ -32,8 +33,6 @@ const LIKELY: f64 = 1e-2;
 const ENOUGH: f64 = 0.02;
 /// Factor by which another interpretation must be better.
 const BETTER: f64 = 5.0;
-/// Largest number of joints whose signs are combined.
-const SIGNS: usize = 8;
 
 /// Returns an error if the nominal machine fits the data badly and another interpretation fits
 /// well. Otherwise returns the root mean square position error with base and tool fitted, in the
@@ -168,18 +167,10 @@ fn trial_stages(setup: &Setup, rows: &[Observation]) -> impl Iterator<Item = Vec
     };
     let one = exchanged.iter().cloned().chain((0..count).map(|i| vec![Change::Reversed(vec![i])]));
     let one = one.map(trial).collect();
-    let reversed = move |signs: usize| {
-        let joints = moved.iter().enumerate().filter(|(k, _)| signs >> k & 1 == 1);
-        Change::Reversed(joints.map(|(_, i)| *i).collect())
-    };
-    let signs = 1..1_usize << setup.moved(rows).len().min(SIGNS);
     let several = move || {
-        let all = signs.flat_map(|signs| {
-            let reversed = reversed(signs);
-            exchanged
-                .iter()
-                .map(move |order| [&order[..], std::slice::from_ref(&reversed)].concat())
-                .collect::<Vec<_>>()
+        let reversals = Change::reversals(&moved[..moved.len().min(SIGNS)]);
+        let all = reversals.flat_map(|reversed| {
+            exchanged.iter().map(move |order| [&order[..], std::slice::from_ref(&reversed)].concat())
         });
         all.map(trial).collect()
     };

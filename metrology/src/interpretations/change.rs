@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+/// Largest number of joints whose signs are combined.
+pub(crate) const SIGNS: usize = 8;
+
 /// Single difference. Joints are indexed from 0 in the order of the spec. Columns are reordered
 /// first, then signs, couplings and zeros are applied.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -60,8 +63,16 @@ impl Change {
         Self::Order(order)
     }
 
+    /// Returns the opposite signs of every combination of some of these joints.
+    pub(crate) fn reversals(joints: &[usize]) -> impl Iterator<Item = Self> {
+        (1..1_usize << joints.len()).map(|signs| {
+            let reversed = joints.iter().enumerate().filter(|(k, _)| signs >> k & 1 == 1);
+            Self::Reversed(reversed.map(|(_, joint)| *joint).collect())
+        })
+    }
+
     /// Counts the single differences that this change stands for.
-    pub(super) fn cost(&self) -> usize {
+    pub(crate) fn cost(&self) -> usize {
         match self {
             Self::Reversed(joints) => joints.len(),
             // Six parameters are fitted.

@@ -20,6 +20,7 @@ pub(crate) mod words;
 mod zeros;
 
 pub use change::Change;
+pub(crate) use change::SIGNS;
 pub use interpretation::Interpretation;
 pub(crate) use joints::{LENGTHS, Length, angle, configurations, joint_values};
 pub(crate) use observed::{Observed, changed, mirrored};
