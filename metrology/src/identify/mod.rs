@@ -109,6 +109,7 @@ pub use report::{
 };
 pub use spec_writer::IdentifiedSpec;
 pub use terms::{Angle, Basis, ErrorSite, Term, Wave};
+pub use train_test_overlap::overlap_warning;
 pub use weakly_determined::WeaklyDetermined;
 
 pub use crate::sizes::Sizes;

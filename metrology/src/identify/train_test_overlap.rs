@@ -5,7 +5,6 @@ use std::hash::{Hash, Hasher};
 
 use abbe::identify::{Measurement, Observation};
 
-use super::report::Report;
 use crate::data::Data;
 
 /// Row compared by its values: joints, inputs and measurement.
@@ -42,17 +41,10 @@ pub(super) fn train_test_overlap(fit: &Data, test: &Data) -> usize {
     test.observations.iter().filter(|row| common.contains(&RowKey(row))).count()
 }
 
-/// Returns a warning about these rows, if there are any.
-pub(super) fn overlap_warning(overlap: usize, rows: usize) -> Option<String> {
+/// Returns a warning about `overlap` of `rows` test rows that were fitted, if there are any.
+pub fn overlap_warning(overlap: usize, rows: usize) -> Option<String> {
     let (are, they) = if overlap == 1 { ("is a row", "it") } else { ("are rows", "they") };
     (overlap > 0).then(|| {
         format!("{overlap} of the {rows} test rows {are} of the fit: {they} cannot validate the model")
     })
-}
-
-impl Report {
-    /// Returns a warning about test rows that were fitted, if there are any.
-    pub fn train_test_overlap_warning(&self) -> Option<String> {
-        overlap_warning(self.test_rows_of_the_fit, self.test.as_ref()?.rows)
-    }
 }

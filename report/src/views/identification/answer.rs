@@ -1,6 +1,6 @@
 //! The first screen: accuracy on held-out rows, most significant errors, and gaps.
 
-use abbe_metrology::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes};
+use abbe_metrology::identify::{JointError, Kind, Parameter, Report, ResidualDrift, Sizes, overlap_warning};
 use abbe_spec::Spec;
 use abbe_spec::option::FULL;
 use abbe_study::number::{counted, digits, error_unit, fixed};
@@ -166,7 +166,9 @@ fn facts(spec: &Spec, report: &Report) -> Vec<(&'static str, String)> {
     if !report.rejected.is_empty() {
         facts.push(("Outliers", format!("{} left out", counted(report.rejected.len(), "row", "rows"))));
     }
-    facts.extend(report.train_test_overlap_warning().map(|sentence| ("Overlap", sentence)));
+    let overlap =
+        report.test.as_ref().and_then(|test| overlap_warning(report.test_rows_of_the_fit, test.rows));
+    facts.extend(overlap.map(|sentence| ("Overlap", sentence)));
     facts.extend(extrapolation(report).map(|sentence| ("Outside", sentence)));
     let is_found = |drift: &&ResidualDrift| drift.is_drift || drift.p_of_lag_1 <= drift.false_alarms;
     let drift = report.drift.iter().filter(is_found);
