@@ -24,7 +24,7 @@ impl Machine {
     /// stops. `boxes`: maximum number of boxes to examine for each error. `time`: time limit in
     /// seconds. `least`: also certify lower bounds, `.dexterity` and `.stiffness`.
     ///
-    /// `.repeatable`, `.random` and `.radius` have the errors `.norm`, `.x`, `.y`, `.z` and
+    /// `.repeatable`, `.random` and `.total` (the worst case of all) have the errors `.norm`, `.x`, `.y`, `.z` and
     /// `.orientation`. To first order, the true maximum of each lies between `.found`, attained at
     /// `.at`, and `.certified`, which is None if nothing could be proved. `.remainder.certified`
     /// bounds the difference between the exact chain and first order for the repeatable sources.
