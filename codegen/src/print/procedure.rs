@@ -196,12 +196,11 @@ pub(super) trait Printer {
         self.writer().close(end);
     }
 
-    /// Prints the end of a loop if a condition holds.
-    fn leave(&mut self, condition: &Condition) {
+    /// Prints lines that are executed if a condition holds.
+    fn guard(&mut self, condition: &str, lines: &str) {
         let [begin, then, end] = Self::BRANCH;
-        let head = format!("{begin}{}{then}", self.condition(condition));
-        self.writer().begin(&head);
-        self.writer().lines(Self::LEAVE);
+        self.writer().begin(&format!("{begin}{condition}{then}"));
+        self.writer().lines(lines);
         self.writer().close(end);
     }
 
@@ -266,7 +265,10 @@ pub(super) trait Printer {
                 self.repeat(counter.name(), range, *is_descending, print);
             }
             Statement::If { condition, body } => self.branch(condition, body),
-            Statement::Leave(condition) => self.leave(condition),
+            Statement::Leave(condition) => {
+                let condition = self.condition(condition);
+                self.guard(&condition, Self::LEAVE);
+            }
             Statement::Call { procedure, arguments, result } => self.call(procedure, arguments, result),
             Statement::Evaluate { function, q, results } => {
                 let call = evaluated(self.routines(), function, q, results, Self::SKIPS_EMPTY);

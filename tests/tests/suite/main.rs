@@ -26,6 +26,7 @@ mod exported;
 mod files;
 mod golden;
 mod growth;
+mod hostile_names;
 mod identifiability;
 mod identified;
 mod imported;

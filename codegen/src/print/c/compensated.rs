@@ -43,14 +43,12 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, routines: &Routines, 
     writer.open_alone();
     let mut printer = CPrinter { writer, routines, real };
     printer.declarations(&cycle);
-    let upper = spec.name.to_ascii_uppercase();
     let infinity = real.number(f64::INFINITY);
     let finite = |name: &str, len: usize| format!("are_below({name}, {len}, {infinity}) == 0");
     let wrong = [finite("last", spec.variables.len()), finite("rotations", 3)].join(" || ");
-    printer.writer.lines(&format!("int status = {upper}_NOT_FINITE;"));
-    printer.writer.open(&format!("if ({wrong})"));
-    printer.writer.lines("return status;");
-    printer.writer.close("}");
+    let not_finite = printer.code("NOT_FINITE");
+    printer.writer.lines(&format!("int status = {not_finite};"));
+    printer.leave(&wrong, "status");
     printer.statements(&cycle.body);
     writer.lines("return status;");
     writer.close("}");

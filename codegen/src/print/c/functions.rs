@@ -10,6 +10,7 @@ use super::procedures::CPrinter;
 use super::real::Real;
 use crate::print::flat::Flat;
 use crate::print::layout::Writer;
+use crate::print::procedure::Printer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
 use crate::program::{Array, Checks, Role, Routine, Routines};
@@ -97,7 +98,6 @@ pub(super) fn documentation(
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine, real: Real) {
     let Statements { list, used, .. } =
         Statements::new(spec, &routines.description, routine, &C { spec, real });
-    let prefix = &routines.description.name;
     writer.blank();
     if routine.function.is_none() {
         comment(writer, routine.documentation);
@@ -109,9 +109,9 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     writer.open_alone();
     let flat = Flat { routines, routine };
     let checks = routines.checks(routine, real.largest());
-    let mut function = Function { writer, flat, prefix, real };
+    let mut function = Function { printer: CPrinter { writer, routines, real }, flat };
     function.begin(&used, !list.is_empty(), &checks);
-    let margin = statements(&mut CPrinter { writer: function.writer, routines, real }, flat, &list);
+    let margin = statements(&mut function.printer, flat, &list);
     // The status code of the called function covers its margin.
     function.end(margin.filter(|margin| *margin != "margin"), &checks);
     writer.close("}");
@@ -119,19 +119,13 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
 
 /// The checks of a function.
 struct Function<'p> {
-    writer: &'p mut Writer,
+    printer: CPrinter<'p>,
     flat: Flat<'p>,
-    prefix: &'p str,
-    real: Real,
 }
 
 impl Function<'_> {
     fn name(&self, array: usize) -> &'static str {
         self.flat.routine.arrays[array].name
-    }
-
-    fn upper(&self) -> String {
-        self.prefix.to_ascii_uppercase()
     }
 
     /// Prints the beginning of a body: marks unused arguments, and checks the arguments.
@@ -142,7 +136,7 @@ impl Function<'_> {
         for (index, array) in outside {
             let is_used = used[index] && some || is_function;
             if self.flat.len(index) > 0 && !is_used {
-                self.writer.lines(&format!("(void){};", array.name));
+                self.printer.writer.lines(&format!("(void){};", array.name));
             }
         }
         if is_function {
@@ -152,31 +146,23 @@ impl Function<'_> {
 
     /// Prints the checks of the arguments that no called function checks.
     fn check_arguments(&mut self, checks: &Checks) {
-        let upper = self.upper();
-        let all = (0..self.flat.routine.arrays.len())
-            .filter(|array| self.flat.routine.arrays[*array].role == Role::Argument)
-            .filter(|array| self.flat.len(*array) > 0);
-        let mut wrong: Vec<String> =
-            checks.arguments.iter().map(|array| self.below(*array, f64::INFINITY, "== 0")).collect();
+        let mut wrong = self.below(&checks.arguments, f64::INFINITY, "== 0").join(" || ");
         if self.is_within(checks) {
-            let below: Vec<String> = all.map(|array| self.below(array, checks.limit, "!= 0")).collect();
-            self.writer.lines("/* Results need no check if no argument is huge. */");
-            self.writer.lines(&format!("const int is_within = ({}) ? 1 : 0;", below.join(" && ")));
+            let arrays = &self.flat.routine.arrays;
+            let all = (0..arrays.len()).filter(|array| arrays[*array].role == Role::Argument);
+            let all: Vec<usize> = all.filter(|array| self.flat.len(*array) > 0).collect();
+            let below = self.below(&all, checks.limit, "!= 0").join(" && ");
+            self.printer.comment("Results need no check if no argument is huge.");
+            self.printer.writer.lines(&format!("const int is_within = ({below}) ? 1 : 0;"));
             if !wrong.is_empty() {
-                let several = if wrong.len() > 1 { ["(", ")"] } else { ["", ""] };
-                let any = several.join(&wrong.join(" || "));
-                wrong = vec![format!("is_within == 0 && {any}")];
+                wrong = format!("is_within == 0 && {}", grouped(&wrong, " || "));
             }
         }
         if !wrong.is_empty() {
-            self.writer.open(&format!("if ({})", wrong.join(" || ")));
-            self.writer.lines(&format!("return {upper}_NOT_FINITE;"));
-            self.writer.close("}");
+            self.printer.leave(&wrong, self.printer.code("NOT_FINITE"));
         }
         if checks.arguments.iter().any(|array| self.name(*array) == "u") {
-            self.writer.open("if (inputs_are_in_range(u) == 0)");
-            self.writer.lines(&format!("return {upper}_OUT_OF_RANGE;"));
-            self.writer.close("}");
+            self.printer.leave("inputs_are_in_range(u) == 0", self.printer.code("OUT_OF_RANGE"));
         }
     }
 
@@ -187,43 +173,44 @@ impl Function<'_> {
         !checks.bounded.is_empty() && given.any(|(index, _)| self.flat.len(index) > 0)
     }
 
-    /// Returns the comparison of an array with a limit.
-    fn below(&self, array: usize, limit: f64, compared: &str) -> String {
-        let (name, len) = (self.name(array), self.flat.len(array));
-        format!("are_below({name}, {len}, {}) {compared}", self.real.number(limit))
+    /// Returns the comparisons of arrays with a limit.
+    fn below(&self, arrays: &[usize], limit: f64, compared: &str) -> Vec<String> {
+        let limit = self.printer.real.number(limit);
+        let one = |array: &usize| {
+            let (name, len) = (self.name(*array), self.flat.len(*array));
+            format!("are_below({name}, {len}, {limit}) {compared}")
+        };
+        arrays.iter().map(one).collect()
     }
 
     /// Prints the checks of the results and the return statement.
     fn end(&mut self, margin: Option<&str>, checks: &Checks) {
-        let (Flat { routine, .. }, real) = (self.flat, self.real);
-        if routine.function.is_none() {
+        if self.flat.routine.function.is_none() {
             return;
         }
-        let upper = self.upper();
+        let real = self.printer.real;
+        let [ok, not_finite, singular] = ["OK", "NOT_FINITE", "SINGULAR"].map(|name| self.printer.code(name));
         if let Some(margin) = margin {
-            self.writer.lines(&format!("const {real} margin = {margin};"));
-            self.writer.open(&format!("if (!(margin >= {}))", real.number(abbe_core::MINIMUM_MARGIN)));
-            self.writer
-                .lines(&format!("return (isnan(margin) != 0) ? {upper}_NOT_FINITE : {upper}_SINGULAR;"));
-            self.writer.close("}");
+            self.printer.writer.lines(&format!("const {real} margin = {margin};"));
+            let value = format!("(isnan(margin) != 0) ? {not_finite} : {singular}");
+            let least = real.number(abbe_core::MINIMUM_MARGIN);
+            self.printer.leave(&format!("!(margin >= {least})"), value);
         }
-        let finite = |arrays: &[usize]| -> Vec<String> {
-            arrays.iter().map(|array| self.below(*array, f64::INFINITY, "!= 0")).collect()
-        };
-        let mut conditions = finite(&checks.unbounded);
+        let mut conditions = self.below(&checks.unbounded, f64::INFINITY, "!= 0");
         if self.is_within(checks) {
-            let bounded = finite(&checks.bounded);
-            let several = if bounded.len() > 1 { ["(", ")"] } else { ["", ""] };
-            let either = format!("is_within != 0 || {}", several.join(&bounded.join(" && ")));
+            let bounded = self.below(&checks.bounded, f64::INFINITY, "!= 0").join(" && ");
+            let either = format!("is_within != 0 || {}", grouped(&bounded, " && "));
             let either = if conditions.is_empty() { either } else { format!("({either})") };
             conditions.insert(0, either);
         }
-        match &conditions[..] {
-            [] => self.writer.lines(&format!("return {upper}_OK;")),
-            all => {
-                let all = all.join(" && ");
-                self.writer.lines(&format!("return ({all}) ? {upper}_OK : {upper}_NOT_FINITE;"));
-            }
-        }
+        self.printer.writer.lines(&match &conditions.join(" && ")[..] {
+            "" => format!("return {ok};"),
+            all => format!("return ({all}) ? {ok} : {not_finite};"),
+        });
     }
+}
+
+/// Returns joined conditions as an operand, in parentheses if they are several.
+fn grouped(conditions: &str, sign: &str) -> String {
+    if conditions.contains(sign) { format!("({conditions})") } else { conditions.to_owned() }
 }

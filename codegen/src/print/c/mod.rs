@@ -2,9 +2,10 @@
 //!
 //! `functions` prints routines, `operators` expressions, `support` the sine and other helpers,
 //! `procedures` the procedures of the corrected commands, `compensated` their heads, and
-//! `self_test` expected values for checks on the target.
+//! `self_test` checks on the target of values that `expected` computes.
 
 mod compensated;
+mod expected;
 mod functions;
 mod heads;
 mod operators;

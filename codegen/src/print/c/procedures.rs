@@ -1,5 +1,7 @@
 //! Statements and procedures in C.
 
+use std::fmt::Display;
+
 use abbe_core::compensator::Status;
 
 use super::heads::{RESTRICT, broken, comment};
@@ -53,13 +55,14 @@ pub(super) struct CPrinter<'p> {
 impl CPrinter<'_> {
     /// Prints the declarations of constants and local variables.
     pub(super) fn declarations(&mut self, procedure: &Procedure) {
-        let real = self.real;
-        for (name, values) in &procedure.constants {
-            let entries: Vec<String> = values.iter().map(|value| real.number(*value)).collect();
-            let head = format!("static const {real} {name}[{}] = ", entries.len());
-            self.writer.braces(&head, &entries, ";");
-        }
+        procedure.constants.iter().for_each(|(name, values)| self.numbers("static const ", name, values));
         procedure.locals.iter().for_each(|variable| self.declare_variable(variable));
+    }
+
+    /// Prints the declaration of an array of numbers.
+    pub(super) fn numbers(&mut self, before: &str, name: &str, values: &[f64]) {
+        let entries: Vec<String> = values.iter().map(|value| self.real.number(*value)).collect();
+        self.writer.braces(&format!("{before}{} {name}[{}] = ", self.real, entries.len()), &entries, ";");
     }
 
     fn declare_variable(&mut self, Variable { name, kind }: &Variable) {
@@ -72,8 +75,13 @@ impl CPrinter<'_> {
     }
 
     /// Returns the name of a status code.
-    fn code(&self, name: &str) -> String {
+    pub(super) fn code(&self, name: &str) -> String {
         format!("{}_{name}", self.routines.description.name.to_ascii_uppercase())
+    }
+
+    /// Prints the end of the function with a value if a condition holds.
+    pub(super) fn leave(&mut self, condition: &str, value: impl Display) {
+        self.guard(condition, &format!("return {value};"));
     }
 }
 
@@ -219,9 +227,7 @@ impl Printer for CPrinter<'_> {
                 self.writer.lines(&format!("const int status = {call}"));
             }
         }
-        self.writer.open(&format!("if (status != {})", self.code(Status::Reached.name())));
-        self.writer.lines("return status;");
-        self.writer.close("}");
+        self.leave(&format!("status != {}", self.code(Status::Reached.name())), "status");
         if !in_procedure {
             self.writer.close("}");
         }

@@ -155,9 +155,8 @@ impl Printer for MatlabPrinter<'_> {
         if *in_procedure {
             let finite: Vec<String> =
                 results.iter().map(|name| format!("all(isfinite({name}(:)))")).collect();
-            self.writer.begin(&format!("if ~({})", finite.join(" && ")));
-            self.writer.lines("error('abbe:finite', 'a result is not finite');");
-            self.writer.close("end");
+            let condition = format!("~({})", finite.join(" && "));
+            self.guard(&condition, "error('abbe:finite', 'a result is not finite');");
         }
     }
 }

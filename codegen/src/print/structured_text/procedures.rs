@@ -113,6 +113,13 @@ pub(super) struct BlockPrinter<'p> {
     pub(super) procedures: &'p [Procedure],
 }
 
+impl BlockPrinter<'_> {
+    /// Prints the end of the block with a status if a condition holds.
+    pub(super) fn leave(&mut self, condition: &str, status: &str) {
+        self.guard(condition, &format!("status := {status};\nRETURN;"));
+    }
+}
+
 impl Printer for BlockPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["IF ", " THEN", "END_IF;"];
     const LOOP_END: &'static str = "END_FOR;";
@@ -213,10 +220,7 @@ impl Printer for BlockPrinter<'_> {
             })
             .collect();
         call(self.writer, &run, &given);
-        self.writer.begin(&format!("IF {run}.status <> 0 THEN"));
-        self.writer.lines(&format!("status := {run}.status;"));
-        self.writer.lines("RETURN;");
-        self.writer.close("END_IF;");
+        self.leave(&format!("{run}.status <> 0"), &format!("{run}.status"));
         for (name, _, own) in filled {
             self.assign(own, &format!("{run}.{}", array_name(name)), None);
         }

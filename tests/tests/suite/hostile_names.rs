@@ -5,9 +5,8 @@ use std::collections::HashSet;
 
 use abbe_codegen::print::{Language, Real, SourceFile};
 use abbe_spec::Spec;
-
-use crate::hostile;
-use crate::structured_text::Program;
+use abbe_tests::hostile;
+use abbe_tests::structured_text::Program;
 
 /// Reserved words, and names of the library that generated code calls.
 const C: &str = "auto break case char const continue default do double else enum extern float for goto if inline int long \
