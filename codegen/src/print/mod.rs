@@ -4,9 +4,9 @@
 //! for a program, with an `expression` for each step that needs no name and `names` for the rest.
 //! `layout` lays out lines, `flat` indexes flat arrays, `lists` has the tables of loops. A language
 //! with flat arrays implements the trait of `procedure`, by which `procedure` prints the procedures
-//! and `routine` the statements. `header` and `text` print documentation, `records` the description
-//! of a manipulator. Each language is a folder with its operators, numbers, statements, functions,
-//! corrected commands and the surrounding module.
+//! and `routine` the statements; `invocation` has the calls of both. `header` and `text` print
+//! documentation, `records` the description of a manipulator. Each language is a folder with its
+//! operators, numbers, statements, functions, corrected commands and the surrounding module.
 
 mod body;
 mod c;
@@ -14,6 +14,7 @@ mod expression;
 mod flat;
 mod fmu;
 mod header;
+mod invocation;
 mod javascript;
 mod layout;
 mod lists;

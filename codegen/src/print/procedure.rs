@@ -5,11 +5,13 @@
 
 use super::expression::{Binding, Expression, Value as Entry, infix};
 use super::flat::{Results, filled};
+pub(super) use super::invocation::Invocation;
+use super::invocation::evaluated;
 use super::layout::Writer;
 use crate::procedure::{
     Binary, Condition, Counter, Index, Kind, Procedure, Statement, Unary, Value, Variable, Whole,
 };
-use crate::program::{Array, Role, Routine, Routines};
+use crate::program::{Role, Routine, Routines};
 
 /// A function of real numbers that a language spells in its own way.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -20,18 +22,6 @@ pub(super) enum Called {
     Clamped,
     Sine,
     Cosine,
-}
-
-/// A call of a generated function, or of a helper of several functions.
-pub(super) struct Invocation {
-    pub(super) routine: &'static str,
-    pub(super) is_function: bool,
-    /// Names of the arguments: those of the routine, and those of the caller.
-    pub(super) given: Vec<(&'static str, String)>,
-    /// Names and sizes of the results, and the variables of the caller that take them.
-    pub(super) filled: Vec<(&'static str, usize, String)>,
-    /// `true` if variables of a procedure take the results.
-    pub(super) in_procedure: bool,
 }
 
 /// A language. Expressions have no branches.
@@ -187,6 +177,48 @@ pub(super) trait Printer {
     /// Returns the head of a loop over a range.
     fn loop_head(&self, counter: &str, range: &[Index; 2], is_descending: bool) -> String;
 
+    /// Prints the head of a procedure that another one calls.
+    fn head(&mut self, procedure: &Procedure, name: &str);
+
+    /// Prints the end of a procedure that another one calls.
+    fn tail(&mut self, procedure: &Procedure);
+
+    /// Prints a procedure that another one calls. `list` has its constants, if given.
+    fn helper(&mut self, procedure: &Procedure, name: &str, list: Option<&str>) {
+        self.head(procedure, name);
+        self.declarations(procedure, list);
+        self.statements(&procedure.body);
+        self.tail(procedure);
+    }
+
+    /// Prints the declaration of constants that a list of the file has.
+    fn unpack(&mut self, _names: &str, _list: &str) {}
+
+    /// Prints the declaration of an array of constants.
+    fn numbers(&mut self, _name: &str, _values: &[String]) {}
+
+    /// Prints constants, which `list` has if given, and arrays that are filled element by element.
+    fn declarations(&mut self, procedure: &Procedure, list: Option<&str>) {
+        self.constants(procedure, list);
+        for (name, len) in arrays(&procedure.results).chain(arrays(&procedure.locals)) {
+            if procedure.begins_by_elements(name) {
+                self.zeros(name, len);
+            }
+        }
+    }
+
+    /// Prints the constants of a procedure.
+    fn constants(&mut self, procedure: &Procedure, list: Option<&str>) {
+        if let Some(list) = list {
+            let names: Vec<&str> = procedure.constants.iter().map(|(name, _)| *name).collect();
+            return self.unpack(&names.join(", "), list);
+        }
+        for (name, values) in &procedure.constants {
+            let entries: Vec<String> = values.iter().map(|value| self.number(*value).text).collect();
+            self.numbers(name, &entries);
+        }
+    }
+
     /// Prints statements that are executed if a condition holds.
     fn branch(&mut self, condition: &Condition, body: &[Statement]) {
         let [begin, then, end] = Self::BRANCH;
@@ -334,28 +366,6 @@ pub(super) trait Printer {
             Condition::Or(operands) => both(or, operands),
         }
     }
-}
-
-/// Returns the call of a generated function at joint variables `q`: without empty arrays if
-/// `skips_empty`.
-fn evaluated(
-    Routines { description, list, .. }: &Routines,
-    function: &'static str,
-    q: &'static str,
-    results: &[&'static str],
-    skips_empty: bool,
-) -> Invocation {
-    let arrays = list.iter().filter(|routine| routine.name == function).flat_map(|routine| &routine.arrays);
-    let arrays = arrays.filter(|array| !(skips_empty && array.is_empty(description)));
-    let of_role = |role| arrays.clone().filter(move |array| array.role == role);
-    let given = of_role(Role::Argument).map(|Array { name, .. }| {
-        let own = if *name == "q" { q } else { name };
-        (*name, own.to_owned())
-    });
-    let filled = of_role(Role::Result).zip(results);
-    let filled = filled.map(|(array, own)| (array.name, array.len(description), str::to_owned(own)));
-    let (given, filled) = (given.collect(), filled.collect());
-    Invocation { routine: function, is_function: true, given, filled, in_procedure: true }
 }
 
 /// Returns the arrays of some variables, with their sizes.

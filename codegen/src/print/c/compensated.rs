@@ -6,7 +6,7 @@ use abbe_spec::Spec;
 
 use super::functions::{documentation, head};
 use super::heads::SIZE;
-use super::procedures::{CPrinter, helper};
+use super::procedures::CPrinter;
 use super::real::Real;
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
@@ -37,12 +37,12 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, routines: &Routines, 
     }
     let procedures = compensated(spec, real.precision()).into_iter().map(Procedure::with_loops);
     let (helpers, cycle) = split(procedures.collect());
-    helpers.iter().for_each(|procedure| helper(writer, routines, procedure, procedure.name, real));
-    writer.blank();
-    writer.lines(&head(routines, &COMPENSATED, real, SIZE));
-    writer.open_alone();
     let mut printer = CPrinter { writer, routines, real };
-    printer.declarations(&cycle);
+    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
+    printer.writer.blank();
+    printer.writer.lines(&head(routines, &COMPENSATED, real, SIZE));
+    printer.writer.open_alone();
+    printer.declarations(&cycle, None);
     let infinity = real.number(f64::INFINITY);
     let finite = |name: &str, len: usize| format!("are_below({name}, {len}, {infinity}) == 0");
     let wrong = [finite("last", spec.variables.len()), finite("rotations", 3)].join(" || ");

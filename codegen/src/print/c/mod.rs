@@ -23,13 +23,14 @@ use abbe_spec::expr::Table;
 use self::functions::{documentation, function, head};
 use self::heads::{RESTRICT, comment};
 use self::operators::HEADERS;
-use self::procedures::helper;
+use self::procedures::CPrinter;
 pub use self::real::Real;
 use self::support::{ARE_BELOW, Support};
 use super::header::header;
 use super::layout::Writer;
 use super::lists::{lists, numbers};
 use super::names::{file_name, function_of, renamed};
+use super::procedure::Printer;
 use super::source_file::SourceFile;
 use super::text::escaped;
 use crate::chain::Model;
@@ -321,23 +322,25 @@ fn takes_inputs(routines: &Routines) -> bool {
 
 /// Prints the function that checks the ranges of inputs.
 fn ranges(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
-    let count = spec.inputs.len();
-    if !takes_inputs(routines) {
-        return;
+    if takes_inputs(routines) {
+        let numbers = [("NAME", spec.name.clone()), ("COUNT", spec.inputs.len().to_string())];
+        let text = numbers.iter().fold(real.text(IN_RANGE), |text, (word, with)| text.replace(word, with));
+        writer.blank();
+        writer.lines(text.trim_end());
     }
-    writer.blank();
-    writer.lines("/* Returns 1 if every input is within its range, else 0. */");
-    writer.lines(&format!("static int inputs_are_in_range(const {real} *u)"));
-    writer.open_alone();
-    writer.lines("int inside = 1;");
-    writer.open(&format!("for (int k = 0; k < {count}; k++)"));
-    let name = &spec.name;
-    let is_inside = format!("u[k] >= {name}_ranges[k][0] && u[k] <= {name}_ranges[k][1]");
-    writer.lines(&format!("inside = (inside != 0 && {is_inside}) ? 1 : 0;"));
-    writer.close("}");
-    writer.lines("return inside;");
-    writer.close("}");
 }
+
+const IN_RANGE: &str = "\
+/* Returns 1 if every input is within its range, else 0. */
+static int inputs_are_in_range(const double *u)
+{
+    int inside = 1;
+    for (int k = 0; k < COUNT; k++) {
+        inside = (inside != 0 && u[k] >= NAME_ranges[k][0] && u[k] <= NAME_ranges[k][1]) ? 1 : 0;
+    }
+    return inside;
+}
+";
 
 /// Prints the function of a lookup table.
 fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table, real: Real) {
@@ -345,5 +348,5 @@ fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table, real: R
     let buckets = if lookup.starts.is_empty() { lookup.pieces.len() } else { lookup.starts.len() } - 2;
     let documentation = table.documentation(&escaped(&table.description));
     let procedure = look_up(&lookup, real.scale(table, buckets), documentation);
-    helper(writer, routines, &procedure, &name, real);
+    CPrinter { writer, routines, real }.helper(&procedure, &name, None);
 }

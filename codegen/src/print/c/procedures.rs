@@ -14,35 +14,9 @@ use crate::print::text::harmless;
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::Routines;
 
-/// Prints a procedure that another one calls.
-pub(super) fn helper(
-    writer: &mut Writer,
-    routines: &Routines,
-    procedure: &Procedure,
-    name: &str,
-    real: Real,
-) {
-    let given = |Variable { name, kind }: &Variable| match kind {
-        Kind::Array(len) => format!("const {real} {name}[{RESTRICT}({len})]"),
-        Kind::Real => format!("{real} {name}"),
-        Kind::Whole | Kind::Flag => format!("int {name}"),
-    };
-    let filled = arrays(&procedure.results).map(|(name, len)| format!("{real} {name}[{RESTRICT}({len})]"));
-    let number = procedure.results.iter().find(|result| result.kind == Kind::Real);
-    let kind = if number.is_some() { real.name() } else { "void" };
-    let arguments: Vec<String> = procedure.arguments.iter().map(given).chain(filled).collect();
-    writer.blank();
-    comment(writer, &procedure.documentation);
-    writer.lines(&broken(&format!("static {kind} {name}"), &arguments));
-    writer.open_alone();
-    let mut printer = CPrinter { writer, routines, real };
-    printer.declarations(procedure);
-    number.iter().for_each(|result| printer.declare_variable(result));
-    printer.statements(&procedure.body);
-    if let Some(result) = number {
-        writer.lines(&format!("return {};", result.name));
-    }
-    writer.close("}");
+/// Returns the number that a procedure returns, if its result is no array.
+fn returned(procedure: &Procedure) -> Option<&Variable> {
+    procedure.results.iter().find(|result| result.kind == Kind::Real)
 }
 
 /// Printer of statements.
@@ -53,18 +27,6 @@ pub(super) struct CPrinter<'p> {
 }
 
 impl CPrinter<'_> {
-    /// Prints the declarations of constants and local variables.
-    pub(super) fn declarations(&mut self, procedure: &Procedure) {
-        procedure.constants.iter().for_each(|(name, values)| self.numbers("static const ", name, values));
-        procedure.locals.iter().for_each(|variable| self.declare_variable(variable));
-    }
-
-    /// Prints the declaration of an array of numbers.
-    pub(super) fn numbers(&mut self, before: &str, name: &str, values: &[f64]) {
-        let entries: Vec<String> = values.iter().map(|value| self.real.number(*value)).collect();
-        self.writer.braces(&format!("{before}{} {name}[{}] = ", self.real, entries.len()), &entries, ";");
-    }
-
     fn declare_variable(&mut self, Variable { name, kind }: &Variable) {
         let real = self.real;
         self.writer.lines(&match kind {
@@ -178,6 +140,42 @@ impl Printer for CPrinter<'_> {
         });
         filled(self.writer, "", &assigned.collect::<Vec<_>>(), "; ");
         self.writer.close("}");
+    }
+
+    fn head(&mut self, procedure: &Procedure, name: &str) {
+        let real = self.real;
+        let given = |Variable { name, kind }: &Variable| match kind {
+            Kind::Array(len) => format!("const {real} {name}[{RESTRICT}({len})]"),
+            Kind::Real => format!("{real} {name}"),
+            Kind::Whole | Kind::Flag => format!("int {name}"),
+        };
+        let filled = |(name, len)| format!("{real} {name}[{RESTRICT}({len})]");
+        let filled = arrays(&procedure.results).map(filled);
+        let kind = if returned(procedure).is_some() { real.name() } else { "void" };
+        let arguments: Vec<String> = procedure.arguments.iter().map(given).chain(filled).collect();
+        self.writer.blank();
+        comment(self.writer, &procedure.documentation);
+        self.writer.lines(&broken(&format!("static {kind} {name}"), &arguments));
+        self.writer.open_alone();
+    }
+
+    fn tail(&mut self, procedure: &Procedure) {
+        if let Some(result) = returned(procedure) {
+            self.writer.lines(&format!("return {};", result.name));
+        }
+        self.writer.close("}");
+    }
+
+    fn numbers(&mut self, name: &str, values: &[String]) {
+        let head = format!("static const {} {name}[{}] = ", self.real, values.len());
+        self.writer.braces(&head, values, ";");
+    }
+
+    /// Prints constants and local variables.
+    fn declarations(&mut self, procedure: &Procedure, list: Option<&str>) {
+        self.constants(procedure, list);
+        let own = procedure.locals.iter().chain(returned(procedure));
+        own.for_each(|variable| self.declare_variable(variable));
     }
 
     fn zeros(&mut self, name: &str, len: usize) {

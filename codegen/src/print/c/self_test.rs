@@ -75,17 +75,18 @@ pub(super) fn definition(
         |signature: &Signature, name: &str| signature.arguments.iter().any(|array| array.name == name);
     let is_taken = |name: &str| tested.iter().any(|(signature, _)| takes(signature, name));
     let taken: Vec<_> = given.iter().filter(|(name, list)| !list.is_empty() && is_taken(name)).collect();
-    let mut values: Vec<f64> = taken.iter().flat_map(|(_, list)| list.iter().copied()).collect();
+    let values = taken.iter().flat_map(|(_, list)| list);
+    let mut values: Vec<String> = values.map(|value| real.number(*value)).collect();
     // C has no empty arrays.
-    values.extend(values.is_empty().then_some(0.0));
+    values.extend(values.is_empty().then(|| real.number(0.0)));
     writer.blank();
     writer.lines(&format!("int {}_self_test(void)", spec.name));
     writer.open_alone();
     let mut printer = CPrinter { writer, routines, real };
     if !wrong_sines.is_empty() {
-        printer.numbers("static const ", "sines", &sines(real));
+        printer.numbers("sines", &sines(real).map(|value| real.number(value)));
     }
-    printer.numbers("", "given", &values);
+    printer.writer.braces(&format!("{real} given[{}] = ", values.len()), &values, ";");
     let mut end = 0;
     let mut ranges = Vec::new();
     for (name, list) in taken {
@@ -147,7 +148,7 @@ impl CPrinter<'_> {
 
 /// Returns angles of both signs in every quadrant, two of them large, then their sines, then their
 /// cosines.
-fn sines(real: Real) -> Vec<f64> {
+fn sines(real: Real) -> [f64; 36] {
     let range = match real {
         Real::Double => 1e5,
         Real::Float => 6e3,
@@ -155,7 +156,7 @@ fn sines(real: Real) -> Vec<f64> {
     let [near, far] = [0.93 * range, -1.2 * range];
     let angles = [0.1, -0.7, 0.78, 1.9, -2.3, 2.9, -3.7, 5.1, near, far, 0.5, -6.2];
     let angles = angles.map(|angle| real.nearest(angle));
-    [angles, angles.map(f64::sin), angles.map(f64::cos)].concat()
+    std::array::from_fn(|k| [|x| x, f64::sin, f64::cos][k / 12](angles[k % 12]))
 }
 
 /// Returns the conditions that the results have the expected sums.

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use abbe_spec::expr::Function;
 
-use super::procedures::helper;
+use super::procedures::CPrinter;
 use super::real::Real;
 use super::sines;
 use crate::print::layout::Writer;
+use crate::print::procedure::Printer;
 use crate::procedure::{clamped, least_and_greatest, side, sign};
 use crate::program::{Action, Routines};
 
@@ -72,7 +73,7 @@ impl Support {
             Self::Clamped => clamped(),
         };
         let mut writer = Writer::new(" *");
-        helper(&mut writer, routines, &procedure, procedure.name, real);
+        CPrinter { writer: &mut writer, routines, real }.helper(&procedure, procedure.name, None);
         writer.finish().trim_start().to_owned()
     }
 }

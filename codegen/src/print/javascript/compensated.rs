@@ -4,7 +4,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::documentation;
-use super::procedures::{JavaScriptPrinter, helper};
+use super::procedures::JavaScriptPrinter;
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Precision, Procedure, compensated as described};
@@ -18,7 +18,9 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     let (helpers, cycle) = split(procedures.collect());
     writer.blank();
     writer.paragraphs(HELPERS);
-    helpers.iter().for_each(|procedure| helper(writer, routines, procedure, procedure.name, None));
+    let mut printer = JavaScriptPrinter { writer, routines };
+    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
+    let writer = &mut *printer.writer;
     writer.blank();
     writer.lines("/**");
     let statuses = Precision::Double.statuses();
@@ -28,11 +30,10 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     writer.lines(" */");
     writer.open("export function compensated(q, s, u, last, change, largest, rotations = [1, 1, 1])");
     writer.lines(CHECKS);
-    let mut printer = JavaScriptPrinter { writer, routines };
     printer.declarations(&cycle, None);
     printer.statements(&cycle.body);
-    writer.lines("return { corrected, correction, before, after, status };");
-    writer.close("}");
+    printer.writer.lines("return { corrected, correction, before, after, status };");
+    printer.writer.close("}");
 }
 
 const HELPERS: &str = "\

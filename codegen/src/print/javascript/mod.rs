@@ -14,11 +14,12 @@ use abbe_spec::expr::Table;
 
 use self::functions::function;
 use self::operators::number;
-use self::procedures::{comment, helper};
+use self::procedures::{JavaScriptPrinter, comment};
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
 use super::names::function_of;
+use super::procedure::Printer;
 use super::records::records;
 use super::text::escaped;
 use crate::procedure::{clamped, look_up};
@@ -42,7 +43,7 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         lookup_table(&mut writer, routines, table);
     }
     if routines.has_compensated() || routines.used_lookup_tables().next().is_some() {
-        helper(&mut writer, routines, &clamped(), "clamped", None);
+        JavaScriptPrinter { writer: &mut writer, routines }.helper(&clamped(), "clamped", None);
     }
     for routine in &routines.list {
         function(&mut writer, spec, routines, routine);
@@ -62,7 +63,7 @@ fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table) {
         writer.array(&format!("{list}: "), &entries, ",");
     }
     writer.close("};");
-    helper(writer, routines, &procedure, &function_of(&name), Some(&name));
+    JavaScriptPrinter { writer, routines }.helper(&procedure, &function_of(&name), Some(&name));
 }
 
 fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {

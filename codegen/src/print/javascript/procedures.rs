@@ -29,55 +29,10 @@ pub(super) fn one_or_object(properties: &[(&str, String)]) -> String {
     }
 }
 
-/// Prints a procedure that another one calls. `constants` is an object that has its constants.
-pub(super) fn helper(
-    writer: &mut Writer,
-    routines: &Routines,
-    procedure: &Procedure,
-    name: &str,
-    constants: Option<&str>,
-) {
-    let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
-    writer.blank();
-    comment(writer, &procedure.documentation);
-    writer.open(&format!("function {name}({})", arguments.join(", ")));
-    let mut printer = JavaScriptPrinter { writer, routines };
-    printer.declarations(procedure, constants);
-    printer.statements(&procedure.body);
-    writer.lines(&format!("return {};", procedure.results[0].name));
-    writer.close("}");
-}
-
 /// Printer of statements.
 pub(super) struct JavaScriptPrinter<'p> {
     pub(super) writer: &'p mut Writer,
     pub(super) routines: &'p Routines,
-}
-
-impl JavaScriptPrinter<'_> {
-    /// Prints the declarations of constants, results and local variables.
-    pub(super) fn declarations(&mut self, procedure: &Procedure, constants: Option<&str>) {
-        if let Some(constants) = constants {
-            let names: Vec<&str> = procedure.constants.iter().map(|(name, _)| *name).collect();
-            self.writer.lines(&format!("const {{ {} }} = {constants};", names.join(", ")));
-        }
-        let own = procedure.constants.iter().filter(|_| constants.is_none());
-        for (name, values) in own {
-            let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
-            self.writer.array(&format!("const {name} = "), &entries, ";");
-        }
-        let mut later = Vec::new();
-        for Variable { name, kind } in procedure.results.iter().chain(&procedure.locals) {
-            match kind {
-                Kind::Array(len) if procedure.begins_by_elements(name) => {
-                    let keyword = if procedure.is_assigned_whole(name) { "let" } else { "const" };
-                    self.writer.lines(&format!("{keyword} {name} = new Float64Array({len});"));
-                }
-                _ => later.push((*name).to_owned()),
-            }
-        }
-        filled(self.writer, "let ", &later, ", ");
-    }
 }
 
 impl Printer for JavaScriptPrinter<'_> {
@@ -132,6 +87,42 @@ impl Printer for JavaScriptPrinter<'_> {
         let bindings: Vec<String> =
             bindings.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         filled(self.writer, "const ", &bindings, ", ");
+    }
+
+    fn head(&mut self, procedure: &Procedure, name: &str) {
+        let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
+        self.writer.blank();
+        comment(self.writer, &procedure.documentation);
+        self.writer.open(&format!("function {name}({})", arguments.join(", ")));
+    }
+
+    fn tail(&mut self, procedure: &Procedure) {
+        self.writer.lines(&format!("return {};", procedure.results[0].name));
+        self.writer.close("}");
+    }
+
+    fn unpack(&mut self, names: &str, object: &str) {
+        self.writer.lines(&format!("const {{ {names} }} = {object};"));
+    }
+
+    fn numbers(&mut self, name: &str, values: &[String]) {
+        self.writer.array(&format!("const {name} = "), values, ";");
+    }
+
+    /// Prints constants, results and local variables.
+    fn declarations(&mut self, procedure: &Procedure, object: Option<&str>) {
+        self.constants(procedure, object);
+        let mut later = Vec::new();
+        for Variable { name, kind } in procedure.results.iter().chain(&procedure.locals) {
+            match kind {
+                Kind::Array(len) if procedure.begins_by_elements(name) => {
+                    let keyword = if procedure.is_assigned_whole(name) { "let" } else { "const" };
+                    self.writer.lines(&format!("{keyword} {name} = new Float64Array({len});"));
+                }
+                _ => later.push((*name).to_owned()),
+            }
+        }
+        filled(self.writer, "let ", &later, ", ");
     }
 
     fn zeros(&mut self, name: &str, len: usize) {

@@ -4,7 +4,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::{checks, documentation};
-use super::procedures::{MatlabPrinter, helper};
+use super::procedures::MatlabPrinter;
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Precision, compensated as described};
@@ -29,8 +29,8 @@ pub(super) fn compensated(writer: &mut Writer, class: &str, spec: &Spec, routine
     let mut printer = MatlabPrinter { writer, class, routines };
     printer.declarations(&cycle, None);
     printer.statements(&cycle.body);
-    writer.close("end");
-    helpers.iter().for_each(|procedure| helper(writer, class, routines, procedure, procedure.name, None));
+    printer.writer.close("end");
+    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
 }
 
 /// Arguments that may be left out.

@@ -19,11 +19,12 @@ use abbe_spec::expr::Table;
 
 use self::functions::function;
 use self::operators::{WORDS, number, spelled};
-use self::procedures::{helper, list};
+use self::procedures::{MatlabPrinter, list};
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
 use super::names::{distinct, function_of, renamed};
+use super::procedure::Printer;
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
 use crate::procedure::{
@@ -51,12 +52,13 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     writer.blank();
     writer.begin("methods (Static)");
     writer.paragraphs(HELPERS);
+    let mut printer = MatlabPrinter { writer: &mut writer, class: &class, routines };
     for procedure in least_and_greatest().into_iter().chain([side(), clamped()]) {
-        helper(&mut writer, &class, routines, &procedure, procedure.name, None);
+        printer.helper(&procedure, procedure.name, None);
     }
     for table in routines.used_lookup_tables() {
         let name = spelled(&table.constant_name());
-        helper(&mut writer, &class, routines, &described_table(table), &function_of(&name), Some(&name));
+        printer.helper(&described_table(table), &function_of(&name), Some(&name));
     }
     for routine in &routines.list {
         function(&mut writer, &class, spec, routines, routine);

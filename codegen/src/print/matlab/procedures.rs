@@ -3,7 +3,7 @@
 use super::operators::number;
 use crate::print::expression::{Binding, Expression};
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Invocation, Printer, arrays};
+use crate::print::procedure::{Called, Invocation, Printer};
 use crate::print::text::harmless;
 use crate::procedure::{Counter, Index, Procedure, Variable};
 use crate::program::Routines;
@@ -19,50 +19,11 @@ pub(super) fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], en
     writer.lines(&format!("{close};"));
 }
 
-/// Prints a procedure that another one calls. `constants` is a property that has its constants.
-pub(super) fn helper(
-    writer: &mut Writer,
-    class: &str,
-    routines: &Routines,
-    procedure: &Procedure,
-    name: &str,
-    constants: Option<&str>,
-) {
-    let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
-    let result = procedure.results[0].name;
-    writer.blank();
-    writer.begin(&format!("function {result} = {name}({})", arguments.join(", ")));
-    writer.documentation(&procedure.documentation);
-    let mut printer = MatlabPrinter { writer, class, routines };
-    printer.declarations(procedure, constants);
-    printer.statements(&procedure.body);
-    writer.close("end");
-}
-
 /// Printer of statements.
 pub(super) struct MatlabPrinter<'p> {
     pub(super) writer: &'p mut Writer,
     pub(super) class: &'p str,
     pub(super) routines: &'p Routines,
-}
-
-impl MatlabPrinter<'_> {
-    /// Prints constants, and arrays that are filled element by element.
-    pub(super) fn declarations(&mut self, procedure: &Procedure, constants: Option<&str>) {
-        if let Some(constants) = constants {
-            let names: Vec<&str> = procedure.constants.iter().map(|(name, _)| *name).collect();
-            self.writer.lines(&format!("[{}] = {}.{constants}{{:}};", names.join(", "), self.class));
-        }
-        for (name, values) in procedure.constants.iter().filter(|_| constants.is_none()) {
-            let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
-            list(self.writer, name, ["[", "]"], &entries);
-        }
-        for (name, len) in arrays(&procedure.results).chain(arrays(&procedure.locals)) {
-            if procedure.begins_by_elements(name) {
-                self.writer.lines(&format!("{name} = zeros(1, {len});"));
-            }
-        }
-    }
 }
 
 impl Printer for MatlabPrinter<'_> {
@@ -118,6 +79,26 @@ impl Printer for MatlabPrinter<'_> {
 
     fn comment(&mut self, text: &str) {
         self.writer.lines(format!("% {}", harmless(text)).trim_end());
+    }
+
+    fn head(&mut self, procedure: &Procedure, name: &str) {
+        let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
+        let (result, arguments) = (procedure.results[0].name, arguments.join(", "));
+        self.writer.blank();
+        self.writer.begin(&format!("function {result} = {name}({arguments})"));
+        self.writer.documentation(&procedure.documentation);
+    }
+
+    fn tail(&mut self, _: &Procedure) {
+        self.writer.close("end");
+    }
+
+    fn unpack(&mut self, names: &str, property: &str) {
+        self.writer.lines(&format!("[{names}] = {}.{property}{{:}};", self.class));
+    }
+
+    fn numbers(&mut self, name: &str, values: &[String]) {
+        list(self.writer, name, ["[", "]"], values);
     }
 
     fn zeros(&mut self, name: &str, len: usize) {

@@ -4,7 +4,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::functions::face;
-use super::procedures::{PythonPrinter, helper};
+use super::procedures::PythonPrinter;
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Precision, compensated as described};
@@ -20,17 +20,18 @@ pub(super) fn compensated(writer: &mut Writer, spec: &Spec, routines: &Routines)
     writer.blank();
     writer.blank();
     writer.paragraphs(HELPERS);
-    helpers.iter().for_each(|procedure| helper(writer, routines, procedure, procedure.name, None));
+    let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
+    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
+    let writer = &mut *printer.writer;
     writer.blank();
     writer.blank();
     writer.lines("@np.errstate(divide=\"ignore\", invalid=\"ignore\")");
     writer.begin("def _compensated(batch, *given):");
     writer.lines(CHECKS.trim_end());
-    let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
     printer.declarations(&cycle, None);
     printer.statements(&cycle.body);
-    writer.lines("return corrected, correction, before, after, status");
-    writer.end();
+    printer.writer.lines("return corrected, correction, before, after, status");
+    printer.writer.end();
 }
 
 /// Arguments that may be left out.

@@ -16,11 +16,12 @@ use abbe_spec::literal::quoted;
 
 use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
-use self::procedures::helper;
+use self::procedures::PythonPrinter;
 use super::header::header;
 use super::layout::Writer;
 use super::lists::lists;
 use super::names::{file_name, function_of, renamed};
+use super::procedure::Printer;
 use super::records::records;
 use super::source_file::SourceFile;
 use super::text::{escaped, harmless};
@@ -99,7 +100,8 @@ fn lookup_table(writer: &mut Writer, routines: &Routines, table: &Table) {
         writer.array("np.array(", &entries, "),");
     }
     writer.close("]");
-    helper(writer, routines, &procedure, &function_of(&name), Some(&name));
+    let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
+    printer.helper(&procedure, &function_of(&name), Some(&name));
 }
 
 fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {

@@ -8,32 +8,10 @@ use abbe_core::compensator::Status;
 use super::operators::number;
 use crate::print::expression::{Binding, Expression, Value};
 use crate::print::layout::Writer;
-use crate::print::procedure::{Called, Invocation, Printer, arrays};
+use crate::print::procedure::{Called, Invocation, Printer};
 use crate::print::text::harmless;
 use crate::procedure::{Condition, Counter, Index, Procedure, Statement, Variable};
 use crate::program::{Role, Routines};
-
-/// Prints a procedure that another one calls. `constants` is a list that has its constants.
-pub(super) fn helper(
-    writer: &mut Writer,
-    routines: &Routines,
-    procedure: &Procedure,
-    name: &str,
-    constants: Option<&str>,
-) {
-    let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
-    writer.blank();
-    writer.blank();
-    writer.begin(&format!("def _{name}(batch, {}):", arguments.join(", ")));
-    writer.lines("r\"\"\"");
-    writer.documentation(&procedure.documentation);
-    writer.lines("\"\"\"");
-    let mut printer = PythonPrinter { writer, routines, cases: Vec::new() };
-    printer.declarations(procedure, constants);
-    printer.statements(&procedure.body);
-    writer.lines(&format!("return {}", procedure.results[0].name));
-    writer.end();
-}
 
 /// Printer of statements.
 pub(super) struct PythonPrinter<'p> {
@@ -44,23 +22,6 @@ pub(super) struct PythonPrinter<'p> {
 }
 
 impl PythonPrinter<'_> {
-    /// Prints constants, and arrays that are filled element by element.
-    pub(super) fn declarations(&mut self, procedure: &Procedure, constants: Option<&str>) {
-        if let Some(constants) = constants {
-            let names: Vec<&str> = procedure.constants.iter().map(|(name, _)| *name).collect();
-            self.writer.lines(&format!("[{}] = {constants}", names.join(", ")));
-        }
-        for (name, values) in procedure.constants.iter().filter(|_| constants.is_none()) {
-            let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
-            self.writer.array(&format!("{name} = "), &entries, "");
-        }
-        for (name, len) in arrays(&procedure.results).chain(arrays(&procedure.locals)) {
-            if procedure.begins_by_elements(name) {
-                self.writer.lines(&format!("{name} = np.zeros(({len},) + batch)"));
-            }
-        }
-    }
-
     /// Returns a value that is assigned in the present branch only.
     fn chosen(&self, value: &str, place: &str) -> String {
         match self.cases.last() {
@@ -141,6 +102,28 @@ impl Printer for PythonPrinter<'_> {
 
     fn assign_all(&mut self, entries: &[(String, &Value)]) {
         entries.iter().for_each(|(place, value)| self.assign(place, &value.text, None));
+    }
+
+    fn head(&mut self, procedure: &Procedure, name: &str) {
+        let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.name).collect();
+        self.writer.lines("\n\n");
+        self.writer.begin(&format!("def _{name}(batch, {}):", arguments.join(", ")));
+        self.writer.lines("r\"\"\"");
+        self.writer.documentation(&procedure.documentation);
+        self.writer.lines("\"\"\"");
+    }
+
+    fn tail(&mut self, procedure: &Procedure) {
+        self.writer.lines(&format!("return {}", procedure.results[0].name));
+        self.writer.end();
+    }
+
+    fn unpack(&mut self, names: &str, list: &str) {
+        self.writer.lines(&format!("[{names}] = {list}"));
+    }
+
+    fn numbers(&mut self, name: &str, values: &[String]) {
+        self.writer.array(&format!("{name} = "), values, "");
     }
 
     fn zeros(&mut self, name: &str, len: usize) {

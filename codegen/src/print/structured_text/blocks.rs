@@ -13,6 +13,7 @@ use super::procedures::BlockPrinter;
 use crate::print::flat::Flat;
 use crate::print::layout::Writer;
 use crate::print::lists::lists;
+use crate::print::procedure::Printer;
 use crate::print::routine::statements;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
@@ -28,27 +29,26 @@ pub(super) fn block(
 ) {
     let Statements { list, .. } = Statements::new(spec, &routines.description, routine, syntax);
     let (flat, prefix) = (Flat { routines, routine }, &syntax.prefix[..]);
-    let mut printer = Block { writer, spec, flat, prefix };
-    printer.writer.blank();
-    comment(printer.writer, routine.documentation);
-    printer.writer.lines(&format!("FUNCTION_BLOCK {}_{}", syntax.prefix, routine.name));
-    printer.arguments();
-    printer.results();
-    printer.locals(&list);
-    printer.constants();
-    printer.begin();
-    let mut body = BlockPrinter { writer: printer.writer, routines, prefix, procedures: &[] };
-    let margin = statements(&mut body, flat, &list);
-    printer.end(margin);
-    printer.writer.lines("END_FUNCTION_BLOCK");
+    writer.blank();
+    comment(writer, routine.documentation);
+    writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", routine.name));
+    let printer = BlockPrinter { writer, routines, prefix, procedures: &[] };
+    let mut block = Block { printer, spec, flat };
+    block.arguments();
+    block.results();
+    block.locals(&list);
+    block.constants();
+    block.begin();
+    let margin = statements(&mut block.printer, flat, &list);
+    block.end(margin);
+    writer.lines("END_FUNCTION_BLOCK");
 }
 
 /// The declarations and checks of a block.
 struct Block<'p> {
-    writer: &'p mut Writer,
+    printer: BlockPrinter<'p>,
     spec: &'p Spec,
     flat: Flat<'p>,
-    prefix: &'p str,
 }
 
 impl Block<'_> {
@@ -78,47 +78,51 @@ impl Block<'_> {
         if arrays.is_empty() {
             return;
         }
-        self.writer.begin("VAR_INPUT");
+        self.printer.writer.begin("VAR_INPUT");
         for array in arrays {
             let description = &self.flat.routines.description;
             match self.described(array) {
-                Some(described) => argument(self.writer, self.spec, description, described),
+                Some(described) => argument(self.printer.writer, self.spec, description, described),
                 None => self.local_array(array),
             }
         }
-        self.writer.close("END_VAR");
+        self.printer.writer.close("END_VAR");
     }
 
     fn results(&mut self) {
-        self.writer.begin("VAR_OUTPUT");
+        self.printer.writer.begin("VAR_OUTPUT");
         for array in self.arrays(Role::Result) {
             if let Some(described) = self.described(array) {
-                document(self.writer, &self.flat.routines.description, described);
+                document(self.printer.writer, &self.flat.routines.description, described);
             }
             self.local_array(array);
         }
         if self.has_margin() {
-            comment(self.writer, "cos(rho); where it is 0, rows 4-6 are undefined.");
-            self.writer.lines("margin : LREAL;");
+            comment(self.printer.writer, "cos(rho); where it is 0, rows 4-6 are undefined.");
+            self.printer.writer.lines("margin : LREAL;");
         }
-        self.writer.lines("status : INT := 1;");
-        self.writer.close("END_VAR");
+        self.printer.writer.lines("status : INT := 1;");
+        self.printer.writer.close("END_VAR");
     }
 
     fn local_array(&mut self, array: usize) {
         let (name, count) = (self.name(array), self.flat.len(array));
-        self.writer.lines(&format!("{name} : {};", array_type(count, "LREAL")));
+        self.printer.writer.lines(&format!("{name} : {};", array_type(count, "LREAL")));
     }
 
     /// Prints the variables of the body: instances of other blocks, local arrays and numbers.
     fn locals(&mut self, list: &[Statement]) {
-        self.writer.begin("VAR");
+        self.printer.writer.begin("VAR");
         let mut called = HashSet::new();
         for stage in &self.flat.routine.stages {
             if let Stage::Call { routine, .. } = stage
                 && called.insert(*routine)
             {
-                self.writer.lines(&format!("{} : {}_{routine};", instance(routine), self.prefix));
+                self.printer.writer.lines(&format!(
+                    "{} : {}_{routine};",
+                    instance(routine),
+                    self.printer.prefix
+                ));
             }
         }
         for array in self.arrays(Role::Zeros) {
@@ -128,11 +132,11 @@ impl Block<'_> {
         named(list, &mut names);
         let mut known = HashSet::new();
         names.retain(|name: &String| known.insert(name.to_ascii_lowercase()));
-        variables(self.writer, &names, "LREAL");
-        self.writer.lines("total : LREAL;");
-        self.writer.lines("i, k : DINT;");
-        self.writer.lines("fault : BOOL;");
-        self.writer.close("END_VAR");
+        variables(self.printer.writer, &names, "LREAL");
+        self.printer.writer.lines("total : LREAL;");
+        self.printer.writer.lines("i, k : DINT;");
+        self.printer.writer.lines("fault : BOOL;");
+        self.printer.writer.close("END_VAR");
     }
 
     /// Prints the tables that the block reads.
@@ -158,7 +162,7 @@ impl Block<'_> {
         if !inputs && tables.is_empty() && sums.is_empty() {
             return;
         }
-        section(self.writer, "VAR CONSTANT", |writer| {
+        section(self.printer.writer, "VAR CONSTANT", |writer| {
             if inputs {
                 let ends = |end: usize| self.spec.inputs.iter().map(|one| one.range[end]).collect::<Vec<_>>();
                 numbers(writer, "lower_ranges", &ends(0));
@@ -184,72 +188,58 @@ impl Block<'_> {
 
     /// Prints the checks of the arguments.
     fn begin(&mut self) {
-        self.writer.lines("fault := FALSE;");
+        self.printer.assign("fault", "FALSE", None);
         if self.flat.routine.function.is_none() {
             return;
         }
         if self.checks_inputs() {
-            let count = self.spec.inputs.len();
-            self.count("k", count);
-            let within = format!("{}_is_within(inputs[k], lower_ranges[k], upper_ranges[k])", self.prefix);
-            self.writer.lines(&format!("fault := fault OR NOT {within};"));
-            self.writer.close("END_FOR;");
-            self.leave("fault", "3");
+            let within =
+                format!("{}_is_within(inputs[k], lower_ranges[k], upper_ranges[k])", self.printer.prefix);
+            self.each(self.spec.inputs.len(), "fault", &format!("fault OR NOT {within}"));
+            self.printer.leave("fault", "3");
         }
         let arrays = self.arrays(Role::Argument);
         let arrays: Vec<usize> = arrays.into_iter().filter(|array| self.name(*array) != "inputs").collect();
         if !arrays.is_empty() {
-            self.sum(&arrays);
-            let prefix = self.prefix;
-            self.leave(&format!("NOT {prefix}_is_within(total, LREAL#0.0, LREAL#1.0E30)"), "1");
+            let is_huge = self.exceeds(&arrays, "1.0E30");
+            self.printer.leave(&is_huge, "1");
         }
     }
 
-    /// Prints the sum of the sizes of all numbers of arrays, which is finite only if they are.
-    fn sum(&mut self, arrays: &[usize]) {
-        self.writer.lines("total := LREAL#0.0;");
+    /// Prints an assignment for each number of an array.
+    fn each(&mut self, count: usize, place: &str, value: &str) {
+        let range = [0.into(), count.into()];
+        self.printer.repeat("k", &range, false, |printer| printer.assign(place, value, None));
+    }
+
+    /// Prints the sum of the sizes of all numbers of arrays, which is finite only if they are, and
+    /// returns the condition that it exceeds a limit.
+    fn exceeds(&mut self, arrays: &[usize], limit: &str) -> String {
+        self.printer.assign("total", "LREAL#0.0", None);
         for array in arrays {
             let (name, count) = (self.name(*array), self.flat.len(*array));
-            self.count("k", count);
-            self.writer.lines(&format!("total := total + ABS({name}[k]);"));
-            self.writer.close("END_FOR;");
+            self.each(count, "total", &format!("total + ABS({name}[k])"));
         }
-    }
-
-    fn leave(&mut self, condition: &str, status: &str) {
-        self.writer.begin(&format!("IF {condition} THEN"));
-        self.writer.lines(&format!("status := {status};"));
-        self.writer.lines("RETURN;");
-        self.writer.close("END_IF;");
+        format!("NOT {}_is_within(total, LREAL#0.0, LREAL#{limit})", self.printer.prefix)
     }
 
     /// Prints the checks of the results and the status.
     fn end(&mut self, margin: Option<&str>) {
         if let Some(margin) = margin.filter(|margin| *margin != "margin") {
-            self.writer.lines(&format!("margin := {margin};"));
+            self.printer.assign("margin", margin, None);
         }
         if self.flat.routine.function.is_some() {
             if self.has_margin() {
-                let least = number(abbe_core::MINIMUM_MARGIN);
-                self.leave(&format!("NOT (margin >= {least})"), "2");
+                self.printer.leave(&format!("NOT (margin >= {})", number(abbe_core::MINIMUM_MARGIN)), "2");
             }
             let results = self.arrays(Role::Result);
             if !results.is_empty() {
-                self.sum(&results);
-                let prefix = self.prefix;
-                self.writer.lines(&format!(
-                    "fault := fault OR NOT {prefix}_is_within(total, LREAL#0.0, LREAL#1.0E300);"
-                ));
+                let is_huge = self.exceeds(&results, "1.0E300");
+                self.printer.assign("fault", &format!("fault OR {is_huge}"), None);
             }
         }
-        self.writer.lines("status := 0;");
-        self.writer.begin("IF fault THEN");
-        self.writer.lines("status := 1;");
-        self.writer.close("END_IF;");
-    }
-
-    fn count(&mut self, counter: &str, count: usize) {
-        self.writer.begin(&format!("FOR {counter} := 0 TO {} DO", count - 1));
+        self.printer.assign("status", "0", None);
+        self.printer.guard("fault", "status := 1;");
     }
 }
 

@@ -8,7 +8,7 @@ use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
 use super::declarations::{argument, comment, document, numbers, section};
-use super::procedures::{BlockPrinter, declarations, helper};
+use super::procedures::{BlockPrinter, declarations};
 use crate::print::layout::Writer;
 use crate::print::procedure::{Printer, split};
 use crate::procedure::{Kind, Precision, Procedure, Variable, compensated};
@@ -18,9 +18,9 @@ use crate::program::Routines;
 pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, prefix: &str) {
     let procedures = compensated(spec, Precision::Double).into_iter().map(Procedure::with_loops);
     let (helpers, cycle) = split(procedures.collect());
-    for procedure in &helpers {
-        helper(writer, routines, procedure, prefix, &helpers);
-    }
+    let mut printer = BlockPrinter { writer, routines, prefix, procedures: &helpers };
+    helpers.iter().for_each(|procedure| printer.helper(procedure, procedure.name, None));
+    let writer = &mut *printer.writer;
     writer.blank();
     comment(writer, COMPENSATED.documentation);
     writer.lines(&format!("FUNCTION_BLOCK {prefix}_compensated"));
@@ -30,9 +30,8 @@ pub(super) fn blocks(writer: &mut Writer, spec: &Spec, routines: &Routines, pref
     declarations(writer, &cycle, prefix, &[kept, sum]);
     let last = spec.variables.len() - 1;
     writer.lines(BEGIN.replace("LAST", &last.to_string()).replace("PREFIX", prefix).trim_end());
-    BlockPrinter { writer, routines, prefix, procedures: &helpers }.statements(&cycle.body);
-    writer.lines("last := correction;");
-    writer.lines("END_FUNCTION_BLOCK");
+    printer.statements(&cycle.body);
+    printer.writer.lines("last := correction;\nEND_FUNCTION_BLOCK");
 }
 
 /// Begins anew, and checks what no other block checks.

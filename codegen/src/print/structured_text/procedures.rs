@@ -10,24 +10,6 @@ use crate::print::procedure::{Called, Invocation, Printer, arrays};
 use crate::procedure::{Index, Kind, Procedure, Variable};
 use crate::program::{Routine, Routines};
 
-/// Prints a procedure that another one calls.
-pub(super) fn helper(
-    writer: &mut Writer,
-    routines: &Routines,
-    procedure: &Procedure,
-    prefix: &str,
-    procedures: &[Procedure],
-) {
-    writer.blank();
-    comment(writer, &procedure.documentation);
-    writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", procedure.name));
-    section(writer, "VAR_INPUT", |writer| declare(writer, &procedure.arguments));
-    section(writer, "VAR_OUTPUT", |writer| declare(writer, &procedure.results));
-    declarations(writer, procedure, prefix, &[]);
-    BlockPrinter { writer, routines, prefix, procedures }.statements(&procedure.body);
-    writer.lines("END_FUNCTION_BLOCK");
-}
-
 /// Prints a procedure as a function that returns a number. A guarded one has an argument `fault`,
 /// and the given statement at its end.
 pub(super) fn scalar(
@@ -135,6 +117,22 @@ impl Printer for BlockPrinter<'_> {
 
     fn number(&self, value: f64) -> Expression {
         Expression::new(number(value), if value.is_sign_negative() { Binding::Choice } else { Binding::Atom })
+    }
+
+    fn head(&mut self, procedure: &Procedure, name: &str) {
+        self.writer.blank();
+        comment(self.writer, &procedure.documentation);
+        self.writer.lines(&format!("FUNCTION_BLOCK {}_{name}", self.prefix));
+        section(self.writer, "VAR_INPUT", |writer| declare(writer, &procedure.arguments));
+        section(self.writer, "VAR_OUTPUT", |writer| declare(writer, &procedure.results));
+    }
+
+    fn declarations(&mut self, procedure: &Procedure, _: Option<&str>) {
+        declarations(self.writer, procedure, self.prefix, &[]);
+    }
+
+    fn tail(&mut self, _: &Procedure) {
+        self.writer.lines("END_FUNCTION_BLOCK");
     }
 
     fn function(&self, called: Called) -> String {
