@@ -1,6 +1,13 @@
-//! A spec's free text as documentation.
+//! Documentation: a spec's free text, and sizes of arrays.
 
+use abbe_core::Description;
+use abbe_core::function::Array;
 use abbe_spec::visible::alters_text;
+
+/// Returns the sizes of an array of a function, the outermost first.
+pub(super) fn sizes(array: &Array, description: &Description) -> Vec<String> {
+    array.shape.iter().map(|count| count.value(description).to_string()).collect()
+}
 
 /// Escapes links, tags and code blocks.
 pub(super) fn escaped(text: &str) -> String {

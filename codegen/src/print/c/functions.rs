@@ -13,6 +13,7 @@ use crate::print::layout::Writer;
 use crate::print::procedure::Printer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
+use crate::print::text::sizes;
 use crate::program::{Array, Checks, Role, Routine, Routines};
 
 /// Returns the head of a function without its end: `int pps_pose(const double q[ABBE_RESTRICT(6)],
@@ -70,13 +71,10 @@ pub(super) fn documentation(
         .chain(signature.results.iter().map(|array| (array, "out")))
         .filter(|(array, _)| !array.is_empty(description))
     {
-        let shape = array.shape.iter().map(|count| count.value(description).to_string());
+        let shape = sizes(array, description).join(" x ");
         writer.documentation(&format!(
-            "@param[{direction}] {} {} Size: {}. Unit: {}.",
-            array.name,
-            array.documentation,
-            shape.collect::<Vec<_>>().join(" x "),
-            array.unit
+            "@param[{direction}] {} {} Size: {shape}. Unit: {}.",
+            array.name, array.documentation, array.unit
         ));
     }
     let is_input = |array: &abbe_core::function::Array| array.name == "u" && !array.is_empty(description);

@@ -262,45 +262,29 @@ fn values(
     };
     let (variables, parameters) = (spec.variables.iter(), spec.parameters.iter());
     let inputs = if takes_inputs(routines) { &spec.inputs[..] } else { &[] }.iter();
-    let corrected = variables.clone().filter(|_| routines.has_compensated());
+    let has_compensated = routines.has_compensated();
+    let corrected = variables.clone().filter(|_| has_compensated);
     let bounds =
         |bounds| ones(corrected.clone().map(|one| bound(&routines.description, one.kind, bounds)).collect());
-    let rotations = if routines.has_compensated() { vec![1.0; 3] } else { vec![] };
     let by_default =
         |what: &str, [angle, length]: [f64; 2]| format!("{what}, by default: {angle} rad, {length} m.");
-    let (change, largest) = (
-        by_default("Largest change of a correction in a cycle", CHANGE),
-        by_default("Largest correction", LARGEST),
-    );
+    let change = by_default("Largest change of a correction in a cycle", CHANGE);
+    let largest = by_default("Largest correction", LARGEST);
+    let limits = pairs(variables.clone().map(|one| one.limits).collect());
+    let home = ones(variables.map(|one| one.home).collect());
+    let rotations = ones(vec![1.0; if has_compensated { 3 } else { 0 }]);
+    let parameters = ones(parameters.map(|one| one.value).collect());
+    let nominal = ones(inputs.clone().map(|one| one.value).collect());
+    let ranges = pairs(inputs.map(|one| one.range).collect());
     let lists: [(&str, &str, &str, Vec<String>); 8] = [
-        (
-            "Lower and upper limits of the variables.",
-            "limits",
-            "[2]",
-            pairs(variables.clone().map(|one| one.limits).collect()),
-        ),
-        ("Home position of the variables.", "home", "", ones(variables.map(|one| one.home).collect())),
+        ("Lower and upper limits of the variables.", "limits", "[2]", limits),
+        ("Home position of the variables.", "home", "", home),
         (&change, "change", "", bounds(CHANGE)),
         (&largest, "largest", "", bounds(LARGEST)),
-        ("`rotations` of the whole pose.", "whole_pose", "", ones(rotations)),
-        (
-            "Nominal values of the parameters `s`.",
-            "parameters",
-            "",
-            ones(parameters.map(|one| one.value).collect()),
-        ),
-        (
-            "Default values of the inputs `u`.",
-            "inputs",
-            "",
-            ones(inputs.clone().map(|one| one.value).collect()),
-        ),
-        (
-            "Lower and upper ends of the ranges of the inputs.",
-            "ranges",
-            "[2]",
-            pairs(inputs.map(|one| one.range).collect()),
-        ),
+        ("`rotations` of the whole pose.", "whole_pose", "", rotations),
+        ("Nominal values of the parameters `s`.", "parameters", "", parameters),
+        ("Default values of the inputs `u`.", "inputs", "", nominal),
+        ("Lower and upper ends of the ranges of the inputs.", "ranges", "[2]", ranges),
     ];
     for (what, name, end, entries) in lists.into_iter().filter(|(.., entries)| !entries.is_empty()) {
         let head = format!("{before}const {real} {}_{name}[{}]{end}", spec.name, entries.len());

@@ -11,6 +11,7 @@ use crate::print::layout::Writer;
 use crate::print::procedure::Printer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
+use crate::print::text::sizes;
 use crate::program::{Role, Routine, Routines};
 
 /// Prints one function.
@@ -57,13 +58,8 @@ pub(super) fn documentation(
     writer.documentation(signature.documentation);
     writer.documentation_line("");
     let numbers = |array: &abbe_core::function::Array| {
-        let shape = array.shape.iter().map(|count| count.value(description).to_string());
-        format!(
-            "{} Size: {}. Unit: {}.",
-            array.documentation,
-            shape.collect::<Vec<_>>().join(" × "),
-            array.unit
-        )
+        let shape = sizes(array, description).join(" × ");
+        format!("{} Size: {shape}. Unit: {}.", array.documentation, array.unit)
     };
     for array in signature.arguments {
         writer.documentation(&format!("@param {{Float64Array}} {} {}", array.name, numbers(array)));

@@ -10,6 +10,7 @@ use crate::print::flat::Flat;
 use crate::print::layout::Writer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
+use crate::print::text::sizes;
 use crate::program::{Role, Routine, Routines};
 
 /// Prints one function.
@@ -74,12 +75,9 @@ pub(super) fn documentation(
     behind: Option<[&str; 2]>,
 ) {
     let shape = |array: &function::Array| {
-        let counts = array.shape.iter().rev().map(|count| count.value(description).to_string());
-        let shape: Vec<String> = counts.collect();
-        match &shape[..] {
-            [one] => format!("{one} numbers"),
-            several => several.join(" x "),
-        }
+        let mut shape = sizes(array, description);
+        shape.reverse();
+        if shape.len() == 1 { format!("{} numbers", shape[0]) } else { shape.join(" x ") }
     };
     writer.documentation(signature.documentation);
     let arrays = signature.arguments.iter().map(|array| (array, "argument"));

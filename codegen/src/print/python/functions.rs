@@ -10,6 +10,7 @@ use crate::print::flat::Flat;
 use crate::print::layout::Writer;
 use crate::print::routine::statements;
 use crate::print::statements::Statements;
+use crate::print::text::sizes;
 use crate::program::{Role, Routine, Routines};
 
 /// Prints the public function, which checks shapes and gives the results their documented shapes.
@@ -33,11 +34,7 @@ pub(super) fn face(
     writer.blank();
     writer.begin(&format!("def {name}({}):", arguments.join(", ")));
     documentation(writer, description, signature, behind, end);
-    let shape = |array: &function::Array| {
-        let counts: Vec<String> =
-            array.shape.iter().map(|count| count.value(description).to_string()).collect();
-        tuple(&counts)
-    };
+    let shape = |array: &function::Array| tuple(&sizes(array, description));
     let given = signature.arguments.iter().map(|array| format!("{0}=({0}, {1})", array.name, shape(array)));
     let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
     let names = names.join(", ");
@@ -85,8 +82,7 @@ fn documentation(
     writer.documentation(signature.documentation);
     writer.documentation_line("");
     let shape = |array: &function::Array| {
-        let mut shape: Vec<String> =
-            array.shape.iter().map(|count| count.value(description).to_string()).collect();
+        let mut shape = sizes(array, description);
         if is_matrix(array) {
             let last = shape.len() - 1;
             shape.swap(last - 1, last);
