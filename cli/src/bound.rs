@@ -12,7 +12,7 @@ use crate::output::Outcome;
 pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let machine = arguments.subject.as_written()?;
-    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let study = arguments::study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.subject.changes(&machine.spec)?;
     let mut job = Bound::new(machine, study);
     job.change(&changes);

@@ -64,7 +64,7 @@ fn pages(
 
 fn job(arguments: &arguments::Explore, spec: &OsStr) -> Result<Explore<'static>, Failure> {
     let machine = Machine::find(spec)?;
-    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let study = arguments::study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.changes.read(&machine.spec)?;
     let mut analysis = Analyze::new(machine, study);
     // The page compares no published figures.

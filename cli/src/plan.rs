@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
         },
     };
     let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
-    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let study = arguments::study(arguments.study.as_deref(), &[], &machine)?;
     let job = Plan { machine, map, choice, study, model_error, seed: arguments.seed };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let out = outputs.wanted(arguments.out.as_deref())?;

@@ -234,10 +234,10 @@ class BoundReport(Report):
     """Errors of the repeatable sources, with signs."""
 
     random: ErrorBounds
-    """Errors of the random sources at their bounds, root sum of squares."""
+    """Errors of the random sources together, each with any value within its bound."""
 
-    radius: ErrorBounds
-    """Sums of the repeatable and random errors."""
+    total: ErrorBounds
+    """Errors of all sources together: the worst case."""
 
     remainder: Remainder | None
     """First-order error of the repeatable sources; None if there are none."""
@@ -304,10 +304,10 @@ class CertifiedNorms(Fields):
     """Norm of the sum of the repeatable sources, with signs; None if there are none."""
 
     random: ErrorBound | None
-    """Norm of the root sum of squares of the random sources at their bounds; None if there are none."""
+    """Norm of the sum of the random sources with any values within their bounds; None if there are none."""
 
-    radius: ErrorBound | None
-    """Sum of both norms; None unless there are sources of both classes."""
+    total: ErrorBound | None
+    """Norm of the sum of all sources; None unless there are sources of both classes."""
 
     contains_more: bool
     """Indicates that the enclosing box is larger than the workspace."""
@@ -1958,8 +1958,8 @@ class Magnitude(Fields):
 
 
 class Margin(Fields):
-    """Margin between the largest error and a tolerance, to first order, in the length unit or rad. The error is the
-    sum of repeatable and random norms; a negative margin exceeds the tolerance.
+    """Margin between the largest error and a tolerance, to first order, in the length unit or rad. The error is that
+    of all sources in the worst case; a negative margin exceeds the tolerance.
     """
 
     tolerance: float
@@ -3450,6 +3450,9 @@ class Verdicts(Fields):
 
     probability_required: float
     """Required probability of meeting each tolerance."""
+
+    unreachable: int | None = None
+    """Number of unreachable configurations, if they are more than the study permits: the tolerance is then not met."""
 
     position: ToleranceVerdict | None = None
     """Verdict on the position error; None without a position tolerance."""

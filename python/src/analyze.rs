@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use crate::analysis_report::analysis;
 use crate::job::run;
 use crate::machine::Machine;
-use crate::options::{self, within};
+use crate::options::{self, Tolerances, within};
 
 impl Machine {
     /// Returns the analysis of the machine with its changes and default options.
@@ -24,9 +24,11 @@ impl Machine {
         &self,
         study: Option<&Path>,
         study_text: Option<&str>,
+        tolerances: &[String],
         notes: &mut dyn Notes,
     ) -> Result<Analyze, Diagnostics> {
-        let study = options::study(study, study_text, &self.unchanged)?;
+        let mut study = options::study(study, study_text, &self.unchanged)?;
+        study.limit(tolerances, &self.unchanged.spec)?;
         let mut job = Analyze::new(self.unchanged.clone(), study);
         self.changes()?.iter().for_each(|changes| job.change(changes, notes));
         Ok(job)
@@ -63,9 +65,11 @@ impl Machine {
     /// verdict on the tolerances of the study.
     ///
     /// `study`: path of a study file; `study_text`: its text. Without both: the study beside the
-    /// spec, or the study shipped with the manipulator, or joint samples. `monte_carlo`: number of
-    /// draws at the worst configuration and at home. `seed`: of the draws and of the study's random
-    /// samples. `figures`: collect data for `.report(folder)` and `.figure(name)`.
+    /// spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
+    /// that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list.
+    /// `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
+    /// and of the study's random samples. `figures`: collect data for `.report(folder)` and
+    /// `.figure(name)`.
     ///
     /// Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
     ///
@@ -76,12 +80,13 @@ impl Machine {
     ///
     /// With `shard=(i, n)`, i from 1 to n, computes part i of n of the workspace and returns a
     /// Part; `abbe.merge` of all parts is the report.
-    #[pyo3(signature = (study=None, *, study_text=None, monte_carlo=0, seed=None, figures=true, shard=None, threads=None, progress=None))]
+    #[pyo3(signature = (study=None, *, study_text=None, tolerance=None, monte_carlo=0, seed=None, figures=true, shard=None, threads=None, progress=None))]
     fn analyze<'py>(
         &self,
         py: Python<'py>,
         study: Option<PathBuf>,
         study_text: Option<&str>,
+        tolerance: Option<Tolerances>,
         monte_carlo: usize,
         seed: Option<u64>,
         figures: bool,
@@ -89,6 +94,7 @@ impl Machine {
         threads: Option<usize>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let tolerances = Tolerances::texts(tolerance);
         let monte_carlo = Some(monte_carlo).filter(|draws| *draws > 0);
         let monte_carlo = monte_carlo.map(|draws| within("monte_carlo", draws, DRAWS)).transpose()?;
         if let Some((number, of)) = shard {
@@ -96,12 +102,16 @@ impl Machine {
                 .map_err(|message| PyValueError::new_err(format!("`shard`: {message}")))?;
             let (part, _) = run(py, threads, progress, |notes| {
                 let question = self.question(study.as_deref(), study_text)?;
-                Part::new(AnalysisRequest { monte_carlo, seed, figures, ..question }, shard, notes)
+                Part::new(
+                    AnalysisRequest { tolerances, monte_carlo, seed, figures, ..question },
+                    shard,
+                    notes,
+                )
             })?;
             return Ok(Bound::new(py, crate::part::Part(part))?.into_any());
         }
         let ((report, job), notes) = run(py, threads, progress, |notes| {
-            let mut job = self.job(study.as_deref(), study_text, notes)?;
+            let mut job = self.job(study.as_deref(), study_text, &tolerances, notes)?;
             job.monte_carlo = monte_carlo;
             job.seed = seed;
             job.figures = figures;

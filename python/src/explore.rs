@@ -30,7 +30,7 @@ impl Machine {
         height: u32,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (report, _) = run(py, None, None, |notes| {
-            let analysis = Cow::Owned(self.job(study.as_deref(), study_text, notes)?);
+            let analysis = Cow::Owned(self.job(study.as_deref(), study_text, &[], notes)?);
             let study = study.as_ref().map(|study| study.to_string_lossy().into_owned());
             Explore { analysis, study, residuals: None }.run(notes)
         })?;

@@ -63,6 +63,24 @@ pub(crate) fn study(
     }
 }
 
+/// Tolerances: a text, or several.
+#[derive(FromPyObject)]
+pub(crate) enum Tolerances {
+    One(String),
+    All(Vec<String>),
+}
+
+impl Tolerances {
+    /// Returns the texts of an argument.
+    pub(crate) fn texts(given: Option<Self>) -> Vec<String> {
+        match given {
+            None => Vec::new(),
+            Some(Self::One(text)) => vec![text],
+            Some(Self::All(texts)) => texts,
+        }
+    }
+}
+
 /// Reads the given limits; without any, returns those of the map.
 pub(crate) fn limits(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Diagnostics> {
     text.map_or(Ok(map.accept.clone()), |text| Acceptance::read("accept", text, spec.length))

@@ -82,6 +82,7 @@ options! {
     TIME = "time";
     TIP = "tip";
     TIP_LINK = "tip", "LINK";
+    TOLERANCE = "tolerance";
     TO_LINUXCNC = "to", "linuxcnc";
     TO_TABLE = "to", "table";
     TO_URDF = "to", "urdf";

@@ -96,7 +96,7 @@ pub(crate) fn outcome(
     let text = showing.answer(json, report, abbe_report::budget(report), next)?;
     match (check, report.verdict()) {
         (true, None) => Err(Failure::new("--check", "the study has no tolerance")
-            .help("add one: tolerance = \"0.5 mm\" in its [study]")),
+            .help("add one: --tolerance \"0.5 mm\", or tolerance = \"0.5 mm\" in its [study]")),
         (true, Some(Verdict::NotMet)) => Ok(Outcome::checked(text, false)),
         _ => Ok(Outcome::passed(text)),
     }
@@ -110,6 +110,7 @@ fn part(
 ) -> Result<Outcome, Failure> {
     let machine = arguments.subject.as_written()?;
     let question = AnalysisRequest {
+        tolerances: arguments.tolerance.clone(),
         changes: arguments.subject.each_change(),
         monte_carlo: arguments.monte_carlo,
         seed: arguments.seed,
@@ -133,7 +134,7 @@ fn part(
 
 fn job(arguments: &arguments::Analyze, console: &mut Console) -> Result<Analyze, Failure> {
     let machine = arguments.subject.as_written()?;
-    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let study = arguments::study(arguments.study.as_deref(), &arguments.tolerance, &machine)?;
     let changes = arguments.subject.changes(&machine.spec)?;
     let mut job = Analyze::new(machine, study);
     job.change(&changes, console);

@@ -25,6 +25,10 @@ pub(crate) struct Analyze {
     /// joint samples]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
+    /// Tolerance in place of that of the study: a length such as "0.3 mm" for the position error,
+    /// an angle such as "0.5 mrad" for the orientation error; may be given for both
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    pub(crate) tolerance: Vec<String>,
     /// Analyze one configuration instead of the study's workspace: joint variables in the order of
     /// the spec, as for `abbe jacobian`, with nominal inputs or those of --set. Published figures
     /// are not compared

@@ -20,6 +20,10 @@ pub(crate) struct Bound {
     /// uses; without one, the joint limits and the ranges of the inputs]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
+    /// Tolerance in place of that of the study: a length such as "0.3 mm" for the position error,
+    /// an angle such as "0.5 mrad" for the orientation error; may be given for both
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    pub(crate) tolerance: Vec<String>,
     /// Relative gap at which to stop: by how much the certified bound may exceed the largest error
     /// found, in percent or as a fraction
     #[arg(long, value_name = "GAP", default_value_t)]

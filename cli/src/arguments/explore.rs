@@ -22,6 +22,10 @@ pub(crate) struct Explore {
     /// samples]
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
+    /// Tolerance in place of that of the study: a length such as "0.3 mm" for the position error,
+    /// an angle such as "0.5 mrad" for the orientation error; may be given for both
+    #[arg(long, value_name = "SIZE", allow_hyphen_values = true)]
+    pub(crate) tolerance: Vec<String>,
     /// Write the page to this file; `-` is stdout. With more than two specs: write the pages and
     /// index.html into this folder. [default: NAME.html, or the folder live-pages]
     #[arg(long, short, value_name = "PATH", value_hint = ValueHint::AnyPath)]

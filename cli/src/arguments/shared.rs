@@ -198,10 +198,15 @@ impl Running {
 
 /// Returns the given study, or the one that belongs to the machine. A study found beside the spec
 /// is named in a note.
-pub(crate) fn study(file: Option<&Path>, machine: &Machine) -> Result<Study, Diagnostics> {
-    let study = Study::find(file, machine)?;
+pub(crate) fn study(
+    file: Option<&Path>,
+    tolerances: &[String],
+    machine: &Machine,
+) -> Result<Study, Diagnostics> {
+    let mut study = Study::find(file, machine)?;
     if let (None, Some(beside)) = (file, Study::beside(machine)) {
         note(&format!("note: using the study {} beside the spec", beside.display()));
     }
+    study.limit(tolerances, &machine.spec)?;
     Ok(study)
 }

@@ -6,6 +6,7 @@ use abbe_manipulators::SHIPPED;
 use serde_json::Value;
 use tempfile::tempdir;
 
+use crate::bad_input::refused;
 use crate::running::{abbe, full, json, narrow, prints, shipped, write};
 
 /// Asserts agreement to the last printed digit.
@@ -295,6 +296,24 @@ fn what_cannot_be_reached_is_counted_with_its_reason() {
     let run = abbe(&["analyze", "pps", "--study", study.to_str().unwrap()]);
     assert_eq!((run.status, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("no configuration of the workspace is reachable"), "{}", run.stderr);
+}
+
+/// A tolerance is given without a study file, for the position and for the orientation; `bound`
+/// judges by it, too.
+#[test]
+fn a_tolerance_may_be_given_by_an_option() {
+    let run = |command: &str, options: &[&str]| abbe(&[&[command, "ur5"], options].concat());
+    for (given, status) in [("1 mm", 0), ("10 um", 1)] {
+        let analyzed = run("analyze", &["--tolerance", given, "--check"]);
+        assert_eq!(analyzed.status, status, "{}", analyzed.stdout);
+        let bounded = run("bound", &["--tolerance", given]).stdout;
+        assert_eq!(bounded.contains("MET everywhere in the box"), status == 0, "{bounded}");
+        assert_eq!(bounded.contains("EXCEEDED"), status == 1, "{bounded}");
+    }
+    let both = run("analyze", &["--tolerance", "1 mm", "--tolerance", "5 mrad"]).stdout;
+    assert!(both.contains("MET, tolerance 1 mm and 5 mrad at 1000 configurations"), "{both}");
+    refused(&["analyze", "ur5", "--tolerance", "1 kg"], &["--tolerance:1:1", "length"]);
+    refused(&["analyze", "ur5", "--tolerance", "-1 mm"], &["the tolerance -1 is not positive", "0.5 mm"]);
 }
 
 #[test]

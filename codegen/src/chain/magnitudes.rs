@@ -130,15 +130,18 @@ impl Magnitudes {
         }
         let repeatable = vec![errors];
         let all = [&repeatable[..], &random].concat();
-        let [repeatable, random, total] = [repeatable, random, all].map(|kind| {
-            let moves = |errors: &[Node; 6]| *errors != [zero; 6];
+        let moves = |errors: &[Node; 6]| *errors != [zero; 6];
+        let is_random = !repeatable[0].iter().any(moves);
+        let kinds = [(repeatable, false), (random, true), (all, is_random)];
+        let [repeatable, random, total] = kinds.map(|(kind, is_random)| {
             let first = kind.iter().filter_map(|errors| errors.iter().position(moves)).min();
             let first = first.unwrap_or(spec.frames.len());
             let moved: Vec<ToolDisplacement> = kind
                 .iter()
                 .map(|errors| ToolDisplacement::by(g, spec, &links, &rows, errors, first))
                 .collect();
-            (largest_of(g, &moved), largest_across_z(g, &moved))
+            let most_signed = if is_random { MOST_SIGNED } else { 0 };
+            (largest_of(g, &moved, most_signed), largest_across_z(g, &moved, most_signed))
         });
         let across_z = [repeatable.1, random.1, total.1];
         Self { graph, repeatable: repeatable.0, random: random.0, total: total.0, across_z, apart }
@@ -146,32 +149,30 @@ impl Magnitudes {
 }
 
 /// Returns the largest magnitudes of the sum of displacements with any signs.
-fn largest_of(graph: &mut Graph, moved: &[ToolDisplacement]) -> [Magnitude; 5] {
+fn largest_of(graph: &mut Graph, moved: &[ToolDisplacement], most_signed: usize) -> [Magnitude; 5] {
     let along = |axis: usize| moved.iter().map(|moved| vec![moved.along[axis]]).collect::<Vec<_>>();
     let norm = |of: fn(&ToolDisplacement) -> Vector| moved.iter().map(|moved| of(moved).to_vec()).collect();
     let vectors = [norm(|moved| moved.shift), along(0), along(1), along(2), norm(|moved| moved.turn)];
-    vectors.map(|vectors| largest_sum(graph, &vectors))
+    vectors.map(|vectors| largest_sum(graph, &vectors, most_signed))
 }
 
 /// Returns the largest norm of x and y behind the leading rotations about z.
-fn largest_across_z(graph: &mut Graph, moved: &[ToolDisplacement]) -> Magnitude {
+fn largest_across_z(graph: &mut Graph, moved: &[ToolDisplacement], most_signed: usize) -> Magnitude {
     let vectors: Vec<Vec<Node>> = moved.iter().map(|moved| moved.across_z.to_vec()).collect();
-    largest_sum(graph, &vectors)
+    largest_sum(graph, &vectors, most_signed)
 }
 
-/// Returns the largest norm of the sum of vectors of one, two or three entries with any signs.
-fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>]) -> Magnitude {
+/// Returns the largest norm of the sum of vectors of one, two or three entries with any signs: over
+/// all patterns of signs of at most `most_signed` vectors, or over all directions.
+fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], most_signed: usize) -> Magnitude {
     let zero = graph.zero();
     let vectors: Vec<&Vec<Node>> =
         vectors.iter().filter(|vector| vector.iter().any(|entry| *entry != zero)).collect();
-    let dot = |graph: &mut Graph, first: &[Node], second: &[Node]| {
-        first.iter().zip(second).fold(zero, |sum, (a, b)| {
-            let product = graph.mul(*a, *b);
-            graph.add(sum, product)
-        })
-    };
     if let [vector] = vectors[..] {
         return Magnitude { node: dot(graph, vector, vector), squared: true, parts: vector.clone() };
+    }
+    if vectors.len() <= most_signed && vectors.iter().all(|vector| vector.len() > 1) {
+        return largest_pattern(graph, &vectors);
     }
     let unit = direction(graph, vectors.first().map_or(1, |vector| vector.len()));
     let parts: Vec<Node> = vectors.into_iter().map(|vector| dot(graph, vector, &unit)).collect();
@@ -180,6 +181,38 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>]) -> Magnitude {
         graph.add(sum, size)
     });
     Magnitude { node, squared: false, parts }
+}
+
+/// Largest number of random sources whose patterns of signs are all written down, which is faster
+/// for errors that do not depend on the joints: their corners are control points.
+const MOST_SIGNED: usize = 7;
+
+/// Returns the largest norm of the sum of vectors over all patterns of signs but that of the first.
+fn largest_pattern(graph: &mut Graph, vectors: &[&Vec<Node>]) -> Magnitude {
+    let parts = vectors.iter().copied().flatten().copied().collect();
+    let Some((first, others)) = vectors.split_first() else {
+        return Magnitude { node: graph.zero(), squared: true, parts };
+    };
+    let mut sums = vec![(*first).clone()];
+    for vector in others {
+        let with = |graph: &mut Graph, sum: &Vec<Node>, is_added: bool| {
+            let entries = sum.iter().zip(*vector);
+            let entry = |(a, b): (&Node, &Node)| if is_added { graph.add(*a, *b) } else { graph.sub(*a, *b) };
+            entries.map(entry).collect::<Vec<Node>>()
+        };
+        sums = sums.iter().flat_map(|sum| [true, false].map(|is_added| with(graph, sum, is_added))).collect();
+    }
+    let squares: Vec<Node> = sums.iter().map(|sum| dot(graph, sum, sum)).collect();
+    let node = squares.into_iter().reduce(|a, b| graph.max(a, b)).unwrap_or(graph.zero());
+    Magnitude { node, squared: true, parts }
+}
+
+fn dot(graph: &mut Graph, first: &[Node], second: &[Node]) -> Node {
+    let zero = graph.zero();
+    first.iter().zip(second).fold(zero, |sum, (a, b)| {
+        let product = graph.mul(*a, *b);
+        graph.add(sum, product)
+    })
 }
 
 /// Returns a unit vector of one, two or three entries.

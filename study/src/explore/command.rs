@@ -3,12 +3,13 @@
 use super::Explore;
 
 impl Explore<'_> {
-    /// Returns the options of `abbe analyze`, in the order of a command line: the study, then the
-    /// changes, as they were given.
+    /// Returns the options of `abbe analyze`, in the order of a command line: the study, its
+    /// tolerances, then the changes, as they were given.
     pub(super) fn analyze_options(&self) -> Vec<String> {
         let study = self.study.iter().map(|study| ("study", study.clone()));
-        let changes = self.analysis.machine().options_with([]);
-        options(study.chain(changes))
+        let tolerances = self.analysis.study().stated_tolerances.iter();
+        let tolerances = tolerances.map(|tolerance| ("tolerance", tolerance.clone()));
+        options(study.chain(tolerances).chain(self.analysis.machine().options_with([])))
     }
 
     /// Returns the options of `abbe jacobian`, which has no study: the study's own changes, then

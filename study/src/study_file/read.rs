@@ -95,6 +95,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         tolerance: tolerance.position,
         orientation_tolerance: tolerance.orientation,
         unreachable: tolerance.unreachable,
+        stated_tolerances: Vec::new(),
         probability: tolerance.probability,
         judged: tolerance.machine.unwrap_or(default),
         changes: read_changes(&head, document, spec, &moved),

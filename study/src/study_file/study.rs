@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::choices::JudgedMachine;
 use super::compensation::Compensated;
 use super::figure::Figure;
 use super::published::{Published, PublishedResidual};
-use super::tolerance::Tolerance;
+use super::tolerance::{self, Tolerance};
 use crate::changes::Changes;
 use crate::workspace::Region;
 
@@ -47,6 +48,8 @@ pub struct Study {
     pub file: Option<(String, String)>,
     /// Files that were read: the study itself and those of paths.
     pub files: Vec<PathBuf>,
+    /// Tolerances that were given as options, as they were written.
+    pub stated_tolerances: Vec<String>,
 }
 
 impl Study {
@@ -67,6 +70,21 @@ impl Study {
         self.region = Region::one(q);
         self.figures = Figure::defaults(&self.region);
         self.remove_published()
+    }
+
+    /// Replaces tolerances by those given as options: lengths for the position, angles for the
+    /// orientation.
+    ///
+    /// # Errors
+    ///
+    /// Returns a mistake for a text that is no positive length or angle.
+    pub fn limit(&mut self, tolerances: &[String], spec: &Spec) -> Result<(), Diagnostics> {
+        for (is_angle, value) in tolerance::parse(tolerances, spec.length)? {
+            let limit = if is_angle { &mut self.orientation_tolerance } else { &mut self.tolerance };
+            *limit = Some(value);
+        }
+        self.stated_tolerances.extend_from_slice(tolerances);
+        Ok(())
     }
 
     /// Keeps inputs nominal in all workspaces, and removes figures over them.
@@ -104,6 +122,7 @@ impl Study {
             not_reproducible: Vec::new(),
             file: None,
             files: Vec::new(),
+            stated_tolerances: Vec::new(),
         }
     }
 }

@@ -1,8 +1,11 @@
 //! Reads `tolerance`: the permitted errors of the tool, and the probability of meeting them.
 
-use abbe_spec::diagnostic::Diagnostic;
+use abbe::LengthUnit;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::Dimension;
+use abbe_spec::option::{TOLERANCE, option};
+use abbe_spec::value::parse_value;
 
 use super::choices::{JudgedMachine, MACHINES};
 use super::keys;
@@ -27,6 +30,33 @@ impl Default for Tolerance {
     fn default() -> Self {
         Self { position: None, orientation: None, probability: 0.95, unreachable: 0.0, machine: None }
     }
+}
+
+/// Parses limits given as options: a length limits the position error, an angle the orientation
+/// error. Returns each with `true` for an angle.
+pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f64)>, Diagnostics> {
+    let limit = |text: &String| {
+        let value = |dimension| {
+            let mut document = Document::new(TOLERANCE, text.as_str());
+            let value = parse_value(&mut document, 0..text.len(), length, dimension, "the tolerance");
+            if let Some(value) = value.filter(|value| *value <= 0.0) {
+                let help = format!("write `{}`", option("tolerance", "\"0.5 mm\""));
+                document.mistake(
+                    Diagnostic::new(0..text.len(), format!("the tolerance {value} is not positive"))
+                        .help(help),
+                );
+            }
+            document.finish(value)
+        };
+        let is_angle = text.contains(char::is_alphabetic);
+        value(Dimension::LENGTH).map(|length| (false, length)).or_else(|refused| {
+            match value(Dimension::NONE) {
+                Ok(angle) if is_angle => Ok((true, angle)),
+                _ => Err(refused),
+            }
+        })
+    };
+    texts.iter().map(limit).collect()
 }
 
 /// Reads a length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.

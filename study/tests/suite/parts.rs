@@ -58,6 +58,7 @@ fn questions() -> [AnalysisRequest; 3] {
             text: CALIBRATED.to_owned(),
         }),
         study: Some(FileText { name: "study.toml".to_owned(), folder: None, text }),
+        tolerances: Vec::new(),
         changes: Vec::new(),
         monte_carlo: Some(10),
         seed: None,

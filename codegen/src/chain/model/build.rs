@@ -4,44 +4,17 @@ use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
 use super::chain::Chain;
+use super::machine::Machine;
 use super::names::{name, name_lengths};
 use super::{Jacobian, Model};
 use crate::chain::by_source;
 use crate::chain::elastic::Loads;
-use crate::chain::inverse::Inverse;
 use crate::chain::kinematics::{Kinematics, symbols};
-use crate::chain::local_twist::LocalTwist;
 use crate::chain::rows::Rows;
 use crate::chain::sources::{self, Causes};
-use crate::chain::tree::{ClosedLoops, Tree};
+use crate::chain::tree::Tree;
 use crate::chain::walk::transform;
-use crate::graph::{Frame, Graph, Node};
-
-/// The machine with its errors, and what only chains or only trees have; see the fields of
-/// [`Model`].
-pub(super) struct Machine {
-    pub(super) real_pose: Frame,
-    pub(super) drawn_pose: Frame,
-    pub(super) real_errors: Option<Vec<[Node; 6]>>,
-    pub(super) drawn_errors: Vec<[Node; 6]>,
-    pub(super) local_twists: [Vec<LocalTwist>; 2],
-    pub(super) inverse: Option<Inverse>,
-    pub(super) loops: Option<ClosedLoops>,
-}
-
-impl Machine {
-    fn of_loops(loops: ClosedLoops) -> Self {
-        Self {
-            real_pose: loops.real.pose,
-            drawn_pose: loops.drawn.pose,
-            real_errors: None,
-            drawn_errors: Vec::new(),
-            local_twists: [Vec::new(), Vec::new()],
-            inverse: None,
-            loops: Some(loops),
-        }
-    }
-}
+use crate::graph::{Graph, Node};
 
 impl Model {
     /// Builds all nodes. This cannot fail for a checked spec.

@@ -3,8 +3,8 @@
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::build::Machine;
 use super::is_long;
+use super::machine::Machine;
 use crate::chain::accumulate::{Accumulated, Links};
 use crate::chain::by_source;
 use crate::chain::covariance::Covariance;

@@ -4,6 +4,7 @@
 
 mod build;
 mod chain;
+mod machine;
 mod names;
 
 use abbe_spec::Spec;

@@ -206,7 +206,11 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         facts.push(("Certified", format!("nothing: {NOT_CERTIFIED}")));
     }
     if report.certified.as_ref().is_some_and(|certified| certified.random.is_some()) {
-        facts.push(("Certified", format!("worst case over the joint box, {}", any_values(&report.spec))));
+        facts.push(("Certified", format!(
+            "worst case over the joint box, {}; the figure before it: norm of the repeatable errors + root \
+             sum of squares of the random bounds",
+            any_values(&report.spec)
+        )));
     }
     let (factor, unit) = error_unit(report.length);
     let published = &report.comparisons;

@@ -136,6 +136,8 @@ fn difference(one: &Part, other: &Part) -> String {
         "the specs differ"
     } else if text(&a.study) != text(&b.study) {
         "the studies differ"
+    } else if a.tolerances != b.tolerances {
+        "the tolerances differ"
     } else if a.changes != b.changes {
         return format!("the changes by {SET}, {ENABLE}, {DISABLE} or {SCALE} differ");
     } else if a.seed != b.seed {

@@ -91,6 +91,8 @@ pub struct AnalysisRequest {
     pub spec_text: Option<FileText>,
     /// The study; `None` uses the one shipped with the manipulator, or joint samples.
     pub study: Option<FileText>,
+    /// Tolerances in place of those of the study, [`Study::limit`].
+    pub tolerances: Vec<String>,
     /// Changes to the spec, in order.
     pub changes: Vec<Change>,
     /// Number of Monte Carlo draws, [`Analyze::monte_carlo`].
@@ -113,6 +115,7 @@ impl AnalysisRequest {
             spec: machine.origin.clone(),
             spec_text: file.map(FileText::read).transpose()?,
             study: study.or(beside.as_deref()).map(Study::document).transpose()?.map(FileText::new),
+            tolerances: Vec::new(),
             changes: Vec::new(),
             monte_carlo: None,
             seed: None,
@@ -154,10 +157,11 @@ impl AnalysisRequest {
                 return Err(mistake::with_help(&self.spec, message, help));
             }
         };
-        let study = match &self.study {
+        let mut study = match &self.study {
             Some(file) => Study::read(file.document(contents), &machine.spec)?,
             None => Study::find(None, &machine)?,
         };
+        study.limit(&self.tolerances, &machine.spec)?;
         let mut job = Analyze::new(machine, study);
         for change in &self.changes {
             let changes = change.read(&job.machine().spec)?;
@@ -181,7 +185,8 @@ impl AnalysisRequest {
         };
         let beside = study.files.iter().map(hash).collect::<Result<Vec<_>, _>>()?;
         let texts = (&spec.hash, study.file.as_ref().map(|(_, hash)| hash), beside);
-        let options = (&self.changes, self.monte_carlo, self.seed, self.interpret, self.figures);
+        let options =
+            (&self.tolerances, &self.changes, self.monte_carlo, self.seed, self.interpret, self.figures);
         Ok(hash::text(&format!("{texts:?} {options:?}")))
     }
 

@@ -113,8 +113,8 @@ pub enum Verdict {
     Met,
     /// Met with at least the required probability at each evaluated configuration.
     MetWithProbability,
-    /// Met with less than the required probability at some configuration, or too many configurations
-    /// are unreachable.
+    /// Met with less than the required probability at some configuration, or too many
+    /// configurations are unreachable.
     NotMet,
 }
 

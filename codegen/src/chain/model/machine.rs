@@ -1,0 +1,32 @@
+//! What chains and trees of frames have in forms of their own.
+
+use crate::chain::inverse::Inverse;
+use crate::chain::local_twist::LocalTwist;
+use crate::chain::tree::ClosedLoops;
+use crate::graph::{Frame, Node};
+
+/// The machine with its errors, and what only chains or only trees have; see the fields of
+/// [`Model`](super::Model).
+pub(super) struct Machine {
+    pub(super) real_pose: Frame,
+    pub(super) drawn_pose: Frame,
+    pub(super) real_errors: Option<Vec<[Node; 6]>>,
+    pub(super) drawn_errors: Vec<[Node; 6]>,
+    pub(super) local_twists: [Vec<LocalTwist>; 2],
+    pub(super) inverse: Option<Inverse>,
+    pub(super) loops: Option<ClosedLoops>,
+}
+
+impl Machine {
+    pub(super) fn of_loops(loops: ClosedLoops) -> Self {
+        Self {
+            real_pose: loops.real.pose,
+            drawn_pose: loops.drawn.pose,
+            real_errors: None,
+            drawn_errors: Vec::new(),
+            local_twists: [Vec::new(), Vec::new()],
+            inverse: None,
+            loops: Some(loops),
+        }
+    }
+}
