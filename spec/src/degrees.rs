@@ -37,17 +37,47 @@ pub(crate) fn check_angle_item(item: &Item<'_>, what: &str, document: &mut Docum
 /// Records the numbers without a unit in the outermost sum of an angle that are probably in
 /// degrees, as in `q3 - 90`.
 pub(crate) fn check_angle(angle: &Expression, document: &mut Document) {
-    let terms = angle.terms();
+    check_bare(angle, document, |value, at, quote| in_degrees(value, "an angle", at, quote));
+}
+
+/// Smallest error of an angle without a unit that is asked about, in rad: more than a degree.
+const LARGE_ERROR: f64 = 0.02;
+
+/// Records the numbers without a unit in the outermost sum of an error of an angle that are
+/// probably in mrad or degrees: `0.3` is hardly ever 0.3 rad.
+pub(crate) fn check_error_of_angle(error: &Expression, document: &mut Document) {
+    check_bare(error, document, |value, at, quote| {
+        (value.abs() >= LARGE_ERROR).then(|| {
+            let degrees = (10.0 * value.to_degrees()).round() / 10.0;
+            let written = |unit: &str| format!("`{quote}{value} {unit}{quote}`");
+            Diagnostic::new(at, format!("an error of {value} rad is {degrees}°"))
+                .label("a number without a unit is in rad")
+                .help(format!(
+                    "write {} or {}, or {} if it is as large as that",
+                    written("mrad"),
+                    written("deg"),
+                    written("rad")
+                ))
+        })
+    });
+}
+
+/// Records what a check finds of the numbers without a unit in the outermost sum of an expression,
+/// given each number, its place and what encloses a value with a unit there.
+fn check_bare(
+    expression: &Expression,
+    document: &mut Document,
+    check: impl Fn(f64, Span, &str) -> Option<Diagnostic>,
+) {
+    let terms = expression.terms();
     let mut summands = vec![terms.len() - 1];
     while let Some(index) = summands.pop() {
         let term = &terms[index];
         match (term.kind, term.value) {
-            (_, Some(value)) if term.bare => {
-                document.found.extend(in_degrees(value, "an angle", term.span.clone(), ""));
-            }
+            (_, Some(value)) if term.bare => document.found.extend(check(value, term.span.clone(), "")),
             // A TOML number has no quotes yet.
             (Kind::Number(value), _) if is_number(document.text.get(term.span.clone())) => {
-                document.found.extend(in_degrees(value, "an angle", term.span.clone(), "\""));
+                document.found.extend(check(value, term.span.clone(), "\""));
             }
             (Kind::Binary(Binary::Add | Binary::Sub, left, right), _) => summands.extend([left, right]),
             (Kind::Neg(operand), _) => summands.push(operand),

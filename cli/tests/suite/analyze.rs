@@ -316,6 +316,24 @@ fn a_tolerance_may_be_given_by_an_option() {
     refused(&["analyze", "ur5", "--tolerance", "-1 mm"], &["the tolerance -1 is not positive", "0.5 mm"]);
 }
 
+/// The comparison with the exact chain covers random errors beside repeatable ones: 0.3 rad at 1 m,
+/// and 1 mm along the arm.
+#[test]
+fn the_exact_chain_has_all_errors() {
+    let folder = tempdir().unwrap();
+    let text = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"a\"\n\
+                variable = { name = \"q1\", kind = \"revolute\", limits = [\"-90 deg\", \"90 deg\"] }\n\
+                transform = \"Rz(q1)\"\n[tool]\ntransform = \"Tx(1000)\"\n[[source]]\nname = \"zero\"\nclass = \"random\"\n\
+                distribution = \"uniform\"\njoint = \"q1\"\nerror = \"0.3 rad\"\n[[source]]\nname = \"length\"\n\
+                class = \"repeatable\"\nframe = \"a\"\ne_x = 1\n";
+    let spec = write(folder.path(), "arm.toml", text);
+    let found = &json(&["analyze", spec.to_str().unwrap(), "--json"])["first_order"]["largest_difference"];
+    // The length is turned by the zero, which first order leaves out.
+    let (along, across) = (1001.0 * (0.3_f64.cos() - 1.0), 1001.0 * 0.3_f64.sin() - 300.0);
+    let found = found.as_f64().unwrap();
+    assert!((found - along.hypot(across)).abs() < 1e-3, "{found}");
+}
+
 #[test]
 fn a_spec_without_sources_has_nothing_to_add_up() {
     let folder = tempdir().unwrap();

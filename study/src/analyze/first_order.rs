@@ -10,8 +10,8 @@ const CHECKED: usize = 2000;
 /// Largest distance between first order and the exact chain, over at most 2000 configurations
 /// spread evenly over the workspace.
 ///
-/// Compares the repeatable sources; if there are none, the random sources at their bounds, all with
-/// a positive sign.
+/// Compares all sources: the random ones at their bounds, each with the sign with which it adds to
+/// those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FirstOrder {
     /// Number of configurations that were compared.
@@ -43,31 +43,34 @@ impl FirstOrder {
 /// Comparison of first order with the exact chain, one configuration at a time.
 struct Comparison<'a> {
     manipulator: &'a dyn Sweepable,
-    repeatable: bool,
-    /// Factor of each source's errors in the exact chain.
-    magnitudes: Vec<f64>,
+    /// Bound of each random source in multiples of its errors; `None` for a repeatable one.
+    bounds: Vec<Option<f64>>,
 }
 
 impl<'a> Comparison<'a> {
     fn new(manipulator: &'a dyn Sweepable) -> Self {
-        let sources = &manipulator.description().sources;
-        let repeatable = sources.iter().any(|source| source.class == Class::Repeatable);
-        let magnitudes = sources.iter().map(|source| match source.class {
-            Class::Repeatable => 1.0,
-            Class::Random(_) if repeatable => 0.0,
-            Class::Random(distribution) => distribution.bound(),
+        let bounds = manipulator.description().sources.iter().map(|source| match source.class {
+            Class::Repeatable => None,
+            Class::Random(distribution) => Some(distribution.bound()),
         });
-        Self { manipulator, repeatable, magnitudes: magnitudes.collect() }
+        Self { manipulator, bounds: bounds.collect() }
     }
 
     fn difference(&self, row: &Row) -> Result<f64, Error> {
         let Configuration { q, s, u } = row.configuration;
-        let real = drawn_pose(self.manipulator, q, s, u, &self.magnitudes)?;
+        let mut first = [row.repeatable[0], row.repeatable[1], row.repeatable[2]];
+        let mut magnitudes = vec![1.0; self.bounds.len()];
+        let random = magnitudes.iter_mut().zip(&self.bounds).zip(row.sources);
+        for ((magnitude, bound), moved) in
+            random.filter_map(|((m, bound), moved)| Some(((m, (*bound)?), moved)))
+        {
+            let along: f64 = first.iter().zip(moved).map(|(sum, part)| sum * part).sum();
+            let sign = if along < 0.0 { -1.0 } else { 1.0 };
+            *magnitude = sign * bound;
+            first = std::array::from_fn(|i| first[i] + sign * moved[i]);
+        }
+        let real = drawn_pose(self.manipulator, q, s, u, &magnitudes)?;
         let exact = deviation(self.manipulator.description().orientation, &row.pose, &real);
-        let first = |i: usize| match self.repeatable {
-            true => row.repeatable[i],
-            false => row.sources.iter().map(|source| source[i]).sum::<f64>(),
-        };
-        Ok((0..3).map(|i| (exact[i] - first(i)).powi(2)).sum::<f64>().sqrt())
+        Ok((0..3).map(|i| (exact[i] - first[i]).powi(2)).sum::<f64>().sqrt())
     }
 }

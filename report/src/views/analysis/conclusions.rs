@@ -149,9 +149,13 @@ fn residual(report: &Report, compensation: &RemainingErrors) -> String {
 
 fn first_order(report: &Report) -> String {
     let first_order = &report.first_order;
-    let which = match report.budget.sources.iter().any(|alone| alone.class == abbe::Class::Repeatable) {
-        true => "repeatable sources",
-        false => "random sources at their bounds",
+    let any = |repeatable: bool| {
+        report.budget.sources.iter().any(|alone| (alone.class == abbe::Class::Repeatable) == repeatable)
+    };
+    let which = match (any(true), any(false)) {
+        (_, false) => "the repeatable sources",
+        (false, _) => "the random sources at their bounds",
+        _ => "all sources, the random ones at their bounds,",
     };
     let spread = match first_order.checked < report.configurations {
         true => ", evenly spaced",
@@ -162,7 +166,7 @@ fn first_order(report: &Report) -> String {
         largest => ("differs", format!(" by {}", upper_bound(report, largest))),
     };
     format!(
-        "First order: J_e ε of the {which} {differs} from {}{by}, at {} configurations{spread}.",
+        "First order: J_e ε of {which} {differs} from {}{by}, at {} configurations{spread}.",
         match report.spec.is_serial() {
             true => "the exact chain A_1 E_1 … A_n E_n T",
             false => exact(report),

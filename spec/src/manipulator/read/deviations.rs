@@ -4,9 +4,10 @@
 use super::effects::find_frame;
 use super::frames::motion_dimension;
 use super::keys;
+use crate::degrees::check_error_of_angle;
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
+use crate::expr::{Allowed, Dimension, Entry, Motion, Scope, Symbol};
 use crate::manipulator::{ChainNumber, Deviation, DeviationCause, DhNumber, Factor, Tree};
 use crate::value::find_name;
 
@@ -112,6 +113,9 @@ fn read_symbol(
     let what = format!("the error of `{name}`");
     let entry = Entry { dimension, what: &what, names: Allowed::Everything };
     let error = document.expression(&error?, chain.scope, entry)?;
+    if matches!(number, ChainNumber::Joint(_)) && dimension == Some(Dimension::NONE) {
+        check_error_of_angle(&error, document);
+    }
     Some(Deviation { number, cause: DeviationCause::Error(error), span: place.key_span.clone() })
 }
 
@@ -225,11 +229,16 @@ fn read_numbers(
             names: Allowed::Everything,
         };
         match document.expression(&item, chain.scope, entry) {
-            Some(error) => deviations.push(Deviation {
-                number: ChainNumber::DenavitHartenberg { frame, number },
-                cause: DeviationCause::Error(error),
-                span: item.key_span,
-            }),
+            Some(error) => {
+                if number.motion().0 == Motion::Rotation {
+                    check_error_of_angle(&error, document);
+                }
+                deviations.push(Deviation {
+                    number: ChainNumber::DenavitHartenberg { frame, number },
+                    cause: DeviationCause::Error(error),
+                    span: item.key_span,
+                });
+            }
             None => complete = false,
         }
     }

@@ -5,6 +5,7 @@ use abbe_core::Component;
 
 use super::elastic::{read_beam, read_compliance};
 use super::keys;
+use crate::degrees::check_error_of_angle;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
@@ -79,7 +80,12 @@ fn read_errors(
             let what = format!("`{}`, a {verb} {},", component.name(), ["x", "y", "z"][axis]);
             let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
             match document.expression(&item, scope, entry) {
-                Some(value) => errors.push((component, value)),
+                Some(value) => {
+                    if dimension == Dimension::NONE {
+                        check_error_of_angle(&value, document);
+                    }
+                    errors.push((component, value));
+                }
                 None => complete = false,
             }
         }
