@@ -164,7 +164,7 @@ fn sources(report: &Report) -> Table {
         [name, fixed(scale * max, decimals), percent(max, sum), factor.unwrap_or_default()]
     };
     let shown = if all.len() <= SHOWN + 1 { all.len() } else { SHOWN };
-    let tighten = if report.allowance.is_some() { "tighten to" } else { "" };
+    let tighten = if report.allowance.is_some() { "alone up to" } else { "" };
     let columns = [words("source"), number(format!("max {unit}")), number("share"), number(tighten)];
     let mut rows = Vec::new();
     rows.extend(all[..shown].iter().map(|(name, max)| row((*name).to_owned(), *max, factor(name))));
