@@ -202,6 +202,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if let Some(worst) = worst.and_then(|verdict| report.configuration(verdict.configuration)) {
         facts.push(("", format!("compensated {}", place(&report.label(worst)))));
     }
+    if compensated.is_some() {
+        facts.push(("Left out", "after compensation: errors that the spec does not have".to_owned()));
+    }
     if !report.spec.is_serial() {
         facts.push(("Certified", format!("nothing: {NOT_CERTIFIED}")));
     }
