@@ -323,9 +323,11 @@ class Machine:
         verdict on the tolerances of the study.
 
         `study`: path of a study file; `study_text`: its text. Without both: the study beside the
-        spec, or the study shipped with the manipulator, or joint samples. `monte_carlo`: number of
-        draws at the worst configuration and at home. `seed`: of the draws and of the study's random
-        samples. `figures`: collect data for `.report(folder)` and `.figure(name)`.
+        spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
+        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list.
+        `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
+        and of the study's random samples. `figures`: collect data for `.report(folder)` and
+        `.figure(name)`.
 
         Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
 
@@ -355,9 +357,11 @@ class Machine:
         verdict on the tolerances of the study.
 
         `study`: path of a study file; `study_text`: its text. Without both: the study beside the
-        spec, or the study shipped with the manipulator, or joint samples. `monte_carlo`: number of
-        draws at the worst configuration and at home. `seed`: of the draws and of the study's random
-        samples. `figures`: collect data for `.report(folder)` and `.figure(name)`.
+        spec, or the study shipped with the manipulator, or joint samples. `tolerance`: in place of
+        that of the study, a text such as `"0.3 mm"` or `"0.5 mrad"`, or both in a list.
+        `monte_carlo`: number of draws at the worst configuration and at home. `seed`: of the draws
+        and of the study's random samples. `figures`: collect data for `.report(folder)` and
+        `.figure(name)`.
 
         Lengths are in the unit of the spec. Fields: `abbe.reports.AnalyzeReport`.
 
@@ -396,17 +400,18 @@ class Machine:
     ) -> BoundReport:
         """Certifies upper bounds of the errors over a box of joints, parameters and inputs.
 
-        `study`, `study_text`: as for `analyze`; the box encloses the workspace of the study. `gap`:
-        relative gap between the certified bound and the largest error found at which the search
-        stops. `boxes`: maximum number of boxes to examine for each error. `time`: time limit in
-        seconds. `least`: also certify lower bounds, `.dexterity` and `.stiffness`.
+        `study`, `study_text`, `tolerance`: as for `analyze`; the box encloses the workspace of the
+        study. `gap`: relative gap between the certified bound and the largest error found at which
+        the search stops. `boxes`: maximum number of boxes to examine for each error. `time`: time
+        limit in seconds. `least`: also certify lower bounds, `.dexterity` and `.stiffness`.
 
-        `.repeatable`, `.random` and `.radius` have the errors `.norm`, `.x`, `.y`, `.z` and
-        `.orientation`. To first order, the true maximum of each lies between `.found`, attained at
-        `.at`, and `.certified`, which is None if nothing could be proved. `.remainder.certified`
-        bounds the difference between the exact chain and first order for the repeatable sources.
-        `.after_one_step.position` and `.orientation` bound what one step of compensation leaves.
-        `.margin` and `.orientation_margin` are the differences to the tolerances of the study.
+        `.repeatable`, `.random` and `.total`, the worst case of all, have the errors `.norm`, `.x`,
+        `.y`, `.z` and `.orientation`. To first order, the true maximum of each lies between
+        `.found`, attained at `.at`, and `.certified`, which is None if nothing could be proved.
+        `.remainder.certified` bounds the difference between the exact chain and first order for the
+        repeatable sources. `.after_one_step.position` and `.orientation` bound what one step of
+        compensation leaves. `.margin` and `.orientation_margin` are the differences to the
+        tolerances of the study.
 
         `.dexterity.point` and `.pose` bound the least singular value of `J_q` from below (metres,
         rad). `.stiffness` bounds the ratio of a force at the tool point to its deflection, in N/m;

@@ -1103,8 +1103,8 @@ class FirstOrder(Fields):
     """Largest distance between first order and the exact chain, over at most 2000 configurations spread evenly over
     the workspace.
 
-    Compares the repeatable sources; if there are none, the random sources at their bounds, all with a positive
-    sign.
+    Compares all sources: the random ones at their bounds, each with the sign with which it adds to those before
+    it.
     """
 
     configurations: int

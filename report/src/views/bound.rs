@@ -3,7 +3,7 @@
 use abbe_study::bound::{Dexterity, ErrorBound, ErrorBounds, LowerBound, Margin, Report};
 use abbe_study::number::{self, error_unit, of_symbol, unbroken};
 
-use super::shared::{any_values, place};
+use super::shared::place;
 use crate::document::{Document, Section, Table, first, joined, number as figures, words};
 
 /// Describes certified bounds of errors.
@@ -45,7 +45,7 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let mut facts =
         vec![("Study", report.study.title.clone()), ("Worst", place(worst)), ("Box", domain(report))];
     if report.kinds().iter().any(|(_, errors)| std::ptr::eq(*errors, &report.random)) {
-        facts.push(("Covers", any_values(&report.spec).to_owned()));
+        facts.push(("Covers", any_values(report).to_owned()));
     }
     let sentences = [("Exact", first_order_remainder(report)), ("Step", after_one_step(report))];
     facts.extend(sentences.into_iter().filter_map(|(name, sentence)| Some((name, sentence?))));
@@ -93,6 +93,14 @@ fn verdict(report: &Report, margin: &Margin, largest: &ErrorBound, unit: &str, f
             format!("{tolerance} EXCEEDED: {} {unit} found", number::digits(factor * largest.found, 3))
         }
         _ => format!("{tolerance} UNDECIDED: no larger error was found, but none can be excluded"),
+    }
+}
+
+/// Says which values of random sources a worst case covers.
+fn any_values(report: &Report) -> &'static str {
+    match is_bounded(report) {
+        true => "random errors of any sign at their bounds",
+        false => "random errors of any sign at their bounds, normal ones at 3 σ",
     }
 }
 

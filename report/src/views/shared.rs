@@ -187,14 +187,6 @@ pub(super) fn some(name: &'static str, texts: &[String], shown: usize) -> Vec<(&
     facts
 }
 
-/// Says which values of random sources a worst case covers.
-pub(super) fn any_values(spec: &Spec) -> &'static str {
-    match spec.enabled_sources().any(|source| !source.class.is_bounded()) {
-        true => "random errors of any sign at their bounds, normal ones at 3 σ",
-        false => "random errors of any sign at their bounds",
-    }
-}
-
 /// Returns a configuration with at most [`NAMED`] of its values.
 pub(super) fn place(label: &str) -> String {
     let values: Vec<&str> = label.split(", ").collect();

@@ -15,7 +15,7 @@ use super::report::{Classes, ErrorBound};
 /// Limit on the work of an analysis for certified norms, in approximate operations. One box takes
 /// about (nodes of the graph) × (moving names)².
 const WORK: usize = 400_000_000;
-/// How much shorter the search for all sources together is.
+/// Number by which the boxes of the search for all sources together are divided.
 const SHORTER: usize = 16;
 /// Limit on the evaluations of elastic deflections: about a second.
 const SAMPLES: usize = 20_000_000;

@@ -78,7 +78,7 @@ fn large_errors_of_joints_and_numbers_are_those_of_another_machine() {
 name = "q1"
 class = "repeatable"
 joint = "q1"
-error = "0.02"
+error = "0.02 rad"
 [[source]]
 name = "q2, and with its own joint"
 class = "repeatable"
@@ -93,12 +93,12 @@ error = "15 mm"
 name = "q5"
 class = "repeatable"
 joint = "q5"
-error = "0.1"
+error = "0.1 rad"
 [[source]]
 name = "q5 once more"
 class = "repeatable"
 joint = "q5"
-error = "0.05"
+error = "0.05 rad"
 [[source]]
 name = "reach"
 class = "repeatable"
@@ -108,12 +108,12 @@ error = "-40 mm"
 name = "as built"
 class = "repeatable"
 frame = "dh"
-dh = { d = "7 mm", alpha = "-0.2", theta = "0.04" }
+dh = { d = "7 mm", alpha = "-0.2 rad", theta = "0.04 rad" }
 [[source]]
 name = "as built, too"
 class = "repeatable"
 frame = "mdh"
-dh = { theta = "0.3", a = "-9 mm" }
+dh = { theta = "0.3 rad", a = "-9 mm" }
 "#;
     let robot = forms(NOMINAL, sources);
     let built = forms([NOMINAL[0] + 7.0, NOMINAL[1] - 0.2, NOMINAL[2] + 0.3, NOMINAL[3] - 9.0], "");
@@ -130,7 +130,7 @@ dh = { theta = "0.3", a = "-9 mm" }
 fn a_drawn_joint_is_a_moved_joint() {
     let robot = forms(
         NOMINAL,
-        "[[source]]\nname = \"encoder\"\nclass = \"random\"\ndistribution = \"uniform\"\njoint = \"q2\"\nerror = \"0.02\"\n",
+        "[[source]]\nname = \"encoder\"\nclass = \"random\"\ndistribution = \"uniform\"\njoint = \"q2\"\nerror = \"0.02 rad\"\n",
     );
     for q in CONFIGURATIONS {
         same(&real(&robot, &q, &[300.0]), &robot.pose(&q, &[300.0]).unwrap(), 1e-13);
@@ -150,21 +150,21 @@ class = "repeatable"
 frame = "product"
 at = "Tx(-50) Rz(0.3)"
 e_x = "2 mm"
-e_s = "0.03"
-e_r = "-0.02"
+e_s = "0.03 rad"
+e_r = "-0.02 rad"
 [[source]]
 name = "of the frame"
 class = "repeatable"
 frame = "product"
 e_y = "1.5 mm"
-e_p = "0.05"
+e_p = "0.05 rad"
 [[source]]
 name = "second"
 class = "repeatable"
 frame = "product"
 at = "Ty(reach) Rx(q1)"
 e_z = "1 mm"
-e_p = "0.04"
+e_p = "0.04 rad"
 [[source]]
 name = "joint"
 class = "repeatable"
@@ -236,7 +236,7 @@ fn what_first_order_neglects_of_a_located_error() {
 fn compensated_joints_are_moved_back() {
     let robot = forms(
         NOMINAL,
-        "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q1\"\nerror = \"0.02\"\n[[source]]\nname = \"scale\"\nclass = \"repeatable\"\njoint = \"d4\"\nerror = \"0.01*d4\"\n",
+        "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q1\"\nerror = \"0.02 rad\"\n[[source]]\nname = \"scale\"\nclass = \"repeatable\"\njoint = \"d4\"\nerror = \"0.01*d4\"\n",
     );
     let q = CONFIGURATIONS[1];
     let command = compensated(&robot, None, &q, &[300.0], &[]).unwrap();
@@ -258,26 +258,26 @@ transform = "Tx(rail) Rz(0.2)"
 name = "joint"
 class = "repeatable"
 joint = "q4"
-error = "0.1"
+error = "0.1 rad"
 [[source]]
 name = "place"
 class = "repeatable"
 frame = "7"
 at = "Tx(rail) Rz(q0)"
 e_x = "0.01 m"
-e_s = "0.2"
+e_s = "0.2 rad"
 [[source]]
 name = "frame"
 class = "random"
 distribution = "normal"
 frame = "7"
-e_r = "0.1"
+e_r = "0.1 rad"
 [[source]]
 name = "built"
 class = "random"
 distribution = "uniform"
 frame = "12"
-dh = { alpha = "0.2", a = "0.02 m" }
+dh = { alpha = "0.2 rad", a = "0.02 m" }
 [[source]]
 name = "tool"
 class = "repeatable"

@@ -1,4 +1,4 @@
-//! What chains and trees of frames have in forms of their own.
+//! The machine with its errors, as nodes of chains or trees of frames.
 
 use crate::chain::inverse::Inverse;
 use crate::chain::local_twist::LocalTwist;

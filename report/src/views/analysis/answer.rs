@@ -16,7 +16,7 @@ use super::conclusions::{exact, loop_condition, singular_sentence};
 use super::verdict::stated_probability;
 use crate::document::{Section, Table, first, number, words};
 use crate::unit;
-use crate::views::shared::{any_values, place};
+use crate::views::shared::place;
 
 /// Number of sources shown one by one.
 const SHOWN: usize = 5;
@@ -202,18 +202,19 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if let Some(worst) = worst.and_then(|verdict| report.configuration(verdict.configuration)) {
         facts.push(("", format!("compensated {}", place(&report.label(worst)))));
     }
-    if compensated.is_some() {
+    if compensated.is_some_and(|compensated| compensated.basis != CompensationBasis::Published) {
         facts.push(("Left out", "after compensation: errors that the spec does not have".to_owned()));
     }
     if !report.spec.is_serial() {
         facts.push(("Certified", format!("nothing: {NOT_CERTIFIED}")));
     }
     if report.certified.as_ref().is_some_and(|certified| certified.random.is_some()) {
-        facts.push(("Certified", format!(
-            "worst case over the joint box, {}; the figure before it: norm of the repeatable errors + root \
-             sum of squares of the random bounds",
-            any_values(&report.spec)
-        )));
+        let normal = report.spec.enabled_sources().any(|source| !source.class.is_bounded());
+        let normal = if normal { ", normal errors at 3 σ" } else { "" };
+        facts.push((
+            "Certified",
+            format!("worst of all signs in the joint box{normal}; the others: root sum of squares"),
+        ));
     }
     let (factor, unit) = error_unit(report.length);
     let published = &report.comparisons;
