@@ -97,6 +97,7 @@ impl Display for NamedOption {
             return f.write_str(&in_python(name, value.as_deref()));
         }
         match value {
+            Some(value) if value.contains(' ') => write!(f, "--{name} \"{value}\""),
             Some(value) => write!(f, "--{name} {value}"),
             None => write!(f, "--{name}"),
         }

@@ -33,7 +33,8 @@ pub(crate) fn scene(report: &Report) -> Option<Scene> {
         lines.extend(found.into_iter().chain(certified).map(|at| vec![[at, low], [at, high]]));
         texts.push(([0.0, high], label(row, &errors, contains_more)));
     }
-    let mut marks = vec![Mark::bars(Colour::BAR, bars).named("sampled")];
+    let sampled = (!bars.is_empty()).then(|| Mark::bars(Colour::BAR, bars).named("sampled"));
+    let mut marks: Vec<_> = sampled.into_iter().collect();
     if let Some(tolerance) = tolerance {
         let line = height.map(|at| [tolerance, at]).to_vec();
         marks.push(Mark::dashed(Colour::TOLERANCE, vec![line]).named("tolerance"));

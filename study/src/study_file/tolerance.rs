@@ -40,7 +40,7 @@ pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f
             let mut document = Document::new(TOLERANCE, text.as_str());
             let value = parse_value(&mut document, 0..text.len(), length, dimension, "the tolerance");
             if let Some(value) = value.filter(|value| *value <= 0.0) {
-                let help = format!("write `{}`", option("tolerance", "\"0.5 mm\""));
+                let help = format!("write `{}`", option("tolerance", "0.5 mm"));
                 document.mistake(
                     Diagnostic::new(0..text.len(), format!("the tolerance {value} is not positive"))
                         .help(help),

@@ -9,9 +9,11 @@ const quoted = (word) => (/^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replac
 
 /**
  * Returns the commands that give the figures of a state: `abbe analyze` and `abbe jacobian`.
- * @param {Report} report @param {State} state @returns {[string, string]}
+ * Tolerances that differ from those of the study stand in the first.
+ * @param {Report} report @param {State} state @param {Record<"position" | "orientation", number | null>} [tolerances]
+ * @returns {[string, string]}
  */
-export function commands(report, state) {
+export function commands(report, state, tolerances) {
     const isEnabled = report.sources.map(({ enabled, follows }, k) => follows === k && state.factors[k] > 0 && !enabled);
     const changes = settings(report, state).flatMap(([name, value]) => ["--set", `${name}=${value}`]);
     // A source that is switched off keeps its weight, which also loads others, as at a factor of 0 in the page.
@@ -27,5 +29,10 @@ export function commands(report, state) {
             !/able$/.test(option) || !report.sources.some(({ name }, k) => isEnabled[k] && name === value));
         return ["abbe", name, report.spec, ...kept.flat(), ...changes].map(quoted).join(" ");
     };
-    return [line("analyze", report.command), line("jacobian", report.jacobian_command)];
+    const { tolerance, orientation_tolerance: orientation } = report.study;
+    const isTyped = tolerances !== undefined && (tolerances.position !== tolerance || tolerances.orientation !== orientation);
+    const typed = isTyped ? [[tolerances.position, report.length], [tolerances.orientation, "rad"]] : [];
+    const limits = typed.flatMap(([value, unit]) => (value === null ? [] : ["--tolerance", `${value}${unit}`]));
+    const given = report.command.filter((option, i) => !(isTyped && report.command[i - (i % 2)] === "--tolerance"));
+    return [line("analyze", [...given, ...limits]), line("jacobian", report.jacobian_command)];
 }

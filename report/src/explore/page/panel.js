@@ -32,7 +32,8 @@ const SETTLED = 250;
 const addresses = [];
 
 /** Creates the commands and the link that give the same figures. @param {Panel} panel */
-function createSame({ report, state }) {
+function createSame(panel) {
+    const { report, state } = panel;
     const status = html("span", { role: "status" });
     const lines = ["Copy command", "Copy command", "Copy link"].map((name) => {
         const code = html("code");
@@ -48,7 +49,7 @@ function createSame({ report, state }) {
         ...lines.map((line) => line.element), status);
     const settle = () => {
         const link = `${location.href.split("#")[0]}#${addresses.map((address) => address()).filter(Boolean).join("&")}`;
-        [...commands(report, state), link].forEach((text, i) => setText(lines[i].code, text));
+        [...commands(report, state, panel.tolerances), link].forEach((text, i) => setText(lines[i].code, text));
         try {
             history.replaceState(null, "", link);
         } catch {
@@ -61,7 +62,9 @@ function createSame({ report, state }) {
 /** Builds a panel in a section. @param {Element} section @param {Generated} generated @param {Report} report @param {number} index in the page */
 export function mount(section, generated, report, index) {
     const prefix = index === 0 ? "" : `${index + 1}.`;
-    const [machine, initial, state] = [createMachine(generated, report), initialState(report), decodeState(report, location.hash, prefix)];
+    /** Values of the address that the machine does not take. @type {string[]} */
+    const ignored = [];
+    const [machine, initial, state] = [createMachine(generated, report), initialState(report), decodeState(report, location.hash, prefix, ignored)];
     const { tolerance: position, orientation_tolerance: orientation } = report.study;
     let [frame, timer, reference, previous, evaluated] = [0, 0, initial, initial, ""];
     /** @type {Panel} */
@@ -86,8 +89,16 @@ export function mount(section, generated, report, index) {
     const back = button("Back", () => panel.go(previous), { hidden: true });
     const reset = button("Reset", () => panel.go(initial, initial));
     const limits = () => String([panel.tolerances.position ?? "", panel.tolerances.orientation ?? ""]);
-    const [studied, given] = [limits(), new URLSearchParams(location.hash.slice(1)).get(`${prefix}tolerances`)?.split(",").map(Number)];
-    if (given) panel.tolerances = { position: given[0] > 0 ? given[0] : null, orientation: given[1] > 0 ? given[1] : null };
+    const studied = limits();
+    const refused = html("p", { class: "detail", role: "status" });
+    /** Takes the tolerances of the address, or those of the study, and says what of the address is not taken. */
+    const arrive = () => {
+        const given = new URLSearchParams(location.hash.slice(1)).get(`${prefix}tolerances`)?.split(",").map(Number);
+        const limit = (/** @type {number} */ value) => (value > 0 && value < Infinity ? value : null);
+        panel.tolerances = given ? { position: limit(given[0]), orientation: limit(given[1]) } : { position, orientation };
+        setText(refused, ignored.length === 0 ? "" : `Not taken from the link, because this machine has no such value: ${ignored.join(", ")}.`);
+    };
+    arrive();
     addresses.push(() => [encodeState(report, state, prefix), limits() === studied ? "" : `${prefix}tolerances=${limits()}`].filter(Boolean).join("&"));
     const measured = report.residuals ? [createResiduals(panel, report.residuals)] : [];
     const [verdict, controls, view, sources] = [createVerdict(panel), createControls(panel), createView(panel, measured), createSources(panel)];
@@ -97,7 +108,7 @@ export function mount(section, generated, report, index) {
     const parts = [verdict, controls, view, sources, ...sweep, poses, jacobian, same];
     const box = (/** @type {string} */ name, /** @type {(Node | string)[]} */ ...children) => html("div", { class: name }, ...children);
     if (document.querySelector(".abbe-panel ~ .abbe-panel")) section.append(html("h2", { class: "title" }, report.title));
-    section.append(box("top", verdict.element, verdict.searches), box("body",
+    section.append(box("top", refused, verdict.element, verdict.searches), box("body",
         box("side", controls.element, box("actions", back, reset)),
         box("main", box("columns", box("column", view.element, ...[...measured, ...sweep].map((part) => part.element)),
             box("column", sources.element, poses.element)), jacobian.element, same.element)));
@@ -126,7 +137,12 @@ export function mount(section, generated, report, index) {
         parts.forEach((part) => part.settle?.());
     }
     addEventListener("beforeprint", () => draw(true));
-    addEventListener("hashchange", () => panel.go(decodeState(report, location.hash, prefix)));
+    addEventListener("hashchange", () => {
+        ignored.length = 0;
+        const arrived = decodeState(report, location.hash, prefix, ignored);
+        arrive();
+        panel.go(arrived);
+    });
     draw(true);
     settle();
 }

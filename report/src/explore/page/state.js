@@ -73,8 +73,8 @@ export function settings({ parameters, inputs }, { s, u }) {
         values[i] === nominal ? [] : [[name, exact(values[i], unit)]]);
 }
 
-/** Returns the key of a parameter or input; `q` is that of the joints. @param {string} name @returns {string} */
-const keyOf = (name) => (name === "q" ? "set.q" : name);
+/** Returns the key of a parameter or input; two names are keys of the page. @param {string} name @returns {string} */
+const keyOf = (name) => (name === "q" || name === "tolerances" ? `set.${name}` : name);
 
 /**
  * Returns what differs from the spec at home, for the address: `q=9mm,70deg&payload=70kg&factor.gear=0.5`.
@@ -91,23 +91,36 @@ export function encodeState(report, state, prefix = "") {
 }
 
 /**
- * Returns the state of an address. What cannot be parsed, or is outside limits, stays as in the spec at home.
- * @param {Report} report @param {string} hash with or without `#` @param {string} [prefix] @returns {State}
+ * Returns the state of an address. What cannot be parsed, or is outside limits, stays as in the spec at home, and is listed.
+ * @param {Report} report @param {string} hash with or without `#` @param {string} [prefix] @param {string[]} [ignored] filled
+ * @returns {State}
  */
-export function decodeState(report, hash, prefix = "") {
+export function decodeState(report, hash, prefix = "", ignored = []) {
     const [initial, parts] = [initialState(report), new URLSearchParams(hash.replace(/^#/, ""))];
-    /** @param {string | null} text @param {string} unit @param {Interval | null} interval @param {number} otherwise */
-    const parsed = (text, unit, interval, otherwise) => {
+    /** @param {string} name @param {string | null} text @param {string} unit @param {Interval | null} interval @param {number} otherwise */
+    const parsed = (name, text, unit, interval, otherwise) => {
         const value = parseValue(text ?? "", unit, report.length);
-        return value !== undefined && isWithin(value, interval) ? value : otherwise;
+        if (value !== undefined && isWithin(value, interval)) return value;
+        if (text) ignored.push(`${name}=${text}`);
+        return otherwise;
     };
-    const read = (/** @type {string} */ key) => parts.get(prefix + key);
+    const known = new Set(["tolerances"]);
+    const read = (/** @type {string} */ key) => {
+        known.add(key);
+        return parts.get(prefix + key);
+    };
     const q = read("q")?.split(",") ?? [];
-    return {
-        q: report.variables.map(({ limits, home }, i) =>
-            parsed(q.length === initial.q.length ? q[i] : "", variableUnit(report, i), limits, home)),
-        s: report.parameters.map(({ name, unit, nominal }) => parsed(read(keyOf(name)), unit, null, nominal)),
-        u: report.inputs.map(({ name, unit, range, nominal }) => parsed(read(keyOf(name)), unit, range, nominal)),
-        factors: report.sources.map(({ name }, k) => parsed(read(`factor.${name}`), "", [0, LARGEST_FACTOR], initial.factors[k])),
+    const state = {
+        q: report.variables.map(({ name, limits, home }, i) =>
+            parsed(name, q.length === initial.q.length ? q[i] : "", variableUnit(report, i), limits, home)),
+        s: report.parameters.map(({ name, unit, nominal }) => parsed(name, read(keyOf(name)), unit, null, nominal)),
+        u: report.inputs.map(({ name, unit, range, nominal }) => parsed(name, read(keyOf(name)), unit, range, nominal)),
+        factors: report.sources.map(({ name }, k) => parsed(`factor.${name}`, read(`factor.${name}`), "", [0, LARGEST_FACTOR], initial.factors[k])),
     };
+    if (q.length > 0 && q.length !== initial.q.length) ignored.push(`q=${q}`);
+    for (const key of parts.keys()) {
+        const isOwn = key.startsWith(prefix) && (prefix !== "" || !/^\d+\./.test(key));
+        if (isOwn && !known.has(key.slice(prefix.length))) ignored.push(`${key.slice(prefix.length)}=${parts.get(key)}`);
+    }
+    return state;
 }

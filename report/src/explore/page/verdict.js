@@ -16,12 +16,12 @@ function errorText({ unit: { factor, symbol } }, value, largest = value) {
 export function createVerdict(panel) {
     const { report } = panel;
     const over = report.residuals ? "rows" : "study";
-    const [status, total, share, largest, parts, before] = spans("status", "total", "of", "largest", "parts", "before");
+    const [status, total, share, stated, largest, parts, before] = spans("status", "total", "of", "of", "largest", "parts", "before");
     const [repeatable, random, mark] = [html("i", { class: "repeatable" }), html("i", { class: "random" }), html("b")];
     const field = html("input", { type: "text", class: "tolerance", placeholder: "type one", autocomplete: "off" });
     const live = html("div", { class: "live", role: "status" });
     const element = html("div", { class: "verdict" },
-        html("p", { class: "line" }, status, total, share, html("label", {}, "tolerance ", field)),
+        html("p", { class: "line" }, status, total, share, html("label", {}, "tolerance ", field), stated),
         html("div", { class: "gauge", "aria-hidden": true }, repeatable, random, mark),
         html("p", { class: "detail" }, largest, parts, before), live);
     const [studyText, boxText, all] = [html("p"), html("p"), html("input", { type: "checkbox", checked: true })];
@@ -76,6 +76,9 @@ export function createVerdict(panel) {
         setText(total, errorText(panel, radius));
         setText(share, limit === null ? "" : `${percent(radius, limit)} of`);
         if (document.activeElement !== field) field.value = limit === null ? "" : `${short(unit.factor * limit)} ${unit.symbol}`;
+        const own = measurand === "position" ? report.study.tolerance : report.study.orientation_tolerance;
+        const ownText = own === null ? "none" : `${short(unit.factor * own)} ${unit.symbol}`;
+        setText(stated, limit === own ? "" : `(of the study: ${ownText})`);
         const end = Math.max(radius, (limit ?? 0) * 1.25) || 1;
         [repeatable.style.width, random.style.width, mark.style.left] =
             [repeatableRadius, randomRadius, limit ?? 0].map((value) => `${(100 * value) / end}%`);

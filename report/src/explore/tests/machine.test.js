@@ -153,5 +153,9 @@ test("options of the page's own command stay in the copied ones", () => {
     state.u[0] = 12.5;
     const [analyze, jacobian] = commands(report, state);
     assert.ok(!analyze.includes("--disable") && analyze.includes("--study pps-section6") && !jacobian.includes("--study"), analyze);
+    const [typed, other] = commands(report, state, { position: 0.3, orientation: null });
+    assert.ok(typed.includes("--tolerance 0.3mm") && !other.includes("--tolerance"), typed);
+    const { tolerance: position, orientation_tolerance: orientation } = report.study;
+    assert.equal(commands(report, state, { position, orientation })[0], analyze);
     assertAgrees(report, machine, state);
 });

@@ -34,5 +34,9 @@ test("an address is short, and bad parts of it are ignored", () => {
     const bad = ["q=1,2", "q=a,b,c,d,e,f", "q=,,,,,", "q=1e9,-1,9e9,91deg,4deg,1rad", "patient=-1kg", "patient=137kg", "patient=1mm", "factor.assembly=4",
         "factor.assembly=-1", "factor.nothing=2", "__proto__=1", "nothing", "%E0%A4%A", "q=NaN,Infinity,1e999,0x10,1_0,[]"];
     for (const text of bad) assert.deepEqual(decodeState(report, `#${text}`), initial, text);
+    /** @type {string[]} */
+    const ignored = [];
+    decodeState(report, "#q=9,x,987,70deg,0,0&patient=1mm&nothing=3&tolerances=1,&2.q=1", "", ignored);
+    assert.deepEqual(ignored, ["d2=x", "patient=1mm", "nothing=3"]);
     assert.deepEqual(decodeState(report, "#q=9,x,987,70deg,0,0").q, [9, initial.q[1], 987, (70 / 180) * Math.PI, 0, 0]);
 });
