@@ -85,14 +85,20 @@ class Sweep:
         return enclosing([self.sums(row)[0] for row in self.moves])
 
     def largest_remainder(self):
-        """What first order leaves on the exact chain at most: of the repeatable sources, or else of all at their bounds."""
-        known = [source for source in self.sources if source.repeatable] or self.sources
-        magnitudes = [(source, bound(source)) for source in known]
+        """What first order leaves on the exact chain at most: of all sources, the random ones at their bounds with signs that add."""
         largest = 0.0
         for place, row in zip(self.places, self.moves):
+            moves = [(s, [bound(s) * x for x in move[:3]]) for s, move in zip(self.sources, row)]
+            first_order = [sum(x) for x in zip([0.0] * 3, *(move for s, move in moves if s.repeatable))]
+            magnitudes = [(s, bound(s)) for s in self.sources if s.repeatable]
+            for source, move in [(s, move) for s, move in moves if not s.repeatable]:
+                along = sum(a * b for a, b in zip(first_order, move))
+                sign = -1.0 if along < -1e-9 * norm(first_order) * norm(move) else 1.0
+                magnitudes.append((source, sign * bound(source)))
+                first_order = [a + sign * b for a, b in zip(first_order, move)]
+            # In the order of the spec, which matters in the exact chain.
+            magnitudes.sort(key=lambda one: self.sources.index(one[0]))
             ideal, real = exact_position(place, []), exact_position(place, magnitudes)
-            moves = [[bound(s) * x for x in move[:3]] for s, move in zip(self.sources, row) if s in known]
-            first_order = [sum(column) for column in zip(*moves)]
             largest = max(largest, norm([r - i - f for r, i, f in zip(real, ideal, first_order)]))
         return largest
 

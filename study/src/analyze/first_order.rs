@@ -65,12 +65,18 @@ impl<'a> Comparison<'a> {
             random.filter_map(|((m, bound), moved)| Some(((m, (*bound)?), moved)))
         {
             let along: f64 = first.iter().zip(moved).map(|(sum, part)| sum * part).sum();
-            let sign = if along < 0.0 { -1.0 } else { 1.0 };
+            // Perpendicular errors have no sign of their own.
+            let zero = 1e-9 * norm(&first) * norm(&moved[..3]);
+            let sign = if along < -zero { -1.0 } else { 1.0 };
             *magnitude = sign * bound;
             first = std::array::from_fn(|i| first[i] + sign * moved[i]);
         }
         let real = drawn_pose(self.manipulator, q, s, u, &magnitudes)?;
         let exact = deviation(self.manipulator.description().orientation, &row.pose, &real);
-        Ok((0..3).map(|i| (exact[i] - first[i]).powi(2)).sum::<f64>().sqrt())
+        Ok(norm(&std::array::from_fn::<_, 3, _>(|i| exact[i] - first[i])))
     }
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
