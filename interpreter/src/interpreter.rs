@@ -92,9 +92,9 @@ impl Interpreter {
     /// # Errors
     ///
     /// Returns [`Error::Count`] if the number of arguments differs from the function's signature.
-    pub fn evaluate(&self, function: Function, arguments: &[f64]) -> Result<Vec<f64>, Error> {
+    pub fn evaluate_unchecked(&self, function: Function, arguments: &[f64]) -> Result<Vec<f64>, Error> {
         let tape = self.tape(function);
-        count(Quantity::Arguments, tape.arguments, arguments.len())?;
+        checks::length(Quantity::Arguments, [tape.arguments, 1], arguments.len())?;
         Ok(evaluated(tape, arguments.iter()))
     }
 
@@ -148,11 +148,13 @@ impl Interpreter {
 
     /// Evaluates a function; only its arguments are checked.
     fn unchecked(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
-        for (array, values) in function.signature().arguments.iter().zip(arguments) {
-            count(array.quantity, array.len(&self.description), values.len())?;
+        let arrays = function.signature().arguments;
+        for (i, array) in arrays.iter().enumerate() {
+            let values = arguments.get(i).copied().unwrap_or_default();
+            checks::length(array.quantity, array.rows(&self.description), values.len())?;
             checks::given(&self.description, array.quantity, values)?;
         }
-        Ok(evaluated(self.tape(function), arguments.iter().copied().flatten()))
+        Ok(evaluated(self.tape(function), arguments[..arrays.len()].iter().copied().flatten()))
     }
 
     /// Checks that the results of a function are finite and not singular.
@@ -185,13 +187,14 @@ impl Manipulator for Interpreter {
         arguments: &[&[f64]],
         results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        for (array, values) in function.signature().results.iter().zip(&*results) {
-            let [rows, of_one] = array.rows(&self.description);
-            count(array.quantity, rows, values.len() / of_one.max(1))?;
+        let arrays = function.signature().results;
+        for (i, array) in arrays.iter().enumerate() {
+            let found = results.get(i).map_or(0, |values| values.len());
+            checks::length(array.quantity, array.rows(&self.description), found)?;
         }
         let values = self.unchecked(function, arguments)?;
         let mut rest = values.as_slice();
-        for result in results {
+        for result in results.iter_mut().take(arrays.len()) {
             let (these, others) = rest.split_at(result.len());
             result.copy_from_slice(these);
             rest = others;
@@ -227,10 +230,6 @@ fn evaluated<'a>(tape: &Tape, arguments: impl Iterator<Item = &'a f64>) -> Vec<f
     }
     block.run(tape);
     tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect()
-}
-
-fn count(quantity: Quantity, expected: usize, found: usize) -> Result<(), Error> {
-    if expected == found { Ok(()) } else { Err(Error::Count { quantity, expected, found }) }
 }
 
 /// Returns the pose in the first twelve numbers.

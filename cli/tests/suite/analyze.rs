@@ -298,6 +298,30 @@ fn what_cannot_be_reached_is_counted_with_its_reason() {
     assert!(run.stderr.contains("no configuration of the workspace is reachable"), "{}", run.stderr);
 }
 
+/// Every change of the spec stands in the answer, also where no source is left.
+#[test]
+fn changes_stand_with_the_verdict() {
+    let folder = tempdir().unwrap();
+    let spec =
+        write(folder.path(), "an arm.toml", &shipped("ur5").replace("shoulder encoder", "shoulder of arm"));
+    let spec = spec.to_str().unwrap();
+    let sources = json(&["analyze", spec, "--json"])["sources"].as_array().unwrap().clone();
+    let names: Vec<&str> = sources.iter().map(|source| source["name"].as_str().unwrap()).collect();
+    let all: Vec<&str> = names.iter().flat_map(|name| ["--disable", *name]).collect();
+    for command in ["analyze", "bound"] {
+        let scaled = prints(&[command, spec, "--scale", "shoulder of arm=0.5"]);
+        assert!(scaled.contains("Changed   --scale \"shoulder of arm=0.5\"\n"), "{scaled}");
+        let none = prints(&[&[command, spec][..], &all].concat());
+        let words = none.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            words.contains("No error source is enabled") && words.contains("Changed --disable"),
+            "{none}"
+        );
+        assert!(words.contains("--disable \"shoulder of arm\""), "{none}");
+        assert!(!prints(&[command, spec]).contains("Changed"));
+    }
+}
+
 /// A tolerance is given without a study file, for the position and for the orientation; `bound`
 /// judges by it, too.
 #[test]
@@ -313,7 +337,14 @@ fn a_tolerance_may_be_given_by_an_option() {
     let both = run("analyze", &["--tolerance", "1 mm", "--tolerance", "5 mrad"]).stdout;
     assert!(both.contains("MET, tolerance 1 mm and 5 mrad at 1000 configurations"), "{both}");
     refused(&["analyze", "ur5", "--tolerance", "1 kg"], &["--tolerance:1:1", "length"]);
-    refused(&["analyze", "ur5", "--tolerance", "-1 mm"], &["the tolerance -1 is not positive", "0.5 mm"]);
+    for size in ["-1 mm", "-1 mrad", "0 mm", ""] {
+        refused(
+            &["analyze", "ur5", "--tolerance", size],
+            &["the tolerance must be positive", "0.5 mm", "0.5 mrad"],
+        );
+    }
+    let twice = ["analyze", "ur5", "--tolerance", "1 mm", "--tolerance", "2 mm"];
+    refused(&twice, &["two tolerances of one kind"]);
 }
 
 /// The comparison with the exact chain covers random errors beside repeatable ones: 0.3 rad at 1 m,

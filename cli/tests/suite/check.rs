@@ -3,6 +3,7 @@
 use abbe_manipulators::SHIPPED;
 use tempfile::tempdir;
 
+use crate::bad_input::refused;
 use crate::running::{abbe, full, json, narrow, prints, write};
 
 #[test]
@@ -278,4 +279,27 @@ fn loops_at_home() {
         let (found, shown) = checked(&text);
         assert!(found == status && shown.contains(words), "{found:?}, {words}\n{shown}");
     }
+}
+
+/// Errors per unit of a magnitude are no angles of their own: 1 is not asked about, 0.3 is.
+#[test]
+fn an_error_of_a_magnitude_needs_no_unit() {
+    let folder = tempdir().unwrap();
+    let spec = |source: &str| {
+        let text = format!(
+            "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"a\"\n\
+             variable = {{ name = \"q1\", kind = \"revolute\", limits = [\"-90 deg\", \"90 deg\"] }}\n\
+             transform = \"Rz(q1)\"\n[tool]\ntransform = \"Tx(1000)\"\n[[source]]\nname = \"tilt\"\n\
+             class = \"repeatable\"\nframe = \"a\"\n{source}\n"
+        );
+        write(folder.path(), "arm.toml", &text)
+    };
+    assert_eq!(abbe(&["check", spec("magnitude = { value = 0.001 }\ne_s = 1").to_str().unwrap()]).status, 0);
+    for (bare, written) in
+        [("e_s = 0.3", "`\"0.3 mrad\"`"), ("e_s = \"0.3\"", "`0.3 mrad`"), ("e_s = \"-0.02\"", "`-0.02 deg`")]
+    {
+        refused(&["check", spec(bare).to_str().unwrap()], &["a number without a unit is in rad", written]);
+    }
+    // The hint is obeyed.
+    assert_eq!(abbe(&["check", spec("e_s = \"0.3 mrad\"").to_str().unwrap()]).status, 0);
 }

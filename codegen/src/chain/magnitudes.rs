@@ -131,16 +131,16 @@ impl Magnitudes {
         let repeatable = vec![errors];
         let all = [&repeatable[..], &random].concat();
         let moves = |errors: &[Node; 6]| *errors != [zero; 6];
-        let is_random = !repeatable[0].iter().any(moves);
-        let kinds = [(repeatable, false), (random, true), (all, is_random)];
-        let [repeatable, random, total] = kinds.map(|(kind, is_random)| {
+        let [repeatable, random, total] = [repeatable, random, all].map(|kind| {
             let first = kind.iter().filter_map(|errors| errors.iter().position(moves)).min();
             let first = first.unwrap_or(spec.frames.len());
             let moved: Vec<ToolDisplacement> = kind
                 .iter()
                 .map(|errors| ToolDisplacement::by(g, spec, &links, &rows, errors, first))
                 .collect();
-            let most_signed = if is_random { MOST_SIGNED } else { 0 };
+            let symbols = g.symbols(kind.concat().as_flattened());
+            let is_constant = symbols.iter().all(|symbol| matches!(symbol, Symbol::Parameter(_)));
+            let most_signed = if is_constant { MOST_SIGNED } else { 0 };
             (largest_of(g, &moved, most_signed), largest_across_z(g, &moved, most_signed))
         });
         let across_z = [repeatable.1, random.1, total.1];
@@ -183,8 +183,8 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], most_signed: usize) -> 
     Magnitude { node, squared: false, parts }
 }
 
-/// Largest number of random sources whose patterns of signs are all written down, which is faster
-/// for errors that do not depend on the joints: their corners are control points.
+/// Largest number of constant errors whose patterns of signs are all written down, which is faster
+/// for these: the corners of a box are control points, and there are as many more for directions.
 const MOST_SIGNED: usize = 7;
 
 /// Returns the largest norm of the sum of vectors over all patterns of signs but that of the first.

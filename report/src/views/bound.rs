@@ -3,14 +3,14 @@
 use abbe_study::bound::{Dexterity, ErrorBound, ErrorBounds, LowerBound, Margin, Report};
 use abbe_study::number::{self, error_unit, of_symbol, unbroken};
 
-use super::shared::place;
+use super::shared::{changed, place};
 use crate::document::{Document, Section, Table, first, joined, number as figures, words};
 
 /// Describes certified bounds of errors.
 pub fn bound(report: &Report) -> Document {
     let kinds = report.kinds();
     let none = kinds.is_empty().then(|| "No error source is enabled: there is no error to bound.".to_owned());
-    let facts = if kinds.is_empty() { Vec::new() } else { facts(report) };
+    let facts = if kinds.is_empty() { changed(&report.changes) } else { facts(report) };
     let mut sections = vec![
         Section::answer().state("no_source", none).table(largest(report)).facts(facts),
         Section::full("Domain").state("box", within(report)),
@@ -42,8 +42,9 @@ fn largest(report: &Report) -> Table {
 
 fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let worst = if report.total.norm.label.is_empty() { "home" } else { &report.total.norm.label };
-    let mut facts =
-        vec![("Study", report.study.title.clone()), ("Worst", place(worst)), ("Box", domain(report))];
+    let mut facts = vec![("Study", report.study.title.clone())];
+    facts.extend(changed(&report.changes));
+    facts.extend([("Worst", place(worst)), ("Box", domain(report))]);
     if report.kinds().iter().any(|(_, errors)| std::ptr::eq(*errors, &report.random)) {
         facts.push(("Covers", any_values(report).to_owned()));
     }

@@ -5,6 +5,7 @@ use abbe_metrology::data::{Base, Layout, Map, Summary};
 use abbe_metrology::identify::ResidualDrift;
 use abbe_metrology::{AcceptanceVerdict, LimitCheck};
 use abbe_spec::Spec;
+use abbe_spec::option::NamedOption;
 use abbe_study::number::{digits, error_unit, length, percent, quantity, short, unbroken};
 use abbe_study::{Extrapolation, OtherTool};
 
@@ -185,6 +186,12 @@ pub(super) fn some(name: &'static str, texts: &[String], shown: usize) -> Vec<(&
         facts.push(("", format!("… and {} more", texts.len() - shown)));
     }
     facts
+}
+
+/// Returns the fact of the changes by options; none without changes.
+pub(super) fn changed(changes: &[NamedOption]) -> Vec<(&'static str, String)> {
+    let options: Vec<String> = changes.iter().map(NamedOption::to_string).collect();
+    if options.is_empty() { Vec::new() } else { vec![("Changed", options.join(" "))] }
 }
 
 /// Returns a configuration with at most [`NAMED`] of its values.

@@ -173,6 +173,16 @@ pub fn use_case(description: &Description, q: &[f64], s: &[f64], u: &[f64]) -> R
 
 /// Returns the error of an array with another number of values.
 fn count<A: FlatArray>(quantity: Quantity, found: usize) -> Error {
-    let [expected, row] = A::SHAPE;
-    Error::Count { quantity, expected, found: found / row }
+    wrong_length(quantity, A::SHAPE, found)
+}
+
+/// Checks the number of values of an array, given its number of rows and of values in each.
+pub fn length(quantity: Quantity, shape: [usize; 2], found: usize) -> Result<(), Error> {
+    if found == shape[0] * shape[1] { Ok(()) } else { Err(wrong_length(quantity, shape, found)) }
+}
+
+/// Counts rows where these are whole, and values otherwise.
+fn wrong_length(quantity: Quantity, [rows, row]: [usize; 2], found: usize) -> Error {
+    let of_one = if row > 0 && found.is_multiple_of(row) { row } else { 1 };
+    Error::Count { quantity, expected: rows * row / of_one, found: found / of_one }
 }

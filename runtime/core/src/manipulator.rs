@@ -20,10 +20,14 @@ pub trait Manipulator: Sync {
     fn description(&self) -> &Description;
 
     /// Evaluates a function. `arguments` and `results` have a slice for each array of its
-    /// [`Signature`](crate::function::Signature), in row-major order.
+    /// [`Signature`](crate::function::Signature), with the numbers of the array in memory order, in
+    /// the units that it states; further slices are not looked at.
     ///
-    /// Returns [`Error::NoFunction`] for a function that the manipulator does not have. Where Euler
-    /// rows are singular, it returns [`Error::EulerSingularity`]; rows 1–3 are computed there, too.
+    /// Returns [`Error::Count`] for a slice that is missing or has another length,
+    /// [`Error::NotFinite`] and [`Error::OutOfRange`] for its values, [`Error::NotClosed`] if loops
+    /// do not close, and [`Error::NoFunction`] for a function that the manipulator does not have.
+    /// Where Euler rows are singular, it returns [`Error::EulerSingularity`]; rows 1–3 are computed
+    /// there, too.
     fn evaluate(
         &self,
         function: Function,

@@ -102,6 +102,7 @@ impl Bound {
         let errors = [repeatable, random, total];
         let others = OtherBounds { remainder, after_one_step, dexterity, stiffness };
         let report = Report::new(domain, study, &self.effort, errors, others);
+        let report = Report { changes: machine.stated_changes().collect(), ..report };
         report.warn(notes);
         Ok(report)
     }

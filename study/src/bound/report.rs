@@ -1,6 +1,6 @@
 //! Report of a bound.
 
-use abbe_spec::option::{BOXES, TIME};
+use abbe_spec::option::{BOXES, NamedOption, TIME};
 use std::sync::Arc;
 
 use abbe::{Class, Orientation};
@@ -68,6 +68,9 @@ pub struct Report {
     /// Enclosing box of the workspace.
     #[serde(skip)]
     pub moving_spans: Vec<Span>,
+    /// Changes of the spec by options, in their order.
+    #[serde(skip)]
+    pub changes: Vec<NamedOption>,
 }
 
 /// Classes that have an enabled source.
@@ -303,6 +306,7 @@ impl Report {
             spec,
             study: study.clone(),
             moving_spans,
+            changes: Vec::new(),
         }
     }
 

@@ -33,30 +33,41 @@ impl Default for Tolerance {
 }
 
 /// Parses limits given as options: a length limits the position error, an angle the orientation
-/// error. Returns each with `true` for an angle.
+/// error. Returns each with `true` for an angle; there is at most one of each.
 pub(super) fn parse(texts: &[String], length: LengthUnit) -> Result<Vec<(bool, f64)>, Diagnostics> {
-    let limit = |text: &String| {
+    let mut limits: Vec<(bool, f64)> = Vec::new();
+    for text in texts {
         let value = |dimension| {
             let mut document = Document::new(TOLERANCE, text.as_str());
             let value = parse_value(&mut document, 0..text.len(), length, dimension, "the tolerance");
-            if let Some(value) = value.filter(|value| *value <= 0.0) {
-                let help = format!("write `{}`", option("tolerance", "0.5 mm"));
-                document.mistake(
-                    Diagnostic::new(0..text.len(), format!("the tolerance {value} is not positive"))
-                        .help(help),
-                );
-            }
             document.finish(value)
         };
-        let is_angle = text.contains(char::is_alphabetic);
-        value(Dimension::LENGTH).map(|length| (false, length)).or_else(|refused| {
-            match value(Dimension::NONE) {
-                Ok(angle) if is_angle => Ok((true, angle)),
-                _ => Err(refused),
+        let is_angle = |text: &str| text.contains(char::is_alphabetic);
+        let limit = match value(Dimension::LENGTH) {
+            Ok(value) => (false, value),
+            Err(refused) => match value(Dimension::NONE) {
+                Ok(value) if is_angle(text) => (true, value),
+                _ if text.trim().is_empty() => (false, 0.0),
+                _ => return Err(refused),
+            },
+        };
+        let problem = match limit {
+            (_, value) if value <= 0.0 => Some("the tolerance must be positive"),
+            (kind, _) if limits.iter().any(|(other, _)| *other == kind) => {
+                Some("there are two tolerances of one kind: at most a length and an angle")
             }
-        })
-    };
-    texts.iter().map(limit).collect()
+            _ => None,
+        };
+        if let Some(message) = problem {
+            let mut document = Document::new(TOLERANCE, text.as_str());
+            let [length, angle] = ["0.5 mm", "0.5 mrad"].map(|value| option("tolerance", value));
+            let help = format!("write `{length}` for the position, and `{angle}` for the orientation");
+            document.mistake(Diagnostic::new(0..text.len(), message).help(help));
+            return document.finish(None);
+        }
+        limits.push(limit);
+    }
+    Ok(limits)
 }
 
 /// Reads a length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.

@@ -88,7 +88,7 @@ impl Manipulator for Forgetful {
         arguments: &[&[f64]],
         results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        Manipulator::evaluate(&self.0, function, arguments, results)
+        self.0.evaluate(function, arguments, results)
     }
 }
 

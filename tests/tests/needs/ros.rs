@@ -72,7 +72,7 @@ fn a_trajectory_is_corrected() -> Result<(), Missing> {
         WANTED.iter().enumerate().map(|(i, (name, _))| corrected[name] * scale(i)).collect();
     let off = |q: &[f64]| {
         let ideal = machine.pose(&wanted, &s).unwrap().0[3];
-        let real = machine.evaluate(Function::RealPose, &[q, &s, &u].concat()).unwrap();
+        let real = machine.evaluate_unchecked(Function::RealPose, &[q, &s, &u].concat()).unwrap();
         (0..3).map(|i| (ideal[i] - real[9 + i]).powi(2)).sum::<f64>().sqrt()
     };
     assert!(off(&wanted) > 1.0, "there is something to correct: {} mm", off(&wanted));

@@ -44,7 +44,7 @@ impl Manipulator for Counted {
         results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
         self.transforms.fetch_add(usize::from(function == Function::Transforms), Ordering::Relaxed);
-        Manipulator::evaluate(&self.robot, function, arguments, results)?;
+        self.robot.evaluate(function, arguments, results)?;
         if let (Function::JointJacobian | Function::ParameterJacobian, [_, columns], Some((column, by))) =
             (function, results, self.off)
         {

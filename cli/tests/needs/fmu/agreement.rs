@@ -134,7 +134,8 @@ fn numbers_of_rows(report: &Value) -> Vec<String> {
 fn assert_row(place: &str, robot: &Interpreter, row: &Row, found: &HashMap<&str, f64>) {
     let Row { q, u, magnitudes, s } = row;
     let description = robot.description();
-    let of = |function, arguments: &[&[f64]]| robot.evaluate(function, &arguments.concat()).unwrap();
+    let of =
+        |function, arguments: &[&[f64]]| robot.evaluate_unchecked(function, &arguments.concat()).unwrap();
     let by_source = of(Function::SourceDisplacements, &[q, s, u]);
     for (k, name) in description.orientation.rows().into_iter().enumerate() {
         let products = magnitudes.iter().enumerate().map(|(source, m)| m * by_source[6 * source + k]);

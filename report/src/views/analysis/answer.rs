@@ -9,14 +9,12 @@ use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self as numbers, error_unit, fixed, percent, steady};
 use abbe_study::study_file::JudgedMachine;
 
-use abbe_spec::option::NamedOption;
-
 use super::agreement::agreement_text;
 use super::conclusions::{exact, loop_condition, singular_sentence};
 use super::verdict::stated_probability;
 use crate::document::{Section, Table, first, number, words};
 use crate::unit;
-use crate::views::shared::place;
+use crate::views::shared::{changed, place};
 
 /// Number of sources shown one by one.
 const SHOWN: usize = 5;
@@ -190,10 +188,7 @@ fn times(factor: f64) -> String {
 
 fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Study", report.title.clone())];
-    if !report.changes.is_empty() {
-        let changes: Vec<String> = report.changes.iter().map(NamedOption::to_string).collect();
-        facts.push(("Changed", changes.join(" ")));
-    }
+    facts.extend(changed(&report.changes));
     if let Some(worst) = report.configuration(report.budget.combined.radius.configuration) {
         facts.push(("Worst", place(&report.label(worst))));
     }
@@ -213,7 +208,9 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
         let normal = if normal { ", normal errors at 3 σ" } else { "" };
         facts.push((
             "Certified",
-            format!("worst of all signs in the joint box{normal}; the others: root sum of squares"),
+            format!(
+                "worst case over all signs and the joint box{normal}; other figures: root sum of squares"
+            ),
         ));
     }
     let (factor, unit) = error_unit(report.length);

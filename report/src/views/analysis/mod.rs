@@ -21,6 +21,7 @@ use verdict::{verdict_line, verdict_sentences};
 
 use crate::document::{Card, Document, Figure, Section, Verdict};
 use crate::unit::{self, decimals};
+use crate::views::shared::changed;
 
 /// Number of unreachable configurations that are listed.
 const SHOWN: usize = 3;
@@ -38,7 +39,7 @@ pub(crate) fn analysis(
     match report.sources.is_empty() {
         true => {
             let none = "No error source is enabled: there is no error to predict.".to_owned();
-            sections.push(Section::answer().state("no_source", none));
+            sections.push(Section::answer().state("no_source", none).facts(changed(&report.changes)));
         }
         false => sections.push(answer::answer(report)),
     }

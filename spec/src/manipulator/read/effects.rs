@@ -81,7 +81,7 @@ fn read_errors(
             let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
             match document.expression(&item, scope, entry) {
                 Some(value) => {
-                    if dimension == Dimension::NONE {
+                    if dimension == Dimension::NONE && section.get("magnitude").is_none() {
                         check_error_of_angle(&value, document);
                     }
                     errors.push((component, value));

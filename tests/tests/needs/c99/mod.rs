@@ -219,7 +219,7 @@ fn compare(robot: &Interpreter, given: &[Vec<f64>], found: &[f64]) -> Result<(),
     let name = &description.name;
     let mut found = found.iter().copied();
     let mut next = || found.next().ok_or_else(|| format!("{name}: numbers are missing"));
-    let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
+    let evaluate = |function: Function, given: &[f64]| robot.evaluate_unchecked(function, given).unwrap();
     let euler = description.orientation != Orientation::RotationVector;
     for given in given {
         let is_refused = has_input_beyond_its_range(robot, given);

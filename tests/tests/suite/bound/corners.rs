@@ -94,7 +94,7 @@ fn elastic_chain(frames: usize, random: &mut Xoshiro256PlusPlus) -> String {
 
 #[test]
 fn nothing_exceeds_the_control_points_of_constant_errors() {
-    nothing_exceeds(chain, 2..=if thorough() { 6 } else { 4 }, 1000);
+    nothing_exceeds(chain, 2..=if thorough() { 6 } else { 4 }, 4000);
 }
 
 #[test]

@@ -26,7 +26,7 @@ impl Manipulator for Counted<'_> {
         results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
         self.1.fetch_add(1, Ordering::Relaxed);
-        Manipulator::evaluate(self.0, function, arguments, results)
+        self.0.evaluate(function, arguments, results)
     }
 }
 

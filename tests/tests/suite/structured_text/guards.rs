@@ -51,7 +51,7 @@ fn functions_without_a_value_are_a_status() {
         for q in [0.25, 0.34, -0.3] {
             pose.set("q", &[q]);
             pose.call().unwrap();
-            let expected = robot.evaluate(abbe::Function::Pose, &[q]).unwrap();
+            let expected = robot.evaluate_unchecked(abbe::Function::Pose, &[q]).unwrap();
             if expected.iter().all(|number| number.is_finite()) {
                 assert_eq!(pose.get("pose"), expected, "{function} at {q}");
                 assert_eq!(pose.get("status"), [0.0], "{function} at {q}");

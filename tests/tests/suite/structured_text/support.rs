@@ -77,7 +77,7 @@ fn sines_have_the_bits_of_rust_whichever_way_controllers_convert() {
     for index in 0..sample_size(100_000) {
         let size = [1.0, 10.0, 1e5, 1e7][index % 4];
         let x = if index == 0 { 0.0 } else { size * random.random_range(-1.0..1.0) };
-        let pose = robot.evaluate(abbe::Function::Pose, &[x]).unwrap();
+        let pose = robot.evaluate_unchecked(abbe::Function::Pose, &[x]).unwrap();
         for instance in &mut instances {
             instance.set("a", &[x]);
             instance.call().unwrap();

@@ -5,6 +5,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use abbe_core::*;
 
+use super::ByHand;
+
 /// The patient positioning system of the paper.
 pub(crate) struct Pps;
 
@@ -219,33 +221,8 @@ impl Manipulator for Pps {
         arguments: &[&[f64]],
         results: &mut [&mut [f64]],
     ) -> Result<(), Error> {
-        let pose = match (function, arguments, &mut *results) {
-            (Function::Transforms, &[q, s], [into]) => {
-                let poses = transforms(q, s)?;
-                into.copy_from_slice(&poses.map(|pose| pose.0.concat()).concat());
-                return Ok(());
-            }
-            (Function::Pose, &[q, s], _) => chain(&transforms(q, s)?),
-            (Function::ErrorJacobian, &[q, s], [_, columns]) => {
-                error_jacobian(q, s, columns.as_chunks_mut().0)?
-            }
-            (Function::JointJacobian, &[q, s], [_, columns]) => {
-                joint_jacobian(q, s, columns.as_chunks_mut().0)?
-            }
-            (Function::ParameterJacobian, &[q, s], [_, columns]) => {
-                parameter_jacobian(q, s, columns.as_chunks_mut().0)?
-            }
-            (Function::Effects, &[q, s, u], [into]) => return effects(q, s, u, into),
-            (Function::GeneralizedErrors, &[q, s, u], [into]) => {
-                let mut values = vec![0.0; DESCRIPTION.effects.len()];
-                effects(q, s, u, &mut values)?;
-                DESCRIPTION.generalized_errors(&values, into.as_chunks_mut().0);
-                return Ok(());
-            }
-            _ => return Err(Error::NoFunction(function)),
-        };
-        results[0].copy_from_slice(pose.0.as_flattened());
-        Ok(())
+        let robot = ByHand { transforms, error_jacobian, joint_jacobian, parameter_jacobian, effects };
+        robot.evaluate(self, function, arguments, results)
     }
 }
 
