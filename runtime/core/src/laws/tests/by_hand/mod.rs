@@ -11,13 +11,18 @@ pub(crate) use puma::Puma;
 /// Jacobian of a robot: fills its columns and returns the pose.
 type Jacobian = fn(&[f64], &[f64], &mut [[f64; 6]]) -> Result<Pose, Error>;
 
+/// Local transforms `A_1 … A_6` and the tool.
+type Transforms = fn(&[f64], &[f64]) -> Result<[Pose; 7], Error>;
+/// Effects of the sources at q, s and u.
+type Effects = fn(&[f64], &[f64], &[f64], &mut [f64]) -> Result<(), Error>;
+
 /// Functions of a robot with six frames.
 struct ByHand {
-    transforms: fn(&[f64], &[f64]) -> Result<[Pose; 7], Error>,
+    transforms: Transforms,
     error_jacobian: Jacobian,
     joint_jacobian: Jacobian,
     parameter_jacobian: Jacobian,
-    effects: fn(&[f64], &[f64], &[f64], &mut [f64]) -> Result<(), Error>,
+    effects: Effects,
 }
 
 impl ByHand {
