@@ -7,6 +7,7 @@
 //! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), of all together ([`Combined`]), and the admissible sizes for a tolerance ([`Admissible`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
 //! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met |
+//! | `worst_case` | [`worst_case()`]: the largest error over all signs at one configuration |
 //! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |
 //!
 //! The configurations are those of [`abbe_kinematics`], which is a part of this module: workspaces
@@ -44,6 +45,7 @@ mod normal;
 mod random;
 mod sweep;
 mod uncertainty;
+mod worst_case;
 
 #[cfg(test)]
 #[path = "../../runtime/core/src/laws/tests/by_hand/mod.rs"]
@@ -71,3 +73,4 @@ pub use uncertainty::{
     COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Residual, Statement,
     compliance, errors_at, normal_compliance, student_95,
 };
+pub use worst_case::worst_case;
