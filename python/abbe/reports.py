@@ -3017,7 +3017,7 @@ class Sizes(Fields):
 class Source(Fields):
     """Error source.
 
-    `["class"]`: Class of the source: `repeatable`, or `random` with its distribution.
+    `["class"]`: Class of the source: `repeatable`, or `tolerance` or `random` with its distribution.
     """
 
     name: str
@@ -3053,7 +3053,7 @@ class SourceReport(Fields):
     """Position errors of one source alone over the workspace: along x, y, z of `F_0` and their norm, in the length
     unit. Random sources count at their bounds.
 
-    `["class"]`: Class of the source: `repeatable` or `random`.
+    `["class"]`: Class of the source: `repeatable`, `tolerance` or `random`.
     """
 
     name: str

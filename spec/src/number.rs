@@ -106,10 +106,11 @@ pub fn variable_is(variable: &Variable, value: f64, spec: &Spec) -> String {
     format!("{} = {}", variable.name, of_variable(value, variable.kind, spec.length))
 }
 
-/// Returns the name of a class: `repeatable`, or `random` and its distribution.
+/// Returns the name of a class, and of its distribution if it has one.
 pub fn class(class: Class) -> (&'static str, Option<&'static str>) {
     match class {
         Class::Repeatable => ("repeatable", None),
+        Class::Tolerance(distribution) => ("tolerance", Some(distribution.name())),
         Class::Random(distribution) => ("random", Some(distribution.name())),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::Measurand;
 use crate::normal::Principal;
-use abbe_core::{Class, Distribution, Source};
+use abbe_core::{Distribution, Source};
 
 /// The 95 % quantiles of χ² with one, two and three degrees of freedom, the rank of the covariance
 /// Σ. A normal error satisfies `ΔXᵀ Σ⁻¹ ΔX ≤ χ²` with this probability. Their roots are 1.960,
@@ -25,7 +25,7 @@ pub const fn variance(distribution: Distribution) -> f64 {
 pub fn covariance(sources: &[Source], deviations: &[[f64; 6]], measurand: Measurand) -> [[f64; 3]; 3] {
     let mut sum = [[0.0; 3]; 3];
     for (source, b) in sources.iter().zip(deviations) {
-        let Class::Random(distribution) = source.class else { continue };
+        let Some(distribution) = source.class.distribution() else { continue };
         let (b, c) = (measurand.rows(b), variance(distribution));
         for i in 0..3 {
             for j in 0..3 {

@@ -74,7 +74,7 @@ impl<R: Register> GainsAccumulator<R> {
                     peak::square(rest).sqrt() + sums.random_norm
                 }
                 // The squared norm of a root sum of squares is the sum of the squared norms.
-                Class::Random(_) => {
+                _ => {
                     let rest = (norm_of[k] * norm_of[k]).neg_mul_add(less, sums.random_square);
                     sums.repeatable_norm + rest.max(zero).sqrt()
                 }

@@ -43,7 +43,7 @@ impl From<[f64; 4]> for Figures {
 pub struct SourceErrors {
     /// Index of the source.
     pub source: usize,
-    /// Repeatable or random.
+    /// Repeatable, a tolerance, or random.
     pub class: Class,
     /// Largest error.
     pub plain_max: Figures,
@@ -115,11 +115,11 @@ impl PartialSourceErrors {
             // The difference of two draws `t b(q) − t' b(home)` is largest for t and t' = ±1.
             let [x, y, z] = core::array::from_fn(|i| match class {
                 Class::Repeatable => (largest[i] - home[i]).max(home[i] - least[i]).abs(),
-                Class::Random(_) => plain(i) + home[i].abs(),
+                _ => plain(i) + home[i].abs(),
             });
             let half = match class {
                 Class::Repeatable => [half(0), half(1), half(2), sphere.radius].into(),
-                Class::Random(_) => plain_max,
+                _ => plain_max,
             };
             (plain_max, half, [x, y, z, relative].into())
         };

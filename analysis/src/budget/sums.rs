@@ -50,7 +50,7 @@ impl<R: Register> Sums<R> {
             norms = norms + *norm_of;
             match class {
                 Class::Repeatable => repeatable = core::array::from_fn(|i| repeatable[i] + here[i]),
-                Class::Random(distribution) => {
+                Class::Tolerance(distribution) | Class::Random(distribution) => {
                     random_norms = random_norms + *norm_of;
                     squares = core::array::from_fn(|i| here[i].mul_add(here[i], squares[i]));
                     let variance = Lanes::constant(variance(*distribution));

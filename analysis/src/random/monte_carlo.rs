@@ -3,7 +3,7 @@
 use super::Quantile;
 use crate::sweep::in_order;
 use crate::{Configuration, Ellipsoid, Measurand, Sweepable, Unevaluated, covariance, sweep};
-use abbe_core::{Class, Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
+use abbe_core::{Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
 use abbe_kinematics::One;
 use abbe_kinematics::sampling::{draw, norm, stream};
 
@@ -79,10 +79,8 @@ pub fn monte_carlo(
             let (mut sums, mut norms) = (Sums::default(), Vec::with_capacity(DRAWS));
             for _ in block * DRAWS..draws.min((block + 1) * DRAWS) {
                 for (source, magnitude) in description.sources.iter().zip(&mut magnitudes) {
-                    *magnitude = match source.class {
-                        Class::Repeatable => 1.0,
-                        Class::Random(distribution) => draw(distribution, &mut random),
-                    };
+                    let drawn = source.class.distribution();
+                    *magnitude = drawn.map_or(1.0, |distribution| draw(distribution, &mut random));
                 }
                 let error = error(&magnitudes)?;
                 norms.push(norm(error));

@@ -37,10 +37,7 @@ impl<'a> Block<'a> {
         for (row, value) in home.q.iter().chain(&home.s).chain(&home.u).enumerate() {
             arguments.fill_row(row, *value);
         }
-        let bounds = description.sources.iter().map(|source| match source.class {
-            Class::Repeatable => 1.0,
-            Class::Random(distribution) => distribution.bound(),
-        });
+        let bounds = description.sources.iter().map(|source| source.class.bound());
         Self {
             manipulator,
             workspace,
@@ -241,7 +238,7 @@ impl<'a> Block<'a> {
                 for (row, entry) in deviation.iter().enumerate() {
                     match source.class {
                         Class::Repeatable => repeatable[row] += entry,
-                        Class::Random(_) => squares[row] += entry * entry,
+                        Class::Tolerance(_) | Class::Random(_) => squares[row] += entry * entry,
                     }
                 }
             }

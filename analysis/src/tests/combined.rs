@@ -27,7 +27,7 @@ fn radius(errors: &[Vector3<f64>], scales: &[f64]) -> f64 {
     for ((source, error), scale) in sources.iter().zip(errors).zip(scales) {
         match source.class {
             Class::Repeatable => sum += error * *scale,
-            Class::Random(_) => squares += (error * *scale).norm_squared(),
+            _ => squares += (error * *scale).norm_squared(),
         }
     }
     sum.norm() + squares.sqrt()
@@ -52,10 +52,12 @@ fn covariance_is_that_of_the_error_jacobian() {
         for (k, source) in description.sources.iter().enumerate() {
             let deviation = match source.class {
                 Class::Repeatable => 0.0,
-                Class::Random(Distribution::Uniform) => 1.0 / 3_f64.sqrt(),
-                Class::Random(Distribution::Normal) => 1.0,
-                Class::Random(Distribution::Triangular) => 1.0 / 6_f64.sqrt(),
-                Class::Random(Distribution::Arcsine) => 0.5_f64.sqrt(),
+                class => match class.distribution().unwrap() {
+                    Distribution::Uniform => 1.0 / 3_f64.sqrt(),
+                    Distribution::Normal => 1.0,
+                    Distribution::Triangular => 1.0 / 6_f64.sqrt(),
+                    Distribution::Arcsine => 0.5_f64.sqrt(),
+                },
             };
             let mut column = DVector::<f64>::zeros(columns.len());
             for (effect, value) in description.effects.iter().zip(&effects).filter(|(e, _)| e.source == k) {

@@ -65,25 +65,35 @@ impl ErrorDistribution {
         let together = correction.and_then(|correction| correction.together);
         if let Some(norm) = together.filter(|_| is_position) {
             all.undirected.push(norm);
+            all.random.retain(|one| !description.sources[one.source].class.can_be_compensated());
             return all;
         }
         for (k, (source, error)) in description.sources.iter().zip(sources).enumerate() {
-            if source.class != Class::Repeatable {
+            if !source.class.can_be_compensated() {
                 continue;
             }
             let error = measurand.rows(error);
             let residual = correction.filter(|_| together.is_none());
-            match residual.and_then(|correction| correction.residuals.get(k).copied().flatten()) {
-                Some(Residual::Share(share)) if share < 1.0 => all.signed.push(error.map(|row| share * row)),
+            let residual = residual.and_then(|correction| correction.residuals.get(k).copied().flatten());
+            match (residual, source.class) {
                 // Only where the source has an error.
-                Some(Residual::Bound(bound)) if is_position => {
-                    if error != [0.0; 3] {
-                        all.undirected.push(bound);
+                (Some(Residual::Bound(bound)), _) if is_position => {
+                    all.random.retain(|one| one.source != k);
+                    all.undirected.extend((error != [0.0; 3]).then_some(bound));
+                }
+                (Some(Residual::Share(share)), Class::Repeatable) if share < 1.0 => {
+                    all.signed.push(error.map(|row| share * row));
+                }
+                (_, Class::Repeatable) => all.bias = core::array::from_fn(|i| all.bias[i] + error[i]),
+                (Some(Residual::Share(share)), _) => {
+                    for one in all.random.iter_mut().filter(|one| one.source == k) {
+                        one.magnitude = one.magnitude.map(|row| share * row);
                     }
                 }
-                _ => all.bias = core::array::from_fn(|i| all.bias[i] + error[i]),
+                _ => {}
             }
         }
+        all.random.retain(|one| one.magnitude != [0.0; 3]);
         all.signed.retain(|error| *error != [0.0; 3]);
         all
     }
@@ -107,7 +117,7 @@ impl ErrorDistribution {
     /// Returns the largest possible norm, `‖bias‖ + Σ ρ + Σ b`; `None` if a random source is not
     /// bounded.
     pub fn largest(&self) -> Option<f64> {
-        let bounded = self.random.iter().all(|one| Class::Random(one.distribution).is_bounded());
+        let bounded = self.random.iter().all(|one| one.distribution.is_bounded());
         bounded.then(|| norm(self.bias) + self.residuals().sum::<f64>() + self.bounds().sum::<f64>())
     }
 

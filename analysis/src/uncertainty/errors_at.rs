@@ -68,7 +68,7 @@ pub(super) fn random(
 ) -> Vec<RandomError> {
     let sources = description.sources.iter().zip(sources).enumerate();
     let random = sources.filter_map(|(source, (Source { class, degrees_of_freedom, .. }, bound))| {
-        let Class::Random(distribution) = *class else { return None };
+        let Some(distribution) = class.distribution() else { return None };
         let magnitude = measurand.rows(bound).map(|b| b / distribution.bound());
         (magnitude != [0.0; 3]).then_some(RandomError {
             source,

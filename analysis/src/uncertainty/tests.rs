@@ -40,7 +40,7 @@ fn errors(description: &Description, rank: usize, seed: u64) -> ErrorsAt<'_> {
     let one = |class: Class, any: &mut dyn FnMut() -> f64| {
         let bound = match class {
             Class::Repeatable => 1.0,
-            Class::Random(distribution) => distribution.bound(),
+            Class::Tolerance(distribution) | Class::Random(distribution) => distribution.bound(),
         };
         let mut row = [0.0; 6];
         for direction in &base[..rank] {
@@ -65,7 +65,9 @@ fn drawn(errors: &ErrorsAt, bias: f64, radius: f64, count: usize, seed: u64) -> 
         for (source, row) in errors.description.sources.iter().zip(&errors.sources) {
             let t = match source.class {
                 Class::Repeatable => bias,
-                Class::Random(distribution) => draw(distribution, &mut random) / distribution.bound(),
+                Class::Tolerance(distribution) | Class::Random(distribution) => {
+                    draw(distribution, &mut random) / distribution.bound()
+                }
             };
             (0..3).for_each(|i| sum[i] += t * row[i]);
         }

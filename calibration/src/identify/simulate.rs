@@ -5,8 +5,8 @@ use rand_distr::Normal;
 
 use super::{Failure, Measurement, Model, Observation, Scratch, Unknown, joints_at_values};
 use abbe_analysis::sampling::{draw, stream};
+use abbe_core::Class;
 use abbe_core::displacement;
-use abbe_core::{Class, Distribution};
 
 /// Random contributions to simulated measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +17,10 @@ pub struct Chance {
     pub outliers: f64,
     /// Largest deviation of an outlier in each coordinate; the length unit.
     pub outlier_size: f64,
-    /// Draw the random sources of the spec anew in each row.
+    /// Draw the random sources of the spec anew in each row, and its tolerances.
     pub random_sources: bool,
+    /// Draw each tolerance once; otherwise each row is of another machine.
+    pub one_machine: bool,
     /// Seed of the random numbers.
     pub seed: u64,
 }
@@ -41,8 +43,8 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
 /// Simulation of one row at a time, for long lists.
 pub struct Simulated<'a> {
     model: Model<'a>,
-    /// Distributions of the random sources.
-    random: Vec<Distribution>,
+    /// Classes of the random sources and tolerances.
+    random: Vec<Class>,
     /// Joints that are not equal in all rows.
     moved: Vec<usize>,
     chance: Chance,
@@ -55,8 +57,8 @@ impl<'a> Simulated<'a> {
         let sources = model.manipulator.description().sources.iter().enumerate();
         let (unknowns, random) = sources
             .filter_map(|(i, source)| match source.class {
-                Class::Random(distribution) if chance.random_sources => {
-                    Some((Unknown::Magnitude(i), distribution))
+                Class::Tolerance(_) | Class::Random(_) if chance.random_sources => {
+                    Some((Unknown::Magnitude(i), source.class))
                 }
                 _ => None,
             })
@@ -71,7 +73,13 @@ impl<'a> Simulated<'a> {
     pub fn row(&mut self, i: usize, planned: &Observation) -> Result<Observation, Failure> {
         let Self { model, random, moved, chance, scratch } = self;
         let mut numbers = stream(chance.seed ^ APART, i);
-        let x: Vec<f64> = random.iter().map(|distribution| draw(*distribution, &mut numbers)).collect();
+        // One machine has one value of each tolerance.
+        let mut machine = stream(chance.seed ^ APART, usize::MAX);
+        let x = random.iter().map(|class| match class {
+            Class::Tolerance(distribution) if chance.one_machine => draw(*distribution, &mut machine),
+            class => class.distribution().map_or(1.0, |distribution| draw(distribution, &mut numbers)),
+        });
+        let x: Vec<f64> = x.collect();
         let planned = &touching(model, planned, &x, moved, chance, &mut numbers)?;
         let pose = model.pose(scratch, planned, &x)?;
         let readings = model.values(scratch, planned, &x)?;

@@ -52,7 +52,7 @@ impl CompensationResidual {
         causes.errors_mut().for_each(|error| *error = without_kinks(g, *error, &step));
         let magnitudes = spec.enabled_sources().map(|source| match source.class {
             Class::Repeatable => t,
-            Class::Random(_) => zero,
+            Class::Tolerance(_) | Class::Random(_) => zero,
         });
         let links = RealChain::new(g, spec, &causes, magnitudes.collect()).links(g);
         let tool = g.identity();

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use abbe_core::{Class, Orientation};
+use abbe_core::Orientation;
 use abbe_spec::Spec;
 use abbe_spec::expr::{Function, Symbol};
 
@@ -120,7 +120,7 @@ impl Magnitudes {
         let mut random = Vec::new();
         let by_source = errors_by_source(zero, spec, &effects);
         for (source, errors) in spec.enabled_sources().zip(&by_source) {
-            if let Class::Random(distribution) = source.class {
+            if let Some(distribution) = source.class.distribution() {
                 let bound = g.constant(distribution.bound());
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
                 let at_bound: Vec<[Node; 6]> = at_bound.collect();

@@ -36,7 +36,7 @@ impl Remainder {
         let [t, zero, half] = [g.symbol(share), g.zero(), g.constant(0.5)];
         let magnitudes = spec.enabled_sources().map(|source| match source.class {
             Class::Repeatable => t,
-            Class::Random(_) => zero,
+            Class::Tolerance(_) | Class::Random(_) => zero,
         });
         let point = RealChain::new(g, spec, &causes, magnitudes.collect()).tool_point_from_first_error(g);
         let speed = g.diff_all(&point, share);

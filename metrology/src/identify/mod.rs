@@ -123,4 +123,4 @@ pub(crate) use plausibility::{check_plausibility, too_large};
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;
 pub(crate) use undetermined::effects;
-pub(crate) use unexplained::random_sources;
+pub(crate) use unexplained::unknown_sources;

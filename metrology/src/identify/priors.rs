@@ -1,8 +1,8 @@
 //! Prior knowledge of a machine before it is measured.
 
+use abbe::Manipulator;
 use abbe::analysis::variance;
 use abbe::identify::{Failure, Fit, Model, Observation, Unknown, cross_validate};
-use abbe::{Class, Manipulator};
 
 /// Expected size of errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +90,7 @@ fn spec_variances(manipulator: &dyn Manipulator, s: &[f64]) -> Result<Vec<[f64; 
     manipulator.effects(&q, s, &u, &mut values)?;
     let mut variances = vec![[0.0; 6]; description.frames.len()];
     for (effect, value) in description.effects.iter().zip(&values) {
-        if let Class::Random(distribution) = description.sources[effect.source].class {
+        if let Some(distribution) = description.sources[effect.source].class.distribution() {
             variances[effect.frame][effect.component.index()] += value * value * variance(distribution);
         }
     }

@@ -1,6 +1,5 @@
 //! Position errors that an identified model does not explain, as random sources of its spec.
 
-use abbe::Class;
 use abbe::identify::{Failure, Observation, Unknown};
 use abbe_spec::Spec;
 use abbe_spec::edit::TableText;
@@ -49,7 +48,9 @@ pub(super) fn unexplained(
 
 /// Returns the mean variance of the tool point caused by the random sources.
 fn random_variance(setup: &Setup, rows: &[&Observation]) -> Result<f64, Failure> {
-    let random = random_sources(setup);
+    let mut random = unknown_sources(setup);
+    // The fit has found the values of tolerances.
+    random.retain(|(source, _)| !setup.description.sources[*source].class.can_be_compensated());
     let model = setup.real.with(random.iter().map(|(source, _)| Unknown::Magnitude(*source)).collect());
     let (mut scratch, zero) = (model.scratch(), vec![0.0; random.len()]);
     let (mut sum, mut count) = (0.0, 0.0_f64);
@@ -64,14 +65,13 @@ fn random_variance(setup: &Setup, rows: &[&Observation]) -> Result<f64, Failure>
     Ok(sum / count.max(1.0))
 }
 
-/// Returns the indices of the random sources, with the variances of their magnitudes.
-pub(crate) fn random_sources(setup: &Setup) -> Vec<(usize, f64)> {
+/// Returns the indices of the sources whose values are unknown, random ones and tolerances, with
+/// the variances of their magnitudes.
+pub(crate) fn unknown_sources(setup: &Setup) -> Vec<(usize, f64)> {
     let sources = setup.description.sources.iter().enumerate();
-    let random = sources.filter_map(|(i, source)| match source.class {
-        Class::Random(distribution) => Some((i, 1.0 / distribution.divisor_squared())),
-        Class::Repeatable => None,
-    });
-    random.collect()
+    sources
+        .filter_map(|(i, source)| Some((i, 1.0 / source.class.distribution()?.divisor_squared())))
+        .collect()
 }
 
 impl FoundModel {

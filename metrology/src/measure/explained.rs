@@ -5,7 +5,7 @@ use abbe::identify::{Chance, Failure, Figures, Observation, Unknown, simulate};
 use serde::Serialize;
 
 use super::errors::{Errors, at_single_target, pose};
-use crate::identify::{Setup, random_sources};
+use crate::identify::{Setup, unknown_sources};
 
 /// Agreement of measurement and prediction. Lengths are in the length unit.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -40,7 +40,7 @@ const CONTENT: f64 = 0.95;
 const SIMULATED: usize = 20_000;
 
 pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained, Failure> {
-    let random = random_sources(setup);
+    let random = unknown_sources(setup);
     let region = PredictionRegion { setup, random: &random };
     let boundary = region.boundary(rows)?;
     let (mut before, mut left, mut inside) = (0.0, Vec::new(), 0);
@@ -139,7 +139,14 @@ impl<'a> PredictionRegion<'a> {
         let mut distances = Vec::new();
         for seed in 0..(SIMULATED / list.len().max(1)).max(1) as u64 {
             let noise = self.setup.real.uncertainty;
-            let chance = Chance { noise, outliers: 0.0, outlier_size: 0.0, random_sources: true, seed };
+            let chance = Chance {
+                noise,
+                outliers: 0.0,
+                outlier_size: 0.0,
+                random_sources: true,
+                one_machine: false,
+                seed,
+            };
             for row in simulate(&self.setup.real, &list, &chance)? {
                 let pose_of_ideal = ideal.pose(&mut ideal_scratch, &row, &[])?;
                 if let Some(real) = pose(&ideal, &row, &pose_of_ideal) {

@@ -137,6 +137,7 @@ impl Simulate {
             outliers: self.outliers,
             outlier_size: 0.05 * setup.arm,
             random_sources: self.random,
+            one_machine: true,
             seed: self.seed,
         };
         let place = |line: u64| match &self.at {

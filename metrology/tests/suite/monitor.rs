@@ -83,7 +83,14 @@ impl Watched {
             let time = day as f64;
             let noise = Uncertainty { length: NOISE, angle: 0.0 };
             let seed = seed * 1000 + day as u64;
-            let chance = Chance { noise, outliers: 0.0, outlier_size: 0.0, random_sources: false, seed };
+            let chance = Chance {
+                noise,
+                outliers: 0.0,
+                outlier_size: 0.0,
+                random_sources: false,
+                one_machine: true,
+                seed,
+            };
             let mut rows = simulate(&model, &self.places, &chance).unwrap();
             for row in &mut rows {
                 let [before, after] =

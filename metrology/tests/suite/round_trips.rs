@@ -1,6 +1,6 @@
 //! Round trip of `identify`: the identified spec and map reproduce its figures in `measure`.
 
-use abbe::identify::Loss;
+use abbe::identify::{Loss, Measurement};
 use abbe_metrology::Acceptance;
 use abbe_metrology::compensate::Compensate;
 use abbe_metrology::data::{Data, Map};
@@ -332,4 +332,48 @@ fn a_far_initial_placement_is_corrected() {
         let report = identify(&way.map("", ""), measured(&way.truth(STATION), 150, 1), None);
         assert!(report.fit.after.mean < 0.05, "{:?}", report.fit);
     }
+}
+
+/// A simulated machine has one value of each tolerance, and a random error anew in each row:
+/// residuals along x are all equal, within ±0.1 mm, and those along y are not.
+#[test]
+fn a_simulated_machine_has_one_value_of_a_tolerance() {
+    let source = |name: &str, class: &str, error: &str| {
+        format!(
+            "[[source]]\nname = \"{name}\"\nclass = \"{class}\"\ndistribution = \"uniform\"\nframe = \"slide\"\n{error} = \"0.1 mm\"\n"
+        )
+    };
+    let text = format!(
+        "[manipulator]\nname = \"slide\"\nlength = \"mm\"\n[[frame]]\nname = \"slide\"\n\
+         variable = {{ name = \"d1\", kind = \"prismatic\", limits = [\"0 mm\", \"100 mm\"] }}\n\
+         transform = \"Tx(d1)\"\n{}{}",
+        source("offset", "tolerance", "e_x"),
+        source("play", "random", "e_y")
+    );
+    let machine = machine("slide.toml", &text);
+    let map = "[data]\nuncertainty = \"1 um\"\n[joints]\nd1 = { column = \"d1\", unit = \"mm\" }\n\
+               [point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
+    let mut offsets = Vec::new();
+    for seed in 0..8 {
+        let map = Map::parse("map.toml", map, &machine.spec).unwrap();
+        let (at, noise) = (Places::Samples(20), Some(1e-9));
+        let job = Simulate { machine: machine.clone(), map, at, noise, outliers: 0.0, random: true, seed };
+        let rows = job.run(&mut ()).unwrap().observations;
+        let errors: Vec<[f64; 2]> = rows
+            .iter()
+            .map(|row| match &row.measured {
+                Measurement::Points(points) => {
+                    let [x, y, _] = points[0].unwrap();
+                    [x - row.q[0], y]
+                }
+                _ => panic!("points were asked for"),
+            })
+            .collect();
+        let [offset, play] = errors[0];
+        assert!(errors.iter().all(|[x, _]| (x - offset).abs() < 1e-6), "{errors:?}");
+        assert!(errors.iter().any(|[_, y]| (y - play).abs() > 0.02), "{errors:?}");
+        offsets.push(offset);
+    }
+    assert!(offsets.iter().all(|offset| offset.abs() <= 0.1 + 1e-6));
+    assert!(offsets.iter().any(|offset| (offset - offsets[0]).abs() > 0.02), "{offsets:?}");
 }

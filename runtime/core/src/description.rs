@@ -194,26 +194,51 @@ impl Input {
     }
 }
 
-/// Repeatable or random.
+/// What is known of an error, and whether it is the same at each visit of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
-    /// Has the same value and sign every time: adds with sign, and can be compensated.
+    /// Has a known value and sign: adds with sign, and can be compensated.
     Repeatable,
+    /// Has one fixed value in each machine, which is unknown: as built it adds as a random one, but
+    /// it can be compensated. Machines vary by the distribution.
+    Tolerance(Distribution),
     /// Varies unpredictably: adds as root sum of squares, and cannot be compensated.
     Random(Distribution),
 }
 
 impl Class {
+    /// Returns the distribution of an error whose value is unknown; `None` for a repeatable one.
+    pub const fn distribution(self) -> Option<Distribution> {
+        match self {
+            Self::Repeatable => None,
+            Self::Tolerance(distribution) | Self::Random(distribution) => Some(distribution),
+        }
+    }
+
     /// Returns whether the error has a bound. A repeatable error always has: its value.
     pub const fn is_bounded(self) -> bool {
-        match self {
-            Self::Repeatable => true,
-            Self::Random(distribution) => distribution.is_bounded(),
+        match self.distribution() {
+            None => true,
+            Some(distribution) => distribution.is_bounded(),
         }
+    }
+
+    /// Returns the bound of the error in multiples of its magnitude.
+    pub const fn bound(self) -> f64 {
+        match self.distribution() {
+            None => 1.0,
+            Some(distribution) => distribution.bound(),
+        }
+    }
+
+    /// Returns whether the error stays the same, so that a calibration can find and a controller can
+    /// compensate it.
+    pub const fn can_be_compensated(self) -> bool {
+        !matches!(self, Self::Random(_))
     }
 }
 
-/// Distribution of a random error, which defines the meaning of its magnitude.
+/// Distribution of an error whose value is unknown, which defines the meaning of its magnitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distribution {
     /// The magnitude is the half-width.
@@ -280,7 +305,7 @@ impl Distribution {
 pub struct Source {
     /// Name in the spec.
     pub name: Text,
-    /// Repeatable, or random with a distribution.
+    /// Repeatable, or a tolerance or random with a distribution.
     pub class: Class,
     /// Degrees of freedom of the standard deviation of a normal error estimated from few
     /// measurements (GUM, G.3). Infinite if the standard deviation is known.

@@ -13,7 +13,7 @@ use crate::expr::Expression;
 pub struct Source {
     /// Name of the source.
     pub name: String,
-    /// Repeatable or random.
+    /// Repeatable, a tolerance, or random.
     pub class: Class,
     /// Degrees of freedom of the standard deviation of a normal error; infinite if it is known
     /// exactly.

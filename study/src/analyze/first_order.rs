@@ -51,7 +51,7 @@ impl<'a> Comparison<'a> {
     fn new(manipulator: &'a dyn Sweepable) -> Self {
         let bounds = manipulator.description().sources.iter().map(|source| match source.class {
             Class::Repeatable => None,
-            Class::Random(distribution) => Some(distribution.bound()),
+            class => Some(class.bound()),
         });
         Self { manipulator, bounds: bounds.collect() }
     }

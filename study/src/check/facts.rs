@@ -1,11 +1,13 @@
 //! Content of a spec, in the order of the file.
 
-use abbe::{Class, Distribution, VariableKind};
+use abbe::{Class, VariableKind};
 use abbe_codegen::chain::effects;
 use abbe_codegen::program::{Operations, Routines};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use serde::Serialize;
+
+use crate::number;
 
 /// Content of a spec, and operation counts of its functions.
 #[derive(Clone, Debug, Serialize)]
@@ -81,8 +83,8 @@ pub struct NominalValue {
 pub struct Source {
     /// Name of the source.
     pub name: String,
-    /// Class of the source: `repeatable`, or `random` with its distribution.
-    pub class: &'static str,
+    /// Class of the source: `repeatable`, or `tolerance` or `random` with its distribution.
+    pub class: String,
     /// Element of the chain that the source acts on.
     pub at: String,
     /// Number of generalized errors that the source causes.
@@ -177,14 +179,9 @@ pub(super) fn kind(kind: VariableKind) -> &'static str {
     }
 }
 
-fn class(class: Class) -> &'static str {
-    match class {
-        Class::Repeatable => "repeatable",
-        Class::Random(Distribution::Uniform) => "random, uniform",
-        Class::Random(Distribution::Normal) => "random, normal",
-        Class::Random(Distribution::Triangular) => "random, triangular",
-        Class::Random(Distribution::Arcsine) => "random, arcsine",
-    }
+fn class(class: Class) -> String {
+    let (name, distribution) = number::class(class);
+    distribution.map_or_else(|| name.to_owned(), |distribution| format!("{name}, {distribution}"))
 }
 
 /// Maps an infinite limit to `None`, since JSON has no infinity.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe::{Class, Manipulator, VariableKind};
+use abbe::{Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use serde::Serialize;
@@ -153,7 +153,7 @@ pub struct LiveParameter {
 pub struct LiveSource {
     /// Name of the source.
     pub name: String,
-    /// `repeatable` or `random`.
+    /// `repeatable`, `tolerance` or `random`.
     pub class: &'static str,
     /// Distribution of a random error.
     pub distribution: Option<&'static str>,
@@ -304,10 +304,7 @@ fn sources(spec: &Arc<Spec>, tunable: &Spec) -> Vec<LiveSource> {
             name: one.name.clone(),
             class,
             distribution,
-            bound: match one.class {
-                Class::Repeatable => 1.0,
-                Class::Random(distribution) => distribution.bound(),
-            },
+            bound: one.class.bound(),
             at: spec.place(one),
             enabled: one.enabled,
             magnitude: tunable.sources[i].tuned_by,

@@ -1,7 +1,7 @@
-//! Reads `[compensation]`: the residual of the repeatable sources after compensation.
+//! Reads `[compensation]`: the residuals of repeatable sources and tolerances after compensation.
 
+use abbe::Description;
 use abbe::analysis::Residual;
-use abbe::{Class, Description};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
@@ -13,7 +13,7 @@ use super::keys;
 /// Residuals after compensation.
 #[derive(Clone, Debug)]
 pub struct Compensated {
-    /// Norm of what remains of all repeatable sources together, in the length unit.
+    /// Norm of what remains of all repeatable sources and tolerances together, in the length unit.
     pub together: Option<f64>,
     default: Residual,
     /// Residuals of single sources, by name.
@@ -21,14 +21,14 @@ pub struct Compensated {
 }
 
 impl Compensated {
-    /// Returns the residual of every source; none for random sources, which cannot be compensated.
+    /// Returns the residual of every source; none for random ones, which cannot be compensated.
     pub fn residuals(&self, description: &Description) -> Vec<Option<Residual>> {
         let residual = |name: &str| {
             let named = self.named.iter().find(|(known, _)| known == name);
             named.map_or(self.default, |(_, residual)| *residual)
         };
         let sources = description.sources.iter();
-        sources.map(|source| (source.class == Class::Repeatable).then(|| residual(&source.name))).collect()
+        sources.map(|source| source.class.can_be_compensated().then(|| residual(&source.name))).collect()
     }
 }
 
@@ -59,7 +59,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
         }
         let found = find_name(document, item.key_span.clone(), &item.key, &names, "source");
         let Some(source) = found.map(|found| &spec.sources[found]) else { continue };
-        if source.class != abbe::Class::Repeatable {
+        if !source.class.can_be_compensated() {
             let message = format!("the source \"{}\" is random", source.name);
             let mistake =
                 Diagnostic::new(item.key_span.clone(), message).label("random errors cannot be compensated");

@@ -1,5 +1,6 @@
 //! Verdicts on the compensated machine, compared with probabilities in closed form.
 
+use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
 use abbe_study::analyze::{Analyze, CompensationBasis, Report, ToleranceVerdict, Verdict};
@@ -80,6 +81,49 @@ fn stated_share_has_an_unknown_sign() {
     let asked = "{ position = \"0.04 mm\", machine = \"as-built\" }";
     let report = analyzed(asked, "[compensation]\ndefault = 0.2\n", "");
     assert_eq!(report.verdict(), Some(Verdict::NotMet));
+}
+
+/// A tolerance of ±0.1 mm, uniform, counts as built as a random error; a residual of a fifth scales
+/// its draw: `P = 2 (T/0.02) / 2` without play, and with a play of 0.01 mm the mean of
+/// `Φ((T − t)/0.01) − Φ((−T − t)/0.01)` over ±0.02 mm. A calibration corrects it; a published
+/// residual replaces it; a residual in mm has any direction.
+#[test]
+fn a_tolerance_is_what_the_compensation_leaves_of_one_draw() {
+    let text = SLIDE.replace("\"repeatable\"", "\"tolerance\"");
+    let asked = |compensation: &str| {
+        let study = format!("tolerance = \"0.015 mm\"\n[workspace.joints]\nsamples = 5\n{compensation}");
+        read(&text.replace("e_x = \"0.01 mm\"", "e_y = \"1e-9 mm\""), &study).unwrap()
+    };
+    let report = asked("[compensation]\ndefault = 0.2\n");
+    let [built, compensated] = positions(&report);
+    close(built.compliance.probability, 0.15, 4.0 * built.compliance.error);
+    close(compensated.compliance.probability, 0.75, 4.0 * compensated.compliance.error);
+    close(compensated.u95, 0.95 * 0.02, 1e-4);
+    let [_, compensated] = positions(&asked("[compensation]\noffset = \"0.012 mm\"\n"));
+    close(compensated.radius, 0.012, 1e-6);
+    let [_, compensated] = positions(&asked("[compensation]\nresidual = \"0.012 mm\"\n"));
+    close(compensated.radius, 0.012, 1e-6);
+    // What is not compensated keeps its distribution.
+    let [_, compensated] = positions(&asked("[compensation]\ndefault = 1.0\n"));
+    close(compensated.compliance.probability, 0.15, 4.0 * compensated.compliance.error);
+}
+
+/// At one configuration a tolerance is a random error: as built, all figures of some shipped
+/// machines are the same if its random sources are tolerances.
+#[test]
+fn as_built_a_tolerance_counts_as_a_random_error() {
+    for shipped in SHIPPED.iter().filter(|shipped| ["pps", "scara", "wam"].contains(&shipped.name)) {
+        let [random, tolerance] = ["random", "tolerance"].map(|class| {
+            let text = shipped.spec.replace("class = \"random\"", &format!("class = \"{class}\""));
+            let spec = Spec::parse("machine.toml", &text).unwrap();
+            let study =
+                format!("[study]\ntitle = \"t\"\ntolerance = \"0.2 mm\"\n[workspace.joints]\nsamples = 20\n");
+            let study = Study::read(Document::new("study.toml", study), &spec).unwrap();
+            let report = Analyze::new(Machine::of_spec(spec, "machine.toml"), study).run(&mut ()).unwrap();
+            serde_json::to_string(&report).unwrap().replace(&format!("\"class\":\"{class}\""), "")
+        });
+        assert_eq!(random, tolerance, "{}", shipped.name);
+    }
 }
 
 /// A source that is not named keeps its error with its sign.

@@ -15,7 +15,8 @@ pub(crate) fn bench(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(ROWS as u64));
     for (name, loss, outliers) in [("squares", Loss::Squares, 0.0), ("tukey", Loss::Tukey, 0.02)] {
         let noise = model.uncertainty;
-        let chance = Chance { noise, outliers, outlier_size: 20.0, random_sources: false, seed: 1 };
+        let chance =
+            Chance { noise, outliers, outlier_size: 20.0, random_sources: false, one_machine: true, seed: 1 };
         let data = simulate(&ideal, &asked, &chance).expect("measurements");
         let options = Options { loss, ..Options::default() };
         on_one_and_two(&mut group, name, || {

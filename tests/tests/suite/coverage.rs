@@ -175,7 +175,7 @@ fn coverage(truth: &str, found: &Machine, tolerance: f64, numbers: &mut impl Rng
         for _ in 0..DRAWS {
             let magnitudes = truth.description().sources.iter().map(|source| match source.class {
                 Class::Repeatable => 1.0,
-                Class::Random(_) => normal(numbers),
+                Class::Tolerance(_) | Class::Random(_) => normal(numbers),
             });
             let magnitudes = magnitudes.collect::<Vec<_>>();
             let real = drawn_pose(&truth, &command, s, u, &magnitudes).expect("a pose").position();

@@ -108,7 +108,14 @@ fn the_predicted_deviation_is_found() {
         let runs = 60;
         for run in 0..runs {
             let noise = model.uncertainty;
-            let chance = Chance { noise, outliers: 0.0, outlier_size: 0.0, random_sources: false, seed: run };
+            let chance = Chance {
+                noise,
+                outliers: 0.0,
+                outlier_size: 0.0,
+                random_sources: false,
+                one_machine: true,
+                seed: run,
+            };
             let data = simulate(&model.with(Vec::new()), &chosen, &chance).unwrap();
             let fit = fit(&model, &data, &Options::default()).unwrap();
             for place in &places {

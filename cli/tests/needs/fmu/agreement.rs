@@ -39,7 +39,7 @@ fn rows(robot: &Interpreter, classes: &[Class]) -> Vec<Row> {
         let drawn = arguments(robot, Function::DrawnPose.signature(), given);
         let drawn = &drawn[drawn.len() - classes.len()..];
         let magnitude = |(class, drawn): (&Class, &f64)| match class {
-            Class::Random(_) => 0.0,
+            Class::Tolerance(_) | Class::Random(_) => 0.0,
             Class::Repeatable if index < EACH => 1.0,
             Class::Repeatable => *drawn,
         };

@@ -123,6 +123,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     let sources = spec.enabled_sources().map(|source| {
         let class = match source.class {
             Class::Repeatable => "Class::Repeatable".to_owned(),
+            Class::Tolerance(distribution) => format!("Class::Tolerance(Distribution::{distribution:?})"),
             Class::Random(distribution) => format!("Class::Random(Distribution::{distribution:?})"),
         };
         let at = spec.place(source);

@@ -61,7 +61,7 @@ const norm = ([x, y, z]) => Math.sqrt(x * x + y * y + z * z);
 /** Joins the generated code and the data of a machine. @param {Generated} generated @param {Report} report */
 export function createMachine(generated, report) {
     const { real_pose = generated.pose, effects: effectsOf = () => [], source_displacements = () => [] } = generated;
-    const isRandom = report.sources.map((source) => source.class === "random");
+    const isRandom = report.sources.map((source) => source.class !== "repeatable");
 
     /** Returns the inputs of the code: those of the spec, then the magnitudes of sources. @param {State} state */
     const inputs = (state) => {

@@ -45,7 +45,7 @@ export function createSources(panel) {
         name.append(html("span", {}, source.name), html("small", {}, source.at));
         if (isOwn) factor.append(slider, "×", field, problem);
         const [bar, mark] = [html("i", { class: source.class }), html("b")];
-        const kind = source.class === "random" ? `random (${source.distribution})` : source.class;
+        const kind = source.distribution ? `${source.class} (${source.distribution})` : source.class;
         const element = html("li", { title: `${source.name}: ${kind}, ${source.at}. ${source.description}` },
             html("label", { class: "name" }, check, name), value, share, factor, allowance,
             html("span", { class: "bar", "aria-hidden": true }, bar, mark));
@@ -75,7 +75,7 @@ export function createSources(panel) {
         const tolerance = tolerances[measurand];
         const effects = panel.machine.effects(state);
         rows.forEach((row, k) => {
-            const [norm, isRandom] = [errors.norms[k], report.sources[k].class === "random"];
+            const [norm, isRandom] = [errors.norms[k], report.sources[k].class !== "repeatable"];
             row.update();
             const current = factorOf(report, state, k);
             row.check.checked = current !== 0;

@@ -1,6 +1,6 @@
 //! Words of a spec file that stand for one of a few values.
 
-use abbe_core::{LengthUnit, Orientation, VariableKind};
+use abbe_core::{Class, Distribution, LengthUnit, Orientation, VariableKind};
 
 use crate::expr::{Extrapolation, Interpolation};
 use crate::manipulator::Axes;
@@ -26,8 +26,12 @@ pub(super) const OUTSIDE: [(&str, Extrapolation); 1] = [("hold", Extrapolation::
 pub(super) const CLOSURES: [(&str, &[usize]); 3] =
     [("point", &[0, 1, 2]), ("pose", &[0, 1, 2, 3, 4, 5]), ("distance", &[])];
 
-/// Classes of a source, each with `true` if it is random.
-pub(super) const CLASSES: [(&str, bool); 2] = [("repeatable", false), ("random", true)];
+/// Classes of a source, with a distribution that stands for any.
+pub(super) const CLASSES: [(&str, Class); 3] = [
+    ("repeatable", Class::Repeatable),
+    ("tolerance", Class::Tolerance(Distribution::Uniform)),
+    ("random", Class::Random(Distribution::Uniform)),
+];
 
 pub(super) const BEAM_AXES: [(&str, usize); 3] = [("x", 0), ("y", 1), ("z", 2)];
 

@@ -149,9 +149,9 @@ crate::tables! {
     SOURCE: ["[[source]]"], [
         "name": Text("text in one line"), "-", "required", "Name of the source, by which studies and options refer to it; must be unique";
         "class": Choice(|| words(&CLASSES)), "-", "required",
-            "Repeatable: the same value at each visit of a configuration. Random: another value each time";
-        "distribution": Choice(|| Distribution::ALL.map(Distribution::name).to_vec()), "-", "none; random sources must have it",
-            "Distribution of a random source; its value is the half-width of a uniform or triangular distribution, the amplitude of an arcsine one, or the standard deviation of a normal one";
+            "Repeatable: a known value and sign. Tolerance: one fixed value in each machine, unknown within its bound. Random: another value at each visit of a configuration";
+        "distribution": Choice(|| Distribution::ALL.map(Distribution::name).to_vec()), "-", "uniform for a tolerance; random sources must have it",
+            "Distribution of a tolerance over machines, or of a random source; its value is the half-width of a uniform or triangular distribution, the amplitude of an arcsine one, or the standard deviation of a normal one";
         "degrees_of_freedom": Number("number, positive"), "1", "none: the standard deviation is known",
             "Degrees of freedom of the standard deviation of a normal source, if it was estimated: n − 1 for n readings";
         "enabled": Boolean, "-", "`true`", "Includes the source; `--enable` and `--disable` change it for a run";

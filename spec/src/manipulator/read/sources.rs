@@ -104,7 +104,7 @@ fn read_source(
     let reference = section.optional_text("reference", document);
     let Acts { effects, deviations } = acts;
     let (class, enabled) = (class?, enabled?);
-    if let Class::Random(distribution) = class {
+    if let Some(distribution) = class.distribution() {
         check_half_width(distribution, &effects, &deviations, document);
     }
     let source =
@@ -135,7 +135,7 @@ fn check_half_width(
         Distribution::Normal => "a standard deviation cannot be negative",
         _ => "a half-width cannot be negative",
     };
-    let help = "random errors have both signs: remove the minus sign";
+    let help = "these errors have both signs: remove the minus sign";
     let mistake = Diagnostic::new(first.span(), message);
     document.mistake(mistake.label(format!("this is {}", first.constant().unwrap_or_default())).help(help));
 }
@@ -167,12 +167,14 @@ fn read_degrees_of_freedom(
 ) -> Option<f64> {
     let Some(item) = section.get("degrees_of_freedom") else { return Some(f64::INFINITY) };
     let (message, help) = match class {
-        None | Some(Class::Random(Distribution::Normal)) => return positive(&item, chain, document),
+        None | Some(Class::Random(Distribution::Normal) | Class::Tolerance(Distribution::Normal)) => {
+            return positive(&item, chain, document);
+        }
         Some(Class::Repeatable) => (
             "a repeatable error has no degrees of freedom",
             "degrees of freedom belong to an estimated standard deviation: remove them, or move them to `magnitude`",
         ),
-        Some(Class::Random(_)) => (
+        Some(_) => (
             "a half-width has no degrees of freedom",
             "degrees of freedom belong to a standard deviation that was estimated from \
              measurements: write distribution = \"normal\", or leave them out",
@@ -199,9 +201,10 @@ fn read_magnitude(
     chain: Chain<'_>,
     document: &mut Document,
 ) -> Option<Magnitude> {
-    if let Some(Class::Random(_)) = class {
-        let help = "remove `magnitude`: the distribution gives the size of a random error";
-        return document.refuse(item.key_span.clone(), "a random error has no `magnitude`", help);
+    if class.and_then(Class::distribution).is_some() {
+        let help = "remove `magnitude`: the distribution gives the size of the error";
+        let message = "only a repeatable error has a `magnitude`";
+        return document.refuse(item.key_span.clone(), message, help);
     }
     let table = document.table(item, "`magnitude`", &[&keys::MAGNITUDE])?;
     let number = |item: &Item<'_>, document: &mut Document| {
@@ -233,16 +236,15 @@ fn read_magnitude(
 }
 
 fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -> Option<Class> {
-    let random = document.choice(item, &CLASSES)?;
+    let class = document.choice(item, &CLASSES)?;
     let distribution = section.get("distribution");
-    match (random, distribution) {
-        (false, None) => Some(Class::Repeatable),
-        (false, Some(distribution)) => {
+    match (class, distribution) {
+        (Class::Repeatable, Some(distribution)) => {
             document.fail(Diagnostic::new(distribution.key_span, "a repeatable error has no distribution")
                     .context(item.span(), "repeatable")
-                    .help("leave `distribution` out, or write class = \"random\""))
+                    .help("leave `distribution` out, or write class = \"tolerance\" for one unknown value per machine, class = \"random\" for another value each time"))
         }
-        (true, None) => {
+        (Class::Random(_), None) => {
             document.fail(Diagnostic::new(item.span(), "a random error needs its distribution")
                     .label("no `distribution` here")
                     .help(
@@ -250,9 +252,14 @@ fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -
                          \"arcsine\" (values are amplitudes)",
                     ))
         }
-        (true, Some(distribution)) => {
+        (_, None) => Some(class),
+        (_, Some(distribution)) => {
             let choices = Distribution::ALL.map(|distribution| (distribution.name(), distribution));
-            document.choice(&distribution, &choices).map(Class::Random)
+            let distribution = document.choice(&distribution, &choices)?;
+            Some(match class {
+                Class::Tolerance(_) => Class::Tolerance(distribution),
+                _ => Class::Random(distribution),
+            })
         }
     }
 }

@@ -17,7 +17,7 @@ pub struct SourceReport {
     pub name: String,
     /// Element of the chain that the source acts on.
     pub at: String,
-    /// Class of the source: `repeatable` or `random`.
+    /// Class of the source: `repeatable`, `tolerance` or `random`.
     #[serde(serialize_with = "class")]
     pub class: Class,
     /// Largest absolute error.

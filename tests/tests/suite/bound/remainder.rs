@@ -23,7 +23,7 @@ fn difference(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
     let description = robot.description();
     let magnitudes = description.sources.iter().map(|source| match source.class {
         Class::Repeatable => 1.0,
-        Class::Random(_) => 0.0,
+        Class::Tolerance(_) | Class::Random(_) => 0.0,
     });
     let magnitudes: Vec<f64> = magnitudes.collect();
     let nominal = robot.pose(q, &[]).ok()?;

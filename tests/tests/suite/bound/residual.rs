@@ -31,7 +31,7 @@ fn left(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
     let description = robot.description();
     let repeatable = description.sources.iter().map(|source| match source.class {
         Class::Repeatable => 1.0,
-        Class::Random(_) => 0.0,
+        Class::Tolerance(_) | Class::Random(_) => 0.0,
     });
     let repeatable: Vec<f64> = repeatable.collect();
     let metre = 1.0 / description.length.in_metres();
