@@ -4,7 +4,7 @@
 //! | folder | contents |
 //! |---|---|
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and visits every [`Row`] in order; nothing is stored |
-//! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), of all together ([`Combined`]), and the admissible sizes for a tolerance ([`Admissible`]) |
+//! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), and of all together ([`Combined`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
 //! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met |
 //! | `worst_case` | [`worst_case()`]: the largest error over all signs at one configuration |
@@ -21,7 +21,7 @@
 //! ```
 //! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
-//! use abbe::analysis::{Admissible, BudgetOptions, error_budget, random_joint_samples};
+//! use abbe::analysis::{BudgetOptions, error_budget, random_joint_samples};
 //! use pps::{DESCRIPTION, Pps};
 //!
 //! let moved = [0, 1, 2, 3]; // the three slides and the spin; the other joints stay at home
@@ -32,7 +32,6 @@
 //! }
 //! let largest = budget.combined.radius;
 //! println!("all together: {:.3} mm in configuration {:?}", largest.value, largest.configuration);
-//! println!("all by this factor for 0.5 mm: {:?}", Admissible::new(&budget, 0.5).together);
 //! # assert!(budget.configurations == 10_000 && largest.value > 5.0);
 //! # Ok(())
 //! # }
@@ -59,8 +58,8 @@ mod thorough;
 pub use abbe_core::lanes::Sweepable;
 pub use abbe_kinematics::*;
 pub use budget::{
-    Admissible, Budget, BudgetOptions, BudgetSweep, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures,
-    Gap, OrientationErrors, PartialBudget, SourceErrors, Sphere, Watch, covariance, error_budget, variance,
+    Budget, BudgetOptions, BudgetSweep, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, Gap,
+    OrientationErrors, PartialBudget, SourceErrors, Sphere, Watch, covariance, error_budget, variance,
 };
 pub use identifiable::{
     Identifiability, Measurement, Parts, RANK_THRESHOLD, identifiable, identifiable_in_parts,
@@ -71,6 +70,6 @@ pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use sweep::{BLOCK, Row, Unevaluated, UnreachableSummary, in_order, in_order_until, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Residual, Statement,
-    compliance, errors_at, normal_compliance, student_95,
+    WorstCase, compliance, errors_at, normal_compliance, student_95,
 };
 pub use worst_case::worst_case;

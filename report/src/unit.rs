@@ -41,7 +41,7 @@ pub(crate) fn decimals(report: &Report) -> usize {
 
 /// Returns the number of decimals of a measurand in its display unit; at least four for mrad.
 pub(crate) fn decimals_of(report: &Report, measurand: Measurand) -> usize {
-    let (sources, combined, _) = report.budget.errors(measurand);
+    let (sources, combined) = report.budget.errors(measurand);
     let (factor, _) = display_unit(report, measurand);
     let least = match measurand {
         Measurand::Position => error_decimals(report.spec.length),

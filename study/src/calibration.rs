@@ -176,22 +176,17 @@ pub fn calibration_errors(spec: &Spec, is_measured: bool) -> Vec<Source> {
     parts.into_iter().enumerate().map(source).collect()
 }
 
-/// Returns true for the sources that [`calibration_errors`] returns. No source of a file is one.
-pub fn is_calibration_error(source: &Source) -> bool {
-    source.propagated.iter().any(|(uncertain, _)| matches!(uncertain, Uncertain::Identified(_)))
-}
-
 /// Returns the index, among the enabled sources, of the first that [`calibration_errors`] added;
 /// they are the last ones. Returns `None` if there are none.
 pub fn first_part(spec: &Spec) -> Option<usize> {
-    spec.enabled_sources().position(is_calibration_error)
+    spec.enabled_sources().position(Source::is_calibration_error)
 }
 
 /// Returns the spec with the first part of the calibration named as all of it, for reports in which
 /// it stands for all.
 pub fn named_as_one(spec: &Arc<Spec>) -> Arc<Spec> {
     let mut named = spec.clone();
-    if let Some(first) = spec.sources.iter().position(is_calibration_error) {
+    if let Some(first) = spec.sources.iter().position(Source::is_calibration_error) {
         CALIBRATION.clone_into(&mut Arc::make_mut(&mut named).sources[first].name);
     }
     named

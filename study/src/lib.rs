@@ -35,9 +35,9 @@
 //! let study = Study::find(None, &machine)?; // the shipped study
 //! let report = Analyze::new(machine, study).run(&mut ())?;
 //! assert_eq!(report.budget.configurations, 999);
-//! let [first, ..] = &report.budget.tighten_first()[..] else { panic!("there are sources") };
-//! println!("radius {:.3} mm; tighten first: {}", report.budget.combined.radius.value, report.sources[*first].name);
-//! # assert_eq!(report.sources[*first].name, "assembly");
+//! let [first, ..] = &report.ledger.sources[..] else { panic!("there are sources") };
+//! println!("radius {:.3} mm; largest source: {}", report.budget.combined.radius.value, first.name);
+//! # assert_eq!(first.name, "assembly");
 //! # Ok::<(), abbe_spec::diagnostic::Diagnostics>(())
 //! ```
 //!

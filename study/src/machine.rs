@@ -15,9 +15,7 @@ use abbe_spec::expr::{Expression, Symbol};
 use abbe_spec::option::{NamedOption, option};
 use abbe_spec::{Factor, Magnitude, Source, Spec};
 
-use crate::calibration::{
-    calibration_errors, has_magnitude, is_calibration_error, is_measured, tool_in_last_frame,
-};
+use crate::calibration::{calibration_errors, has_magnitude, is_measured, tool_in_last_frame};
 use crate::changes::Changes;
 use crate::mistake;
 use crate::named;
@@ -119,7 +117,7 @@ impl Machine {
         let magnitudes = own.filter_map(|(_, source)| magnitude_error(source));
         let added: Vec<Source> =
             magnitudes.chain(calibration_errors(spec, self.tool_point_is_measured())).collect();
-        let is_added = |source: &Source| is_magnitude_error(source) || is_calibration_error(source);
+        let is_added = |source: &Source| is_magnitude_error(source) || source.is_calibration_error();
         if spec.sources.iter().any(is_added) || !added.is_empty() {
             let sources = &mut Arc::make_mut(&mut self.spec).sources;
             sources.retain(|source| !is_added(source));
@@ -265,7 +263,7 @@ fn magnitude_error_name(source: &Source) -> String {
 pub(crate) fn followed_source(spec: &Spec, index: usize) -> Option<usize> {
     let source = &spec.sources[index];
     match source {
-        _ if is_calibration_error(source) => None,
+        _ if source.is_calibration_error() => None,
         _ if is_magnitude_error(source) => {
             spec.sources.iter().position(|other| magnitude_error_name(other) == source.name)
         }

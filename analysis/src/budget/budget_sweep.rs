@@ -7,8 +7,8 @@ use super::partial_errors::{self, InitialErrors, PartialErrors, SampleErrors};
 use super::{Budget, BudgetOptions, OrientationErrors, Watch};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::{Measurand, ReachError, Subset, Workspace};
-use abbe_core::Class;
 use abbe_core::lanes::{InstructionSet, Kernel, Register, Sweepable};
+use abbe_core::{Class, Source};
 use abbe_kinematics::One;
 
 /// Smallest and largest number of configurations from which the error sphere and ellipsoid are
@@ -57,6 +57,8 @@ pub struct BudgetSweep<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
     classes: Vec<Class>,
+    /// Number of sources before the parts of a calibration.
+    calibration: usize,
     position: InitialErrors,
     orientation: InitialErrors,
     oriented_at_home: bool,
@@ -98,6 +100,7 @@ impl<'a> BudgetSweep<'a> {
             position: first.finish(workspace.len(), &classes, &home, options.tolerances[0]),
             orientation: second.finish(workspace.len(), &classes, &home, options.tolerances[1]),
             classes,
+            calibration: known.iter().position(Source::is_calibration).unwrap_or(known.len()),
             oriented_at_home,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
         })
@@ -155,20 +158,17 @@ impl<'a> BudgetSweep<'a> {
     /// Returns the budget of the complete sweep.
     pub fn finish(&self, part: PartialBudget) -> Budget {
         let count = part.configurations;
-        let (sources, combined, gains, least_likely) = part.position.finish(&self.position, count);
-        let (turned, turns, turn_gains, turn_least_likely) =
-            part.orientation.finish(&self.orientation, part.oriented);
+        let (sources, combined, least_likely) = part.position.finish(&self.position, count);
+        let (turned, turns, turn_least_likely) = part.orientation.finish(&self.orientation, part.oriented);
         let orientation = OrientationErrors {
             sources: turned,
             combined: turns,
-            gains: turn_gains,
             configurations: part.oriented,
             at_home: self.oriented_at_home,
         };
         Budget {
             sources,
             combined,
-            gains,
             orientation,
             least_likely: [least_likely, turn_least_likely],
             configurations: count,
@@ -194,7 +194,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
 
     #[inline(always)]
     fn run<R: Register>(self) -> Self::Output {
-        let BudgetSweep { manipulator, workspace, ref classes, .. } = *self.sweep;
+        let BudgetSweep { manipulator, workspace, ref classes, calibration, .. } = *self.sweep;
         let (mut part, mut blocks) = (self.sweep.none(self.number), Vec::new());
         part.chunks.end += 1;
         let range = self.sweep.configurations(&part.chunks);
@@ -209,14 +209,16 @@ impl<'a> Kernel for Chunk<'_, 'a> {
             let displacements = &block.displacements;
             position.add_sources(displacements, before);
             for tile in 0..displacements.tiles() {
-                position.add_sums(classes, displacements, tile, before, |place| indices[place]);
+                position
+                    .add_sums((classes, calibration), displacements, tile, before, |place| indices[place]);
             }
             let before = oriented.len();
             let (kept, displacements) = block.oriented();
             oriented.extend_from_slice(&kept);
             orientation.add_sources(&displacements, before);
             for tile in 0..displacements.tiles() {
-                orientation.add_sums(classes, &displacements, tile, before, |place| oriented[place]);
+                orientation
+                    .add_sums((classes, calibration), &displacements, tile, before, |place| oriented[place]);
             }
             block.unreachable.drain(..).for_each(|unreachable| part.unreachable.add(unreachable));
             if self.rows {

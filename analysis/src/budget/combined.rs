@@ -3,10 +3,11 @@
 use super::Ellipsoid;
 use super::enclosing_sphere::Sphere;
 use super::outline::{self, Outline, View};
+use super::over_signs::OverSignsAccumulator;
 use super::peak::{self, Peak};
 use super::sums::Sums;
-use abbe_core::Scalar;
 use abbe_core::lanes::{Lanes, Register};
+use abbe_core::{Class, Scalar};
 
 /// Largest value over the workspace, and its configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,7 +33,7 @@ impl Extreme {
 /// |---|---|---|
 /// | the paper's | Σ r_k, with signs | root sum of squares of the b_k |
 /// | GUM | | standard deviation: root sum of squares of b_k/√3 (uniform), b_k/√6 (triangular), b_k/√2 (arcsine), b_k/3 (normal) |
-/// | worst case | Σ \|r_k\| | Σ \|b_k\| |
+/// | worst case | Σ r_k, with signs | Σ ± b_k, with the signs that make the norm largest |
 ///
 /// Positions are in the length unit, orientations in rad. All figures are 0 for an empty workspace.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,15 +56,16 @@ pub struct Combined {
     pub standard_deviation: [f64; 3],
     /// max √(tr Σ): standard deviation of the position.
     pub standard_radius: Extreme,
-    /// Largest sum of absolute values of all sources along x, y, z of `F_0`.
+    /// Largest worst case along x, y, z of `F_0`: \|Σ repeatable\| + Σ \|b_k\|.
     pub worst_case: [f64; 3],
-    /// max Σ ‖·‖ over all sources, for any signs. No draw exceeds it if the random sources are
-    /// bounded; the bound of a normal one is 3σ, which 0.27 % of its draws exceed.
+    /// max ‖Σ repeatable + Σ ± b_k‖ over all signs, at least as found: repeatable sources at their
+    /// values, the others at their bounds. No draw exceeds the largest if these are bounded; the
+    /// bound of a normal one is 3σ, which 0.27 % of its draws exceed. The parts of a calibration
+    /// are one error, with the root sum of their squares in any direction.
     pub worst_case_radius: Extreme,
-    /// max over the configurations of ‖Σ repeatable‖ + Σ ‖b_k‖: the actual repeatable sources, and
-    /// the random ones at their bounds in the same direction. No draw exceeds it if these are
-    /// bounded.
-    pub bounded_radius: Extreme,
+    /// Upper bound of the worst case; equal to it, but for rounding, where a tolerance lies between
+    /// the two.
+    pub worst_case_bound: f64,
     /// 95 % ellipsoid at the configuration with the largest standard deviation in any direction.
     pub ellipsoid: Ellipsoid,
     /// Smallest sphere around the position errors Σ repeatable of all configurations.
@@ -83,12 +85,12 @@ impl Combined {
             (&mut self.radius, &other.radius),
             (&mut self.standard_radius, &other.standard_radius),
             (&mut self.worst_case_radius, &other.worst_case_radius),
-            (&mut self.bounded_radius, &other.bounded_radius),
         ] {
             if let Some(index) = other.configuration {
                 here.add(index, other.value);
             }
         }
+        self.worst_case_bound = self.worst_case_bound.max(other.worst_case_bound);
         for (here, other) in [
             (&mut self.repeatable, other.repeatable),
             (&mut self.random, other.random),
@@ -128,7 +130,7 @@ impl PartialCombined {
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
         let combined = &self.combined;
         let radii = [combined.repeatable_radius, combined.random_radius, combined.radius];
-        let others = [combined.standard_radius, combined.worst_case_radius, combined.bounded_radius];
+        let others = [combined.standard_radius, combined.worst_case_radius];
         let extremes = radii.into_iter().chain(others).map(|extreme| extreme.configuration);
         extremes.chain([combined.ellipsoid.configuration]).flatten()
     }
@@ -158,8 +160,7 @@ pub(super) struct CombinedAccumulator<R: Register> {
     random_square: Peak<R>,
     radius: Peak<R>,
     trace: Peak<R>,
-    worst_case_radius: Peak<R>,
-    bounded_radius: Peak<R>,
+    over_signs: OverSignsAccumulator<R>,
     repeatable: [Lanes<R>; 3],
     random: [Lanes<R>; 3],
     variance: [Lanes<R>; 3],
@@ -169,7 +170,7 @@ pub(super) struct CombinedAccumulator<R: Register> {
 
 impl<R: Register> CombinedAccumulator<R> {
     /// Initializes the accumulation with the ellipsoid and the view of a sample of configurations.
-    pub(super) fn new(ellipsoid: Ellipsoid, view: View) -> Self {
+    pub(super) fn new(ellipsoid: Ellipsoid, view: View, classes: &[Class], tolerance: Option<f64>) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
             outline: outline::OutlineAccumulator::new(view),
@@ -178,8 +179,7 @@ impl<R: Register> CombinedAccumulator<R> {
             random_square: Peak::none(),
             radius: Peak::none(),
             trace: Peak::none(),
-            worst_case_radius: Peak::none(),
-            bounded_radius: Peak::none(),
+            over_signs: OverSignsAccumulator::new(classes, tolerance),
             repeatable: [zero; 3],
             random: [zero; 3],
             variance: [zero; 3],
@@ -188,16 +188,22 @@ impl<R: Register> CombinedAccumulator<R> {
         }
     }
 
-    /// Adds the configurations of a tile. `index` maps places to indices of configurations.
+    /// Adds the configurations of a tile. `classes` and `rows` are those of the sources before the
+    /// calibration; `index` maps places to indices of configurations.
     #[inline(always)]
-    pub(super) fn add(&mut self, sums: &Sums<R>, index: impl Fn(usize) -> usize) {
+    pub(super) fn add(
+        &mut self,
+        sums: &Sums<R>,
+        classes: &[Class],
+        rows: &[Lanes<R>],
+        index: impl Fn(usize) -> usize,
+    ) {
         let &Sums { place, weight, .. } = sums;
         self.repeatable_square.add(sums.repeatable_square, place);
         self.random_square.add(sums.random_square, place);
         let norms = [sums.repeatable_norm, sums.random_norm, sums.radius];
         self.radius.add(sums.radius, place);
-        self.worst_case_radius.add(sums.norms, place);
-        self.bounded_radius.add(sums.repeatable_norm + sums.random_norms, place);
+        self.over_signs.add(classes, rows, sums);
         for (sum, norm) in self.squares.iter_mut().zip(norms) {
             *sum = (norm * norm).mul_add(weight, *sum);
         }
@@ -209,7 +215,7 @@ impl<R: Register> CombinedAccumulator<R> {
             self.repeatable[i] = sums.repeatable[i].abs().max(self.repeatable[i]);
             self.random[i] = sums.squares[i].max(self.random[i]);
             self.variance[i] = diagonal[i].max(self.variance[i]);
-            self.worst_case[i] = sums.absolute[i].max(self.worst_case[i]);
+            self.worst_case[i] = sums.worst_case[i].max(self.worst_case[i]);
         }
         let [longest, ..] = self.ellipsoid.principal.deviations;
         let minor = least_minor(covariance, longest * longest * (1.0 + ALIKE));
@@ -243,11 +249,14 @@ impl<R: Register> CombinedAccumulator<R> {
     /// Returns the partial result, with indices of configurations, and the sums of squares of the
     /// three norms.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (PartialCombined, [f64; 3]) {
-        let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
+        let place = |found: Option<(f64, usize)>| {
             let (value, configuration) =
-                peak.finish().map(|(value, place)| (f(value), Some(index(place)))).unwrap_or_default();
+                found.map(|(value, place)| (value, Some(index(place)))).unwrap_or_default();
             Extreme { value, configuration }
         };
+        let extreme =
+            |peak: Peak<R>, f: fn(f64) -> f64| place(peak.finish().map(|(value, place)| (f(value), place)));
+        let (found, worst_case_bound) = self.over_signs.finish();
         let roots = |largest: [Lanes<R>; 3]| largest.map(|square| peak::largest(square).sqrt());
         let combined = Combined {
             repeatable_radius: extreme(self.repeatable_square, f64::sqrt),
@@ -258,8 +267,8 @@ impl<R: Register> CombinedAccumulator<R> {
             standard_deviation: roots(self.variance),
             standard_radius: extreme(self.trace, f64::sqrt),
             worst_case: self.worst_case.map(peak::largest),
-            worst_case_radius: extreme(self.worst_case_radius, |radius| radius),
-            bounded_radius: extreme(self.bounded_radius, |radius| radius),
+            worst_case_radius: place(found),
+            worst_case_bound,
             ellipsoid: self.ellipsoid,
             ..Combined::default()
         };

@@ -11,9 +11,6 @@ pub struct Budget {
     pub sources: Vec<SourceErrors>,
     /// Figures of all sources together.
     pub combined: Combined,
-    /// Decrease of the radius for a source reduced by one percent, in the length unit. Negative for
-    /// a source that counteracts the others.
-    pub gains: Vec<f64>,
     /// Orientation errors, rows 4–6 of ΔX.
     pub orientation: OrientationErrors,
     /// Indices of the configurations at which the tolerances of position and orientation are least
@@ -27,14 +24,11 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Returns the figures of a measurand: each source, all together, and the gains.
-    pub fn errors(&self, measurand: Measurand) -> (&[SourceErrors], &Combined, &[f64]) {
+    /// Returns the figures of a measurand: each source, and all together.
+    pub fn errors(&self, measurand: Measurand) -> (&[SourceErrors], &Combined) {
         match measurand {
-            Measurand::Position => (&self.sources, &self.combined, &self.gains),
-            Measurand::Orientation => {
-                let OrientationErrors { sources, combined, gains, .. } = &self.orientation;
-                (sources, combined, gains)
-            }
+            Measurand::Position => (&self.sources, &self.combined),
+            Measurand::Orientation => (&self.orientation.sources, &self.orientation.combined),
         }
     }
 
@@ -59,8 +53,6 @@ pub struct OrientationErrors {
     pub sources: Vec<SourceErrors>,
     /// Figures of all sources together.
     pub combined: Combined,
-    /// Decrease of the radius for a source reduced by one percent.
-    pub gains: Vec<f64>,
     /// Number of configurations at which rows 4–6 exist: all reached ones but those where Euler
     /// angles are singular.
     pub configurations: usize,

@@ -1,26 +1,24 @@
-//! Error budgets: the effect of every source over a workspace, their combination, and admissible
-//! sizes for a tolerance.
+//! Error budgets: the effect of every source over a workspace, and their combination.
 //!
 //! [`error_budget`] computes all of it in one sweep, in lanes. Each kind of figure has an
 //! accumulator, which takes tile after tile, and a partial result, which merges chunk after chunk.
 
-mod admissible;
 mod aligned_sums;
 mod budget_sweep;
 mod combined;
 mod ellipsoid;
 mod enclosing_sphere;
 mod error_budget;
-mod gains;
 mod least_likely;
 mod outline;
+mod over_signs;
 mod partial_budget;
 mod partial_errors;
 mod peak;
+mod ranks;
 mod source_errors;
 mod sums;
 
-pub use admissible::Admissible;
 pub use budget_sweep::{BudgetSweep, error_budget};
 pub use combined::{Combined, Extreme};
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};

@@ -25,7 +25,7 @@ pub(super) struct OverSignsAccumulator<R: Register> {
     most: f64,
     /// Upper bound of the worst case of all configurations.
     bound: f64,
-    /// One if a source has an unknown sign.
+    /// Whether a source has an unknown sign.
     any: bool,
 }
 
@@ -33,7 +33,7 @@ impl<R: Register> OverSignsAccumulator<R> {
     pub(super) fn new(classes: &[Class], tolerance: Option<f64>) -> Self {
         let tolerance = tolerance.map_or(f64::INFINITY, |tolerance| tolerance * (1.0 + ROUNDING));
         let any = classes.iter().any(|class| class.distribution().is_some());
-        Self { tolerance, found: Peak::none(), most: 0.0, bound: 0.0, any }
+        Self { tolerance, found: Peak::none(), most: -1.0, bound: 0.0, any }
     }
 
     /// Adds the configurations of a tile. `rows` are those of the sources before the calibration.

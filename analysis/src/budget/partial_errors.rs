@@ -4,7 +4,6 @@ use core::ops::Range;
 
 use super::aligned_sums::AlignedSums;
 use super::combined::{self, PartialCombined};
-use super::gains::{self, Gains};
 use super::least_likely::{self, LeastLikely};
 use super::outline::{self, Outline, View};
 use super::source_errors::{self, PartialSourceErrors};
@@ -93,7 +92,6 @@ pub(super) struct PartialErrors {
     combined: PartialCombined,
     /// Squares of the norm of each source, followed by those of the three combined norms.
     squares: AlignedSums,
-    gains: Gains,
     least_likely: LeastLikely,
 }
 
@@ -105,7 +103,6 @@ impl PartialErrors {
             outlines: vec![Outline::default(); sources],
             combined: PartialCombined::new(Ellipsoid::default()),
             squares: AlignedSums::default(),
-            gains: Gains::new(sources),
             least_likely: LeastLikely::default(),
         }
     }
@@ -120,17 +117,16 @@ impl PartialErrors {
         }
         self.combined.merge(&other.combined);
         self.squares.append(other.squares);
-        self.gains.merge(&other.gains);
         self.least_likely.merge(&other.least_likely);
     }
 
-    /// Returns the figures of `count` configurations: of each source, of all together, the gains,
-    /// and the configurations least likely to meet a tolerance.
+    /// Returns the figures of `count` configurations: of each source, of all together, and the
+    /// configurations least likely to meet a tolerance.
     pub(super) fn finish(
         self,
         initial: &InitialErrors,
         count: usize,
-    ) -> (Vec<SourceErrors>, Combined, Vec<f64>, Vec<usize>) {
+    ) -> (Vec<SourceErrors>, Combined, Vec<usize>) {
         let mut squares = self.squares.total();
         squares.resize(initial.classes.len() + 3, 0.0);
         let (alone, together) = squares.split_at(initial.classes.len());
@@ -143,8 +139,7 @@ impl PartialErrors {
         let sources = sources.collect();
         let together = core::array::from_fn(|i| together[i]);
         let combined = self.combined.finish(count, together, &initial.view, &initial.points);
-        let gains = self.gains.gains(combined.radius.value);
-        (sources, combined, gains, self.least_likely.finish())
+        (sources, combined, self.least_likely.finish())
     }
 
     /// Returns whether the result is valid for this number of sources and these chunks. It may come
@@ -154,7 +149,6 @@ impl PartialErrors {
         sound
             && self.tallies.len() == sources
             && self.outlines.len() == sources
-            && self.gains.len() == sources
             && self.squares.is_valid_for(chunks, sources + 3)
     }
 
@@ -171,10 +165,7 @@ pub(super) struct ErrorsAccumulator<R: Register> {
     singles: Vec<source_errors::SourceErrorsAccumulator<R>>,
     outlines: Vec<Option<outline::OutlineAccumulator<R>>>,
     all: combined::CombinedAccumulator<R>,
-    shrunk: gains::GainsAccumulator<R>,
     least_likely: Option<least_likely::LeastLikelyAccumulator<R>>,
-    /// Norm of each source in the tile added last.
-    norm_of: Vec<Lanes<R>>,
 }
 
 impl<R: Register> ErrorsAccumulator<R> {
@@ -192,10 +183,8 @@ impl<R: Register> ErrorsAccumulator<R> {
             outlines: outlines
                 .map(|(class, view)| repeatable(class).then(|| outline::OutlineAccumulator::new(*view)))
                 .collect(),
-            all: combined::CombinedAccumulator::new(*ellipsoid, *view),
-            shrunk: gains::GainsAccumulator::new(classes.len()),
+            all: combined::CombinedAccumulator::new(*ellipsoid, *view, classes, *tolerance),
             least_likely: tolerance.map(least_likely::LeastLikelyAccumulator::new),
-            norm_of: vec![Lanes::constant(0.0); classes.len()],
         }
     }
 
@@ -222,7 +211,7 @@ impl<R: Register> ErrorsAccumulator<R> {
     #[inline(always)]
     pub(super) fn add_sums(
         &mut self,
-        classes: &[Class],
+        (classes, calibration): (&[Class], usize),
         displacements: &Tiles,
         tile: usize,
         before: usize,
@@ -232,12 +221,11 @@ impl<R: Register> ErrorsAccumulator<R> {
         let rows = displacements.tile::<R>(tile);
         // Without sources there are no rows.
         let rows = rows.get(self.measurand.first()..).unwrap_or_default();
-        let sums = Sums::new(classes, rows, &mut self.norm_of, place, weight);
-        self.all.add(&sums, &index);
+        let sums = Sums::new(classes, calibration, rows, place, weight);
+        self.all.add(&sums, &classes[..calibration], rows, &index);
         if let Some(least_likely) = &mut self.least_likely {
             least_likely.add(&sums, index);
         }
-        self.shrunk.add(classes, rows, &self.norm_of, &sums);
     }
 
     /// Returns the partial result of chunk number `chunk`.
@@ -254,7 +242,6 @@ impl<R: Register> ErrorsAccumulator<R> {
             outlines: outlines.collect(),
             combined,
             squares: AlignedSums::from_chunk(chunk, squares),
-            gains: self.shrunk.finish(),
             least_likely: self
                 .least_likely
                 .map(|least_likely| least_likely.finish(index))

@@ -20,38 +20,41 @@ pub(super) struct Sums<R: Register> {
     pub(super) random_norm: Lanes<R>,
     /// ‖Σ r‖ + √Σ b².
     pub(super) radius: Lanes<R>,
-    /// Sums of the absolute values of all sources, row by row; of their norms; and of the norms of
-    /// the random sources.
-    pub(super) absolute: [Lanes<R>; 3],
-    pub(super) norms: Lanes<R>,
+    /// `|Σ r| + Σ |b|` row by row, and `Σ ‖b‖`; with the parts of a calibration as one error.
+    pub(super) worst_case: [Lanes<R>; 3],
     pub(super) random_norms: Lanes<R>,
+    /// Norm of the error of the calibration.
+    pub(super) calibration: Lanes<R>,
     /// `Σ c b bᵀ` of the random sources: xx, yy, zz, xy, xz, yz.
     pub(super) covariance: [Lanes<R>; 6],
 }
 
 impl<R: Register> Sums<R> {
     /// Combines the rows of a tile, beginning with the first of the three rows of the first source,
-    /// with six rows per source. Fills `norm_of` with the norm of each source.
+    /// with six rows per source. The sources from `calibration` on are the parts of one.
     #[inline(always)]
     pub(super) fn new(
         classes: &[Class],
+        calibration: usize,
         rows: &[Lanes<R>],
-        norm_of: &mut [Lanes<R>],
         place: Lanes<R>,
         weight: Lanes<R>,
     ) -> Self {
         let zero = Lanes::constant(0.0);
-        let (mut repeatable, mut squares, mut absolute) = ([zero; 3], [zero; 3], [zero; 3]);
-        let (mut norms, mut random_norms, mut covariance) = (zero, zero, [zero; 6]);
-        for ((class, rows), norm_of) in classes.iter().zip(rows.chunks(6)).zip(norm_of) {
+        let (mut repeatable, mut squares, mut worst_case) = ([zero; 3], [zero; 3], [zero; 3]);
+        let (mut random_norms, mut covariance, mut parts) = (zero, [zero; 6], [zero; 3]);
+        for (k, (class, rows)) in classes.iter().zip(rows.chunks(6)).enumerate() {
             let here = [rows[0], rows[1], rows[2]];
             let [x, y, z] = here;
-            *norm_of = peak::square(here).sqrt();
-            norms = norms + *norm_of;
             match class {
                 Class::Repeatable => repeatable = core::array::from_fn(|i| repeatable[i] + here[i]),
                 Class::Tolerance(distribution) | Class::Random(distribution) => {
-                    random_norms = random_norms + *norm_of;
+                    if k < calibration {
+                        random_norms = random_norms + peak::square(here).sqrt();
+                        worst_case = core::array::from_fn(|i| worst_case[i] + here[i].abs());
+                    } else {
+                        parts = core::array::from_fn(|i| here[i].mul_add(here[i], parts[i]));
+                    }
                     squares = core::array::from_fn(|i| here[i].mul_add(here[i], squares[i]));
                     let variance = Lanes::constant(variance(*distribution));
                     let [vx, vy, vz] = here.map(|row| row * variance);
@@ -59,8 +62,9 @@ impl<R: Register> Sums<R> {
                     covariance = core::array::from_fn(|i| parts[i].0.mul_add(parts[i].1, covariance[i]));
                 }
             }
-            absolute = core::array::from_fn(|i| absolute[i] + here[i].abs());
         }
+        let calibration = (parts[0] + parts[1] + parts[2]).sqrt();
+        worst_case = core::array::from_fn(|i| worst_case[i] + repeatable[i].abs() + parts[i].sqrt());
         let repeatable_square = peak::square(repeatable);
         let random_square = squares[0] + squares[1] + squares[2];
         let (repeatable_norm, random_norm) = (repeatable_square.sqrt(), random_square.sqrt());
@@ -74,9 +78,9 @@ impl<R: Register> Sums<R> {
             random_square,
             random_norm,
             radius: repeatable_norm + random_norm,
-            absolute,
-            norms,
-            random_norms,
+            worst_case,
+            random_norms: random_norms + calibration,
+            calibration,
             covariance,
         }
     }

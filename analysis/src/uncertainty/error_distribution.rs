@@ -5,9 +5,9 @@ use rand_distr::StandardNormal;
 
 use super::correction::{Correction, Residual};
 use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
-use crate::Measurand;
 use crate::normal::{NormalVector, ONE_SIDED_95, PROBABILITY_ERROR};
 use crate::sweep::in_order;
+use crate::{Measurand, worst_case};
 use abbe_core::{Class, Description};
 use abbe_kinematics::sampling::{norm, stream};
 
@@ -37,17 +37,30 @@ pub struct Compliance {
 #[derive(Clone, Debug)]
 pub struct ErrorDistribution {
     bias: [f64; 3],
-    /// Residuals of known direction, whose signs are unknown and independent.
-    signed: Vec<[f64; 3]>,
-    /// Norms of residuals of unknown directions.
-    undirected: Vec<f64>,
+    /// Fixed errors of single sources, whose sum is the bias.
+    fixed: Vec<(usize, [f64; 3])>,
+    /// Residuals of known direction, whose signs are unknown and independent, by source.
+    signed: Vec<(usize, [f64; 3])>,
+    /// Norms of residuals of unknown directions; by source, or of all together.
+    undirected: Vec<(Option<usize>, f64)>,
     random: Vec<RandomError>,
+}
+
+/// Largest error over all signs at one configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorstCase {
+    /// Norm; normal errors are at 3σ.
+    pub norm: f64,
+    /// Share of each source with a nonzero effect in the norm, along the direction of the largest
+    /// error; negative for a source that counteracts the others. A residual of all sources
+    /// together has no share.
+    pub shares: Vec<(usize, f64)>,
 }
 
 impl ErrorDistribution {
     /// Returns the distribution of a fixed error and random ones.
     pub(super) fn new(bias: [f64; 3], random: Vec<RandomError>) -> Self {
-        Self { bias, signed: Vec::new(), undirected: Vec::new(), random }
+        Self { bias, fixed: Vec::new(), signed: Vec::new(), undirected: Vec::new(), random }
     }
 
     /// Returns the distribution for a machine, given ΔX of each source as in
@@ -64,7 +77,7 @@ impl ErrorDistribution {
         let is_position = measurand == Measurand::Position;
         let together = correction.and_then(|correction| correction.together);
         if let Some(norm) = together.filter(|_| is_position) {
-            all.undirected.push(norm);
+            all.undirected.push((None, norm));
             all.random.retain(|one| !description.sources[one.source].class.can_be_compensated());
             return all;
         }
@@ -79,12 +92,15 @@ impl ErrorDistribution {
                 // Only where the source has an error.
                 (Some(Residual::Bound(bound)), _) if is_position => {
                     all.random.retain(|one| one.source != k);
-                    all.undirected.extend((error != [0.0; 3]).then_some(bound));
+                    all.undirected.extend((error != [0.0; 3]).then_some((Some(k), bound)));
                 }
                 (Some(Residual::Share(share)), Class::Repeatable) if share < 1.0 => {
-                    all.signed.push(error.map(|row| share * row));
+                    all.signed.push((k, error.map(|row| share * row)));
                 }
-                (_, Class::Repeatable) => all.bias = core::array::from_fn(|i| all.bias[i] + error[i]),
+                (_, Class::Repeatable) => {
+                    all.bias = core::array::from_fn(|i| all.bias[i] + error[i]);
+                    all.fixed.push((k, error));
+                }
                 (Some(Residual::Share(share)), _) => {
                     for one in all.random.iter_mut().filter(|one| one.source == k) {
                         one.magnitude = one.magnitude.map(|row| share * row);
@@ -94,7 +110,7 @@ impl ErrorDistribution {
             }
         }
         all.random.retain(|one| one.magnitude != [0.0; 3]);
-        all.signed.retain(|error| *error != [0.0; 3]);
+        all.signed.retain(|(_, error)| *error != [0.0; 3]);
         all
     }
 
@@ -114,11 +130,52 @@ impl ErrorDistribution {
         self.repeatable_radius() + root_sum_of_squares(self.bounds())
     }
 
-    /// Returns the largest possible norm, `‖bias‖ + Σ ρ + Σ b`; `None` if a random source is not
-    /// bounded.
-    pub fn largest(&self) -> Option<f64> {
-        let bounded = self.random.iter().all(|one| one.distribution.is_bounded());
-        bounded.then(|| norm(self.bias) + self.residuals().sum::<f64>() + self.bounds().sum::<f64>())
+    /// Returns the largest error over all signs, `max ‖bias + Σ ± ρ + Σ ± b‖`, with residuals of
+    /// unknown direction and the parts of a calibration, together one error, in its direction.
+    pub fn worst_case(&self) -> WorstCase {
+        let random = self.random.iter().filter(|one| !one.is_calibration);
+        let random = random.map(|one| (one.source, one.magnitude.map(|row| one.distribution.bound() * row)));
+        let unknown: Vec<(usize, [f64; 3])> = random.chain(self.signed.iter().copied()).collect();
+        let vectors: Vec<[f64; 3]> = unknown.iter().map(|(_, vector)| *vector).collect();
+        let parts = || self.random.iter().filter(|one| one.is_calibration);
+        let calibration = root_sum_of_squares(parts().map(|one| one.bound()));
+        let calibration = parts().next().map(|one| (Some(one.source), calibration));
+        let longest = worst_case(self.bias, &vectors);
+        let undirected = || self.undirected.iter().copied().chain(calibration);
+        let norm = norm(longest) + undirected().map(|(_, norm)| norm).sum::<f64>();
+        let along = |v: [f64; 3]| (0..3).map(|i| longest[i] * v[i]).sum::<f64>() / self::norm(longest) / norm;
+        let fixed = self.fixed.iter().map(|(source, v)| (*source, along(*v)));
+        let unknown = unknown.iter().map(|(source, v)| (*source, along(*v).abs()));
+        let others = undirected().filter_map(|(source, length)| Some((source?, length / norm)));
+        let shares = fixed.chain(unknown).chain(others);
+        WorstCase { norm, shares: shares.filter(|(_, share)| share.is_finite()).collect() }
+    }
+
+    /// Returns the share of each source with a nonzero effect in the [`radius`](Self::radius), to
+    /// first order in its size; negative for a source that counteracts the others.
+    pub fn shares(&self) -> Vec<(usize, f64)> {
+        let radius = self.radius();
+        let along = |v: [f64; 3]| (0..3).map(|i| self.bias[i] * v[i]).sum::<f64>() / norm(self.bias) / radius;
+        let fixed = self.fixed.iter().map(|(source, v)| (*source, along(*v)));
+        let of = |whole: f64, norm: f64| norm * norm / whole / radius;
+        let left = root_sum_of_squares(self.residuals());
+        let signed = self.signed.iter().map(|(source, v)| (*source, of(left, norm(*v))));
+        let undirected = self.undirected.iter();
+        let undirected = undirected.filter_map(|(source, norm)| Some(((*source)?, of(left, *norm))));
+        let bounds = root_sum_of_squares(self.bounds());
+        let random = self.random.iter().map(|one| (one.source, of(bounds, one.bound())));
+        let shares = fixed.chain(signed).chain(undirected).chain(random);
+        shares.filter(|(_, share)| share.is_finite()).collect()
+    }
+
+    /// Returns `‖bias‖ + Σ ρ + Σ ‖b‖`, an upper bound of the worst case.
+    pub fn simple_bound(&self) -> f64 {
+        norm(self.bias) + self.residuals().sum::<f64>() + self.bounds().sum::<f64>()
+    }
+
+    /// Returns whether no source is unbounded.
+    pub fn is_bounded(&self) -> bool {
+        self.random.iter().all(|one| one.distribution.is_bounded())
     }
 
     /// Returns an approximation of the norm that is exceeded with a probability of 5 %, and of the
@@ -183,11 +240,11 @@ impl ErrorDistribution {
             let t = one.draw(numbers);
             error = core::array::from_fn(|i| error[i] + t * one.magnitude[i]);
         }
-        for residual in &self.signed {
+        for (_, residual) in &self.signed {
             let sign = if numbers.random::<bool>() { 1.0 } else { -1.0 };
             error = core::array::from_fn(|i| error[i] + sign * residual[i]);
         }
-        for length in &self.undirected {
+        for (_, length) in &self.undirected {
             let direction: [f64; 3] = core::array::from_fn(|_| numbers.sample(StandardNormal));
             let scale = length / norm(direction);
             error = core::array::from_fn(|i| error[i] + scale * direction[i]);
@@ -199,22 +256,23 @@ impl ErrorDistribution {
     /// sign, and `ρ²/3` along each axis of one with unknown direction.
     fn covariance(&self) -> [[f64; 3]; 3] {
         let mut sum = covariance(&self.random);
-        let isotropic = self.undirected.iter().map(|norm| norm * norm).sum::<f64>() / 3.0;
+        let isotropic = self.undirected.iter().map(|(_, norm)| norm * norm).sum::<f64>() / 3.0;
         for (i, row) in sum.iter_mut().enumerate() {
             row[i] += isotropic;
             for (j, entry) in row.iter_mut().enumerate() {
-                *entry += self.signed.iter().map(|r| r[i] * r[j]).sum::<f64>();
+                *entry += self.signed.iter().map(|(_, r)| r[i] * r[j]).sum::<f64>();
             }
         }
         sum
     }
 
     fn residuals(&self) -> impl Iterator<Item = f64> {
-        self.signed.iter().map(|error| norm(*error)).chain(self.undirected.iter().copied())
+        let undirected = self.undirected.iter().map(|(_, norm)| *norm);
+        self.signed.iter().map(|(_, error)| norm(*error)).chain(undirected)
     }
 
     fn bounds(&self) -> impl Iterator<Item = f64> {
-        self.random.iter().map(|one| one.distribution.bound() * norm(one.magnitude))
+        self.random.iter().map(RandomError::bound)
     }
 }
 

@@ -6,9 +6,9 @@ use rand_distr::StudentT;
 use crate::sweep::sweep;
 use crate::{Configuration, Measurand, Unevaluated};
 use abbe_core::lanes::Sweepable;
-use abbe_core::{Class, Description, Distribution, Error, Source};
+use abbe_core::{Class, Description, Distribution, Error};
 use abbe_kinematics::One;
-use abbe_kinematics::sampling::draw;
+use abbe_kinematics::sampling::{draw, norm};
 
 /// Errors of every source at one configuration, to first order.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,13 +67,14 @@ pub(super) fn random(
     measurand: Measurand,
 ) -> Vec<RandomError> {
     let sources = description.sources.iter().zip(sources).enumerate();
-    let random = sources.filter_map(|(source, (Source { class, degrees_of_freedom, .. }, bound))| {
-        let Some(distribution) = class.distribution() else { return None };
+    let random = sources.filter_map(|(source, (one, bound))| {
+        let distribution = one.class.distribution()?;
         let magnitude = measurand.rows(bound).map(|b| b / distribution.bound());
         (magnitude != [0.0; 3]).then_some(RandomError {
             source,
             distribution,
-            degrees_of_freedom: *degrees_of_freedom,
+            degrees_of_freedom: one.degrees_of_freedom,
+            is_calibration: one.is_calibration(),
             magnitude,
         })
     });
@@ -87,6 +88,8 @@ pub(super) struct RandomError {
     pub(super) distribution: Distribution,
     /// Degrees of freedom of its standard deviation. Infinite if that is known.
     pub(super) degrees_of_freedom: f64,
+    /// Whether it is a part of the uncertainty of a calibration.
+    pub(super) is_calibration: bool,
     /// ΔX for an error equal to its magnitude. The three rows are fully correlated.
     pub(super) magnitude: [f64; 3],
 }
@@ -95,6 +98,11 @@ impl RandomError {
     /// Returns whether its standard deviation was estimated from few measurements.
     pub(super) fn is_estimated(&self) -> bool {
         self.degrees_of_freedom.is_finite()
+    }
+
+    /// Returns the norm of ΔX at its bound.
+    pub(super) fn bound(&self) -> f64 {
+        self.distribution.bound() * norm(self.magnitude)
     }
 
     /// Draws its size. An error with an estimated standard deviation has Student's t-distribution

@@ -11,6 +11,6 @@ mod tests;
 
 pub use compliance::{compliance, normal_compliance};
 pub use correction::{Correction, Residual};
-pub use error_distribution::{COVERAGE, Compliance, DRAWS, ErrorDistribution};
+pub use error_distribution::{COVERAGE, Compliance, DRAWS, ErrorDistribution, WorstCase};
 pub use errors_at::{ErrorsAt, errors_at};
 pub use statement::{Contribution, Statement, student_95};

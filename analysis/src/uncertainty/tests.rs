@@ -158,7 +158,13 @@ fn covered(sources: &Estimated, scales: &[f64], figure: Figure) -> f64 {
             let mut magnitude = [0.0; 3];
             magnitude[*axis] = deviation * scale;
             let (source, distribution) = (0, Distribution::Normal);
-            RandomError { source, distribution, degrees_of_freedom: *degrees_of_freedom, magnitude }
+            RandomError {
+                source,
+                distribution,
+                degrees_of_freedom: *degrees_of_freedom,
+                is_calibration: false,
+                magnitude,
+            }
         };
         sources.iter().zip(scales).map(one).collect::<Vec<_>>()
     };
@@ -286,4 +292,52 @@ fn certain_is_never_exceeded() {
     let (_, largest) = drawn(&errors, 1.0, tolerance, sample_size(10_000_000), 5);
     assert!(largest <= tolerance * (1.0 + 1e-12), "{largest}");
     assert!(largest > 0.7 * tolerance);
+}
+
+/// Shares of the worst case and of the radius add up to 1, and are their logarithmic derivatives:
+/// a source that is one millionth larger makes the error larger by its share of that.
+#[test]
+fn shares_are_derivatives() {
+    for seed in 0..60 {
+        let class = |i: usize| match (i + seed as usize) % 4 {
+            0 | 1 => Class::Repeatable,
+            2 => Class::Tolerance(Distribution::Uniform),
+            _ => Class::Random(Distribution::ALL[i % 4]),
+        };
+        let description = machine((0..3 + seed as usize % 8).map(|i| source(class(i))).collect());
+        let errors = errors(&description, 3, seed);
+        let residuals: Vec<Option<Residual>> = (0..description.sources.len())
+            .map(|i| match i % 3 {
+                0 => Some(Residual::Share(0.3)),
+                1 => Some(Residual::Bound(0.2)),
+                _ => None,
+            })
+            .collect();
+        let correction = (seed % 2 == 0).then_some(Correction { residuals: &residuals, together: None });
+        let of = |errors: &ErrorsAt<'_>| errors.distribution(Measurand::Position, correction);
+        let sums = |shares: &[(usize, f64)]| {
+            let mut sums = vec![0.0; description.sources.len()];
+            shares.iter().for_each(|(source, share)| sums[*source] += share);
+            sums
+        };
+        let here = of(&errors);
+        let (worst, radius) = (here.worst_case(), here.radius());
+        for (is_worst, shares) in [(true, sums(&worst.shares)), (false, sums(&here.shares()))] {
+            assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-9, "{seed}: {shares:?}");
+            for (k, share) in shares.iter().enumerate() {
+                // A residual with a stated bound does not depend on its source.
+                if correction.is_some() && k % 3 == 1 && description.sources[k].class.can_be_compensated() {
+                    continue;
+                }
+                let mut larger = errors.clone();
+                larger.sources[k] = larger.sources[k].map(|row| row * (1.0 + 1e-6));
+                let there = of(&larger);
+                let ratio = match is_worst {
+                    true => there.worst_case().norm / worst.norm,
+                    false => there.radius() / radius,
+                };
+                assert!(((ratio - 1.0) * 1e6 - share).abs() < 1e-4, "{seed}, {k}, {is_worst}: {share}");
+            }
+        }
+    }
 }

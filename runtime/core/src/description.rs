@@ -317,6 +317,15 @@ pub struct Source {
 }
 
 impl Source {
+    /// Place of the independent parts of a calibration's uncertainty, which are one error.
+    pub const CALIBRATION: &'static str = "calibration";
+
+    /// Returns whether the source is a part of a calibration's uncertainty. Such sources are the
+    /// last ones.
+    pub fn is_calibration(&self) -> bool {
+        &*self.at == Self::CALIBRATION
+    }
+
     /// Creates a source with infinite degrees of freedom.
     pub const fn new(name: &'static str, class: Class, at: &'static str, reference: &'static str) -> Self {
         Self::estimated(name, class, f64::INFINITY, at, reference)

@@ -96,6 +96,12 @@ impl Source {
         }
     }
 
+    /// Returns whether the source is a part of the uncertainty of identified errors. No source of a
+    /// file is one.
+    pub fn is_calibration_error(&self) -> bool {
+        self.propagated.iter().any(|(uncertain, _)| matches!(uncertain, Uncertain::Identified(_)))
+    }
+
     /// Returns the normal random source that adds the effects of uncertain quantities, each times
     /// its factor, to no others.
     pub fn propagating(name: String, description: String, propagated: Vec<(Uncertain, f64)>) -> Self {

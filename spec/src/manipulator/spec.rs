@@ -167,8 +167,11 @@ impl Spec {
     }
 
     /// Returns the location of a source's errors: `joint q2`, `parameter a2`, `dh of elbow`, `frame
-    /// elbow`, `input payload`, or several of these.
+    /// elbow`, `input payload`, or several of these; `calibration` for a part of its uncertainty.
     pub fn place(&self, source: &Source) -> String {
+        if source.is_calibration_error() {
+            return abbe_core::Source::CALIBRATION.to_owned();
+        }
         let frame = |frame: usize| self.frames[frame].name.clone();
         let of_chain = |deviation: &Deviation| match deviation.number {
             ChainNumber::Joint(joint) => ("joint", self.variables[joint].name.clone()),

@@ -58,10 +58,9 @@ impl LargestCalibrationErrors {
 
     /// Replaces the parts in a budget, the sources from `first` on, by the calibration.
     pub(super) fn replace_parts(&self, budget: &mut Budget, first: usize) {
-        let orientation = &mut budget.orientation;
         let [position, turn] = &self.0;
-        position.replace_parts(&mut budget.sources, &mut budget.gains, first);
-        turn.replace_parts(&mut orientation.sources, &mut orientation.gains, first);
+        position.replace_parts(&mut budget.sources, first);
+        turn.replace_parts(&mut budget.orientation.sources, first);
     }
 }
 
@@ -73,7 +72,7 @@ impl Largest {
         self.rows = std::array::from_fn(|i| self.rows[i].max(other.rows[i]));
     }
 
-    fn replace_parts(&self, sources: &mut Vec<SourceErrors>, gains: &mut Vec<f64>, first: usize) {
+    fn replace_parts(&self, sources: &mut Vec<SourceErrors>, first: usize) {
         let Some(class) = sources.get(first).map(|part| part.class) else { return };
         debug_assert!(class != Class::Repeatable, "a calibration is uncertain");
         let parts = sources.split_off(first);
@@ -97,7 +96,5 @@ impl Largest {
             rms: root(&|part| part.rms),
             worst: self.worst,
         });
-        let together = gains.split_off(first).iter().sum();
-        gains.push(together);
     }
 }

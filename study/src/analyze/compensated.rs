@@ -25,8 +25,10 @@ pub(super) struct CompensatedExtremes {
     pub(super) repeatable: Extreme,
     /// Largest radius, [`ErrorDistribution::radius`].
     pub(super) radius: Extreme,
-    /// Largest possible norm; `None` if it is not bounded.
-    pub(super) largest: Option<f64>,
+    /// Largest error over all signs.
+    pub(super) worst_case: Extreme,
+    /// Whether no draw exceeds it.
+    pub(super) is_bounded: bool,
     /// Configuration where the norm that is exceeded with 5 % probability is largest, by an
     /// approximation.
     farthest: Extreme,
@@ -46,7 +48,7 @@ impl CompensatedErrors {
     ) -> Result<Self, Unevaluated> {
         let description = manipulator.description();
         let mut all = Self { checked: 0, extremes: Default::default() };
-        all.extremes.iter_mut().for_each(|one| one.largest = Some(0.0));
+        all.extremes.iter_mut().for_each(|one| one.is_bounded = true);
         let subset = Subset { workspace, count: CHECKED };
         sweep(manipulator, &subset, &mut |row| {
             let index = subset.place(row.index);
@@ -78,7 +80,10 @@ impl CompensatedExtremes {
         };
         put(&mut self.repeatable, error.repeatable_radius());
         put(&mut self.radius, error.radius());
-        self.largest = self.largest.zip(error.largest()).map(|(most, here)| most.max(here));
+        if self.worst_case.configuration.is_none() || error.simple_bound() > self.worst_case.value {
+            put(&mut self.worst_case, error.worst_case().norm);
+        }
+        self.is_bounded &= error.is_bounded();
         let Some(tolerance) = tolerance else { return };
         let [farthest, deviations] = error.approximate(tolerance);
         put(&mut self.farthest, farthest);

@@ -4,8 +4,8 @@ use abbe_spec::option::{MONTE_CARLO, Q};
 use std::ops::Range;
 
 use abbe::analysis::{
-    Budget, BudgetSweep, Configuration, Correction, Measurand, PartialBudget, Residual, Row, Statement,
-    Subset, Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
+    Budget, BudgetSweep, Configuration, Correction, ErrorDistribution, Measurand, PartialBudget, Residual,
+    Row, Statement, Subset, Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
 use abbe::{Description, Manipulator};
 use abbe_spec::Spec;
@@ -19,8 +19,9 @@ use super::first_order::FirstOrder;
 use super::loop_condition::LoopCondition;
 use super::report::{
     AfterCompensation, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, ErrorAllowance,
-    ErrorSites, JudgedErrors, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport,
-    RemainingErrors, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget, Verdicts,
+    ErrorSites, JudgedErrors, JudgedShares, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport,
+    OrientationReport, RemainingErrors, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget,
+    Verdicts,
 };
 use super::unreachable;
 use crate::bound::CertifiedNorms;
@@ -30,7 +31,7 @@ use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::other_tool::{OtherTool, warn_of_other_tool};
-use crate::study_file::Study;
+use crate::study_file::{Criterion, JudgedMachine, Study};
 use crate::workspace::Form;
 use crate::{RunRecord, mistake, number};
 
@@ -124,6 +125,7 @@ impl AnalysisSweep<'_> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let spec = &named_as_one(&machine.spec);
         let mut budget = self.budget.finish(data.budget);
+        self.refine_worst_case(&mut budget)?;
         if let Some((errors, first)) = data.calibration.zip(self.first_part()) {
             errors.replace_parts(&mut budget, first);
         }
@@ -141,6 +143,7 @@ impl AnalysisSweep<'_> {
         let stated = compensated.as_ref().filter(|(basis, _)| *basis == CompensationBasis::Stated);
         let compensation = stated.map(|(_, swept)| RemainingErrors::new(swept));
         let verdicts = self.verdicts(&budget, &sites, compensated)?;
+        let [judged, turned_judged] = self.shares(&budget, verdicts.as_ref())?;
         let uncertainty = self.uncertainty(&budget, &sites, (spec, Measurand::Position))?;
         let turned = self.uncertainty(&budget, &sites, (spec, Measurand::Orientation))?;
         let monte_carlo = self.draw_errors(&budget, &sites, notes)?;
@@ -161,7 +164,13 @@ impl AnalysisSweep<'_> {
             position_tolerance: tolerance,
             verdicts,
             uncertainty,
-            orientation: OrientationReport::new(&budget, spec, &sites, study.orientation_tolerance, turned),
+            orientation: OrientationReport::new(
+                &budget,
+                spec,
+                &sites,
+                (study.orientation_tolerance, &turned_judged),
+                turned,
+            ),
             comparisons: Comparison::all(&study.published, &sources, &budget.combined),
             after_compensation: study.compensated.as_ref().map(|left| AfterCompensation::new(left, &budget)),
             first_order,
@@ -169,9 +178,10 @@ impl AnalysisSweep<'_> {
             certified,
             unreachable_reasons: unreachable::unreachable_reasons(&budget.unreachable, spec),
             not_reproducible: study.not_reproducible.clone(),
-            ledger: Ledger::new(&budget, &sources, tolerance),
-            allowance: tolerance
-                .map(|tolerance| ErrorAllowance::new(&budget, spec, Measurand::Position, tolerance)),
+            ledger: Ledger::new(&budget, &sources, tolerance, &judged),
+            allowance: tolerance.map(|tolerance| {
+                ErrorAllowance::new(&budget, spec, &judged, (Measurand::Position, tolerance))
+            }),
             compensation,
             monte_carlo,
             extrapolated: None,
@@ -220,24 +230,68 @@ impl AnalysisSweep<'_> {
         Ok(Some((basis, swept.map_err(|refused| self.not_evaluated(&refused))?)))
     }
 
+    /// Returns the distribution of the error at a configuration.
+    fn distribution(
+        &self,
+        index: Option<usize>,
+        measurand: Measurand,
+        correction: Option<Correction<'_>>,
+    ) -> Result<ErrorDistribution, Diagnostics> {
+        let errors = self.at(index, |configuration| errors_at(self.manipulator, configuration))?;
+        Ok(errors.distribution(measurand, correction))
+    }
+
+    /// Determines the worst case over all signs exactly where the sweep has found it.
+    fn refine_worst_case(&self, budget: &mut Budget) -> Result<(), Diagnostics> {
+        for measurand in Measurand::ALL {
+            let index = budget.errors(measurand).1.worst_case_radius.configuration;
+            let exact = self.distribution(index, measurand, None)?.worst_case().norm;
+            let combined = match measurand {
+                Measurand::Position => &mut budget.combined,
+                Measurand::Orientation => &mut budget.orientation.combined,
+            };
+            let worst = &mut combined.worst_case_radius.value;
+            *worst = if index.is_some() { worst.max(exact) } else { 0.0 };
+            combined.worst_case_bound = combined.worst_case_bound.max(*worst);
+        }
+        Ok(())
+    }
+
+    /// Returns the shares of the sources in the judged errors of position and orientation, where
+    /// they were judged; where the error is largest without a tolerance.
+    fn shares(&self, budget: &Budget, verdicts: Option<&Verdicts>) -> Result<[JudgedShares; 2], Diagnostics> {
+        let by_worst_case = self.study.criterion == Criterion::WorstCase;
+        let correction = self
+            .correction()
+            .filter(|_| verdicts.is_some_and(|verdicts| verdicts.machine == JudgedMachine::Compensated));
+        let correction = correction.as_ref();
+        let correction =
+            correction.map(|(_, residuals, together)| Correction { residuals, together: *together });
+        let of = |measurand: Measurand| {
+            let (sources, combined) = budget.errors(measurand);
+            let largest = if by_worst_case { combined.worst_case_radius } else { combined.radius };
+            let judged = verdicts.and_then(|verdicts| verdicts.all().find(|one| one.measurand == measurand));
+            let index = judged.map_or(largest.configuration, |verdict| verdict.configuration);
+            let distribution = self.distribution(index, measurand, correction)?;
+            Ok(JudgedShares::new(&distribution, by_worst_case, largest.value, sources.len()))
+        };
+        Ok([of(Measurand::Position)?, of(Measurand::Orientation)?])
+    }
+
     fn verdicts(
         &self,
         budget: &Budget,
         sites: &ErrorSites,
         compensated: Option<(CompensationBasis, CompensatedErrors)>,
     ) -> Result<Option<Verdicts>, Diagnostics> {
-        let Study { tolerance, orientation_tolerance, probability, .. } = *self.study;
+        let Study { tolerance, orientation_tolerance, .. } = *self.study;
         let reach = [budget.configurations, budget.unreachable.count];
-        let distribution = |index, measurand, correction: Option<Correction<'_>>| {
-            let errors = self.at(index, |configuration| errors_at(self.manipulator, configuration))?;
-            Ok::<_, Diagnostics>(errors.distribution(measurand, correction))
-        };
         let as_built = |measurand, tolerance: Option<f64>| {
             let verdict = tolerance.map(|tolerance| {
                 let errors = JudgedErrors::as_built(budget, measurand, tolerance, |index| {
-                    distribution(index, measurand, None)
+                    self.distribution(index, measurand, None)
                 })?;
-                Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, (tolerance, probability)))
+                Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, self.study))
             });
             verdict.transpose()
         };
@@ -255,15 +309,17 @@ impl AnalysisSweep<'_> {
                         let candidates = extremes
                             .candidates()
                             .into_iter()
-                            .map(|index| Ok((index, distribution(index, measurand, Some(correction))?)));
+                            .map(|index| Ok((index, self.distribution(index, measurand, Some(correction))?)));
                         let errors = JudgedErrors {
                             measurand,
                             radius: extremes.radius,
+                            worst_case: extremes.worst_case,
+                            worst_case_bound: extremes.worst_case.value,
                             // Certain only if no configuration was left out.
-                            largest: extremes.largest.filter(|_| is_all),
+                            is_bounded: extremes.is_bounded && is_all,
                             candidates: candidates.collect::<Result<_, Diagnostics>>()?,
                         };
-                        Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, (tolerance, probability)))
+                        Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, self.study))
                     });
                     verdict.transpose()
                 };

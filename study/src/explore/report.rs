@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::Residuals;
 use crate::analyze::Analyze;
-use crate::calibration::{is_calibration_error, named_as_one};
+use crate::calibration::named_as_one;
 use crate::jacobian::column_names;
 use crate::machine::followed_source;
 use crate::number;
@@ -313,7 +313,7 @@ fn sources(spec: &Arc<Spec>, tunable: &Spec) -> Vec<LiveSource> {
             description: one.description.clone(),
         }
     };
-    let first_part = spec.sources.iter().position(is_calibration_error);
+    let first_part = spec.sources.iter().position(abbe_spec::Source::is_calibration_error);
     let count = first_part.map_or(spec.sources.len(), |first| first + 1);
     spec.sources.iter().enumerate().take(count).map(source).collect()
 }

@@ -40,6 +40,26 @@ pub enum JudgedMachine {
 pub(super) const MACHINES: [(&str, JudgedMachine); 2] =
     [("as-built", JudgedMachine::AsBuilt), ("compensated", JudgedMachine::Compensated)];
 
+/// Criterion by which a study judges a machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Criterion {
+    /// The largest error over all signs is within the tolerance.
+    WorstCase,
+    /// The norm of the repeatable errors + the root sum of squares of the others is within it: a
+    /// convention, not a bound.
+    #[serde(rename = "rss")]
+    RootSumOfSquares,
+    /// The error is within it with the required probability.
+    Probability,
+}
+
+pub(super) const CRITERIA: [(&str, Criterion); 3] = [
+    ("worst-case", Criterion::WorstCase),
+    ("rss", Criterion::RootSumOfSquares),
+    ("probability", Criterion::Probability),
+];
+
 /// Metric of a published figure of a single source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {

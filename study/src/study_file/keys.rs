@@ -3,7 +3,7 @@
 use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Open, Table, Tables, Text};
 use abbe_spec::keys::{Keys, Rule, Then, When, words};
 
-use super::choices::{CombinedFigure, KINDS, Kind, MACHINES, MEASURANDS, Metric, UP_AXES};
+use super::choices::{CRITERIA, CombinedFigure, KINDS, Kind, MACHINES, MEASURANDS, Metric, UP_AXES};
 
 const TEXT: Value = Text("text");
 const NUMBER: Value = Number("number");
@@ -25,6 +25,8 @@ abbe_spec::tables! {
         "description": TEXT, "-", "empty", "Description of the study, for people";
         "reference": TEXT, "-", "empty", "Origin of the numbers";
         "publisher": TEXT, "-", "empty", "Author of the published figures";
+        "criterion": Choice(|| words(&CRITERIA)), "-", "`\"worst-case\"`; `\"probability\"` if the tolerance has one",
+            "Criterion of the verdict: the largest error over all signs; the paper's sum, a convention and no bound; or the probability";
         "tolerance": Either("number, positive; or a table", &[POSITIVE, Table("[study.tolerance]")]), "length unit", "none",
             "Permitted position error of the tool point; a table also limits the orientation error";
         "set": Names("table of `NAME = number`", &NUMBER), "as the spec's", "the spec's values", "Values of parameters and inputs";
@@ -35,8 +37,8 @@ abbe_spec::tables! {
     TOLERANCE: ["[study.tolerance]"], [
         "position": POSITIVE, "length unit", "none", "Permitted position error of the tool point";
         "orientation": POSITIVE, "rad", "none", "Permitted norm of rows 4 to 6";
-        "probability": Number("number between 0 and 1"), "1", "`0.95`",
-            "Probability with which the tolerance must be met in every configuration";
+        "probability": Number("number between 0 and 1"), "1", "`0.95`, if it is the criterion",
+            "Probability with which the tolerance must be met in every configuration; makes it the criterion";
         "unreachable": Number("share between 0 and 1"), "1", "`0`",
             "Share of the configurations that may be unreachable: with more of them the tolerance is not met";
         "machine": Choice(|| words(&MACHINES)), "-", "`\"compensated\"` if the study has `[compensation]`, else `\"as-built\"`",

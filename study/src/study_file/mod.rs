@@ -16,7 +16,7 @@ mod read;
 mod study;
 mod tolerance;
 
-pub use choices::{CombinedFigure, JudgedMachine, Metric};
+pub use choices::{CombinedFigure, Criterion, JudgedMachine, Metric};
 pub use compensation::Compensated;
 pub(crate) use figure::UP;
 pub use figure::{Content, Figure, Over};

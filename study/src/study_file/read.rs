@@ -10,12 +10,12 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Symbol;
 use sha2::{Digest, Sha256};
 
-use super::choices::JudgedMachine;
+use super::choices::{CRITERIA, Criterion, JudgedMachine};
 use super::compensation;
 use super::figure::read_figures;
 use super::keys;
 use super::published::{read_compensated, read_published};
-use super::study::Study;
+use super::study::{PROBABILITY, Study};
 use super::tolerance;
 use crate::changes::{Changes, find_symbol};
 use crate::machine::Machine;
@@ -96,7 +96,8 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         orientation_tolerance: tolerance.orientation,
         unreachable: tolerance.unreachable,
         stated_tolerances: Vec::new(),
-        probability: tolerance.probability,
+        criterion: read_criterion(&head, tolerance.probability, document)?,
+        probability: tolerance.probability.unwrap_or(PROBABILITY),
         judged: tolerance.machine.unwrap_or(default),
         changes: read_changes(&head, document, spec, &moved),
         not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item, document)),
@@ -109,6 +110,20 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         file: Some(name_and_hash(document)),
         files: document.files.clone(),
     })
+}
+
+/// Reads `criterion`, which must agree with a stated probability.
+fn read_criterion(head: &Section<'_>, stated: Option<f64>, document: &mut Document) -> Option<Criterion> {
+    let default = if stated.is_some() { Criterion::Probability } else { Criterion::WorstCase };
+    let Some(item) = head.get("criterion") else { return Some(default) };
+    let criterion = document.choice(&item, &CRITERIA)?;
+    if stated.is_some() && criterion != Criterion::Probability {
+        let mistake =
+            Diagnostic::new(item.span(), "the tolerance has a `probability`, which this criterion ignores");
+        let help = "write criterion = \"probability\", or remove `probability` from the tolerance";
+        return document.fail(mistake.label("another criterion").help(help));
+    }
+    Some(criterion)
 }
 
 /// Returns the file name without its folder, and the SHA-256 of the text.

@@ -5,13 +5,16 @@ use std::path::PathBuf;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::choices::JudgedMachine;
+use super::choices::{Criterion, JudgedMachine};
 use super::compensation::Compensated;
 use super::figure::Figure;
 use super::published::{Published, PublishedResidual};
-use super::tolerance::{self, Tolerance};
+use super::tolerance;
 use crate::changes::Changes;
 use crate::workspace::Region;
+
+/// Probability that is required if a study states none.
+pub(super) const PROBABILITY: f64 = 0.95;
 
 /// Analysis to perform on a manipulator.
 #[derive(Clone, Debug)]
@@ -26,7 +29,9 @@ pub struct Study {
     pub orientation_tolerance: Option<f64>,
     /// Largest share of the configurations that may be unreachable if a tolerance is to be met.
     pub unreachable: f64,
-    /// Probability with which a tolerance must be met.
+    /// Criterion of the verdict.
+    pub criterion: Criterion,
+    /// Probability with which a tolerance must be met, if it is judged by that.
     pub probability: f64,
     /// Machine whose verdict counts.
     pub judged: JudgedMachine,
@@ -111,7 +116,8 @@ impl Study {
             tolerance: None,
             orientation_tolerance: None,
             unreachable: 0.0,
-            probability: Tolerance::default().probability,
+            criterion: Criterion::WorstCase,
+            probability: PROBABILITY,
             judged: JudgedMachine::AsBuilt,
             changes: Changes::default(),
             figures: Figure::defaults(&region),

@@ -12,24 +12,18 @@ use super::keys;
 use crate::workspace::positive_length;
 
 /// Permitted errors of the tool.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Tolerance {
     /// Permitted position error of the tool point, in the length unit.
     pub(super) position: Option<f64>,
     /// Permitted norm of rows 4–6, in rad.
     pub(super) orientation: Option<f64>,
-    /// Probability with which the tolerance must be met; 0.95 by default.
-    pub(super) probability: f64,
+    /// Probability with which the tolerance must be met; `None` if the study does not say.
+    pub(super) probability: Option<f64>,
     /// Largest share of the configurations that may be unreachable; 0 by default.
     pub(super) unreachable: f64,
     /// Machine whose verdict counts; `None` if the study does not say.
     pub(super) machine: Option<JudgedMachine>,
-}
-
-impl Default for Tolerance {
-    fn default() -> Self {
-        Self { position: None, orientation: None, probability: 0.95, unreachable: 0.0, machine: None }
-    }
 }
 
 /// Parses limits given as options: a length limits the position error, an angle the orientation
@@ -108,7 +102,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance
     Some(Tolerance {
         position: position.flatten(),
         orientation: orientation.flatten(),
-        probability: probability.flatten().unwrap_or(Tolerance::default().probability),
+        probability: probability.flatten(),
         unreachable: unreachable.flatten().unwrap_or_default(),
         machine,
     })

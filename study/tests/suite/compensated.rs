@@ -67,10 +67,7 @@ fn stated_share_has_an_unknown_sign() {
     let report = analyzed("\"0.04 mm\"", "[compensation]\ndefault = 0.2\n", "");
     let [built, compensated] = positions(&report);
     let verdicts = report.verdicts.as_ref().unwrap();
-    assert_eq!(
-        (verdicts.machine, verdicts.verdict),
-        (JudgedMachine::Compensated, Verdict::MetWithProbability)
-    );
+    assert_eq!((verdicts.machine, verdicts.verdict), (JudgedMachine::Compensated, Verdict::Met));
     assert_eq!(built.verdict, Verdict::NotMet);
     close(compensated.compliance.probability, PHI_2, 4.0 * compensated.compliance.error);
     close(compensated.u95, 0.02 + 0.01 * Z95, 2e-4);
@@ -167,7 +164,7 @@ fn calibration_leaves_its_covariance() {
     let [built, compensated] = positions(&report);
     let verdicts = report.verdicts.as_ref().unwrap();
     assert_eq!(verdicts.compensated.as_ref().unwrap().basis, CompensationBasis::Identified);
-    assert_eq!(report.verdict(), Some(Verdict::MetWithProbability));
+    assert_eq!(report.verdict(), Some(Verdict::Met));
     close(compensated.compliance.probability, 2.0 * PHI_2 - 1.0, 1e-9);
     close(compensated.u95, 0.0125 * 1.959_963_984_540_054, 1e-9);
     close(built.u95, 0.1 + 0.0125 * Z95, 1e-9);
@@ -331,5 +328,5 @@ fn compensated_positioner_meets_its_tolerance() {
     assert_eq!(report.verdict(), Some(Verdict::NotMet));
     close(built.radius, 5.480, 5e-4);
     close(compensated.radius, 0.349, 5e-4);
-    assert!(compensated.largest.is_some_and(|largest| largest < 0.5) && compensated.u95 < compensated.radius);
+    assert!(compensated.worst_case < 0.5 && compensated.is_bounded && compensated.u95 < compensated.radius);
 }

@@ -1,9 +1,7 @@
 //! Random sources of every kind: first order compared with a million draws on the exact chain.
 
 use abbe::Manipulator;
-use abbe::analysis::{
-    Admissible, BudgetOptions, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo,
-};
+use abbe::analysis::{BudgetOptions, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 
@@ -143,10 +141,6 @@ fn zero_and_one_sided_sources_have_clear_results() {
     // The error is never negative, so half its range is half its maximum.
     assert!((one_sided.half_peak_to_peak.z / one_sided.plain_max.z - 0.5).abs() < 0.01);
     assert_eq!(budget.combined.ellipsoid.configuration, None);
-    let admissible = Admissible::new(&budget, 0.05);
-    assert_eq!(admissible.alone[0], None);
-    assert!((admissible.alone[1].unwrap() - 0.5).abs() < 0.01 && admissible.together == admissible.alone[1]);
-
     let drawn = draws(&spec, 100);
     assert_eq!(drawn.inside_ellipsoid, None);
     assert_eq!((drawn.covariance, drawn.first_order), ([[0.0; 3]; 3], [[0.0; 3]; 3]));

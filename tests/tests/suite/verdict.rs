@@ -82,23 +82,21 @@ fn nothing_is_certified_of_closed_loops() {
     assert!(report.certified.is_none() && stated(&report, "conclusion").contains("Certified: nothing"));
 }
 
-/// One repeatable and four uniform errors of T/5: the equal share that meets the tolerance with
-/// certainty.
+/// One repeatable and four uniform errors of T/5 use up the tolerance in the worst case.
 #[test]
 fn bounded_errors_give_a_certain_verdict() {
     let met = report("uniform", "0.1 mm", "\"0.5001 mm\"");
     assert_eq!(met.verdict(), Some(Verdict::Met));
-    assert_eq!(budget(&met).verdict().unwrap(), "Verdict: met");
-    assert!((verdict(&met).largest.unwrap() - 0.5).abs() < 1e-12);
+    assert_eq!(budget(&met).verdict().unwrap(), "Verdict: met in the worst case");
+    assert!((verdict(&met).worst_case - 0.5).abs() < 1e-12 && verdict(&met).is_bounded);
     assert_eq!(verdict(&met).compliance.probability, 1.0);
-    let allowance = met.allowance.as_ref().unwrap();
-    assert_eq!(allowance.equal_share_probability, 1.0);
-    assert!((allowance.equal_share.unwrap() - 0.10002).abs() < 1e-12);
-    assert!(stated(&met, "conclusion").contains("the tolerance is met for certain"));
+    assert!((met.allowance.as_ref().unwrap().together.unwrap() - 1.0002).abs() < 1e-12);
+    assert_eq!(report("uniform", "0.1 mm", "\"0.4999 mm\"").verdict(), Some(Verdict::NotMet));
 
     // The sum of the extremes exceeds the tolerance, but few draws do.
-    let likely = report("uniform", "0.1 mm", "\"0.4 mm\"");
-    assert_eq!(likely.verdict(), Some(Verdict::MetWithProbability));
+    assert_eq!(report("uniform", "0.1 mm", "\"0.4 mm\"").verdict(), Some(Verdict::NotMet));
+    let likely = report("uniform", "0.1 mm", "{ position = \"0.4 mm\", probability = 0.95 }");
+    assert_eq!(likely.verdict(), Some(Verdict::Met));
     let compliance = verdict(&likely).compliance;
     // The sum S of the uniform errors may reach 0.3 of its 0.4 mm: P(S > 0.3 mm) = (1/2)⁴ / 4! =
     // 1/384.
@@ -116,25 +114,22 @@ fn bounded_errors_give_a_certain_verdict() {
 /// Four normal errors of 0.1 mm are equivalent to one of 0.2 mm, with a mean of 0.1 mm.
 #[test]
 fn normal_errors_have_a_probability() {
-    let report = report("normal", "0.1 mm", "\"0.5 mm\"");
+    let report = report("normal", "0.1 mm", "{ position = \"0.5 mm\", probability = 0.95 }");
     // Φ(2) − Φ(−3).
     let exact = 0.977_249_868_051_820_8 - 0.001_349_898_031_630_094_6;
     let compliance = verdict(&report).compliance;
     assert!(compliance.draws.is_none() && (compliance.probability - exact).abs() < 1e-9);
-    assert_eq!(report.verdict(), Some(Verdict::MetWithProbability));
+    assert_eq!(report.verdict(), Some(Verdict::Met));
     assert_eq!(budget(&report).verdict().unwrap(), "Verdict: met with probability 97.59 %");
-    assert!(verdict(&report).largest.is_none());
+    // At 3 σ.
+    assert!((verdict(&report).worst_case - 1.3).abs() < 1e-12 && !verdict(&report).is_bounded);
     let allowed = stated(&report, "conclusion");
-    // 0.9973⁴, rounded down.
-    assert!(
-        allowed.contains("with a probability of at least 98.92 %") && !allowed.contains("certain"),
-        "{allowed}"
-    );
     // All errors lie on one line: 1.960 σ instead of 2.796 σ.
     assert!(allowed.contains("within ± 0.392 mm on a line"), "{allowed}");
 
     let json = serde_json::to_value(&report).unwrap();
-    assert_eq!(json["verdict"]["verdict"], "met-with-probability");
+    assert_eq!(json["verdict"]["verdict"], "met");
+    assert_eq!(json["verdict"]["criterion"], "probability");
     let uncertainty = &json["uncertainty"];
     let close = |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() - expected).abs() < 1e-6;
     assert!(
@@ -165,9 +160,10 @@ fn orientation_has_a_tolerance_of_its_own() {
     assert_eq!(json["verdict"]["orientation"]["verdict"], "not-met");
     assert!(json["verdict"]["position"].is_null());
     // The permitted scale of each source alone makes its largest error equal to the tolerance.
-    for (alone, errors) in json["orientation"]["budget"]["sources"].as_array().unwrap().iter().zip(0..) {
-        let source = &report.budget.orientation.sources
-            [report.budget.tighten_first_for(Measurand::Orientation)[errors]];
+    for alone in json["orientation"]["budget"]["sources"].as_array().unwrap() {
+        let named = |source: &abbe_study::analyze::SourceReport| alone["name"] == *source.name;
+        let index = report.sources.iter().position(named).unwrap();
+        let source = &report.budget.orientation.sources[index];
         if let Some(scale) = alone["alone"].as_f64() {
             assert!((scale * source.plain_max.norm - 1e-4).abs() < 1e-15);
         }
@@ -456,9 +452,8 @@ fn arm(play: &str, q: Option<Vec<f64>>) -> Report {
 /// Compares U95 with that of every configuration of the workspace by itself.
 #[test]
 fn u95_is_the_largest_of_the_workspace() {
-    for (play, verdict_of_all) in [("normal", Verdict::MetWithProbability), ("uniform", Verdict::Met)] {
+    for play in ["normal", "uniform"] {
         let whole = arm(play, None);
-        assert_eq!(whole.verdict(), Some(verdict_of_all));
         let mut largest = 0.0_f64;
         let limits = [[-100.0, 100.0], [-120.0, 150.0], [-150.0, 150.0_f64]];
         for i in 1..=120 {

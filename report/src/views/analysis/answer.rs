@@ -2,12 +2,12 @@
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{
-    Agreement, CompensationBasis, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict, Verdict,
-    unreachable_summary,
+    Agreement, CompensationBasis, LedgerEntry, MachineVerdicts, NOT_CERTIFIED, Report, ToleranceVerdict,
+    Verdict, unreachable_summary,
 };
 use abbe_study::bound::ErrorBound;
 use abbe_study::number::{self as numbers, error_unit, fixed, percent, steady};
-use abbe_study::study_file::JudgedMachine;
+use abbe_study::study_file::{Criterion, JudgedMachine};
 
 use super::agreement::agreement_text;
 use super::conclusions::{exact, loop_condition, singular_sentence};
@@ -51,20 +51,28 @@ pub(super) fn headline(report: &Report) -> String {
         );
     }
     let least = verdicts.all().min_by(|a, b| a.compliance.probability.total_cmp(&b.compliance.probability));
-    let (verdict, probability) = match (verdicts.verdict, least) {
-        (Verdict::MetWithProbability, Some(least)) => {
-            let required = numbers::at_least(verdicts.probability_required);
-            ("MET", format!(": P {}, {required} required", stated_probability(least)))
+    let met = if verdicts.verdict == Verdict::Met { "MET" } else { "NOT MET" };
+    let by = match (verdicts.probability_required, least) {
+        (Some(required), Some(least)) => {
+            format!(": P {}, {} required", stated_probability(least), numbers::at_least(required))
         }
-        (Verdict::NotMet, _) => ("NOT MET", String::new()),
-        _ => ("MET", String::new()),
+        _ => format!(" {}", by_criterion(verdicts.criterion)),
     };
-    format!("{verdict}{machine}{probability}, tolerance {tolerances} at {at}{other}")
+    format!("{met}{machine}{by}, tolerance {tolerances} at {at}{other}")
+}
+
+/// Names the criterion of a verdict.
+fn by_criterion(criterion: Criterion) -> &'static str {
+    match criterion {
+        Criterion::WorstCase => "in the worst case",
+        Criterion::RootSumOfSquares => "by root sum of squares",
+        Criterion::Probability => "by probability",
+    }
 }
 
 /// Decimals that show the largest error to four digits.
 fn decimals(report: &Report) -> usize {
-    numbers::decimals(error_unit(report.length).0 * steady(report.combined.radii.radius), 4)
+    numbers::decimals(error_unit(report.length).0 * steady(report.judged_error(Measurand::Position).value), 4)
 }
 
 /// The error as built, after compensation, and of the random sources alone.
@@ -99,10 +107,13 @@ fn figures(report: &Report) -> Table {
     };
     let radii = &report.combined.radii;
     let most = norms.and_then(|norms| norms.all_sources());
-    let mut rows = vec![position("as built", radii.radius, position_of(as_built), certified(most))];
+    let built = report.judged_error(Measurand::Position).value;
+    let mut rows = vec![position("as built", built, position_of(as_built), certified(most))];
+    let criterion = report.study.criterion;
+    let is_rss = criterion == Criterion::RootSumOfSquares;
     if let Some(verdict) = compensated.and_then(|verdicts| verdicts.position.as_ref()) {
         let probability = position_of(compensated);
-        rows.push(position("compensated", verdict.radius, probability, basis(report)));
+        rows.push(position("compensated", verdict.judged_error(criterion), probability, basis(report)));
     } else if let Some(left) = &report.compensation {
         rows.push(position("compensated", left.total, Default::default(), String::new()));
     } else if let Some(left) = &report.after_compensation {
@@ -112,10 +123,12 @@ fn figures(report: &Report) -> Table {
     let is_mixed = radii.random_radius > 0.0 && radii.repeatable_radius > 0.0;
     if is_mixed {
         let most = norms.and_then(|norms| norms.random.as_ref());
-        rows.push(position("random only", radii.random_radius, Default::default(), certified(most)));
+        let most = certified(most);
+        let note = if is_rss || most.is_empty() { most } else { format!("rss; {most}") };
+        rows.push(position("random only", radii.random_radius, Default::default(), note));
     }
     if report.orientation.radii.radius > 0.0 {
-        let value = steady(report.orientation.radii.radius);
+        let value = steady(report.judged_error(Measurand::Orientation).value);
         let share = report.orientation.tolerance.map(|tolerance| percent(value, tolerance));
         let value = format!("{} mrad", numbers::digits(1e3 * value, 4));
         let of = |verdicts: Option<&MachineVerdicts>| {
@@ -125,13 +138,15 @@ fn figures(report: &Report) -> Table {
         let share = share.unwrap_or_default();
         rows.push(["orientation".to_owned(), value, share, probability, u95, String::new()]);
         if let Some(verdict) = compensated.and_then(|verdicts| verdicts.orientation.as_ref()) {
-            let value = format!("{} mrad", numbers::digits(1e3 * verdict.radius, 4));
-            let share = percent(verdict.radius, verdict.tolerance);
+            let left = verdict.judged_error(criterion);
+            let value = format!("{} mrad", numbers::digits(1e3 * left, 4));
+            let share = percent(left, verdict.tolerance);
             let [probability, u95] = of(compensated);
             rows.push(["  compensated".to_owned(), value, share, probability, u95, String::new()]);
         }
     }
-    let columns = [words(""), number(""), number(""), words(""), words(""), words("")];
+    let figure = if is_rss { "rss" } else { "worst case" };
+    let columns = [words(""), number(figure), number(""), words(""), words(""), words("")];
     Table::new("", columns).rows(rows)
 }
 
@@ -145,37 +160,41 @@ fn basis(report: &Report) -> String {
     }
 }
 
-/// Lists the largest sources with their shares of the sum of all norms, and the factor at which
-/// each alone would use up the tolerance; the last row has the factor for all of them together.
+/// Lists the sources with the largest shares of the judged error, and the factor at which each alone
+/// would use up the tolerance as built; the last row has the factor for all of them together.
 fn sources(report: &Report) -> Table {
     let decimals = decimals(report);
-    let all: Vec<(&str, f64)> =
-        report.ledger.sources.iter().map(|entry| (entry.name.as_str(), steady(entry.max))).collect();
+    let mut all: Vec<&LedgerEntry> = report.ledger.sources.iter().collect();
+    let share = |entry: &LedgerEntry| steady(entry.share.unwrap_or_default());
+    all.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let (scale, unit) = error_unit(report.length);
-    let sum: f64 = all.iter().map(|(_, max)| max).sum();
+    // The factors are those of the machine as built.
+    let machine = report.verdicts.as_ref().map(|verdicts| verdicts.machine);
+    let allowance = report.allowance.as_ref().filter(|_| machine != Some(JudgedMachine::Compensated));
     let factor = |name: &str| {
-        let sources = &report.allowance.as_ref()?.sources;
-        let alone = sources.iter().find(|source| source.name == name)?.alone?;
-        Some(times(alone))
+        let sources = &allowance?.sources;
+        sources.iter().find(|source| source.name == name)?.alone.map(times)
     };
-    let row = |name: String, max: f64, factor: Option<String>| {
-        [name, fixed(scale * max, decimals), percent(max, sum), factor.unwrap_or_default()]
+    let row = |entry: &LedgerEntry| {
+        let max = fixed(scale * steady(entry.max), decimals);
+        [entry.name.clone(), max, percent(share(entry), 1.0), factor(&entry.name).unwrap_or_default()]
     };
     let shown = if all.len() <= SHOWN + 1 { all.len() } else { SHOWN };
-    let tighten = if report.allowance.is_some() { "alone up to" } else { "" };
-    let columns = [words("source"), number(format!("max {unit}")), number("share"), number(tighten)];
-    let mut rows = Vec::new();
-    rows.extend(all[..shown].iter().map(|(name, max)| row((*name).to_owned(), *max, factor(name))));
+    let alone = if allowance.is_some() { "alone up to" } else { "" };
+    let columns = [words("source"), number(format!("max {unit}")), number("share"), number(alone)];
+    let mut rows: Vec<[String; 4]> = all[..shown].iter().map(|entry| row(entry)).collect();
     if shown < all.len() {
-        let rest = all[shown..].iter().map(|(_, max)| max).sum();
-        rows.push(row(format!("{} others together", all.len() - shown), rest, None));
+        let rest = all[shown..].iter().map(|entry| share(entry)).sum();
+        let name = format!("{} others together", all.len() - shown);
+        rows.push([name, String::new(), percent(rest, 1.0), String::new()]);
     }
     // The factor of a source holds for it alone.
-    if let Some(together) = report.allowance.as_ref().and_then(|allowance| allowance.together)
+    if let Some(together) = allowance.and_then(|allowance| allowance.together)
         && all.len() > 1
     {
-        let radius = fixed(scale * steady(report.combined.radii.radius), decimals);
-        rows.push(["all, as built".to_owned(), radius, String::new(), times(together)]);
+        let error = report.judged_error(Measurand::Position).value;
+        let error = fixed(scale * steady(error), decimals);
+        rows.push(["all, as built".to_owned(), error, String::new(), times(together)]);
     }
     Table::new("", columns).rows(rows)
 }
@@ -189,7 +208,7 @@ fn times(factor: f64) -> String {
 fn facts(report: &Report) -> Vec<(&'static str, String)> {
     let mut facts = vec![("Study", report.title.clone())];
     facts.extend(changed(&report.changes));
-    if let Some(worst) = report.configuration(report.budget.combined.radius.configuration) {
+    if let Some(worst) = report.configuration(report.judged_error(Measurand::Position).configuration) {
         facts.push(("Worst", place(&report.label(worst))));
     }
     let compensated = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
@@ -206,12 +225,11 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
     if report.certified.as_ref().is_some_and(|certified| certified.random.is_some()) {
         let normal = report.spec.enabled_sources().any(|source| !source.class.is_bounded());
         let normal = if normal { ", normal errors at 3 σ" } else { "" };
-        facts.push((
-            "Certified",
-            format!(
-                "worst case over all signs and the joint box{normal}; other figures: root sum of squares"
-            ),
-        ));
+        let others = match report.study.criterion {
+            Criterion::RootSumOfSquares => "; other figures: root sum of squares",
+            _ => "",
+        };
+        facts.push(("Certified", format!("worst case over all signs and the joint box{normal}{others}")));
     }
     let (factor, unit) = error_unit(report.length);
     let published = &report.comparisons;

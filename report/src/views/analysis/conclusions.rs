@@ -68,18 +68,11 @@ fn share_of_tolerance(report: &Report, value: f64) -> String {
 }
 
 fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
-    let allowance = report.allowance(measurand)?;
-    let how = match allowance.equal_share_probability {
-        1.0 => "for certain".to_owned(),
-        probability => format!("with a probability of at least {}", number::at_least(probability)),
-    };
-    let together = allowance.together?;
+    let together = report.allowance(measurand)?.together?;
     Some(format!(
-        "With all sources × {}, the largest error equals the tolerance of {}; with an equal share \
-         of {} for each source, the tolerance is met {how}.",
+        "With all sources × {}, the judged error as built equals the tolerance of {}.",
         number::rounded_down(together, number::decimals(together, 3)),
         unit::with_symbol(report, measurand, report.tolerance(measurand)?),
-        unit::with_symbol(report, measurand, allowance.equal_share?)
     ))
 }
 

@@ -41,7 +41,7 @@ pub(super) fn ledger(report: &Report) -> Table {
 /// Returns the ledger of orientation errors in mrad, rows 4–6 and their norm; `None` if no source
 /// rotates the tool.
 pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
-    let (errors, combined, _) = report.budget.errors(Measurand::Orientation);
+    let (errors, combined) = report.budget.errors(Measurand::Orientation);
     if combined.worst_case_radius.value == 0.0 {
         return None;
     }
@@ -84,17 +84,17 @@ pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
     Some(Table::listing(&header, rows, numbers))
 }
 
-/// Returns the table of errors that the tolerance allows each source, and of the gain from reducing
-/// it by one percent.
+/// Returns the table of errors that the tolerance allows each source, of its share in the judged
+/// error, and of the gain from reducing it by one percent.
 pub(super) fn allowance_table(report: &Report, measurand: Measurand) -> Option<Table> {
     let (factor, _) = unit::display_unit(report, measurand);
     let times = |scale: Option<f64>| {
         scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
     };
-    let row = |SourceAllowance { name, alone, equal, gain_per_percent }: &SourceAllowance| {
+    let row = |SourceAllowance { name, alone, share, gain_per_percent }: &SourceAllowance| {
         let gain = fixed(factor * gain_per_percent, decimals_of(report, measurand) + 1);
-        vec![name.clone(), times(*alone), times(*equal), gain]
+        vec![name.clone(), times(*alone), percent(*share, 1.0), gain]
     };
     let rows = report.allowance(measurand)?.sources.iter().map(row).collect();
-    Some(Table::listing(&["source", "alone at most", "equal shares", "gain per percent"], rows, 1..4))
+    Some(Table::listing(&["source", "alone at most", "share", "gain per percent"], rows, 1..4))
 }

@@ -12,8 +12,9 @@ mod uncertainty;
 mod verdict;
 
 use abbe::analysis::Measurand;
-use abbe_study::analyze::{self, AfterCompensation, Report, UncertaintyBudget};
+use abbe_study::analyze::{self, Report, UncertaintyBudget};
 use abbe_study::number::{self, percent, trimmed, unbroken};
+use abbe_study::study_file::Criterion;
 
 use conclusions::{conclusions, singular_sentence};
 use summary::summary;
@@ -93,6 +94,11 @@ fn units(figures: &[Figure]) -> Option<String> {
 /// Formats the most important figures.
 fn cards(report: &Report) -> Vec<Card> {
     let (radii, unit) = (&report.combined.radii, report.spec.length.symbol());
+    let built = report.judged_error(Measurand::Position).value;
+    let by = match report.study.criterion {
+        Criterion::RootSumOfSquares => "root sum of squares",
+        _ => "worst case",
+    };
     let decimals = decimals(report).min(4);
     let show = |value| format!("{} {unit}", trimmed(value, decimals));
     let of = |value| {
@@ -100,10 +106,17 @@ fn cards(report: &Report) -> Vec<Card> {
     };
     let card = |name, value, note: Option<String>| Card { name, value, note: note.unwrap_or_default() };
     let mut all = vec![
-        card("Total error radius", show(radii.radius), of(radii.radius)),
+        card(
+            "Largest error as built",
+            show(built),
+            Some([Some(by.to_owned()), of(built)].into_iter().flatten().collect::<Vec<_>>().join(", ")),
+        ),
         card("Random errors only", format!("± {}", show(radii.random_radius)), of(radii.random_radius)),
     ];
-    if let Some(AfterCompensation { total, .. }) = report.after_compensation {
+    let compensated = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
+    let compensated = compensated.and_then(|compensated| compensated.verdicts.position.as_ref());
+    let left = compensated.map(|verdict| verdict.judged_error(report.study.criterion));
+    if let Some(total) = left.or(report.after_compensation.as_ref().map(|left| left.total)) {
         all.push(card("After compensation", format!("± {}", show(total)), of(total)));
     }
     if let Some(tolerance) = report.study.tolerance {
@@ -180,13 +193,14 @@ fn certified(report: &Report, sampled: Option<Figure>) -> Section {
 fn allowance(report: &Report) -> Section {
     let tables = Measurand::ALL.into_iter().filter_map(|measurand| {
         let (_, unit) = unit::display_unit(report, measurand);
-        let caption = format!("Factors that meet the tolerance, most effective source first ({unit})");
+        let caption =
+            format!("Shares of the judged error, largest first, and factors of the sources ({unit})");
         Some(ledger::allowance_table(report, measurand)?.titled(caption))
     });
     let section = tables.fold(Section::full("Error allowance"), Section::table);
-    let about = "Alone at most: factor by which a source may grow if all other errors are zero. Equal shares: \
-                 factor by which it may grow if every source takes an equal share of the tolerance. Gain: \
-                 decrease of the radius per percent decrease of the source; tighten the first source first.";
+    let about = "Alone at most: factor by which a source may grow if all other errors are zero. Share: its part \
+                 of the judged error where that is largest, negative if it counteracts the others. Gain: \
+                 decrease of that error per percent decrease of the source.";
     let about = (!section.blocks.is_empty()).then(|| about.to_owned());
     section.state("allowance", about)
 }

@@ -24,7 +24,7 @@ pub(super) fn conventions(report: &Report) -> Section {
         ("Rows 1–3", format!("the tool point in F_0, {unit}")),
         ("Rows 4–6", rows.to_owned()),
         ("Units", format!("{unit}, rad, kg, s, K; in figures errors in mm or mrad, and joints in degrees")),
-        ("Sources", "repeatable: summed with sign. Random: root sum of squares of bounds (normal: 3σ, all others: the value)".to_owned()),
+        ("Sources", "repeatable: summed with sign. Tolerances and random ones at their bounds (normal: 3σ, all others: the value), with the signs that make the worst case, or as a root sum of squares".to_owned()),
     ];
     Section::page("Conventions").facts(facts.into())
 }

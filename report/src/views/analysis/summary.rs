@@ -3,6 +3,7 @@
 use super::conclusions::show;
 use abbe_study::analyze::{Ledger, LedgerEntry, Report};
 use abbe_study::number::{self, percent, unbroken};
+use abbe_study::study_file::Criterion;
 
 /// Number of sources that are named.
 const NAMED: usize = 3;
@@ -10,7 +11,11 @@ const NAMED: usize = 3;
 /// Returns sentences on the largest combined error and the sources that cause most of it; empty
 /// if there is no error.
 pub(super) fn summary(report: &Report) -> Vec<String> {
-    let Ledger { sources, sums: [.., all, _] } = &report.ledger;
+    let Ledger { sources, sums: [.., by_squares, worst_case] } = &report.ledger;
+    let all = match report.study.criterion {
+        Criterion::RootSumOfSquares => by_squares,
+        Criterion::WorstCase | Criterion::Probability => worst_case,
+    };
     if sources.is_empty() || all.max == 0.0 {
         return Vec::new();
     }
@@ -22,9 +27,10 @@ pub(super) fn summary(report: &Report) -> Vec<String> {
         ),
         None => String::new(),
     };
-    let bounds = match report.combined.radii.random_radius {
-        0.0 => "",
-        _ => ", random sources at their bounds",
+    let bounds = match (report.combined.radii.random_radius, report.study.criterion) {
+        (0.0, _) => "",
+        (_, Criterion::RootSumOfSquares) => ", random sources at their bounds by root sum of squares",
+        _ => " over all signs",
     };
     let together =
         format!("Largest error{bounds}: {}{share}{}.", show(report, all.max), location(report, all));

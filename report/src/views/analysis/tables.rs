@@ -47,7 +47,7 @@ pub(super) fn combined(report: &Report) -> Table {
     let all = &report.combined;
     for (name, axes, norm) in [
         ("random: standard deviation", all.standard_deviation, all.standard_radius),
-        ("worst case: sum of absolute values", all.worst_case, all.worst_case_radius),
+        ("worst case over all signs", all.worst_case, all.worst_case_radius),
     ] {
         let [x, y, z] = axes.map(Some);
         rows.extend(lines(report, name, [x, y, z, Some(norm)], None, tolerance));

@@ -69,7 +69,7 @@ pub(super) fn uncertainty_totals(report: &Report, budget: &UncertaintyBudget) ->
 /// Returns sentences on what the budget covers.
 pub(super) fn uncertainty_sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
     let UncertaintyBudget { measurand, coverage, .. } = budget;
-    let (_, combined, _) = report.budget.errors(*measurand);
+    let (_, combined) = report.budget.errors(*measurand);
     let estimated = budget.is_estimated();
     let show = |value| unit::with_symbol(report, *measurand, value);
     let at = report

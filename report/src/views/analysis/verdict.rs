@@ -8,7 +8,7 @@ use abbe_study::analyze::{
     CompensatedVerdicts, CompensationBasis, MachineVerdicts, Report, ToleranceVerdict, Verdict,
 };
 use abbe_study::number;
-use abbe_study::study_file::JudgedMachine;
+use abbe_study::study_file::{Criterion, JudgedMachine};
 
 /// Returns the verdict in one line, such as `Verdict: not met`; `None` if the study has no
 /// tolerance.
@@ -19,8 +19,11 @@ pub(super) fn verdict_line(report: &Report) -> Option<String> {
         .map(|verdict| verdict.compliance)
         .min_by(|a, b| a.probability.total_cmp(&b.probability));
     Some(match verdicts.verdict {
-        Verdict::Met => "Verdict: met".to_owned(),
-        Verdict::MetWithProbability => format!("Verdict: met with probability {}", probability(least?)),
+        Verdict::Met => match verdicts.criterion {
+            Criterion::WorstCase => "Verdict: met in the worst case".to_owned(),
+            Criterion::RootSumOfSquares => "Verdict: met by root sum of squares".to_owned(),
+            Criterion::Probability => format!("Verdict: met with probability {}", probability(least?)),
+        },
         Verdict::NotMet => "Verdict: not met".to_owned(),
     })
 }
@@ -86,19 +89,31 @@ fn tolerance_sentence(
         true => format!(" {}", singular_sentence(report)),
         false => String::new(),
     };
-    if let (Verdict::Met, Some(largest)) = (verdict.verdict, verdict.largest) {
-        return format!(
-            "{name}: met. All random sources are bounded, and with {}, the \
-             error is at most {} of {tolerance} at each of the {} configurations, to first \
-             order.{left_out}",
-            compensated.map_or("the repeatable ones", |_| repeatable),
-            show(largest),
-            compensated.map_or(all, |compensated| compensated.checked),
-        );
-    }
     let at = report.configuration(verdict.configuration);
     let at = at.map(|worst| number::unbroken(&report.label(worst))).unwrap_or_default();
     let all = compensated.map_or(all, |compensated| compensated.checked);
+    let met = if verdict.verdict == Verdict::NotMet { "not met" } else { "met" };
+    let normal = if verdict.is_bounded { "" } else { ", normal ones at 3 σ" };
+    let judged = |what: &str, error: f64| {
+        format!(
+            "{name}: {met}. {what} {} of {tolerance}, at {at}, of {all} configurations. To first order, \
+             with {repeatable}{normal}. The probability of keeping the tolerance is {} where it is least. \
+             {contains}{left_out}",
+            show(error),
+            probability(verdict.compliance)
+        )
+    };
+    match report.study.criterion {
+        Criterion::WorstCase => {
+            return judged("Over all signs, errors at their bounds add up to", verdict.worst_case);
+        }
+        Criterion::RootSumOfSquares => {
+            let what = "By convention, not as a bound, the sum of the repeatable errors and the root sum of \
+                        squares of the bounds of the others are";
+            return judged(what, verdict.radius);
+        }
+        Criterion::Probability => {}
+    }
     let least = match verdict.configurations {
         1 if all == 1 => "the only configuration".to_owned(),
         some if some < all => {
@@ -118,7 +133,6 @@ fn tolerance_sentence(
     };
     let required = number::at_least(report.study.probability);
     let enough = format!("{required} is required");
-    let met = if verdict.verdict == Verdict::NotMet { "not met" } else { "met" };
     format!(
         "{name}: {met}. The error is within {tolerance} with probability {}; {enough}. This \
          is {least}, at {at}. To first order, {repeatable}, {how}. {contains}{left_out}",

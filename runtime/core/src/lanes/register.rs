@@ -197,9 +197,9 @@ impl<R: Register> Lanes<R> {
         self.zip(x, Scalar::atan2)
     }
 
-    /// Returns the value with the sign of another one added to its own, which is positive.
+    /// Returns the value which is not negative, with the sign of another one.
     #[inline(always)]
-    pub(super) fn with_sign_of(self, other: Self) -> Self {
+    pub fn with_sign_of(self, other: Self) -> Self {
         Self(R::or(self.0, R::and(other.0, R::splat(-0.0))))
     }
 

@@ -50,9 +50,10 @@ pub struct CombinedReport {
     pub standard_deviation: [f64; 3],
     /// Largest standard deviation of the position, √(trace of the covariance).
     pub standard_radius: f64,
-    /// Largest sums of absolute values of all sources along x, y, z.
+    /// Largest errors along x, y, z over all signs: repeatable sources at their values, the others
+    /// at their bounds.
     pub worst_case: [f64; 3],
-    /// Largest sum of the norms of all sources.
+    /// Largest norm over all signs.
     pub worst_case_radius: f64,
     /// Longest of the 95 % ellipsoids.
     pub ellipsoid: LongestEllipsoid,

@@ -3,6 +3,7 @@
 use abbe::analysis::{Budget, Extreme};
 use serde::Serialize;
 
+use super::error_allowance::JudgedShares;
 use super::source_report::SourceReport;
 use crate::number;
 
@@ -28,6 +29,10 @@ pub struct LedgerEntry {
     /// Largest norm as a share of the tolerance; `None` without a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share_of_tolerance: Option<f64>,
+    /// Share of the source in the judged error at the configuration of the verdict; negative if it
+    /// counteracts the others, `None` for sums.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
     /// Class of the source; `None` for sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub class: Option<&'static str>,
@@ -41,21 +46,29 @@ pub struct LedgerEntry {
 
 impl Ledger {
     /// Creates the ledger of a budget.
-    pub(in crate::analyze) fn new(budget: &Budget, sources: &[SourceReport], tolerance: Option<f64>) -> Self {
+    pub(in crate::analyze) fn new(
+        budget: &Budget,
+        sources: &[SourceReport],
+        tolerance: Option<f64>,
+        judged: &JudgedShares,
+    ) -> Self {
         let entry = |name: &str, largest: Extreme, rms| LedgerEntry {
             name: name.to_owned(),
             max: largest.value,
             rms,
             share_of_tolerance: tolerance.map(|tolerance| largest.value / tolerance),
+            share: None,
             class: None,
             rank: None,
             configuration: largest.configuration,
         };
         let ranked = sources.iter().zip(&budget.sources).zip(budget.ranks());
-        let ranked = ranked.map(|((source, errors), rank)| {
+        let ranked = ranked.zip(&judged.shares).map(|(((source, errors), rank), share)| {
             let largest = Extreme { value: errors.plain_max.norm, configuration: errors.worst };
             let (class, _) = number::class(errors.class);
             LedgerEntry {
+                // Avoids −0.
+                share: Some(share + 0.0),
                 class: Some(class),
                 rank: Some(rank),
                 ..entry(&source.name, largest, Some(errors.rms))
@@ -71,7 +84,7 @@ impl Ledger {
                 entry("repeatable, with signs", combined.repeatable_radius, repeatable),
                 entry("random, root sum of squares", combined.random_radius, random),
                 entry("all together", combined.radius, both),
-                entry("worst case, all norms added", combined.worst_case_radius, None),
+                entry("worst case over all signs", combined.worst_case_radius, None),
             ],
         }
     }

@@ -20,13 +20,14 @@ mod uncertainty_budget;
 
 use std::sync::Arc;
 
-use abbe::analysis::{Budget, Configuration, Measurand};
+use abbe::analysis::{Budget, Configuration, Extreme, Measurand};
 use abbe_spec::Spec;
 use abbe_spec::option::NamedOption;
 use serde::Serialize;
 
 pub use combined::{CombinedReport, LongestEllipsoid, Radii, RootMeanSquares};
 pub use comparison::{Agreement, Comparison};
+pub(super) use error_allowance::JudgedShares;
 pub use error_allowance::{ErrorAllowance, SourceAllowance};
 pub(super) use error_sites::ErrorSites;
 pub use ledger::{Ledger, LedgerEntry};
@@ -47,7 +48,7 @@ use super::first_order::FirstOrder;
 use super::loop_condition::LoopCondition;
 use super::unreachable::UnreachableReason;
 use crate::bound::CertifiedNorms;
-use crate::study_file::{CombinedFigure, PublishedResidual, Study, Subject};
+use crate::study_file::{CombinedFigure, Criterion, PublishedResidual, Study, Subject};
 use crate::{Extrapolation, OtherTool, RunRecord, number};
 
 /// Errors of the sources over a workspace. Lengths are in the spec's unit, along the axes of `F_0`;
@@ -200,6 +201,16 @@ impl Report {
         match measurand {
             Measurand::Position => self.position_tolerance,
             Measurand::Orientation => self.orientation.tolerance,
+        }
+    }
+
+    /// Returns the largest error of the machine as built, over the workspace, that the criterion of
+    /// the study compares with a tolerance; the worst case if that is a probability.
+    pub fn judged_error(&self, measurand: Measurand) -> Extreme {
+        let combined = self.budget.errors(measurand).1;
+        match self.study.criterion {
+            Criterion::RootSumOfSquares => combined.radius,
+            Criterion::WorstCase | Criterion::Probability => combined.worst_case_radius,
         }
     }
 

@@ -6,7 +6,7 @@ use abbe_spec::Spec;
 use serde::Serialize;
 
 use super::combined::Radii;
-use super::error_allowance::ErrorAllowance;
+use super::error_allowance::{ErrorAllowance, JudgedShares};
 use super::error_sites::ErrorSites;
 use super::uncertainty_budget::UncertaintyBudget;
 use crate::number::Named;
@@ -24,6 +24,8 @@ pub struct OrientationReport {
     /// Combined errors, as the paper adds them.
     #[serde(flatten)]
     pub radii: Radii,
+    /// Largest norm over all signs.
+    pub worst_case_radius: f64,
     /// Largest standard deviations, row by row.
     pub standard_deviation: [f64; 3],
     /// Largest standard deviation of the norm.
@@ -65,10 +67,10 @@ impl OrientationReport {
         budget: &Budget,
         spec: &Spec,
         sites: &ErrorSites,
-        tolerance: Option<f64>,
+        (tolerance, judged): (Option<f64>, &JudgedShares),
         uncertainty: Option<UncertaintyBudget>,
     ) -> Self {
-        let (sources, combined, _) = budget.errors(Measurand::Orientation);
+        let (sources, combined) = budget.errors(Measurand::Orientation);
         let sources = spec.enabled_sources().zip(sources).map(|(source, errors)| {
             let &SourceErrors { plain_max, half_peak_to_peak, relative_to_home, rms, worst, .. } = errors;
             let (name, worst) = (source.name.clone(), sites.variables(worst));
@@ -84,12 +86,14 @@ impl OrientationReport {
             configurations: budget.orientation.configurations,
             sources: sources.collect(),
             radii: combined.into(),
+            worst_case_radius: combined.worst_case_radius.value,
             standard_deviation: combined.standard_deviation,
             standard_radius: combined.standard_radius.value,
             worst: sites.variables(combined.radius.configuration),
             tolerance,
-            allowance: tolerance
-                .map(|tolerance| ErrorAllowance::new(budget, spec, Measurand::Orientation, tolerance)),
+            allowance: tolerance.map(|tolerance| {
+                ErrorAllowance::new(budget, spec, judged, (Measurand::Orientation, tolerance))
+            }),
             uncertainty,
         }
     }

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::error_sites::ErrorSites;
 use crate::number::Named;
-use crate::study_file::{JudgedMachine, Study};
+use crate::study_file::{Criterion, JudgedMachine, Study};
 
 /// Fixed seed of the draws for verdicts and uncertainty budgets, which stand in for integrals.
 pub(in crate::analyze) const SEED: u64 = 0;
@@ -17,8 +17,11 @@ pub struct Verdicts {
     pub verdict: Verdict,
     /// Machine whose verdict counts: `as-built` or `compensated`.
     pub machine: JudgedMachine,
-    /// Required probability of meeting each tolerance.
-    pub probability_required: f64,
+    /// Criterion of the verdict: `worst-case`, `rss` or `probability`.
+    pub criterion: Criterion,
+    /// Required probability of meeting each tolerance, if that is the criterion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub probability_required: Option<f64>,
     /// Number of unreachable configurations, if they are more than the study permits: the tolerance
     /// is then not met.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -90,8 +93,9 @@ impl Verdicts {
         let permitted = study.unreachable * (reached + unreachable) as f64;
         let unreachable = Some(unreachable).filter(|count| *count as f64 > permitted);
         let verdict = unreachable.map_or(verdict, |_| Verdict::NotMet);
-        let probability_required = study.probability;
-        Some(Self { verdict, machine, probability_required, unreachable, as_built, compensated })
+        let criterion = study.criterion;
+        let probability_required = (criterion == Criterion::Probability).then_some(study.probability);
+        Some(Self { verdict, machine, criterion, probability_required, unreachable, as_built, compensated })
     }
 
     /// Iterates over the verdicts on the machine that counts, position first.
@@ -104,19 +108,18 @@ impl Verdicts {
     }
 }
 
-/// Result of comparing an error with its tolerance.
+/// Result of comparing an error with its tolerance, by the criterion of the study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// Certainly met: all random sources are bounded, and to first order no draw exceeds the
-    /// tolerance at any configuration of the workspace.
+    /// Met at each evaluated configuration.
     Met,
-    /// Met with at least the required probability at each evaluated configuration.
-    MetWithProbability,
-    /// Met with less than the required probability at some configuration, or too many
-    /// configurations are unreachable.
+    /// Not met at some configuration, or too many configurations are unreachable.
     NotMet,
 }
+
+/// Relative room for rounding when an error is compared with a tolerance.
+const ROUNDING: f64 = 1e-9;
 
 /// Largest number of configurations at which the probability is estimated by draws. If all sources
 /// are normal it is an integral, which is evaluated at all configurations that the budget lists.
@@ -124,8 +127,9 @@ const DRAWN: usize = 4;
 
 /// Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 ///
-/// The probability is the smallest over the evaluated configurations: the one with the largest
-/// radius (norm of the repeatable errors + norm of the random bounds), those that an approximation
+/// One criterion decides: the largest error over all signs, the radius, or the probability. The
+/// probability is the smallest over the evaluated configurations: the one with the largest radius
+/// (norm of the repeatable errors + norm of the random bounds), those that an approximation
 /// ranks least likely to meet the tolerance, and the one where it has the largest error at 95 %. To
 /// first order; random sources are distributed. Repeatable sources have their nominal values. On
 /// the compensated machine they are replaced by residuals with their full norm, of unknown sign or
@@ -148,11 +152,13 @@ pub struct ToleranceVerdict {
     /// Norm that contains the error with a probability of 95 %, the largest over the evaluated
     /// configurations.
     pub u95: f64,
-    /// Largest possible error over the workspace: the norm of the repeatable errors + the norms of
-    /// all random bounds. `None` if a random source is unbounded.
-    pub largest: Option<f64>,
-    /// Configuration with that probability. If the tolerance is certainly met, the configuration
-    /// with the largest radius.
+    /// Largest error over all signs and the configurations: repeatable errors at their values, all
+    /// others at their bounds, normal ones at 3σ.
+    pub worst_case: f64,
+    /// Whether no draw exceeds the worst case: no source is normal.
+    pub is_bounded: bool,
+    /// Configuration with the largest worst case or radius, or the smallest probability, whichever
+    /// is the criterion.
     pub at: Named,
     /// Number of configurations at which the probability was evaluated.
     pub configurations: usize,
@@ -166,8 +172,11 @@ pub(in crate::analyze) struct JudgedErrors {
     pub(in crate::analyze) measurand: Measurand,
     /// Largest radius.
     pub(in crate::analyze) radius: Extreme,
-    /// Largest possible error; `None` if it is not bounded.
-    pub(in crate::analyze) largest: Option<f64>,
+    /// Largest error over all signs, and an upper bound of it.
+    pub(in crate::analyze) worst_case: Extreme,
+    pub(in crate::analyze) worst_case_bound: f64,
+    /// Whether no draw exceeds it.
+    pub(in crate::analyze) is_bounded: bool,
     /// Distributions at some configurations: first the one with the largest radius, then the most
     /// likely to be worst.
     pub(in crate::analyze) candidates: Vec<(Option<usize>, ErrorDistribution)>,
@@ -195,8 +204,9 @@ impl JudgedErrors {
         tolerance: f64,
         distribution: impl Fn(Option<usize>) -> Result<ErrorDistribution, E>,
     ) -> Result<Self, E> {
-        let (sources, combined, _) = budget.errors(measurand);
-        let bounded = sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
+        let (sources, combined) = budget.errors(measurand);
+        let is_bounded =
+            sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
         let radius = combined.radius;
         let listed = budget.least_likely_for(measurand).iter().map(|index| Some(*index));
         let mut candidates = Vec::new();
@@ -220,50 +230,66 @@ impl JudgedErrors {
         Ok(Self {
             measurand,
             radius,
-            largest: bounded.then_some(combined.bounded_radius.value),
+            worst_case: combined.worst_case_radius,
+            worst_case_bound: combined.worst_case_bound,
+            is_bounded,
             candidates: candidates.into_iter().map(|one| (one.index, one.error)).collect(),
         })
     }
 }
 
 impl ToleranceVerdict {
-    /// Compares errors with a tolerance and a required probability.
+    /// Compares errors with a tolerance, by the criterion of a study.
     pub(in crate::analyze) fn new(
         errors: JudgedErrors,
         sites: &ErrorSites,
-        (tolerance, probability): (f64, f64),
+        tolerance: f64,
+        study: &Study,
     ) -> Self {
-        let JudgedErrors { measurand, radius, largest, mut candidates } = errors;
-        let certain = largest.is_some_and(|largest| largest <= tolerance);
+        let JudgedErrors { measurand, radius, worst_case, worst_case_bound, is_bounded, mut candidates } =
+            errors;
+        let limit = tolerance * (1.0 + ROUNDING);
+        let is_always_met = worst_case_bound <= limit;
+        let certain = is_bounded && is_always_met;
         if candidates.iter().any(|(_, error)| !error.is_normal()) {
             candidates.truncate(DRAWN);
         }
         let configurations = if certain { 0 } else { candidates.len() };
         let mut compliance = Compliance { probability: 1.0, error: 0.0, draws: None };
-        let (mut configuration, mut u95) = (radius.configuration, 0.0_f64);
+        let (mut least_likely, mut u95) = (radius.configuration, 0.0_f64);
         for (n, (index, error)) in candidates.iter().enumerate() {
             let (here, quantile) = error.coverage(tolerance, SEED);
             u95 = u95.max(quantile);
             if !certain && (n == 0 || here.probability < compliance.probability) {
-                (compliance, configuration) = (here, *index);
+                (compliance, least_likely) = (here, *index);
             }
         }
-        let verdict = match compliance.probability >= probability {
-            _ if certain => Verdict::Met,
-            true => Verdict::MetWithProbability,
-            false => Verdict::NotMet,
+        let (is_met, configuration) = match study.criterion {
+            Criterion::WorstCase => (is_always_met, worst_case.configuration),
+            Criterion::RootSumOfSquares => (radius.value <= limit, radius.configuration),
+            Criterion::Probability => (compliance.probability >= study.probability, least_likely),
         };
         Self {
             measurand,
-            verdict,
+            verdict: if is_met { Verdict::Met } else { Verdict::NotMet },
             tolerance,
             radius: radius.value,
             compliance,
             u95,
-            largest,
+            worst_case: worst_case.value,
+            is_bounded,
             at: sites.variables(configuration),
             configurations,
             configuration,
+        }
+    }
+
+    /// Returns the error that the criterion compares with the tolerance; the worst case if it is a
+    /// probability.
+    pub fn judged_error(&self, criterion: Criterion) -> f64 {
+        match criterion {
+            Criterion::RootSumOfSquares => self.radius,
+            Criterion::WorstCase | Criterion::Probability => self.worst_case,
         }
     }
 }

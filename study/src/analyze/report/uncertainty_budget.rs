@@ -7,7 +7,6 @@ use serde::{Serialize, Serializer};
 
 use super::error_sites::ErrorSites;
 use super::source_value::{Quantity, SourceValue};
-use crate::calibration::is_calibration_error;
 use crate::number::Named;
 
 /// Uncertainty budget at the configuration with the largest combined standard uncertainty of the
@@ -110,9 +109,9 @@ impl UncertaintyBudget {
 /// first.
 fn with_calibration_as_one(contributions: &[Contribution], sources: &[&Source]) -> Vec<Contribution> {
     let (parts, mut all): (Vec<_>, Vec<_>) =
-        contributions.iter().cloned().partition(|one| is_calibration_error(sources[one.source]));
+        contributions.iter().cloned().partition(|one| sources[one.source].is_calibration_error());
     if let (Some(part), Some(source)) =
-        (parts.first(), sources.iter().position(|one| is_calibration_error(one)))
+        (parts.first(), sources.iter().position(|one| one.is_calibration_error()))
     {
         let standard = [0, 1, 2, 3].map(|i| parts.iter().map(|part| part.standard[i].powi(2)).sum::<f64>());
         let standard = standard.map(f64::sqrt);
