@@ -114,6 +114,22 @@ impl ErrorDistribution {
         all
     }
 
+    pub(super) fn bias(&self) -> [f64; 3] {
+        self.bias
+    }
+
+    pub(super) fn random(&self) -> &[RandomError] {
+        &self.random
+    }
+
+    pub(super) fn signed(&self) -> &[(usize, [f64; 3])] {
+        &self.signed
+    }
+
+    pub(super) fn undirected(&self) -> &[(Option<usize>, f64)] {
+        &self.undirected
+    }
+
     /// Returns whether the error is a normal vector, so that its coverage is an integral.
     pub fn is_normal(&self) -> bool {
         is_normal(&self.random) && self.signed.is_empty() && self.undirected.is_empty()
@@ -290,4 +306,9 @@ impl ErrorsAt<'_> {
     ) -> ErrorDistribution {
         ErrorDistribution::at(self.description, &self.sources, measurand, correction)
     }
+}
+
+/// Returns the sum of a vector and others.
+pub(super) fn sum_of(first: [f64; 3], others: impl IntoIterator<Item = [f64; 3]>) -> [f64; 3] {
+    others.into_iter().fold(first, |sum, v| core::array::from_fn(|i| sum[i] + v[i]))
 }

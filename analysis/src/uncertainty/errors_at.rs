@@ -75,6 +75,7 @@ pub(super) fn random(
             distribution,
             degrees_of_freedom: one.degrees_of_freedom,
             is_calibration: one.is_calibration(),
+            is_of_machine: one.class.can_be_compensated() || one.is_calibration(),
             magnitude,
         })
     });
@@ -90,6 +91,8 @@ pub(super) struct RandomError {
     pub(super) degrees_of_freedom: f64,
     /// Whether it is a part of the uncertainty of a calibration.
     pub(super) is_calibration: bool,
+    /// Whether it has one value in each machine: a tolerance, or the error of a calibration.
+    pub(super) is_of_machine: bool,
     /// ΔX for an error equal to its magnitude. The three rows are fully correlated.
     pub(super) magnitude: [f64; 3],
 }

@@ -5,6 +5,7 @@ mod compliance;
 mod correction;
 mod error_distribution;
 mod errors_at;
+mod machines;
 mod statement;
 #[cfg(test)]
 mod tests;
@@ -13,4 +14,5 @@ pub use compliance::{compliance, normal_compliance};
 pub use correction::{Correction, Residual};
 pub use error_distribution::{COVERAGE, Compliance, DRAWS, ErrorDistribution, WorstCase};
 pub use errors_at::{ErrorsAt, errors_at};
+pub use machines::{Machines, Yield};
 pub use statement::{Contribution, Statement, student_95};

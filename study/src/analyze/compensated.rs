@@ -4,8 +4,8 @@
 use abbe::analysis::{Correction, ErrorDistribution, Extreme, Measurand, Subset, Sweepable, Unevaluated};
 use abbe::analysis::{Workspace, sweep};
 
-/// Largest number of configurations at which the compensated machine is evaluated.
-const CHECKED: usize = 10_000;
+/// Largest number of configurations at which the compensated machine, or the yield, is evaluated.
+pub(super) const CHECKED: usize = 10_000;
 /// Number of least likely configurations that are kept.
 const KEPT: usize = 8;
 

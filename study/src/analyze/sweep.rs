@@ -4,8 +4,9 @@ use abbe_spec::option::{MONTE_CARLO, Q};
 use std::ops::Range;
 
 use abbe::analysis::{
-    Budget, BudgetSweep, Configuration, Correction, ErrorDistribution, Measurand, PartialBudget, Residual,
-    Row, Statement, Subset, Sweepable, Unevaluated, Watch, Workspace, errors_at, monte_carlo,
+    Budget, BudgetSweep, Configuration, Correction, ErrorDistribution, Machines, Measurand, PartialBudget,
+    Residual, Row, Statement, Subset, Sweepable, Unevaluated, Watch, Workspace, Yield, errors_at,
+    monte_carlo, sweep,
 };
 use abbe::{Description, Manipulator};
 use abbe_spec::Spec;
@@ -13,7 +14,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
 use super::calibration::LargestCalibrationErrors;
-use super::compensated::CompensatedErrors;
+use super::compensated::{CHECKED, CompensatedErrors};
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
 use super::loop_condition::LoopCondition;
@@ -241,6 +242,28 @@ impl AnalysisSweep<'_> {
         Ok(errors.distribution(measurand, correction))
     }
 
+    /// Returns the share of machines that keep all tolerances, if that is the criterion, at no more
+    /// configurations than those of [`CompensatedErrors`].
+    fn yielded(&self, correction: Option<Correction<'_>>) -> Result<Option<Yield>, Diagnostics> {
+        let limits = [self.study.tolerance, self.study.orientation_tolerance];
+        if self.study.criterion != Criterion::Yield || limits == [None; 2] {
+            return Ok(None);
+        }
+        let mut machines = Machines::new(self.study.probability);
+        let description = self.manipulator.description();
+        let subset = Subset { workspace: self.workspace, count: CHECKED };
+        let swept = sweep(self.manipulator, &subset, &mut |row| {
+            for (measurand, limit) in Measurand::ALL.into_iter().zip(limits) {
+                if let Some(limit) = limit.filter(|_| measurand == Measurand::Position || row.oriented) {
+                    machines
+                        .add(ErrorDistribution::at(description, row.sources, measurand, correction), limit);
+                }
+            }
+        });
+        swept.map_err(|refused| self.not_evaluated(&refused))?;
+        Ok(Some(machines.yielded(SEED)))
+    }
+
     /// Determines the worst case over all signs exactly where the sweep has found it.
     fn refine_worst_case(&self, budget: &mut Budget) -> Result<(), Diagnostics> {
         for measurand in Measurand::ALL {
@@ -273,7 +296,9 @@ impl AnalysisSweep<'_> {
             let judged = verdicts.and_then(|verdicts| verdicts.all().find(|one| one.measurand == measurand));
             let index = judged.map_or(largest.configuration, |verdict| verdict.configuration);
             let distribution = self.distribution(index, measurand, correction)?;
-            Ok(JudgedShares::new(&distribution, by_worst_case, largest.value, sources.len()))
+            let is_error = matches!(self.study.criterion, Criterion::WorstCase | Criterion::RootSumOfSquares);
+            let as_built = is_error.then_some(largest.value);
+            Ok(JudgedShares::new(&distribution, by_worst_case, as_built, sources.len()))
         };
         Ok([of(Measurand::Position)?, of(Measurand::Orientation)?])
     }
@@ -286,22 +311,26 @@ impl AnalysisSweep<'_> {
     ) -> Result<Option<Verdicts>, Diagnostics> {
         let Study { tolerance, orientation_tolerance, .. } = *self.study;
         let reach = [budget.configurations, budget.unreachable.count];
+        let built = self.yielded(None)?;
         let as_built = |measurand, tolerance: Option<f64>| {
             let verdict = tolerance.map(|tolerance| {
                 let errors = JudgedErrors::as_built(budget, measurand, tolerance, |index| {
                     self.distribution(index, measurand, None)
                 })?;
-                Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, self.study))
+                let judge = (self.study, built.as_ref());
+                Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, judge))
             });
             verdict.transpose()
         };
         let as_built = MachineVerdicts {
             position: as_built(Measurand::Position, tolerance)?,
             orientation: as_built(Measurand::Orientation, orientation_tolerance)?,
+            yielded: built,
         };
         let compensated = match (compensated, self.correction()) {
             (Some((basis, swept)), Some((_, residuals, together))) => {
                 let correction = Correction { residuals: &residuals, together };
+                let left = self.yielded(Some(correction))?;
                 let is_all = swept.checked == budget.configurations;
                 let verdict = |measurand: Measurand, tolerance: Option<f64>| {
                     let verdict = tolerance.map(|tolerance| {
@@ -319,13 +348,15 @@ impl AnalysisSweep<'_> {
                             is_bounded: extremes.is_bounded && is_all,
                             candidates: candidates.collect::<Result<_, Diagnostics>>()?,
                         };
-                        Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, self.study))
+                        let judge = (self.study, left.as_ref());
+                        Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, judge))
                     });
                     verdict.transpose()
                 };
                 let verdicts = MachineVerdicts {
                     position: verdict(Measurand::Position, tolerance)?,
                     orientation: verdict(Measurand::Orientation, orientation_tolerance)?,
+                    yielded: left,
                 };
                 Some(CompensatedVerdicts { basis, checked: swept.checked, verdicts })
             }

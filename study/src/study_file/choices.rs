@@ -52,12 +52,15 @@ pub enum Criterion {
     RootSumOfSquares,
     /// The error is within it with the required probability.
     Probability,
+    /// The required share of machines keeps it at all configurations, each with that probability.
+    Yield,
 }
 
-pub(super) const CRITERIA: [(&str, Criterion); 3] = [
+pub(super) const CRITERIA: [(&str, Criterion); 4] = [
     ("worst-case", Criterion::WorstCase),
     ("rss", Criterion::RootSumOfSquares),
     ("probability", Criterion::Probability),
+    ("yield", Criterion::Yield),
 ];
 
 /// Metric of a published figure of a single source.

@@ -25,8 +25,8 @@ abbe_spec::tables! {
         "description": TEXT, "-", "empty", "Description of the study, for people";
         "reference": TEXT, "-", "empty", "Origin of the numbers";
         "publisher": TEXT, "-", "empty", "Author of the published figures";
-        "criterion": Choice(|| words(&CRITERIA)), "-", "`\"worst-case\"`; `\"probability\"` if the tolerance has one",
-            "Criterion of the verdict: the largest error over all signs; the paper's sum, a convention and no bound; or the probability";
+        "criterion": Choice(|| words(&CRITERIA)), "-", "`\"worst-case\"`; `\"probability\"` or `\"yield\"` if the tolerance has one",
+            "Criterion of the verdict: the largest error over all signs; the paper's sum, a convention and no bound; the probability; or the share of machines that keep the tolerance at all configurations";
         "tolerance": Either("number, positive; or a table", &[POSITIVE, Table("[study.tolerance]")]), "length unit", "none",
             "Permitted position error of the tool point; a table also limits the orientation error";
         "set": Names("table of `NAME = number`", &NUMBER), "as the spec's", "the spec's values", "Values of parameters and inputs";
@@ -39,6 +39,8 @@ abbe_spec::tables! {
         "orientation": POSITIVE, "rad", "none", "Permitted norm of rows 4 to 6";
         "probability": Number("number between 0 and 1"), "1", "`0.95`, if it is the criterion",
             "Probability with which the tolerance must be met in every configuration; makes it the criterion";
+        "yield": Number("number between 0 and 1"), "1", "`0.95`, if it is the criterion",
+            "Share of machines that must keep the tolerance at all configurations, each with the probability above; makes it the criterion";
         "unreachable": Number("share between 0 and 1"), "1", "`0`",
             "Share of the configurations that may be unreachable: with more of them the tolerance is not met";
         "machine": Choice(|| words(&MACHINES)), "-", "`\"compensated\"` if the study has `[compensation]`, else `\"as-built\"`",

@@ -16,7 +16,7 @@ use super::figure::read_figures;
 use super::keys;
 use super::published::{read_compensated, read_published};
 use super::study::{PROBABILITY, Study};
-use super::tolerance;
+use super::tolerance::{self, Tolerance};
 use crate::changes::{Changes, find_symbol};
 use crate::machine::Machine;
 use crate::named;
@@ -96,8 +96,9 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         orientation_tolerance: tolerance.orientation,
         unreachable: tolerance.unreachable,
         stated_tolerances: Vec::new(),
-        criterion: read_criterion(&head, tolerance.probability, document)?,
+        criterion: read_criterion(&head, &tolerance, document)?,
         probability: tolerance.probability.unwrap_or(PROBABILITY),
+        required_yield: tolerance.required_yield.unwrap_or(PROBABILITY),
         judged: tolerance.machine.unwrap_or(default),
         changes: read_changes(&head, document, spec, &moved),
         not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item, document)),
@@ -112,18 +113,26 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     })
 }
 
-/// Reads `criterion`, which must agree with a stated probability.
-fn read_criterion(head: &Section<'_>, stated: Option<f64>, document: &mut Document) -> Option<Criterion> {
-    let default = if stated.is_some() { Criterion::Probability } else { Criterion::WorstCase };
-    let Some(item) = head.get("criterion") else { return Some(default) };
+/// Reads `criterion`, which must agree with a stated probability or yield.
+fn read_criterion(head: &Section<'_>, tolerance: &Tolerance, document: &mut Document) -> Option<Criterion> {
+    let stated = match tolerance {
+        Tolerance { required_yield: Some(_), .. } => Some(("yield", Criterion::Yield)),
+        Tolerance { probability: Some(_), .. } => Some(("probability", Criterion::Probability)),
+        _ => None,
+    };
+    let Some(item) = head.get("criterion") else {
+        return Some(stated.map_or(Criterion::WorstCase, |(_, criterion)| criterion));
+    };
     let criterion = document.choice(&item, &CRITERIA)?;
-    if stated.is_some() && criterion != Criterion::Probability {
-        let mistake =
-            Diagnostic::new(item.span(), "the tolerance has a `probability`, which this criterion ignores");
-        let help = "write criterion = \"probability\", or remove `probability` from the tolerance";
-        return document.fail(mistake.label("another criterion").help(help));
+    match stated {
+        // Each machine of a yield keeps the tolerance with a probability.
+        Some((key, needed)) if criterion != needed && criterion != Criterion::Yield => {
+            let message = format!("the tolerance has a `{key}`, which this criterion ignores");
+            let help = format!("write criterion = \"{key}\", or remove `{key}` from the tolerance");
+            document.fail(Diagnostic::new(item.span(), message).label("another criterion").help(help))
+        }
+        _ => Some(criterion),
     }
-    Some(criterion)
 }
 
 /// Returns the file name without its folder, and the SHA-256 of the text.

@@ -13,7 +13,7 @@ use super::tolerance;
 use crate::changes::Changes;
 use crate::workspace::Region;
 
-/// Probability that is required if a study states none.
+/// Probability and yield that are required if a study states none.
 pub(super) const PROBABILITY: f64 = 0.95;
 
 /// Analysis to perform on a manipulator.
@@ -31,8 +31,10 @@ pub struct Study {
     pub unreachable: f64,
     /// Criterion of the verdict.
     pub criterion: Criterion,
-    /// Probability with which a tolerance must be met, if it is judged by that.
+    /// Probability with which a tolerance must be met, if it is judged by that or by yield.
     pub probability: f64,
+    /// Share of machines that must meet it, if it is judged by yield.
+    pub required_yield: f64,
     /// Machine whose verdict counts.
     pub judged: JudgedMachine,
     /// Changes of the spec.
@@ -118,6 +120,7 @@ impl Study {
             unreachable: 0.0,
             criterion: Criterion::WorstCase,
             probability: PROBABILITY,
+            required_yield: PROBABILITY,
             judged: JudgedMachine::AsBuilt,
             changes: Changes::default(),
             figures: Figure::defaults(&region),

@@ -20,6 +20,8 @@ pub(super) struct Tolerance {
     pub(super) orientation: Option<f64>,
     /// Probability with which the tolerance must be met; `None` if the study does not say.
     pub(super) probability: Option<f64>,
+    /// Share of the machines that must meet it; `None` if the study does not say.
+    pub(super) required_yield: Option<f64>,
     /// Largest share of the configurations that may be unreachable; 0 by default.
     pub(super) unreachable: f64,
     /// Machine whose verdict counts; `None` if the study does not say.
@@ -88,6 +90,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance
     };
     let orientation = number("orientation", f64::INFINITY, "write an angle such as \"0.5 mrad\"");
     let probability = number("probability", 1.0, "write 0.95 for 95 %");
+    let required_yield = number("yield", 1.0, "write 0.95 for 95 %");
     let unreachable = number("unreachable", 1.0, "write 0.1 for 10 %");
     let machine = section.get("machine").and_then(|item| document.choice(&item, &MACHINES));
     if position.is_none() && orientation.is_none() {
@@ -96,13 +99,14 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Tolerance
     }
     // A value that is present but invalid has already been reported.
     let unread = |given: Option<Option<f64>>| given == Some(None);
-    if [position, orientation, probability, unreachable].into_iter().any(unread) {
+    if [position, orientation, probability, required_yield, unreachable].into_iter().any(unread) {
         return None;
     }
     Some(Tolerance {
         position: position.flatten(),
         orientation: orientation.flatten(),
         probability: probability.flatten(),
+        required_yield: required_yield.flatten(),
         unreachable: unreachable.flatten().unwrap_or_default(),
         machine,
     })

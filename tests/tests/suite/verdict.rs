@@ -300,7 +300,7 @@ fn a_magnitude_has_an_uncertainty() {
     // met with certainty.
     let judged = verdict(&report);
     assert!((judged.compliance.probability - 0.975_002_1).abs() < 1e-6, "{judged:?}");
-    assert!(judged.largest.is_none() && (report.budget.combined.random_radius.value - 0.06).abs() < 1e-15);
+    assert!(!judged.is_bounded && (report.budget.combined.random_radius.value - 0.06).abs() < 1e-15);
     // Without a magnitude the source has its full value; disabled, it contributes nothing.
     let plain = analyzed(SLIDE, samples);
     assert_eq!((plain.sources.len(), plain.uncertainty_budgets().count()), (1, 0));

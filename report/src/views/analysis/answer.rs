@@ -52,8 +52,13 @@ pub(super) fn headline(report: &Report) -> String {
     }
     let least = verdicts.all().min_by(|a, b| a.compliance.probability.total_cmp(&b.compliance.probability));
     let met = if verdicts.verdict == Verdict::Met { "MET" } else { "NOT MET" };
-    let by = match (verdicts.probability_required, least) {
-        (Some(required), Some(least)) => {
+    let by = match (verdicts.counting().yielded, verdicts.probability_required, least) {
+        (Some(share), ..) => {
+            let [from, to] = share.interval.map(|end| numbers::trimmed(100.0 * end, 1));
+            let required = numbers::at_least(verdicts.yield_required.unwrap_or_default());
+            format!(": yield {from} … {to} % of machines, {required} required")
+        }
+        (_, Some(required), Some(least)) => {
             format!(": P {}, {} required", stated_probability(least), numbers::at_least(required))
         }
         _ => format!(" {}", by_criterion(verdicts.criterion)),
@@ -67,6 +72,7 @@ fn by_criterion(criterion: Criterion) -> &'static str {
         Criterion::WorstCase => "in the worst case",
         Criterion::RootSumOfSquares => "by root sum of squares",
         Criterion::Probability => "by probability",
+        Criterion::Yield => "by yield",
     }
 }
 
@@ -166,7 +172,7 @@ fn sources(report: &Report) -> Table {
     let decimals = decimals(report);
     let mut all: Vec<&LedgerEntry> = report.ledger.sources.iter().collect();
     let share = |entry: &LedgerEntry| steady(entry.share.unwrap_or_default());
-    all.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    all.sort_by(|a, b| share(b).abs().total_cmp(&share(a).abs()));
     let (scale, unit) = error_unit(report.length);
     // The factors are those of the machine as built.
     let machine = report.verdicts.as_ref().map(|verdicts| verdicts.machine);

@@ -14,7 +14,7 @@ pub(super) fn summary(report: &Report) -> Vec<String> {
     let Ledger { sources, sums: [.., by_squares, worst_case] } = &report.ledger;
     let all = match report.study.criterion {
         Criterion::RootSumOfSquares => by_squares,
-        Criterion::WorstCase | Criterion::Probability => worst_case,
+        _ => worst_case,
     };
     if sources.is_empty() || all.max == 0.0 {
         return Vec::new();

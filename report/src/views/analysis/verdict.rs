@@ -1,6 +1,6 @@
 //! The tolerance verdict, in sentences.
 
-use abbe::analysis::{Compliance, Measurand};
+use abbe::analysis::{Compliance, Measurand, Yield};
 
 use super::conclusions::singular_sentence;
 use crate::unit;
@@ -23,6 +23,7 @@ pub(super) fn verdict_line(report: &Report) -> Option<String> {
             Criterion::WorstCase => "Verdict: met in the worst case".to_owned(),
             Criterion::RootSumOfSquares => "Verdict: met by root sum of squares".to_owned(),
             Criterion::Probability => format!("Verdict: met with probability {}", probability(least?)),
+            Criterion::Yield => "Verdict: met by yield".to_owned(),
         },
         Verdict::NotMet => "Verdict: not met".to_owned(),
     })
@@ -111,6 +112,26 @@ fn tolerance_sentence(
             let what = "By convention, not as a bound, the sum of the repeatable errors and the root sum of \
                         squares of the bounds of the others are";
             return judged(what, verdict.radius);
+        }
+        Criterion::Yield => {
+            let machines = compensated.map_or_else(
+                || report.verdicts.as_ref()?.as_built.yielded,
+                |compensated| compensated.verdicts.yielded,
+            );
+            let share = |share: f64| format!("{} %", number::trimmed(100.0 * share, 2));
+            let Some(Yield { machines, share: kept, interval: [from, to] }) = machines else {
+                return String::new();
+            };
+            return format!(
+                "{name}: {met}. Of {machines} machines drawn, {} keep every tolerance at all of {all} \
+                 configurations, each with a probability of {}; with 95 % confidence {} to {}; {} is required. \
+                 To first order, with {repeatable}{normal}.{left_out}",
+                share(kept),
+                number::at_least(report.study.probability),
+                share(from),
+                share(to),
+                number::at_least(report.study.required_yield),
+            );
         }
         Criterion::Probability => {}
     }

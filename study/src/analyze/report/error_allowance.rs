@@ -8,7 +8,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, Serialize)]
 pub struct ErrorAllowance {
     /// Factor for all sources at which the judged error as built equals the tolerance; `None` if
-    /// there is no error.
+    /// there is no error, or if a probability or yield is judged.
     pub together: Option<f64>,
     /// Allowances of the sources, largest share first.
     pub sources: Vec<SourceAllowance>,
@@ -47,8 +47,8 @@ impl ErrorAllowance {
             gain_per_percent: 0.01 * share * judged.error + 0.0,
         });
         let mut sources: Vec<SourceAllowance> = sources.collect();
-        sources.sort_by(|a, b| b.share.total_cmp(&a.share));
-        Self { together: scale(judged.as_built), sources }
+        sources.sort_by(|a, b| b.share.abs().total_cmp(&a.share.abs()));
+        Self { together: judged.as_built.and_then(scale), sources }
     }
 }
 
@@ -58,8 +58,8 @@ impl ErrorAllowance {
 pub(in crate::analyze) struct JudgedShares {
     /// The error.
     pub(in crate::analyze) error: f64,
-    /// Largest such error of the machine as built.
-    pub(in crate::analyze) as_built: f64,
+    /// Largest such error of the machine as built; `None` if a probability or yield is judged.
+    pub(in crate::analyze) as_built: Option<f64>,
     /// Share of each source, in the order of the budget.
     pub(in crate::analyze) shares: Vec<f64>,
 }
@@ -69,7 +69,7 @@ impl JudgedShares {
     pub(in crate::analyze) fn new(
         distribution: &ErrorDistribution,
         by_worst_case: bool,
-        as_built: f64,
+        as_built: Option<f64>,
         sources: usize,
     ) -> Self {
         let (error, shares) = match by_worst_case {

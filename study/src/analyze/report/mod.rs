@@ -210,7 +210,7 @@ impl Report {
         let combined = self.budget.errors(measurand).1;
         match self.study.criterion {
             Criterion::RootSumOfSquares => combined.radius,
-            Criterion::WorstCase | Criterion::Probability => combined.worst_case_radius,
+            _ => combined.worst_case_radius,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Verdicts on the tolerances of a study.
 
-use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand, PROBABILITY_ERROR};
+use abbe::analysis::{Budget, Compliance, ErrorDistribution, Extreme, Measurand, PROBABILITY_ERROR, Yield};
 use serde::Serialize;
 
 use super::error_sites::ErrorSites;
@@ -17,11 +17,14 @@ pub struct Verdicts {
     pub verdict: Verdict,
     /// Machine whose verdict counts: `as-built` or `compensated`.
     pub machine: JudgedMachine,
-    /// Criterion of the verdict: `worst-case`, `rss` or `probability`.
+    /// Criterion of the verdict: `worst-case`, `rss`, `probability` or `yield`.
     pub criterion: Criterion,
-    /// Required probability of meeting each tolerance, if that is the criterion.
+    /// Required probability of meeting each tolerance, if that is the criterion or part of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub probability_required: Option<f64>,
+    /// Required share of machines, if that is the criterion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yield_required: Option<f64>,
     /// Number of unreachable configurations, if they are more than the study permits: the tolerance
     /// is then not met.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,6 +46,9 @@ pub struct MachineVerdicts {
     /// Verdict on the orientation error; `None` without an orientation tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orientation: Option<ToleranceVerdict>,
+    /// Share of machines that keep all tolerances at all configurations, if that is the criterion.
+    #[serde(rename = "yield", skip_serializing_if = "Option::is_none")]
+    pub yielded: Option<Yield>,
 }
 
 /// Verdicts on the compensated machine.
@@ -94,17 +100,30 @@ impl Verdicts {
         let unreachable = Some(unreachable).filter(|count| *count as f64 > permitted);
         let verdict = unreachable.map_or(verdict, |_| Verdict::NotMet);
         let criterion = study.criterion;
-        let probability_required = (criterion == Criterion::Probability).then_some(study.probability);
-        Some(Self { verdict, machine, criterion, probability_required, unreachable, as_built, compensated })
+        let is_random = matches!(criterion, Criterion::Probability | Criterion::Yield);
+        Some(Self {
+            verdict,
+            machine,
+            criterion,
+            probability_required: is_random.then_some(study.probability),
+            yield_required: (criterion == Criterion::Yield).then_some(study.required_yield),
+            unreachable,
+            as_built,
+            compensated,
+        })
+    }
+
+    /// Returns the verdicts on the machine that counts.
+    pub fn counting(&self) -> &MachineVerdicts {
+        match (&self.compensated, self.machine) {
+            (Some(compensated), JudgedMachine::Compensated) => &compensated.verdicts,
+            _ => &self.as_built,
+        }
     }
 
     /// Iterates over the verdicts on the machine that counts, position first.
     pub fn all(&self) -> impl Iterator<Item = &ToleranceVerdict> {
-        let counting = match (&self.compensated, self.machine) {
-            (Some(compensated), JudgedMachine::Compensated) => &compensated.verdicts,
-            _ => &self.as_built,
-        };
-        counting.all()
+        self.counting().all()
     }
 }
 
@@ -127,7 +146,8 @@ const DRAWN: usize = 4;
 
 /// Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 ///
-/// One criterion decides: the largest error over all signs, the radius, or the probability. The
+/// One criterion decides: the largest error over all signs, the radius, the probability, or the
+/// lower end of the confidence interval of the yield. The
 /// probability is the smallest over the evaluated configurations: the one with the largest radius
 /// (norm of the repeatable errors + norm of the random bounds), those that an approximation
 /// ranks least likely to meet the tolerance, and the one where it has the largest error at 95 %. To
@@ -244,7 +264,7 @@ impl ToleranceVerdict {
         errors: JudgedErrors,
         sites: &ErrorSites,
         tolerance: f64,
-        study: &Study,
+        (study, yielded): (&Study, Option<&Yield>),
     ) -> Self {
         let JudgedErrors { measurand, radius, worst_case, worst_case_bound, is_bounded, mut candidates } =
             errors;
@@ -268,6 +288,9 @@ impl ToleranceVerdict {
             Criterion::WorstCase => (is_always_met, worst_case.configuration),
             Criterion::RootSumOfSquares => (radius.value <= limit, radius.configuration),
             Criterion::Probability => (compliance.probability >= study.probability, least_likely),
+            Criterion::Yield => {
+                (yielded.is_some_and(|share| share.interval[0] >= study.required_yield), least_likely)
+            }
         };
         Self {
             measurand,
@@ -289,7 +312,7 @@ impl ToleranceVerdict {
     pub fn judged_error(&self, criterion: Criterion) -> f64 {
         match criterion {
             Criterion::RootSumOfSquares => self.radius,
-            Criterion::WorstCase | Criterion::Probability => self.worst_case,
+            _ => self.worst_case,
         }
     }
 }
