@@ -73,8 +73,7 @@ pub fn analysis(report: &Report, live: Option<&explore::Report>) -> Vec<File> {
     });
     let (first, others): (Vec<_>, Vec<_>) = drawn.partition(|(is_first, _)| *is_first);
     let figures = [first, others].map(|all| all.into_iter().map(|(_, figure)| figure).collect());
-    let sampled = figures::sampled(report).map(Figure::from);
-    let page = views::analysis(report, figures, sampled, left_out).page(&Provenance { files }, live);
+    let page = views::analysis(report, figures, left_out).page(&Provenance { files }, live);
     let file = |(named, scene): &(NamedFigure, Scene)| File {
         name: format!("{}.svg", named.name),
         text: svg::file(scene),
@@ -86,5 +85,5 @@ pub fn analysis(report: &Report, live: Option<&explore::Report>) -> Vec<File> {
 
 /// Describes an error budget over a workspace, without the figures of its page.
 pub fn budget(report: &Report) -> Document {
-    views::analysis(report, [Vec::new(), Vec::new()], None, &[])
+    views::analysis(report, [Vec::new(), Vec::new()], &[])
 }

@@ -49,16 +49,17 @@ class Sweep:
         }
 
     def sums(self, row, first=0):
-        """Repeatable sources added, random ones as root sum of squares of bounds and of standard deviations, all absolutely."""
+        """Repeatable sources added, random ones as root sum of squares of bounds and of standard deviations, and the worst signs."""
         repeatable, squares, variances, worst = ([0.0] * 3 for _ in range(4))
         for source, move in zip(self.sources, row):
             for i, x in enumerate(move[first : first + 3]):
-                worst[i] += abs(bound(source) * x)
                 if source.repeatable:
                     repeatable[i] += x
                 else:
+                    worst[i] += abs(bound(source) * x)
                     squares[i] += (bound(source) * x) ** 2
                     variances[i] += (DEVIATION[source.distribution] * x) ** 2
+        worst = [abs(x) + y for x, y in zip(repeatable, worst)]
         return repeatable, [math.sqrt(x) for x in squares], [math.sqrt(x) for x in variances], worst
 
     def combined(self, first=0):
@@ -78,6 +79,7 @@ class Sweep:
                 "both": root_mean_square(both),
             },
             "worst_case": largest_entries(worst),
+            "worst_case_radius": max(self.uncertainty(row, first).worst_case() for row in self.moves),
         }
 
     def enclosing_sphere(self):

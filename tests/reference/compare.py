@@ -41,7 +41,8 @@ def random_spec(comparison, writer, folder):
     # Some are met for certain, some likely, some not.
     tolerances = [(0.4, 0.7, 1.1)[seed % 3] * sweep.combined(first)["radius"] for first in (0, 3)]
     study = folder / f"study{seed}.toml"
-    tolerance = f'{{ position = "{tolerances[0]!r} {spec.length}", orientation = "{tolerances[1]!r} rad" }}'
+    asked = ", probability = 0.95" if seed % 4 < 2 else ""
+    tolerance = f'{{ position = "{tolerances[0]!r} {spec.length}", orientation = "{tolerances[1]!r} rad"{asked} }}'
     study.write_text(f'[study]\ntitle = "random"\ntolerance = {tolerance}\nenable = {enabled}\n{workspace}')
     draws = ["--monte-carlo", str(questions.DRAWS)] if seed % DRAWN_EVERY == 0 else []
     report = comparison.abbe("analyze", file, "--study", str(study), *draws)

@@ -258,7 +258,7 @@ class Writer:
         begin = len(self.lines)
         self.one_source(k)
         # Random errors that are all negative are refused: a half-width has no sign.
-        if 'class = "random"' in self.lines[begin:]:
+        if not {'class = "random"', 'class = "tolerance"'}.isdisjoint(self.lines[begin:]):
             stated = [i for i in range(begin, len(self.lines)) if re.match(r"(e_.|error|dh) = ", self.lines[i])]
             for first in stated[:1]:
                 self.lines[first] = re.sub(r'"-?([\d.e-]+ \w+)[^"]*"', r'"\1"', self.lines[first], count=1)
@@ -267,7 +267,8 @@ class Writer:
         form = self.pick(*SOURCES)
         self.add("", "[[source]]", f'name = "source {k}"')
         if form in ("uniform", "normal", "triangular", "arcsine"):
-            self.add('class = "random"', f'distribution = "{form}"')
+            unknown = "tolerance" if self.seed % 3 == 0 else "random"
+            self.add(f'class = "{unknown}"', f'distribution = "{form}"')
             if form == "normal" and self.seed % 2:
                 self.used.add("estimated")
                 self.add(f"degrees_of_freedom = {4 + self.seed % 9}")

@@ -64,11 +64,16 @@ class Uncertainty:
     def is_normal(self):
         return all(s.distribution == "normal" and s.freedom == math.inf for s, _ in self.random)
 
-    def largest(self):
-        """What bounded sources cannot exceed: all bounds added, each in the worst direction; none if one is not bounded."""
-        if any(s.distribution == "normal" for s, _ in self.random):
-            return None
-        return norm(self.bias) + sum(norm(move) for _, move in self.random)
+    def is_bounded(self):
+        return all(s.distribution != "normal" for s, _ in self.random)
+
+    def worst_case(self):
+        """The largest norm over all signs, by trying them: at the bounds, three standard deviations of normal sources."""
+        sums = [self.bias]
+        for source, move in self.random:
+            size = 3.0 if source.distribution == "normal" else 1.0
+            sums = [[x + sign * size * y for x, y in zip(total, move)] for total in sums for sign in (1, -1)]
+        return max(map(norm, sums))
 
     def probability(self, tolerance, count, seed):
         """That the error is within a tolerance, bias and all, and from how many draws that is: none if it is computed."""

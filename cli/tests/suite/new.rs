@@ -28,8 +28,10 @@ fn every_template_is_a_good_first_spec() {
         let check = json(&["check", path, "--json"]);
         assert!(check["laws"].as_array().unwrap().iter().all(|law| law["holds"] == true), "{name}");
         assert_eq!((&check["warnings"], &check["notes"]), (&serde_json::json!([]), &serde_json::json!([])));
-        let repeatable = spec.sources.iter().filter(|source| source.class == Class::Repeatable).count();
-        assert!(repeatable >= 2 && spec.sources.len() - repeatable >= 2, "{name}");
+        // Of each class.
+        let has = |class: fn(Class) -> bool| spec.sources.iter().any(|source| class(source.class));
+        assert!(has(|class| class == Class::Repeatable) && has(|class| matches!(class, Class::Tolerance(_))));
+        assert!(has(|class| matches!(class, Class::Random(_))), "{name}");
         let budget = json(&["analyze", path, "--json"]);
         let radius = budget["combined"]["radius"].as_f64().unwrap();
         assert!((0.02..5.0).contains(&radius), "{name}: {radius} mm");

@@ -1,9 +1,9 @@
 //! Scenes of reports, one file for each kind of figure.
 //!
 //! `travel`, `surface`, `cloud`, `histogram`, `pareto` and `manipulator` are the figures that a
-//! study can request; [`NamedFigure`] has their titles and file names. `sampled` compares sampled
-//! errors with certified bounds. `measured`, `residuals`, `distances` and `charts` are the figures
-//! of measurements, identification, compensation and monitoring.
+//! study can request; [`NamedFigure`] has their titles and file names.
+//! `measured`, `residuals`, `distances` and `charts` are the figures of measurements,
+//! identification, compensation and monitoring.
 
 pub(crate) mod charts;
 mod cloud;
@@ -16,7 +16,6 @@ mod named;
 mod pareto;
 mod quantity;
 pub(crate) mod residuals;
-mod sampled;
 mod surface;
 mod travel;
 
@@ -26,7 +25,6 @@ use abbe_study::study_file::Content;
 
 pub(crate) use named::NamedFigure;
 use quantity::Quantity;
-pub(crate) use sampled::scene as sampled;
 
 use crate::scene::Scene;
 

@@ -4,7 +4,7 @@
 //! `--json` prints. `parts` divides the sweep over several machines, `figures` gathers figure data
 //! during the sweep, and `first_order` compares with the exact chain.
 //!
-//! `norm_comparison` has the certified bounds, `unreachable` the reasons, `loop_condition` the
+//! `unreachable` the reasons, `loop_condition` the
 //! loops, and `singular` the Euler angles. `calibration` is its uncertainty, `compensated` the
 //! machine after compensation.
 
@@ -14,7 +14,6 @@ pub mod figures;
 mod first_order;
 mod job;
 mod loop_condition;
-mod norm_comparison;
 pub mod options;
 pub mod parts;
 mod report;
@@ -25,7 +24,9 @@ mod unreachable;
 pub use first_order::FirstOrder;
 pub use job::Analyze;
 pub use loop_condition::{LoopCondition, NEARLY_SINGULAR};
-pub use norm_comparison::{NOT_CERTIFIED, NormComparison};
+
+/// Reason why nothing is certified of machines that are not a chain.
+pub const NOT_CERTIFIED: &str = "bounds are proved for chains of frames only";
 pub use report::{
     AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis,
     ErrorAllowance, Ledger, LedgerEntry, LongestEllipsoid, MachineVerdicts, MonteCarloErrors,

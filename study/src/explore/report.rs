@@ -13,7 +13,7 @@ use crate::calibration::named_as_one;
 use crate::jacobian::column_names;
 use crate::machine::followed_source;
 use crate::number;
-use crate::study_file::{Content, Figure, JudgedMachine, Study, UP};
+use crate::study_file::{Content, Criterion, Figure, JudgedMachine, Study, UP};
 
 /// Data of a live page: a machine, its study, and its generated code. Lengths are in the spec's
 /// unit, angles in rad, vectors in `F_0`.
@@ -92,6 +92,8 @@ pub struct StudyFacts {
     pub orientation_tolerance: Option<f64>,
     /// Machine that the tolerance is held against.
     pub judged: JudgedMachine,
+    /// Criterion of the verdict.
+    pub criterion: Criterion,
 }
 
 /// Name of a frame.
@@ -219,6 +221,7 @@ impl Report {
                 tolerance: study.tolerance,
                 orientation_tolerance: study.orientation_tolerance,
                 judged: study.judged,
+                criterion: study.criterion,
             },
             frames: spec.frames.iter().map(|frame| FrameName { name: frame.name.clone() }).collect(),
             tool: !spec.tool.is_empty(),

@@ -64,7 +64,8 @@ fn close(found: f64, expected: f64, room: f64) {
 /// where this is 95 %. The verdict counts for the compensated machine; as built it is not met.
 #[test]
 fn stated_share_has_an_unknown_sign() {
-    let report = analyzed("\"0.04 mm\"", "[compensation]\ndefault = 0.2\n", "");
+    let asked = "{ position = \"0.04 mm\", probability = 0.95 }";
+    let report = analyzed(asked, "[compensation]\ndefault = 0.2\n", "");
     let [built, compensated] = positions(&report);
     let verdicts = report.verdicts.as_ref().unwrap();
     assert_eq!((verdicts.machine, verdicts.verdict), (JudgedMachine::Compensated, Verdict::Met));
@@ -159,7 +160,7 @@ fn residual_of_all_sources_has_any_direction() {
 #[test]
 fn calibration_leaves_its_covariance() {
     let found = "[covariance]\nof = [{ source = \"offset\", error = \"e_x\" }]\nrows = [[5.625e-5]]\n";
-    let asked = "{ position = \"0.025 mm\", machine = \"compensated\" }";
+    let asked = "{ position = \"0.025 mm\", probability = 0.95, machine = \"compensated\" }";
     let report = analyzed(asked, "", found);
     let [built, compensated] = positions(&report);
     let verdicts = report.verdicts.as_ref().unwrap();

@@ -2,13 +2,16 @@
 
 import { steady } from "./number.js";
 import { factorOf } from "./state.js";
+import { worstCase } from "./worst_case.js";
 
 /** @import { Report, State } from "./state.js" */
 
 /**
- * Errors of position (length unit) or orientation (rad): norm per source, Σ of the repeatable and root sum of squares of
- * the random sources, the norms of both, and the total: the sum of these norms.
- * @typedef {{norms: number[], repeatable: number[], random: number[], repeatableRadius: number, randomRadius: number,
+ * Errors of position (length unit) or orientation (rad): norm of each source and its signed share of the total, Σ of the
+ * repeatable sources, vectors of the others, norm of a calibration, root sum of squares, and the norm of the former sum. The total is the worst case over all signs, or the sum of both norms if
+ * the study is judged by root sum of squares; the others have the rest of it.
+ * @typedef {{norms: number[], shares: number[], repeatable: number[], unknown: number[][], calibration: number,
+ *     random: number[], repeatableRadius: number, randomRadius: number,
  *     radius: number}} Combined
  */
 
@@ -63,6 +66,8 @@ export function createMachine(generated, report) {
     const { real_pose = generated.pose, effects: effectsOf = () => [], source_displacements = () => [] } = generated;
     const isRandom = report.sources.map((source) => source.class !== "repeatable");
 
+    const isCalibration = (/** @type {number} */ k) => report.sources[k].at === "calibration";
+
     /** Returns the inputs of the code: those of the spec, then the magnitudes of sources. @param {State} state */
     const inputs = (state) => {
         const all = [...state.u];
@@ -81,15 +86,43 @@ export function createMachine(generated, report) {
     /** @param {number[][]} displacements @param {number} first of three rows @returns {Combined} */
     const combine = (displacements, first) => {
         const [repeatable, squares] = [[0, 0, 0], [0, 0, 0]];
+        const unknown = /** @type {number[][]} */ ([]);
+        let calibration = 0;
         const norms = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
+            // A calibration has an error in any direction.
+            if (isCalibration(k)) calibration += norm(rows);
+            else if (isRandom[k]) unknown.push(rows);
             rows.forEach((row, i) => (isRandom[k] ? (squares[i] += row * row) : (repeatable[i] += row)));
             return steady(norm(rows));
         });
         const random = squares.map(Math.sqrt);
-        const [repeatableRadius, randomRadius] = [norm(repeatable), Math.sqrt(squares[0] + squares[1] + squares[2])];
-        const [all, one, other] = [repeatableRadius + randomRadius, repeatableRadius, randomRadius].map(steady);
-        return { norms, repeatable, random, repeatableRadius: one, randomRadius: other, radius: all };
+        const [own, root] = [norm(repeatable), norm(random)];
+        const isSum = report.study.criterion === "rss";
+        const longest = isSum ? repeatable : worstCase(repeatable, unknown);
+        const total = isSum ? own + root : norm(longest) + calibration;
+        const along = (/** @type {number[]} */ rows) => (longest[0] * rows[0] + longest[1] * rows[1] + longest[2] * rows[2]) / norm(longest);
+        const shares = displacements.map((displacement, k) => {
+            const rows = displacement.slice(first, first + 3);
+            const part = !isRandom[k] ? along(rows) : isSum ? norm(rows) ** 2 / root : isCalibration(k) ? norm(rows) : Math.abs(along(rows));
+            return (part || 0) / total;
+        });
+        const [all, one, other] = [total, own, total - own].map(steady);
+        return { norms, shares, repeatable, unknown, calibration, random, repeatableRadius: one, randomRadius: other, radius: all };
+    };
+
+    /**
+     * Returns the total with another factor of a source, relative to its size now.
+     * @param {Combined} errors @param {number} k @param {number[]} rows of the source @param {number} factor
+     */
+    const rescaled = ({ repeatable, unknown, calibration, random }, k, rows, factor) => {
+        const sum = isRandom[k] ? repeatable : repeatable.map((row, i) => row + (factor - 1) * rows[i]);
+        const square = isRandom[k] ? (factor * factor - 1) * norm(rows) ** 2 : 0;
+        if (report.study.criterion === "rss") return norm(sum) + Math.sqrt(Math.max(0, norm(random) ** 2 + square));
+        if (isCalibration(k)) return norm(worstCase(sum, unknown)) + factor * calibration;
+        const at = isRandom[k] ? unknown.findIndex((vector) => vector.every((row, i) => row === rows[i])) : -1;
+        const others = at < 0 ? unknown : unknown.map((vector, i) => (i === at ? vector.map((row) => factor * row) : vector));
+        return norm(worstCase(sum, others)) + calibration;
     };
 
     /** Returns a row of a source; the last one, if the code has more, is a calibration. @param {Numbers} flat @param {number} k @param {number} i */
@@ -117,6 +150,7 @@ export function createMachine(generated, report) {
     };
 
     return {
+        rescaled,
         errors,
         effects,
 

@@ -151,17 +151,34 @@ export function cloud(machine, report, state) {
 export const factorAt = (size, tolerance) => (size > 0 && tolerance / size < Infinity ? steady(tolerance / size) : null);
 
 /**
- * Returns the largest factor of a source, relative to its size now, at which the total meets a tolerance while the others
- * stay: the larger root of `‖others + f rows‖² = limit²`. Null if the source has no effect, or the total is too large
- * without it, too.
- * @param {Combined} errors @param {number[]} rows of the source @param {boolean} isRandom @param {number} tolerance
+ * Returns the smallest and the largest factor of a source, relative to its size now, between which the total meets a
+ * tolerance while the others stay. Null if the source has no effect, or if the total is too large with any factor.
+ * @param {Machine} machine @param {Combined} errors @param {number} k @param {number[]} rows of the source @param {number} tolerance
+ * @returns {[number, number] | null}
  */
-export function allowed({ repeatable, repeatableRadius, randomRadius }, rows, isRandom, tolerance) {
-    const [own, other] = isRandom ? [randomRadius, repeatableRadius] : [repeatableRadius, randomRadius];
-    const product = (/** @type {number[]} */ vector) => vector.reduce((sum, entry, i) => sum + entry * rows[i], 0);
-    const square = product(rows);
-    const along = isRandom ? 0 : product(repeatable) - square;
-    const rest = own * own - square - 2 * along - (tolerance - other) ** 2;
-    const factor = (Math.sqrt(along * along - square * rest) - along) / square;
-    return tolerance >= other && factor >= 0 && factor < Infinity ? factor : null;
+export function allowed(machine, errors, k, rows, tolerance) {
+    const size = Math.hypot(...rows);
+    if (!(size > 0)) return null;
+    // The total is a convex function of the factor.
+    const total = (/** @type {number} */ factor) => machine.rescaled(errors, k, rows, factor);
+    const end = (tolerance + total(0)) / size;
+    let [lower, upper] = [0, end];
+    for (let i = 0; i < 60 && total(lower) > tolerance; i++) {
+        const [a, b] = [0.618 * lower + 0.382 * upper, 0.382 * lower + 0.618 * upper];
+        if (total(a) <= tolerance || total(b) <= tolerance) {
+            [lower, upper] = total(a) <= tolerance ? [a, a] : [b, b];
+        } else if (total(a) < total(b)) upper = b;
+        else lower = a;
+    }
+    if (total(lower) > tolerance) return null;
+    /** Returns the factor between one that meets the tolerance and one that does not. @param {number} good @param {number} bad */
+    const limit = (good, bad) => {
+        for (let i = 0; i < 60; i++) {
+            const middle = (good + bad) / 2;
+            if (total(middle) <= tolerance) good = middle;
+            else bad = middle;
+        }
+        return good;
+    };
+    return [total(0) <= tolerance ? 0 : limit(lower, 0), limit(lower, end * (1 + 1e-9))];
 }

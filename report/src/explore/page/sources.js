@@ -2,7 +2,7 @@
 
 import { createInput } from "./controls.js";
 import { button, html, roundStep, setText, spans } from "./dom.js";
-import { decimals, fixed, percent, roundedDown } from "./number.js";
+import { decimals, digits, fixed, percent, roundedDown } from "./number.js";
 import { allowed, factorAt } from "./search.js";
 import { LARGEST_FACTOR, factorOf } from "./state.js";
 /** @import { Report } from "./state.js" @import { Panel } from "./panel.js" */
@@ -71,7 +71,6 @@ export function createSources(panel) {
         const largest = factor * Math.max(...errors.norms, 0);
         const end = [1, 2, 2.5].map((ratio) => ratio * roundStep(largest)).find((round) => largest <= round * (1 + 1e-9)) ?? 1;
         const places = decimals(factor * errors.radius, 4);
-        const sum = errors.norms.reduce((all, one) => all + one, 0);
         const tolerance = tolerances[measurand];
         const effects = panel.machine.effects(state);
         rows.forEach((row, k) => {
@@ -84,10 +83,11 @@ export function createSources(panel) {
             row.mark.hidden = !reference;
             row.mark.style.left = `${Math.min(100, (100 * factor * (reference?.[measurand].norms[k] ?? 0)) / end)}%`;
             setText(row.value, `${isRandom && norm > 0 ? "± " : ""}${errorOf(factor * norm, places)}`);
-            setText(row.share, Number.isFinite(sum) ? percent(norm, sum) : "");
-            const most = tolerance === null ? null : allowed(errors, displacements[k].slice(first, first + 3), isRandom, tolerance);
+            setText(row.share, Number.isFinite(errors.radius) ? percent(errors.shares[k], 1) : "");
+            const [least, most] = (tolerance === null ? null : allowed(panel.machine, errors, k, displacements[k].slice(first, first + 3), tolerance)) ?? [0, null];
             const text = most === null ? (tolerance !== null && norm > 0 ? "not alone" : "") : times(most * current);
-            setText(row.most, text);
+            // Less than the lower end is too little against the others.
+            setText(row.most, least > 0 ? `${digits(least * current, 2)} … ${text.slice(2)}` : text);
             setText(row.size, most === null ? "" : sizeText(report, effects, k, most));
             row.allowance.value = most === null ? "" : text.slice(2);
             row.allowance.ariaLabel = `${text}, allowed factor of ${report.sources[k].name}`;
@@ -101,8 +101,8 @@ export function createSources(panel) {
     }
     function settle() {
         if (list.contains(document.activeElement)) return;
-        const { norms } = panel.figures[panel.measurand];
-        const order = rows.map((_, k) => k).sort((a, b) => norms[b] - norms[a]);
+        const { norms, shares } = panel.figures[panel.measurand];
+        const order = rows.map((_, k) => k).sort((a, b) => Math.abs(shares[b]) - Math.abs(shares[a]) || norms[b] - norms[a]);
         if (order.some((k, i) => list.children[i] !== rows[k].element)) list.append(...order.map((k) => rows[k].element));
     }
     return { element, update, settle };

@@ -66,7 +66,7 @@ export function createVerdict(panel) {
     }
     function update() {
         const { figures, reference, measurand, unit, tolerances, cloud } = panel;
-        const { radius, repeatableRadius, randomRadius, norms } = figures[measurand];
+        const { radius, repeatableRadius, randomRadius, shares } = figures[measurand];
         const limit = tolerances[measurand];
         const isMet = limit !== null && radius <= limit;
         // A study of the compensated machine judges what this page does not compute.
@@ -83,10 +83,10 @@ export function createVerdict(panel) {
         [repeatable.style.width, random.style.width, mark.style.left] =
             [repeatableRadius, randomRadius, limit ?? 0].map((value) => `${(100 * value) / end}%`);
         mark.hidden = limit === null;
-        const most = Math.max(...norms);
-        const sum = norms.reduce((added, one) => added + one, 0);
-        setText(largest, sum > 0 ? `largest source: ${report.sources[norms.indexOf(most)].name} (${percent(most, sum)})` : "");
-        setText(parts, `repeatable ${errorText(panel, repeatableRadius, radius)} + random ± ${errorText(panel, randomRadius, radius)}`);
+        const most = Math.max(...shares);
+        setText(largest, radius > 0 ? `largest source: ${report.sources[shares.indexOf(most)].name} (${percent(most, 1)})` : "");
+        const by = report.study.criterion === "rss" ? "root sum of squares" : "worst case";
+        setText(parts, `${by}: repeatable ${errorText(panel, repeatableRadius, radius)} + others ${errorText(panel, randomRadius, radius)}`);
         const old = reference?.[measurand].radius ?? 0;
         const change = old > 0 ? ` (${radius < old ? "−" : "+"}${digits((100 * Math.abs(radius - old)) / old, 2)} %)` : "";
         setText(before, reference ? `before your changes ${errorText(panel, old, radius)}${change}` : "");

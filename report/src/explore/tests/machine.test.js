@@ -3,7 +3,7 @@ import test from "node:test";
 
 import { commands } from "../page/command.js";
 import { createMachine } from "../page/machine.js";
-import { decimals, digits, fixed, percent, roundedDown } from "../page/number.js";
+import { decimals, digits, fixed, percent, roundedDown, steady } from "../page/number.js";
 import { factorAt } from "../page/search.js";
 import { factorOf, initialState } from "../page/state.js";
 import { SHIPPED, STATES, evaluated, explored, otherSpecs, randomNumbers, randomState, shell } from "./support.js";
@@ -26,16 +26,16 @@ function printed({ error_unit: units, study, sources }, { position, orientation 
     const times = (value) => `× ${roundedDown(value, decimals(value, 2))}`;
     const share = (value, tolerance) => (tolerance === null ? "" : percent(value, tolerance));
     const lines = [row("as built", `${length(position.radius)} ${symbol}`, share(position.radius, study.tolerance))];
-    if (position.randomRadius > 0 && position.repeatableRadius > 0) {
-        lines.push(row("random only", `${length(position.randomRadius)} ${symbol}`, share(position.randomRadius, study.tolerance)));
+    const root = Math.hypot(...position.random);
+    if (root > 0 && position.repeatableRadius > 0) {
+        lines.push(row(study.criterion === "rss" ? "random only" : "random, rss", `${length(root)} ${symbol}`, share(root, study.tolerance)));
     }
     if (orientation.radius > 0) {
         lines.push(row("orientation", `${digits(1e3 * orientation.radius, 4)} mrad`, share(orientation.radius, study.orientation_tolerance)));
     }
-    const sum = [...position.norms].sort((a, b) => b - a).reduce((sum, norm) => sum + norm, 0);
     position.norms.forEach((norm, k) => {
         const alone = study.tolerance === null ? null : factorAt(norm, study.tolerance);
-        lines.push(row(sources[k].name, length(norm), percent(norm, sum), alone === null ? "" : times(alone)));
+        lines.push(row(sources[k].name, length(norm), percent(steady(position.shares[k]), 1), alone === null ? "" : times(alone)));
     });
     const together = study.tolerance === null ? null : factorAt(position.radius, study.tolerance);
     if (together) lines.push(row("all, as built", length(position.radius), times(together)));
@@ -66,10 +66,13 @@ function assertAgrees(report, machine, state) {
     const active = (numbers) => numbers.filter((_, k) => isOn[k]);
     assert.deepEqual(budget.sources.map(({ name }) => name), active(report.sources.map(({ name }) => name)));
     close(active(position.norms), budget.sources.map(({ plain_max: { norm } }) => norm), size, about("norms"));
-    close([position.repeatableRadius, position.randomRadius, position.radius],
-        [budget.combined.repeatable_radius, budget.combined.random_radius, budget.combined.radius], size, about("totals"));
+    const [byCriterion, turned] = report.study.criterion === "rss" ? [budget.combined.radius, budget.orientation.radius]
+        : [budget.combined.worst_case_radius, budget.orientation.worst_case_radius];
+    close([position.repeatableRadius, position.radius], [budget.combined.repeatable_radius, byCriterion], size, about("totals"));
+    close(active(position.shares), budget.sources.map(({ name }) => budget.ledger.sources.find((one) => one.name === name).share),
+        1e3, about("shares"));
     close(position.random, budget.combined.random, size, about("random rows"));
-    close(orientation.radius, budget.orientation.radius, orientation.radius + 1e-6, about("orientation"));
+    close(orientation.radius, turned, orientation.radius + 1e-6, about("orientation"));
     if (budget.budget) {
         const together = factorAt(position.radius, report.study.tolerance);
         close(together, budget.budget.together, together, about("tighten all"));

@@ -104,13 +104,16 @@ test("a source at its allowed factor uses up the tolerance, and one that is not 
         const state = initialState(report);
         const { position, displacements } = machine.errors(state);
         for (const tolerance of [0.3, 0.7, 0.98, 1.2, 3].map((ratio) => ratio * position.radius)) {
-            report.sources.forEach(({ class: kind, follows }, k) => {
+            report.sources.forEach(({ follows }, k) => {
                 if (follows !== k || !(position.norms[k] > 0)) return;
-                const factor = allowed(position, displacements[k].slice(0, 3), kind === "random", tolerance);
+                const [least, factor] = allowed(machine, position, k, displacements[k].slice(0, 3), tolerance) ?? [null, null];
                 const total = (scale) => machine.errors({ ...state, factors: state.factors.map((one, i) => (i === k ? scale : one)) }).position.radius;
                 if (factor === null) return assert.ok(total(0) > tolerance, report.sources[k].name);
                 assert.ok(Math.abs(total(factor) - tolerance) < 1e-9 * tolerance, report.sources[k].name);
                 assert.ok(total(1.01 * factor) > tolerance, report.sources[k].name);
+                // Each factor between both meets it.
+                for (const share of [0, 0.3, 0.7, 1]) assert.ok(total(least + share * (factor - least)) <= tolerance * (1 + 1e-9));
+                assert.ok(least === 0 || total(0.99 * least) > tolerance, report.sources[k].name);
             });
         }
     }

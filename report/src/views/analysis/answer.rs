@@ -70,7 +70,7 @@ pub(super) fn headline(report: &Report) -> String {
 fn by_criterion(criterion: Criterion) -> &'static str {
     match criterion {
         Criterion::WorstCase => "in the worst case",
-        Criterion::RootSumOfSquares => "by root sum of squares",
+        Criterion::RootSumOfSquares => "by rss",
         Criterion::Probability => "by probability",
         Criterion::Yield => "by yield",
     }
@@ -129,9 +129,8 @@ fn figures(report: &Report) -> Table {
     let is_mixed = radii.random_radius > 0.0 && radii.repeatable_radius > 0.0;
     if is_mixed {
         let most = norms.and_then(|norms| norms.random.as_ref());
-        let most = certified(most);
-        let note = if is_rss || most.is_empty() { most } else { format!("rss; {most}") };
-        rows.push(position("random only", radii.random_radius, Default::default(), note));
+        let name = if is_rss { "random only" } else { "random, rss" };
+        rows.push(position(name, radii.random_radius, Default::default(), certified(most)));
     }
     if report.orientation.radii.radius > 0.0 {
         let value = steady(report.judged_error(Measurand::Orientation).value);
@@ -151,8 +150,7 @@ fn figures(report: &Report) -> Table {
             rows.push(["  compensated".to_owned(), value, share, probability, u95, String::new()]);
         }
     }
-    let figure = if is_rss { "rss" } else { "worst case" };
-    let columns = [words(""), number(figure), number(""), words(""), words(""), words("")];
+    let columns = [words(""), number(""), number(""), words(""), words(""), words("")];
     Table::new("", columns).rows(rows)
 }
 

@@ -28,14 +28,8 @@ use crate::views::shared::changed;
 const SHOWN: usize = 3;
 
 /// Describes an error budget over a workspace, with the figures of its page, the first of which
-/// stand above all tables. `sampled` is the figure of the certified norms, and `left_out` are
-/// disabled sources whose figures are missing.
-pub(crate) fn analysis(
-    report: &Report,
-    [first, others]: [Vec<Figure>; 2],
-    sampled: Option<Figure>,
-    left_out: &[String],
-) -> Document {
+/// stand above all tables. `left_out` are disabled sources whose figures are missing.
+pub(crate) fn analysis(report: &Report, [first, others]: [Vec<Figure>; 2], left_out: &[String]) -> Document {
     let mut sections = Vec::new();
     match report.sources.is_empty() {
         true => {
@@ -53,7 +47,6 @@ pub(crate) fn analysis(
     ]);
     if !report.sources.is_empty() {
         sections.push(together(report));
-        sections.push(certified(report, sampled));
         sections.push(allowance(report));
     }
     let missing = left_out.iter().map(|source| format!("Not drawn: the source “{source}” is disabled."));
@@ -179,14 +172,6 @@ fn together(report: &Report) -> Section {
     section
         .state("other_tool", report.other_tool.as_ref().map(|tool| tool.sentence.clone()))
         .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
-}
-
-fn certified(report: &Report, sampled: Option<Figure>) -> Section {
-    let section = Section::page("Certified bounds");
-    let Some(norms) = norms::norm_comparison_table(report) else { return section };
-    let unit = report.spec.length.symbol();
-    let caption = format!("Largest norms, sampled and certified ({unit})");
-    section.figures(sampled.into_iter().collect()).table(norms.titled(caption))
 }
 
 /// Tabulates the allowed sizes of the sources.

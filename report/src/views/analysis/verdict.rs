@@ -125,7 +125,7 @@ fn tolerance_sentence(
             return format!(
                 "{name}: {met}. Of {machines} machines drawn, {} keep every tolerance at all of {all} \
                  configurations, each with a probability of {}; with 95 % confidence {} to {}; {} is required. \
-                 To first order, with {repeatable}{normal}.{left_out}",
+                 To first order, with {repeatable}.{left_out}",
                 share(kept),
                 number::at_least(report.study.probability),
                 share(from),
