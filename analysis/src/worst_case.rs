@@ -4,7 +4,7 @@ use abbe_kinematics::sampling::norm;
 
 /// Largest count of vectors whose signs are tried one by one.
 const FEW: usize = 3;
-/// Relative size of the differences that make vectors in a common plane, or parallel ones, distinct.
+/// Relative size of the differences that make vectors in a common plane distinct.
 const DISTINCT: f64 = 1e-9;
 
 /// Returns the longest vector `c + Σ ± v_k` over all signs.

@@ -534,13 +534,13 @@ class CombinedReport(Fields):
     """
 
     worst_case: list[float]
-    """Largest sums of absolute values of all sources along x, y, z.
+    """Largest errors along x, y, z over all signs: repeatable sources at their values, the others at their bounds.
 
     Unit: length unit.
     """
 
     worst_case_radius: float
-    """Largest sum of the norms of all sources.
+    """Largest norm over all signs.
 
     Unit: length unit.
     """
@@ -625,6 +625,9 @@ class CompensatedVerdicts(Fields):
 
     orientation: ToleranceVerdict | None = None
     """Verdict on the orientation error; None without an orientation tolerance."""
+
+    yield: Yield | None = None
+    """Share of machines that keep all tolerances at all configurations, if that is the criterion."""
 
 
 class Compliance(Fields):
@@ -841,16 +844,12 @@ class ErrorAllowance(Fields):
     """Errors that a tolerance allows, as factors of the present errors."""
 
     together: float | None
-    """Factor for all sources at which the radius equals the tolerance; None if there is no error."""
-
-    equal_share: float | None
-    """Norm of the error that each contributing source may cause if all have equal shares, in the tolerance's unit."""
-
-    equal_share_probability: float
-    """Lower bound on the probability that the tolerance is met with equal shares."""
+    """Factor for all sources at which the judged error as built equals the tolerance; None if there is no error, or
+    if a probability or yield is judged.
+    """
 
     sources: list[SourceAllowance]
-    """Allowances of the sources, largest gain first."""
+    """Allowances of the sources, largest share first."""
 
 
 class ErrorBound(Fields):
@@ -1792,6 +1791,11 @@ class LedgerEntry(Fields):
     share_of_tolerance: float | None = None
     """Largest norm as a share of the tolerance; None without a tolerance."""
 
+    share: float | None = None
+    """Share of the source in the judged error at the configuration of the verdict; negative if it counteracts the
+    others, None for sums.
+    """
+
     rank: int | None = None
     """Rank of the source by its largest norm, 1 for the largest; None for sums."""
 
@@ -2281,6 +2285,12 @@ class OrientationReport(Fields):
 
     random: list[float]
     """Root sum of squares of the random sources, row by row.
+
+    Unit: rad.
+    """
+
+    worst_case_radius: float
+    """Largest norm over all signs.
 
     Unit: rad.
     """
@@ -3042,11 +3052,11 @@ class SourceAllowance(Fields):
     alone: float | None
     """Factor if there were no other source; None if it causes no error."""
 
-    equal: float | None
-    """Factor for an equal share; None if it causes no error."""
+    share: float
+    """Share of the source in the judged error at its place; negative if it counteracts the others."""
 
     gain_per_percent: float
-    """Decrease of the radius if the source is reduced by one percent, in the tolerance's unit."""
+    """Decrease of the judged error there if the source is reduced by one percent, in the tolerance's unit."""
 
 
 class SourceReport(Fields):
@@ -3236,15 +3246,16 @@ class TestExtrapolation(Fields):
 class ToleranceVerdict(Fields):
     """Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 
-    The probability is the smallest over the evaluated configurations: the one with the largest radius (norm of the
-    repeatable errors + norm of the random bounds), those that an approximation ranks least likely to meet the
-    tolerance, and the one where it has the largest error at 95 %. To first order; random sources are distributed.
-    Repeatable sources have their nominal values. On the compensated machine they are replaced by residuals with
-    their full norm, of unknown sign or direction; the uncertainty of the calibration and of the inputs is a random
-    error.
+    One criterion decides: the largest error over all signs, the radius, the probability, or the lower end of the
+    confidence interval of the yield. The probability is the smallest over the evaluated configurations: the one
+    with the largest radius (norm of the repeatable errors + norm of the random bounds), those that an
+    approximation ranks least likely to meet the tolerance, and the one where it has the largest error at 95 %. To
+    first order; random sources are distributed. Repeatable sources have their nominal values. On the compensated
+    machine they are replaced by residuals with their full norm, of unknown sign or direction; the uncertainty of
+    the calibration and of the inputs is a random error.
     """
 
-    verdict: Literal["met", "met-with-probability", "not-met"]
+    verdict: Literal["met", "not-met"]
     """Verdict on the tolerance."""
 
     tolerance: float
@@ -3272,17 +3283,18 @@ class ToleranceVerdict(Fields):
     u95: float
     """Norm that contains the error with a probability of 95 %, the largest over the evaluated configurations."""
 
-    largest: float | None
-    """Largest possible error over the workspace: the norm of the repeatable errors + the norms of all random bounds.
-    None if a random source is unbounded.
+    worst_case: float
+    """Largest error over all signs and the configurations: repeatable errors at their values, all others at their
+    bounds, normal ones at 3σ.
 
     Unit: length unit or rad.
     """
 
+    is_bounded: bool
+    """Whether no draw exceeds the worst case: no source is normal."""
+
     at: Named[float]
-    """Configuration with that probability. If the tolerance is certainly met, the configuration with the largest
-    radius.
-    """
+    """Configuration with the largest worst case or radius, or the smallest probability, whichever is the criterion."""
 
     configurations: int
     """Number of configurations at which the probability was evaluated."""
@@ -3442,14 +3454,20 @@ class Variable(Fields):
 class Verdicts(Fields):
     """Verdicts on the tolerances of a study."""
 
-    verdict: Literal["met", "met-with-probability", "not-met"]
+    verdict: Literal["met", "not-met"]
     """Worst of the verdicts on the machine that counts."""
 
     machine: Literal["as-built", "compensated"]
     """Machine whose verdict counts: `as-built` or `compensated`."""
 
-    probability_required: float
-    """Required probability of meeting each tolerance."""
+    criterion: Literal["worst-case", "rss", "probability", "yield"]
+    """Criterion of the verdict: `worst-case`, `rss`, `probability` or `yield`."""
+
+    probability_required: float | None = None
+    """Required probability of meeting each tolerance, if that is the criterion or part of it."""
+
+    yield_required: float | None = None
+    """Required share of machines, if that is the criterion."""
 
     unreachable: int | None = None
     """Number of unreachable configurations, if they are more than the study permits: the tolerance is then not met."""
@@ -3459,6 +3477,9 @@ class Verdicts(Fields):
 
     orientation: ToleranceVerdict | None = None
     """Verdict on the orientation error; None without an orientation tolerance."""
+
+    yield: Yield | None = None
+    """Share of machines that keep all tolerances at all configurations, if that is the criterion."""
 
     compensated: CompensatedVerdicts | None = None
     """Verdicts on the compensated machine; None if nothing says what compensation leaves."""
@@ -3488,3 +3509,16 @@ class WeaklyDetermined(Fields):
 
     unit: str
     """Unit: the length unit, rad, or empty."""
+
+
+class Yield(Fields):
+    """Share of the machines that keep their tolerances."""
+
+    machines: int
+    """Number of machines drawn."""
+
+    share: float
+    """Share of them that keep all tolerances at all configurations."""
+
+    interval: list[float]
+    """Confidence interval of 95 %."""

@@ -25,7 +25,7 @@ pub(super) struct OverSignsAccumulator<R: Register> {
     most: f64,
     /// Upper bound of the worst case of all configurations.
     bound: f64,
-    /// Whether a source has an unknown sign.
+    /// Indicates that a source has an unknown sign.
     any: bool,
 }
 

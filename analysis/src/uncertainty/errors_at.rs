@@ -89,9 +89,9 @@ pub(super) struct RandomError {
     pub(super) distribution: Distribution,
     /// Degrees of freedom of its standard deviation. Infinite if that is known.
     pub(super) degrees_of_freedom: f64,
-    /// Whether it is a part of the uncertainty of a calibration.
+    /// Marks a part of the uncertainty of a calibration.
     pub(super) is_calibration: bool,
-    /// Whether it has one value in each machine: a tolerance, or the error of a calibration.
+    /// Marks an error with one value in each machine: a tolerance, or that of a calibration.
     pub(super) is_of_machine: bool,
     /// ΔX for an error equal to its magnitude. The three rows are fully correlated.
     pub(super) magnitude: [f64; 3],

@@ -33,7 +33,7 @@ pub struct Yield {
     pub machines: usize,
     /// Share of them that keep all tolerances at all configurations.
     pub share: f64,
-    /// Confidence interval of 95 %.
+    /// Confidence interval of 95 % for the share of all machines.
     pub interval: [f64; 2],
 }
 

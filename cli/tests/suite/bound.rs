@@ -90,6 +90,11 @@ fn nothing_that_is_sampled_exceeds_it() {
     for name in ["pps", "machine3", "puma560"] {
         let analysis = json(&["analyze", name, "--json"]);
         let bound = json(&["bound", name, "--json", "--gap", "5%"]);
+        // What the analysis finds counts for the bound, too, however little it searches.
+        let worst = number(&analysis["combined"]["worst_case_radius"]);
+        let hasty = json(&["bound", name, "--json", "--boxes", "1"]);
+        assert!(number(&hasty["total"]["norm"]["found"]) >= worst * (1.0 - 1e-9), "{name}: {worst}");
+        assert!(worst <= number(&bound["total"]["norm"]["certified"]) * (1.0 + 1e-9), "{name}: {worst}");
         for (sampled, kind) in ["repeatable_radius", "random_radius", "radius"].into_iter().zip(KINDS) {
             let sampled = number(&analysis["combined"][sampled]);
             let certified = number(&bound[kind]["norm"]["certified"]);

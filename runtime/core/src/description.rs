@@ -194,7 +194,7 @@ impl Input {
     }
 }
 
-/// What is known of an error, and whether it is the same at each visit of a configuration.
+/// Class of an error: whether its value is known, and the same at each visit of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// Has a known value and sign: adds with sign, and can be compensated.
@@ -231,8 +231,8 @@ impl Class {
         }
     }
 
-    /// Returns whether the error stays the same, so that a calibration can find and a controller can
-    /// compensate it.
+    /// Returns whether the error stays the same, so that a calibration can find it and a controller
+    /// can compensate it.
     pub const fn can_be_compensated(self) -> bool {
         !matches!(self, Self::Random(_))
     }

@@ -27,7 +27,7 @@ pub(super) struct CompensatedExtremes {
     pub(super) radius: Extreme,
     /// Largest error over all signs.
     pub(super) worst_case: Extreme,
-    /// Whether no draw exceeds it.
+    /// Indicates that no draw exceeds it.
     pub(super) is_bounded: bool,
     /// Configuration where the norm that is exceeded with 5 % probability is largest, by an
     /// approximation.

@@ -3,6 +3,7 @@
 use abbe_spec::option::SET;
 use std::sync::Arc;
 
+use abbe::analysis::{BudgetOptions, Configuration, error_budget};
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
 use abbe_codegen::chain::{DIRECTION, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
@@ -52,6 +53,23 @@ impl Domain {
             ));
         }
         Ok(domain)
+    }
+
+    /// Returns the configuration of the study with the largest worst case over all signs: what a
+    /// sweep finds counts for the bound, too. `None` if there is none.
+    pub(super) fn worst_of_workspace(&self, machine: &Machine, study: &Study) -> Option<Vec<f64>> {
+        let manipulator = &*machine.evaluator(true);
+        let workspace = study.region.workspace(manipulator, None).ok()?;
+        let budget = error_budget(manipulator, &*workspace, BudgetOptions::default(), &mut ()).ok()?;
+        let worst = budget.combined.worst_case_radius.configuration?;
+        let Configuration { q, s, u } = workspace.configuration(worst).ok()?;
+        let value = |span: &Span| match span.symbol {
+            Symbol::Variable(i) => q[i],
+            Symbol::Parameter(i) => s[i],
+            Symbol::Input(i) => u[i],
+            _ => f64::NAN,
+        };
+        Some(self.spans.iter().map(|span| value(span).clamp(span.range[0], span.range[1])).collect())
     }
 
     /// Bounds the largest magnitude of an error over the box. The search starts at `start`, or at

@@ -75,13 +75,15 @@ impl Bound {
             let rotation = if is_rotation { limits.rotation[kind] } else { f64::INFINITY };
             [limits.position[kind], rotation]
         };
+        let start = domain.worst_of_workspace(machine, study);
+        let start = start.as_deref();
         let mut searches = Searches { job: self, domain: &domain, begun: Instant::now(), done: 0 };
-        let repeatable = searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), notes)?;
-        let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), notes)?;
+        let repeatable = searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), start, notes)?;
+        let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), start, notes)?;
         // With sources of one class only, the combined error is that of the class.
         let [repeatable, random, total] = match Classes::enabled(&domain.spec) {
             Classes { repeatable: true, random: true } => {
-                let both = searches.error_bounds(&mut graph, &total, &across_z[2], at_most(2), notes)?;
+                let both = searches.error_bounds(&mut graph, &total, &across_z[2], at_most(2), start, notes)?;
                 let both = both.tighten_by_sum(&repeatable, &random);
                 // No part is larger than the sum.
                 [repeatable.tighten(&both), random.tighten(&both), both]
@@ -128,10 +130,11 @@ impl Searches<'_> {
         [norm, x, y, z, orientation]: &[Magnitude; 5],
         across_z: &Magnitude,
         at_most: [f64; 2],
+        from: Option<&[f64]>,
         notes: &mut dyn Notes,
     ) -> Result<ErrorBounds, Diagnostics> {
         let [norm_effort, orientation_effort] = at_most.map(|at_most| Effort { at_most, ..self.job.effort });
-        let norm = self.largest(graph, norm, None, &norm_effort, notes)?;
+        let norm = self.largest(graph, norm, from, &norm_effort, notes)?;
         // A component of the position error cannot exceed its norm.
         let component_effort = Effort { at_most: norm.certified, ..norm_effort };
         // If a joint rotates both components about z, their common bound is found quickly. It
@@ -140,7 +143,7 @@ impl Searches<'_> {
             true => Some(self.largest(graph, across_z, None, &component_effort, notes)?),
             false => None,
         };
-        let start = across.as_ref().map(|across| &across.at[..]);
+        let start = across.as_ref().map(|across| &across.at[..]).or(from);
         let at_most = across.as_ref().map_or(norm.certified, |across| across.certified);
         let row_effort = Effort { at_most, ..component_effort };
         let mut x = self.largest(graph, x, start, &row_effort, notes)?;

@@ -371,7 +371,7 @@ fn the_least_likely_configuration_is_found() {
             analyzed(
                 &text,
                 &format!(
-                    "tolerance = \"{tolerance} mm\"\n[workspace.random]\nsamples = 250\nseed = {seed}\n"
+                    "criterion = \"probability\"\ntolerance = \"{tolerance} mm\"\n[workspace.random]\nsamples = 250\nseed = {seed}\n"
                 ),
             )
         };

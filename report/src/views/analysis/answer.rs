@@ -164,8 +164,8 @@ fn basis(report: &Report) -> String {
     }
 }
 
-/// Lists the sources with the largest shares of the judged error, and the factor at which each alone
-/// would use up the tolerance as built; the last row has the factor for all of them together.
+/// Lists the sources with the largest shares of the judged error, and the factor at which each
+/// alone would use up the tolerance as built; the last row has the factor for all of them together.
 fn sources(report: &Report) -> Table {
     let decimals = decimals(report);
     let mut all: Vec<&LedgerEntry> = report.ledger.sources.iter().collect();

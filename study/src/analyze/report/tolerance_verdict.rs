@@ -175,7 +175,7 @@ pub struct ToleranceVerdict {
     /// Largest error over all signs and the configurations: repeatable errors at their values, all
     /// others at their bounds, normal ones at 3σ.
     pub worst_case: f64,
-    /// Whether no draw exceeds the worst case: no source is normal.
+    /// Indicates that no draw exceeds the worst case: no source is normal.
     pub is_bounded: bool,
     /// Configuration with the largest worst case or radius, or the smallest probability, whichever
     /// is the criterion.
@@ -195,7 +195,7 @@ pub(in crate::analyze) struct JudgedErrors {
     /// Largest error over all signs, and an upper bound of it.
     pub(in crate::analyze) worst_case: Extreme,
     pub(in crate::analyze) worst_case_bound: f64,
-    /// Whether no draw exceeds it.
+    /// Indicates that no draw exceeds it.
     pub(in crate::analyze) is_bounded: bool,
     /// Distributions at some configurations: first the one with the largest radius, then the most
     /// likely to be worst.
