@@ -19,7 +19,8 @@ pub(crate) fn run(arguments: &arguments::Allocate) -> Result<Outcome, Failure> {
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let mut file = outputs.wanted(arguments.out.as_deref())?;
     let report = job.run(&mut Console::default())?;
-    let mut next = "--out FILE writes the spec with these factors, --full lists their options".to_owned();
+    let mut next =
+        "--out FILE writes the spec with these factors, --full the options for abbe analyze".to_owned();
     if let (Some(path), Some(pending)) = (&arguments.out, file.take()) {
         let text = job.text(&report, &machine.text_for(path)?);
         let failed = || Failure::new(path.display(), "the spec has no place for the factors");

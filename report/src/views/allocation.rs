@@ -4,6 +4,7 @@ use abbe_spec::option::option;
 use abbe_study::allocate::{AllocatedSource, Report, printed};
 use abbe_study::number::{counted, digits, error_unit};
 
+use super::analysis::by_criterion;
 use super::shared::{changed, place};
 use crate::document::{Document, Section, Table, number, words};
 
@@ -29,8 +30,9 @@ pub fn allocation(report: &Report) -> Document {
         machine: report.spec.title.clone(),
         title: report.study.title.clone(),
         headline: format!(
-            "tolerance {} kept in the worst case at {at}",
-            kept.collect::<Vec<_>>().join(" and ")
+            "tolerance {} kept {} at {at}",
+            kept.collect::<Vec<_>>().join(" and "),
+            by_criterion(report.study.criterion)
         ),
         sections: vec![
             Section::answer().table(shown).facts(facts(report)),
@@ -43,8 +45,7 @@ pub fn allocation(report: &Report) -> Document {
 
 /// Definition of the factors.
 const MEANING: &str = "Each factor multiplies the errors of its source. The tolerance is kept with these factors as they are \
- printed, and with all smaller ones: no error is relied on to cancel another one. Errors that are not repeatable have any sign, \
- normal ones at 3 σ. The sum of the costs c/xᵖ is the least possible.";
+ printed, and with all smaller ones: no error is relied on to cancel another one. The sum of the costs c/xᵖ is the least possible.";
 
 /// Tabulates the sources, the smallest factor first.
 fn table(report: &Report) -> Table {

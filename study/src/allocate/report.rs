@@ -7,7 +7,6 @@ use abbe_spec::Spec;
 use abbe_spec::option::NamedOption;
 use serde::Serialize;
 
-use crate::calibration::is_calibration_error;
 use crate::machine::Machine;
 use crate::number::{Named, decimals, rounded_down};
 use crate::study_file::Study;
@@ -84,7 +83,7 @@ impl Report {
     ) -> Self {
         let spec = Arc::clone(&machine.spec);
         let own = spec.enabled_sources().zip(&allocator.sources).enumerate();
-        let own = own.filter(|(k, (source, own))| own.follows == *k && !is_calibration_error(source));
+        let own = own.filter(|(k, (source, own))| own.follows == *k && !source.is_calibration_error());
         let sources = own.map(|(k, (source, scalable))| AllocatedSource {
             source: source.name.clone(),
             factor: factors[k],
