@@ -7,7 +7,6 @@
 //! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), and of all together ([`Combined`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
 //! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met; [`Machines`]: the share of machines that meet it everywhere |
-//! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met |
 //! | `allocation` | [`Allocator`]: factors of the sources at which a tolerance is kept at least cost |
 //! | `worst_case` | [`worst_case()`]: the largest error over all signs at one configuration |
 //! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |

@@ -2,6 +2,7 @@
 
 use abbe_report::views;
 use abbe_study::allocate::Allocate;
+use abbe_study::{Changes, changed_text};
 
 use crate::arguments;
 use crate::console::Console;
@@ -22,7 +23,10 @@ pub(crate) fn run(arguments: &arguments::Allocate) -> Result<Outcome, Failure> {
     let mut next =
         "--out FILE writes the spec with these factors, --full the options for abbe analyze".to_owned();
     if let (Some(path), Some(pending)) = (&arguments.out, file.take()) {
-        let text = job.text(&report, &machine.text_for(path)?);
+        let mut scaled = machine.clone();
+        scaled.change(&changes);
+        scaled.change(&Changes::read([&[], &[], &[], &report.scales()], &machine.spec)?);
+        let text = changed_text(&machine.text_for(path)?, &machine.spec, &scaled.spec);
         let failed = || Failure::new(path.display(), "the spec has no place for the factors");
         file = Some(pending.fill(&text.ok_or_else(failed)?)?);
         let path = quoted(&path.to_string_lossy());

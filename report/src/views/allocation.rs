@@ -22,9 +22,7 @@ pub fn allocation(report: &Report) -> Document {
     let mut shown = table(report);
     let more = shown.rows.split_off(shown.rows.len().min(SHOWN)).len();
     shown.rest = if more > 0 { format!("… {more} more") } else { String::new() };
-    let changed = report.sources.iter().filter(|source| !source.fixed && source.factor != 1.0);
-    let scale = |source: &AllocatedSource| format!("{}={}", source.source, printed(source.factor));
-    let options = changed.map(|source| option("scale", scale(source)).to_string()).collect();
+    let options = report.scales().into_iter().map(|scale| option("scale", scale).to_string()).collect();
     Document {
         kind: "Allocation of a tolerance",
         machine: report.spec.title.clone(),

@@ -2,17 +2,14 @@
 
 mod report;
 
-use std::sync::Arc;
-
 use abbe::Class;
 use abbe::analysis::sampling::norm;
 use abbe::analysis::{AllocationCriterion, Allocator, ErrorRow, Measurand, Row, ScalableSource, sweep};
+use abbe_spec::Source;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::option;
-use abbe_spec::{Source, Spec};
 
 use crate::analyze::not_evaluated;
-use crate::changed_text::changed_text;
 use crate::changes::Changes;
 use crate::finite::finite;
 use crate::machine::{Machine, followed_source};
@@ -35,25 +32,21 @@ const MOST: f64 = 1000.0;
 pub struct Allocate {
     machine: Machine,
     study: Study,
-    /// Spec as its text has it, and with the changes by options.
-    specs: [Arc<Spec>; 2],
     /// Allows factors above 1.
     pub loosen: bool,
 }
 
-crate::reads! { Allocate: machine study, without specs loosen; }
+crate::reads! { Allocate: machine study, without loosen; }
 
 impl Allocate {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
-        let specs = [Arc::clone(&machine.spec), Arc::clone(&machine.spec)];
         machine.change_for(&study.changes.clone(), &mut study);
-        Self { machine, study, specs, loosen: false }
+        Self { machine, study, loosen: false }
     }
 
     /// Makes further changes.
     pub fn change(&mut self, changes: &Changes) {
-        changes.apply(Arc::make_mut(&mut self.specs[1]));
         self.machine.change_for(changes, &mut self.study);
     }
 
@@ -138,12 +131,6 @@ impl Allocate {
             let report = Report::new(machine, study, &allocator, (allocation.factors, largest), reach);
             return finite(&machine.origin, Report { active, residual: allocation.residual, ..report });
         }
-    }
-
-    /// Returns the text of the spec with the changes by options and the factors of a report, as they
-    /// are printed. `None` if the text has no place for one of them.
-    pub fn text(&self, report: &Report, text: &str) -> Option<String> {
-        changed_text(text, &self.specs[0], &report.scaled(&self.specs[1]))
     }
 
     /// Returns the enabled sources. Parts of a calibration are fixed, and so is the uncertainty of

@@ -114,13 +114,9 @@ impl Report {
         }
     }
 
-    /// Returns a spec with the factors as they are printed.
-    pub(super) fn scaled(&self, spec: &Arc<Spec>) -> Spec {
-        let mut scaled = Spec::clone(spec);
-        for own in self.sources.iter().filter(|own| !own.fixed) {
-            let source = scaled.sources.iter_mut().filter(|source| source.name == own.source);
-            source.for_each(|source| source.scale *= printed(own.factor));
-        }
-        scaled
+    /// Returns the factors that are not 1 as they are printed, in the form of `--scale`.
+    pub fn scales(&self) -> Vec<String> {
+        let changed = self.sources.iter().filter(|source| !source.fixed && source.factor != 1.0);
+        changed.map(|source| format!("{}={}", source.source, printed(source.factor))).collect()
     }
 }
