@@ -9,7 +9,7 @@ use super::shared::{changed, place};
 use crate::document::{Document, Section, Table, number, words};
 
 /// Number of sources on the first screen.
-const SHOWN: usize = 12;
+const SHOWN: usize = 10;
 
 /// Describes an allocation.
 pub fn allocation(report: &Report) -> Document {

@@ -22,6 +22,8 @@ pub use report::{AllocatedSource, Report, printed};
 
 /// Largest number of exceeding configurations that are added after a sweep.
 const ADDED: usize = 1000;
+/// Largest residual of an optimum.
+const CONVERGED: f64 = 1e-8;
 /// Smallest factor.
 const LEAST: f64 = 0.001;
 /// Largest factor of sources that may be worse than they are.
@@ -115,6 +117,10 @@ impl Allocate {
             if configurations == 0 {
                 let help = "move or shrink the workspace of the study, or widen the limits of the joints";
                 return Err(refused("no configuration of the workspace is reachable", help));
+            }
+            if allocation.residual > CONVERGED {
+                let help = "write costs and exponents into [allocation] that differ less";
+                return Err(refused("the optimization of the factors does not converge", help));
             }
             if !exceeding.is_empty() {
                 allocator.rows.extend(exceeding.into_iter().map(|(_, row)| row));
