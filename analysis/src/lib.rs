@@ -7,6 +7,7 @@
 //! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), and of all together ([`Combined`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
 //! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met; [`Machines`]: the share of machines that meet it everywhere |
+//! | `allocation` | [`Allocator`]: factors of the sources at which a tolerance is kept at least cost |
 //! | `worst_case` | [`worst_case()`]: the largest error over all signs at one configuration |
 //! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |
 //!
@@ -37,6 +38,7 @@
 //! # }
 //! ```
 
+mod allocation;
 mod budget;
 mod identifiable;
 mod measurand;
@@ -57,6 +59,7 @@ mod thorough;
 
 pub use abbe_core::lanes::Sweepable;
 pub use abbe_kinematics::*;
+pub use allocation::{Allocation, AllocationCriterion, Allocator, ErrorRow, ScalableSource};
 pub use budget::{
     Budget, BudgetOptions, BudgetSweep, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, Gap,
     OrientationErrors, PartialBudget, SourceErrors, Sphere, Watch, covariance, error_budget, variance,

@@ -5,6 +5,7 @@
 //! to stdout, all other messages to stderr. The exit status is 0, 1 if a check failed, 2 for wrong
 //! usage or input, and 128 + n after signal n.
 
+mod allocate;
 mod analyze;
 mod arguments;
 mod bound;
@@ -71,6 +72,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
         Some(Command::Explore(arguments)) => explore::run(arguments),
         Some(Command::Bound(arguments)) => bound::run(arguments),
+        Some(Command::Allocate(arguments)) => allocate::run(arguments),
         Some(Command::Merge(arguments)) => merge::run(arguments),
         Some(Command::New(arguments)) => new::run(arguments),
         Some(Command::Import(arguments)) => import::run(arguments),

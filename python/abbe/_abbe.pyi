@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import options
 from ._fields import Fields, Figure, Page
 from .reports import (
+    AllocateReport,
     AnalyzeReport,
     BoundReport,
     CheckReport,
@@ -68,9 +69,8 @@ class Machine:
         """Name of the manipulator."""
     @property
     def text(self) -> str:
-        """Text of the spec with the changes of `with_parameters`, `enable` and `disable`, as
-        `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change, such
-        as `scale`.
+        """Text of the spec with the changes of `with_parameters`, `enable`, `disable` and `scale`, as
+        `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change.
 
         >>> import abbe
         >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")
@@ -384,6 +384,33 @@ class Machine:
         >>> import abbe
         >>> abbe.load("ur5").explore()
         <abbe page: Universal Robots UR5 with a tracker target>
+        """
+    def allocate(
+        self,
+        study: _Path | None = None,
+        *,
+        study_text: str | None = None,
+        tolerance: str | list[str] | None = None,
+        loosen: bool = False,
+        threads: int | None = None,
+        progress: _Progress | None = None,
+    ) -> AllocateReport:
+        """Allocates the tolerance: factors of the error sources that keep it at least cost.
+
+        `study`, `study_text`, `tolerance`: as for `analyze`; the study also has the costs.
+        `loosen`: allow factors above 1.
+
+        `.sources` have the `.factor` of each `.source`. The tolerance is kept in the worst case with
+        these factors and with all smaller ones. `.cost` is the sum of the costs, `.one_factor_cost`
+        that with the same factor for all, and `.active` has the configurations at which the
+        tolerance is reached. `scale` applies a factor to a machine, and `text` is its spec.
+
+        Lengths are in the unit of the spec, angles in rad. Fields: `abbe.reports.AllocateReport`.
+
+        >>> import abbe
+        >>> report = abbe.load("pps").allocate()
+        >>> min((source.factor, source.source) for source in report.sources)[1]
+        'assembly'
         """
     def bound(
         self,

@@ -9,6 +9,7 @@
 //! tables to Arrow, `part` is a part of an analysis, `failure` converts errors to exceptions, and
 //! `words` says what the command calls options in terms of Python.
 
+mod allocate;
 mod analysis_report;
 mod analyze;
 mod arrays;

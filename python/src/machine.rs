@@ -192,9 +192,8 @@ impl Machine {
         &self.machine.spec.name
     }
 
-    /// Text of the spec with the changes of `with_parameters`, `enable` and `disable`, as
-    /// `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change, such
-    /// as `scale`.
+    /// Text of the spec with the changes of `with_parameters`, `enable`, `disable` and `scale`, as
+    /// `abbe.load(text=…)` reads it. Raises ValueError if the text has no place for a change.
     ///
     /// >>> import abbe
     /// >>> changed = abbe.load("pps").with_parameters(x="25 cm").disable("assembly")

@@ -31,6 +31,7 @@ def rows():
 def all_reports():
     yield ANALYSIS
     yield pps.bound(boxes=50)
+    yield pps.allocate()
     yield ur5.check()
     yield DATA
     yield ur5.measure(rows(), "ur5")

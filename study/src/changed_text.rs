@@ -5,9 +5,9 @@ use abbe_spec::edit::{Edits, write};
 
 use crate::number::exact_quantity;
 
-/// Returns the text of a spec with the values of parameters and inputs, and the enabled sources, of
-/// a changed one. Everything else stays as it is. `None` if the text has no place for a change,
-/// such as the scale of a source.
+/// Returns the text of a spec with the values of parameters and inputs, and the switches and scales
+/// of the sources, of a changed one. Everything else stays as it is. `None` if the text has no place
+/// for a change.
 pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<String> {
     let values = |spec: &Spec| {
         let parameters =
@@ -25,11 +25,12 @@ pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<Stri
             edits.replace(span, if unit.is_empty() { text } else { write::quoted(&text) });
         }
         for (i, (old, new)) in unchanged.sources.iter().zip(&changed.sources).enumerate() {
-            if old.scale != new.scale {
-                return None;
-            }
-            if old.enabled != new.enabled {
-                edits.set(root.get("source")?.list().get(i)?, "enabled", new.enabled);
+            let changes = [
+                (old.enabled != new.enabled, "enabled", new.enabled.to_string()),
+                (old.scale != new.scale, "scale", new.scale.to_string()),
+            ];
+            for (_, key, value) in changes.into_iter().filter(|(is_changed, ..)| *is_changed) {
+                edits.set(root.get("source")?.list().get(i)?, key, value);
             }
         }
         Some(())

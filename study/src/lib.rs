@@ -45,6 +45,7 @@
 //! are the changes of one run. [`study_file`] holds study files, [`workspace`] the configurations
 //! that they describe.
 
+pub mod allocate;
 pub mod analyze;
 pub mod bound;
 pub mod check;

@@ -3,6 +3,7 @@
 
 #[macro_use]
 mod help;
+mod allocate;
 mod analyze;
 mod bound;
 mod check;
@@ -28,6 +29,7 @@ mod shared;
 mod simulate;
 mod values;
 
+pub(crate) use allocate::Allocate;
 pub(crate) use analyze::Analyze;
 pub(crate) use bound::Bound;
 pub(crate) use check::Check;
@@ -98,6 +100,10 @@ pub(crate) enum Command {
     Explore(Explore),
     /// Certify upper bounds of the errors, beside the largest errors found
     Bound(Bound),
+    /// Allocate the tolerance: factors of the error sources that keep it at least cost
+    ///
+    /// It is kept with all smaller factors, too: no error is relied on to cancel another one.
+    Allocate(Allocate),
     /// Merge the parts of an analysis that was computed in several runs
     Merge(Merge),
     /// Generate code for the pose, the error Jacobian and the error sources in closed form

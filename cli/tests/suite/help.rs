@@ -128,11 +128,11 @@ fn options_stand_wherever_they_make_sense() {
     let json: Vec<String> = commands().into_iter().filter(|name| !silent.contains(&name.as_str())).collect();
     assert_eq!(with("--json"), json);
     let measured = ["plan", "simulate", "measure", "identify", "compensate", "monitor"];
-    assert_eq!(with("--threads"), [&["analyze", "bound", "merge"][..], &measured].concat());
+    assert_eq!(with("--threads"), [&["analyze", "bound", "allocate", "merge"][..], &measured].concat());
     let set = ["plan", "simulate", "measure", "identify", "compensate", "export", "monitor"];
     assert_eq!(
         with("--set"),
-        [&["check", "jacobian", "analyze", "explore", "bound", "doctor"][..], &set].concat()
+        [&["check", "jacobian", "analyze", "explore", "bound", "allocate", "doctor"][..], &set].concat()
     );
     assert_eq!(with("--scale"), with("--set"));
     assert_eq!(with("--seed"), ["analyze", "plan", "simulate", "export"]);

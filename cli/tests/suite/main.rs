@@ -1,6 +1,7 @@
 //! Tests of the binary as users run it: its output and its exit status.
 
 mod abuse;
+mod allocate;
 mod analyze;
 mod answers;
 mod bad_input;

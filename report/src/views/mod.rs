@@ -3,6 +3,7 @@
 //!
 //! A view knows no renderer. `shared` has what several of them say.
 
+mod allocation;
 mod analysis;
 mod bound;
 mod check;
@@ -17,6 +18,7 @@ mod plan;
 mod positioning;
 mod shared;
 
+pub use allocation::allocation;
 pub(crate) use analysis::analysis;
 pub use bound::bound;
 pub use check::check;

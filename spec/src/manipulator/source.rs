@@ -26,7 +26,7 @@ pub struct Source {
     pub reference: String,
     /// Factor of its errors, if that can be identified.
     pub magnitude: Option<Magnitude>,
-    /// Factor of all its errors in addition to its magnitude; 1 for a source of a file.
+    /// Factor of all its errors in addition to its magnitude.
     pub scale: f64,
     /// Input that multiplies its errors instead of both, if the factor is given at run time.
     pub tuned_by: Option<usize>,

@@ -40,9 +40,7 @@ impl Analyze {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
     /// The uncertainty of the repeatable errors becomes random sources, after all others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
-        machine.change(&study.changes);
-        machine.add_uncertainties();
-        study.fix(machine.fixed_inputs());
+        machine.change_for(&study.changes.clone(), &mut study);
         Self { machine, study, q: None, monte_carlo: None, seed: None, interpret: false, figures: false }
     }
 
@@ -54,9 +52,7 @@ impl Analyze {
                  a different machine"
             ));
         }
-        self.machine.change(changes);
-        self.machine.add_uncertainties();
-        self.study.fix(self.machine.fixed_inputs());
+        self.machine.change_for(changes, &mut self.study);
     }
 
     /// Analyzes one configuration of the joints instead of the study's workspace, with nominal

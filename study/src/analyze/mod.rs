@@ -34,4 +34,5 @@ pub use report::{
     RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict, UncertaintyBudget,
     Verdict, Verdicts,
 };
+pub(crate) use sweep::not_evaluated;
 pub use unreachable::{UnreachableReason, unreachable_reason, unreachable_reasons, unreachable_summary};

@@ -497,7 +497,7 @@ impl AnalysisSweep<'_> {
 }
 
 /// Returns the diagnostic for a configuration without finite errors.
-pub(super) fn not_evaluated(
+pub(crate) fn not_evaluated(
     machine: &Machine,
     workspace: &dyn Workspace,
     refused: &Unevaluated,

@@ -48,17 +48,13 @@ impl Bound {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
     /// The uncertainty of the repeatable errors becomes random sources, after all others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
-        machine.change(&study.changes);
-        machine.add_uncertainties();
-        study.fix(machine.fixed_inputs());
+        machine.change_for(&study.changes.clone(), &mut study);
         Self { machine, study, effort: Effort::default(), least: false, time: None }
     }
 
     /// Makes further changes.
     pub fn change(&mut self, changes: &Changes) {
-        self.machine.change(changes);
-        self.machine.add_uncertainties();
-        self.study.fix(self.machine.fixed_inputs());
+        self.machine.change_for(changes, &mut self.study);
     }
 
     /// Refines boxes until each bound reaches the gap, or a limit on boxes or time. Returns the

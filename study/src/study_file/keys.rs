@@ -1,6 +1,6 @@
 //! Keys of a study file, except those of its workspaces.
 
-use abbe_spec::keys::Value::{self, Choice, Either, List, Names, Number, Open, Table, Tables, Text};
+use abbe_spec::keys::Value::{self, Boolean, Choice, Either, List, Names, Number, Open, Table, Tables, Text};
 use abbe_spec::keys::{Keys, Rule, Then, When, words};
 
 use super::choices::{CRITERIA, CombinedFigure, KINDS, Kind, MACHINES, MEASURANDS, Metric, UP_AXES};
@@ -17,6 +17,7 @@ abbe_spec::tables! {
         "published": Tables("[[published]]"), "-", "none", "Published figures to compare with";
         "compensated": Table("[compensated]"), "-", "none", "Published errors after compensation, to compare with";
         "compensation": Open("[compensation]", &NUMBER), "-", "none", "Residuals of the repeatable sources after compensation";
+        "allocation": Names("table of `SOURCE = { … }`", &Table("[allocation.NAME]")), "-", "every factor x costs 1/x", "Costs of the factors of the sources that `abbe allocate` chooses";
         "figure": Tables("[[figure]]"), "-", "the manipulator, the shares of the sources, the cloud, the histogram, and one figure over each variable that moves",
             "Figures of the report";
     ]
@@ -51,6 +52,11 @@ abbe_spec::tables! {
             "Norm of what remains of all repeatable sources together, in place of residuals by source";
         "default": Number("share from 0 to 1, or length"), "1", "`1`: nothing is compensated; `0` if the spec has `[covariance]`",
             "Residual of each repeatable source that is not named: a share of its error, or a length";
+    ]
+    ALLOCATION: ["[allocation.NAME]"], [
+        "cost": POSITIVE, "1", "`1`", "Cost c: the factor x of the source costs c/xᵖ";
+        "exponent": POSITIVE, "1", "`1`", "Exponent p of the cost";
+        "fixed": Boolean, "-", "`false`", "Leaves the source as it is";
     ]
 
     FIGURE: ["[[figure]]"], [

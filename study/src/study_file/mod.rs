@@ -4,9 +4,10 @@
 //!
 //! `study` is the content of a study and `read` reads a file from top to bottom. `published` are
 //! figures from a publication, `figure` the figures to draw, `compensation` the residuals after
-//! compensation, and `tolerance` the permitted errors. Everything is checked against the spec, and
+//! compensation, `allocation` the costs of factors, and `tolerance` the permitted errors. Everything is checked against the spec, and
 //! mistakes are reported like those of a spec.
 
+mod allocation;
 mod choices;
 mod compensation;
 mod figure;

@@ -10,6 +10,7 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Symbol;
 use sha2::{Digest, Sha256};
 
+use super::allocation;
 use super::choices::{CRITERIA, Criterion, JudgedMachine};
 use super::compensation;
 use super::figure::read_figures;
@@ -73,6 +74,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     let published = read_published(root, document, spec);
     let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document));
     let compensation = root.get("compensation").and_then(|item| compensation::read(&item, document, spec));
+    let allocation = root.get("allocation").map(|item| allocation::read(&item, document, spec));
     let figures = read_figures(root, document, spec, region.as_ref());
     let mut head = head?;
     head.name = "[study]".to_owned();
@@ -107,6 +109,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         published,
         compensated,
         compensation,
+        allocation: allocation.unwrap_or_default(),
         figures,
         file: Some(name_and_hash(document)),
         files: document.files.clone(),

@@ -47,6 +47,9 @@ pub struct Study {
     pub compensated: Option<PublishedResidual>,
     /// Residuals after compensation.
     pub compensation: Option<Compensated>,
+    /// Costs of the factors of sources: the index of the source, the cost of its factor 1, infinite
+    /// if it is fixed, and the exponent.
+    pub allocation: Vec<(usize, [f64; 2])>,
     /// Published results that cannot be reproduced, one sentence each.
     pub not_reproducible: Vec<String>,
     /// Figures to compute and draw.
@@ -128,6 +131,7 @@ impl Study {
             published: Vec::new(),
             compensated: None,
             compensation: None,
+            allocation: Vec::new(),
             not_reproducible: Vec::new(),
             file: None,
             files: Vec::new(),

@@ -13,7 +13,12 @@ pub fn constant(item: &Item<'_>, document: &mut Document, dimension: Dimension, 
 
 /// Reads a length above zero.
 pub fn positive_length(item: &Item<'_>, document: &mut Document) -> Option<f64> {
-    let value = document.quantity(item, Dimension::LENGTH)?;
+    positive(item, Dimension::LENGTH, document)
+}
+
+/// Reads a quantity above zero.
+pub fn positive(item: &Item<'_>, dimension: Dimension, document: &mut Document) -> Option<f64> {
+    let value = document.quantity(item, dimension)?;
     if value > 0.0 {
         return Some(value);
     }

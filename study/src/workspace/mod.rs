@@ -15,7 +15,7 @@ mod region;
 mod span;
 
 pub use axis::Candidates;
-pub use constant::{constant, count, positive_length, whole};
+pub use constant::{constant, count, positive, positive_length, whole};
 pub use forms::read_region;
 pub use keys::AXIS;
 pub use keys::{TABLES, rules};

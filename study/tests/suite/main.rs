@@ -1,5 +1,6 @@
 //! Tests of the jobs as library calls.
 
+mod allocate;
 mod checked_loops;
 mod closed_loops;
 mod compensated;

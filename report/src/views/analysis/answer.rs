@@ -67,7 +67,7 @@ pub(super) fn headline(report: &Report) -> String {
 }
 
 /// Names the criterion of a verdict.
-fn by_criterion(criterion: Criterion) -> &'static str {
+pub(in crate::views) fn by_criterion(criterion: Criterion) -> &'static str {
     match criterion {
         Criterion::WorstCase => "in the worst case",
         Criterion::RootSumOfSquares => "by rss",

@@ -16,6 +16,7 @@ use abbe_study::analyze::{self, Report, UncertaintyBudget};
 use abbe_study::number::{self, percent, trimmed, unbroken};
 use abbe_study::study_file::Criterion;
 
+pub(in crate::views) use answer::by_criterion;
 use conclusions::{conclusions, singular_sentence};
 use summary::summary;
 use verdict::{verdict_line, verdict_sentences};

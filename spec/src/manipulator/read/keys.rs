@@ -155,6 +155,7 @@ crate::tables! {
         "degrees_of_freedom": Number("number, positive"), "1", "none: the standard deviation is known",
             "Degrees of freedom of the standard deviation of a normal source, if it was estimated: n − 1 for n readings";
         "enabled": Boolean, "-", "`true`", "Includes the source; `--enable` and `--disable` change it for a run";
+        "scale": Number("number from 0"), "1", "`1`", "Factor of all errors of the source, which `abbe allocate` writes; `--scale` multiplies it";
         "magnitude": Table("[source.magnitude]"), "-", "none",
             "Factor of the source and its uncertainty; `identify` fits it together with the errors of the frames";
         "description": Text("text"), "-", "empty", "Description of the error, for people";

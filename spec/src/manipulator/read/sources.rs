@@ -85,6 +85,7 @@ fn read_source(
     let class = class.and_then(|class| read_class(&class, section, document));
     let degrees_of_freedom = read_degrees_of_freedom(section, class, chain, document)?;
     let enabled = section.get("enabled").map_or(Some(true), |item| document.boolean(&item));
+    let scale = section.get("scale").map_or(Some(1.0), |item| read_scale(&item, document));
     let magnitude = section
         .get("magnitude")
         .map_or(Some(None), |item| read_magnitude(&item, class, chain, document).map(Some))?;
@@ -103,13 +104,22 @@ fn read_source(
     let description = section.optional_text("description", document);
     let reference = section.optional_text("reference", document);
     let Acts { effects, deviations } = acts;
-    let (class, enabled) = (class?, enabled?);
+    let (class, enabled, scale) = (class?, enabled?, scale?);
     if let Some(distribution) = class.distribution() {
         check_half_width(distribution, &effects, &deviations, document);
     }
     let source =
         Source { class, degrees_of_freedom, enabled, description, reference, ..Source::repeatable(name) };
-    Some(Source { magnitude, effects, deviations, ..source })
+    Some(Source { scale, magnitude, effects, deviations, ..source })
+}
+
+/// Reads `scale`, a pure number that is not negative.
+fn read_scale(item: &Item<'_>, document: &mut Document) -> Option<f64> {
+    let scale = document.quantity(item, Dimension::NONE)?;
+    if scale >= 0.0 {
+        return Some(scale);
+    }
+    document.refuse(item.span(), "`scale` is negative", "write 0 or a positive number")
 }
 
 /// Checks that a half-width or standard deviation is not negative. The effects of a random source

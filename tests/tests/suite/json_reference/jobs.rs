@@ -16,6 +16,7 @@ use abbe_metrology::positioning::Positioning;
 use abbe_metrology::simulate::{Places, Simulate};
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
+use abbe_study::allocate::Allocate;
 use abbe_study::analyze::Analyze;
 use abbe_study::bound::Bound;
 use abbe_study::check::Check;
@@ -139,6 +140,10 @@ fn predicted() -> Vec<(&'static str, Value)> {
         all.push(("AnalyzeReport", json(&job.run(&mut ()).unwrap())));
         let explore = Explore { analysis: Cow::Borrowed(&job), study: None, residuals: None };
         all.push(("ExploreReport", json(&explore.run(&mut ()).unwrap())));
+        if study().tolerance.is_some() {
+            let job = Allocate::new(machine(name), study());
+            all.push(("AllocateReport", json(&job.run(&mut ()).unwrap())));
+        }
         let mut job = Bound::new(machine(name), study());
         job.effort.boxes = 50;
         job.least = true;

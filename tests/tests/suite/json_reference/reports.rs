@@ -1,7 +1,8 @@
 //! Commands with `--json`, and their reports.
 
 /// Name of the report's class in Python, its type, and the commands that print it.
-pub(super) const REPORTS: [(&str, &str, &[&str]); 16] = [
+pub(super) const REPORTS: [(&str, &str, &[&str]); 17] = [
+    ("AllocateReport", "abbe_study::allocate::report::Report", &["allocate"]),
     ("AnalyzeReport", "abbe_study::analyze::report::Report", &["analyze", "merge"]),
     ("BoundReport", "abbe_study::bound::report::Report", &["bound"]),
     ("CheckReport", "abbe_study::check::Report", &["check"]),

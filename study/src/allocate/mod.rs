@@ -1,0 +1,158 @@
+//! Allocation: factors of the error sources with which a study keeps its tolerance at least cost.
+
+mod report;
+
+use abbe::Class;
+use abbe::analysis::sampling::norm;
+use abbe::analysis::{AllocationCriterion, Allocator, ErrorRow, Measurand, Row, ScalableSource, sweep};
+use abbe_spec::Source;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::option::option;
+
+use crate::analyze::not_evaluated;
+use crate::changes::Changes;
+use crate::finite::finite;
+use crate::machine::{Machine, followed_source};
+use crate::notes::Notes;
+use crate::number::percent;
+use crate::study_file::{Criterion, JudgedMachine, Study};
+use crate::{mistake, number};
+
+pub use report::{AllocatedSource, Report, printed};
+
+/// Largest number of exceeding configurations that are added after a sweep.
+const ADDED: usize = 1000;
+/// Largest residual of an optimum.
+const CONVERGED: f64 = 1e-8;
+/// Smallest factor.
+const LEAST: f64 = 0.001;
+/// Largest factor of sources that may be worse than they are.
+const MOST: f64 = 1000.0;
+
+/// Job of `abbe allocate`: finds the factors of the sources that cost least.
+#[derive(Clone)]
+pub struct Allocate {
+    machine: Machine,
+    study: Study,
+    /// Allows factors above 1.
+    pub loosen: bool,
+}
+
+crate::reads! { Allocate: machine study, without loosen; }
+
+impl Allocate {
+    /// Creates the job for a machine and a study, and applies the study's changes to the machine.
+    pub fn new(mut machine: Machine, mut study: Study) -> Self {
+        machine.change_for(&study.changes.clone(), &mut study);
+        Self { machine, study, loosen: false }
+    }
+
+    /// Makes further changes.
+    pub fn change(&mut self, changes: &Changes) {
+        self.machine.change_for(changes, &mut self.study);
+    }
+
+    /// Optimizes the factors over the configurations that exceed the tolerance the most, and adds
+    /// those that exceed it with the found factors until there are none.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, study, .. } = self;
+        let spec = &machine.spec;
+        let refused = |message: &str, help: &str| mistake::with_help(&machine.origin, message, help);
+        let tolerances = [study.tolerance, study.orientation_tolerance];
+        if tolerances == [None; 2] {
+            let help = format!("write `tolerance` into the study, or `{}`", option("tolerance", "0.5 mm"));
+            return Err(refused("there is no tolerance to keep", &help));
+        } else if study.judged == JudgedMachine::Compensated {
+            let message = "the study judges the compensated machine, but factors are of the machine as built";
+            return Err(refused(message, "write `machine = \"as-built\"` into `tolerance` of the study"));
+        }
+        let criterion = match study.criterion {
+            Criterion::WorstCase => AllocationCriterion::WorstCase,
+            Criterion::RootSumOfSquares => AllocationCriterion::RootSumOfSquares,
+            Criterion::Probability => {
+                let message = "factors are not allocated by probability yet";
+                return Err(refused(message, "write `criterion = \"worst-case\"` or `\"rss\"` into [study]"));
+            }
+        };
+        let manipulator = &*machine.evaluator(true);
+        let workspace = study.region.workspace(manipulator, None);
+        let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
+        let mut allocator = Allocator::new(criterion, self.sources());
+        loop {
+            notes.go_on()?;
+            let allocation = allocator.solve().map_err(|values| {
+                let [fixed, least] = values.map(|value| percent(value, 1.0));
+                let message = format!(
+                    "no factors keep the tolerance: the fixed sources alone take {fixed} of it, with all \
+                     others at {LEAST} {least}"
+                );
+                refused(&message, "allow a larger tolerance, improve the fixed sources, or remove `fixed`")
+            })?;
+            let mut largest = vec![[0.0_f64; 2]; allocator.sources.len()];
+            let mut exceeding: Vec<(f64, ErrorRow)> = Vec::new();
+            let mut configurations = 0;
+            let swept = sweep(manipulator, workspace, &mut |row: &Row| {
+                configurations += 1;
+                for (measurand, tolerance) in Measurand::ALL.into_iter().zip(tolerances) {
+                    let tolerance = tolerance.filter(|_| row.oriented || measurand == Measurand::Position);
+                    let Some(tolerance) = tolerance else { continue };
+                    let errors = row.sources.iter().map(|error| measurand.rows(error).map(|e| e / tolerance));
+                    let errors: Vec<[f64; 3]> = errors.collect();
+                    for (largest, error) in largest.iter_mut().zip(&errors) {
+                        let largest = &mut largest[measurand as usize];
+                        *largest = largest.max(norm(*error));
+                    }
+                    let value = allocator.value(&errors, &allocation.factors, 1.0);
+                    let row = ErrorRow { configuration: row.index, measurand, errors };
+                    exceeding.extend((value > 1.0).then_some((value, row)));
+                }
+                if exceeding.len() > 2 * ADDED {
+                    exceeding.sort_by(|a, b| b.0.total_cmp(&a.0));
+                    exceeding.truncate(ADDED);
+                }
+            });
+            let unreachable = swept
+                .map_err(|error| not_evaluated(machine, workspace, &error, manipulator.description()))?
+                .count;
+            if configurations == 0 {
+                let help = "move or shrink the workspace of the study, or widen the limits of the joints";
+                return Err(refused("no configuration of the workspace is reachable", help));
+            }
+            if allocation.residual > CONVERGED {
+                let help = "write costs and exponents into [allocation] that differ less";
+                return Err(refused("the optimization of the factors does not converge", help));
+            }
+            if !exceeding.is_empty() {
+                allocator.rows.extend(exceeding.into_iter().map(|(_, row)| row));
+                continue;
+            }
+            let active = allocation.active.iter().filter_map(|(row, multiplier)| {
+                let ErrorRow { configuration, measurand, .. } = &allocator.rows[*row];
+                let at = workspace.configuration(*configuration).ok()?;
+                let at = number::configuration(&at, workspace.home(), spec);
+                Some((format!("{at}{}", ["", ", orientation"][*measurand as usize]), *multiplier))
+            });
+            let active = number::Named(active.collect());
+            let reach = [configurations, unreachable];
+            let report = Report::new(machine, study, &allocator, (allocation.factors, largest), reach);
+            return finite(&machine.origin, Report { active, residual: allocation.residual, ..report });
+        }
+    }
+
+    /// Returns the enabled sources. Parts of a calibration are fixed, and so is the uncertainty of
+    /// an input, which depends on the factors of other sources.
+    fn sources(&self) -> Vec<ScalableSource> {
+        let spec = &self.machine.spec;
+        let enabled = spec.sources.iter().enumerate().filter(|(_, source)| source.enabled);
+        let scalable = |(own, (index, source)): (usize, (usize, &Source))| {
+            let stated = self.study.allocation.iter().find(|(of, _)| *of == index);
+            let [cost, exponent] = stated.map_or([1.0; 2], |(_, cost)| *cost);
+            let is_fixed = cost.is_infinite() || !source.propagated.is_empty();
+            let limits = if is_fixed { [1.0; 2] } else { [LEAST, if self.loosen { MOST } else { 1.0 }] };
+            let is_repeatable = source.class == Class::Repeatable;
+            let followed = followed_source(spec, index).and_then(|index| spec.enabled_index(index));
+            ScalableSource { is_repeatable, follows: followed.unwrap_or(own), cost, exponent, limits }
+        };
+        enabled.enumerate().map(scalable).collect()
+    }
+}
