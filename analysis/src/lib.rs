@@ -6,7 +6,7 @@
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and visits every [`Row`] in order; nothing is stored |
 //! | `budget` | [`error_budget`]: the errors of every source ([`SourceErrors`]), and of all together ([`Combined`]) |
 //! | `normal` | [`NormalVector`], [`StudentVector`]: probabilities and quantiles of the norm of an error with known or estimated variances |
-//! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`compliance()`]: the probability that a tolerance is met; [`Machines`]: the share of machines that meet it everywhere |
+//! | `uncertainty` | [`Statement`]: the uncertainty budget of the GUM at one configuration; [`ErrorDistribution`]: the probability that a tolerance is met; [`Machines`]: the share of machines that meet it everywhere |
 //! | `allocation` | [`Allocator`]: factors of the sources at which a tolerance is kept at least cost |
 //! | `worst_case` | [`worst_case()`]: the largest error over all signs at one configuration |
 //! | `random` | [`monte_carlo`]: Monte Carlo simulation on the exact chain |
@@ -73,6 +73,6 @@ pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use sweep::{BLOCK, Row, Unevaluated, UnreachableSummary, in_order, in_order_until, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, Correction, DRAWS, ErrorDistribution, ErrorsAt, Machines, Residual,
-    Statement, WorstCase, Yield, compliance, errors_at, normal_compliance, student_95,
+    Statement, WorstCase, Yield, errors_at, student_95,
 };
 pub use worst_case::worst_case;

@@ -15,13 +15,18 @@ const DISTINCT: f64 = 1e-9;
 /// vectors that differ by 1e-9 of their lengths, which lessens the norm by no more than that.
 pub fn worst_case(center: [f64; 3], vectors: &[[f64; 3]]) -> [f64; 3] {
     let vectors: Vec<[f64; 3]> = vectors.iter().copied().filter(|v| *v != [0.0; 3]).collect();
-    let mut longest = Longest { vector: center, square: -1.0 };
+    let (mut longest, mut square) = (center, -1.0);
+    let mut put = |vector: [f64; 3]| {
+        if dot(vector, vector) > square {
+            (longest, square) = (vector, dot(vector, vector));
+        }
+    };
     if vectors.len() <= FEW {
         for signs in 0..1_usize << vectors.len() {
             let sign = |(k, v): (usize, &[f64; 3])| scaled(*v, if signs >> k & 1 == 0 { 1.0 } else { -1.0 });
-            longest.put(vectors.iter().enumerate().map(sign).fold(center, plus));
+            put(vectors.iter().enumerate().map(sign).fold(center, plus));
         }
-        return longest.vector;
+        return longest;
     }
     let distinct: Vec<[f64; 3]> = vectors
         .iter()
@@ -41,11 +46,11 @@ pub fn worst_case(center: [f64; 3], vectors: &[[f64; 3]]) -> [f64; 3] {
             }
             for (side, a, b) in SIGNS {
                 let others = plus(scaled(vectors[i], a), scaled(vectors[j], b));
-                longest.put(plus(center, plus(scaled(sum, side), others)));
+                put(plus(center, plus(scaled(sum, side), others)));
             }
         }
     }
-    longest.vector
+    longest
 }
 
 /// Signs of the two sides of a zonotope and of the two vectors of a face.
@@ -59,21 +64,6 @@ const SIGNS: [(f64, f64, f64); 8] = [
     (-1.0, -1.0, 1.0),
     (-1.0, -1.0, -1.0),
 ];
-
-/// Longest of some vectors.
-struct Longest {
-    vector: [f64; 3],
-    square: f64,
-}
-
-impl Longest {
-    fn put(&mut self, vector: [f64; 3]) {
-        let square = dot(vector, vector);
-        if square > self.square {
-            *self = Self { vector, square };
-        }
-    }
-}
 
 fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     core::array::from_fn(|i| a[i] + b[i])

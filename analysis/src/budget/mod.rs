@@ -15,7 +15,6 @@ mod over_signs;
 mod partial_budget;
 mod partial_errors;
 mod peak;
-mod ranks;
 mod source_errors;
 mod sums;
 

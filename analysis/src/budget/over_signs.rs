@@ -53,13 +53,10 @@ impl<R: Register> OverSignsAccumulator<R> {
         self.most = self.most.max(peak::largest(found));
         let mut bound = simple;
         if highest > self.tolerance && self.most <= self.tolerance {
-            bound = simple.min(weighted(classes, rows, sums).sqrt() + sums.calibration);
-            if peak::largest(bound) > self.tolerance {
-                found = exact(classes, rows, sums, bound, self.tolerance).max(found);
-                let open = bound.more_than(Lanes::constant(self.tolerance));
-                bound = open.select(found, bound);
-                self.most = self.most.max(peak::largest(found));
-            }
+            found = exact(classes, rows, sums, bound, self.tolerance).max(found);
+            let open = bound.more_than(Lanes::constant(self.tolerance));
+            bound = open.select(found, bound);
+            self.most = self.most.max(peak::largest(found));
         }
         self.bound = self.bound.max(peak::largest(bound));
         self.found.add(found, sums.place);
@@ -93,35 +90,6 @@ fn farthest<R: Register>(classes: &[Class], rows: &[Lanes<R>], sums: &Sums<R>) -
         longest = longest.max(peak::square(direction));
     }
     longest
-}
-
-/// Returns an upper bound of the squared norm, `Σ ‖v‖ · λ` with the largest eigenvalue λ of
-/// `M = Σ v vᵀ/‖v‖` over all vectors, Σ r among them: `(n·Σ ± v)² ≤ Σ ‖v‖ · Σ (n·v)²/‖v‖` by the
-/// inequality of Cauchy and Schwarz. With the mean m and the variance s² of the eigenvalues,
-/// `λ ≤ m + s √2`.
-#[inline(always)]
-fn weighted<R: Register>(classes: &[Class], rows: &[Lanes<R>], sums: &Sums<R>) -> Lanes<R> {
-    let number = Lanes::<R>::constant;
-    let (mut total, mut matrix) = (number(0.0), [number(0.0); 6]);
-    let mut put = |v: [Lanes<R>; 3]| {
-        let norm = peak::square(v).sqrt();
-        total = total + norm;
-        let [x, y, z] = v.map(|row| row / norm.max(number(f64::MIN_POSITIVE)).sqrt());
-        let parts = [(x, x), (y, y), (z, z), (x, y), (x, z), (y, z)];
-        matrix = core::array::from_fn(|i| parts[i].0.mul_add(parts[i].1, matrix[i]));
-    };
-    put(sums.repeatable);
-    for (class, v) in classes.iter().zip(rows.chunks(6)) {
-        if class.distribution().is_some() {
-            put([v[0], v[1], v[2]]);
-        }
-    }
-    let [xx, yy, zz, xy, xz, yz] = matrix;
-    let mean = (xx + yy + zz) * number(1.0 / 3.0);
-    let off = number(2.0) * (xy * xy + xz * xz + yz * yz);
-    let square = [xx, yy, zz].map(|entry| (entry - mean) * (entry - mean));
-    let variance = (square[0] + square[1] + square[2] + off) * number(1.0 / 3.0);
-    total * (mean + (variance * number(2.0)).sqrt()) * number(1.0 + ROUNDING)
 }
 
 /// Returns the exact worst case in the lanes whose bound exceeds the tolerance, 0 in the others.

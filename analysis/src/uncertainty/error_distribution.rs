@@ -36,14 +36,14 @@ pub struct Compliance {
 /// of a fixed error, residuals of known norms, and random errors.
 #[derive(Clone, Debug)]
 pub struct ErrorDistribution {
-    bias: [f64; 3],
+    pub(super) bias: [f64; 3],
     /// Fixed errors of single sources, whose sum is the bias.
     fixed: Vec<(usize, [f64; 3])>,
     /// Residuals of known direction, whose signs are unknown and independent, by source.
-    signed: Vec<(usize, [f64; 3])>,
+    pub(super) signed: Vec<(usize, [f64; 3])>,
     /// Norms of residuals of unknown directions; by source, or of all together.
-    undirected: Vec<(Option<usize>, f64)>,
-    random: Vec<RandomError>,
+    pub(super) undirected: Vec<(Option<usize>, f64)>,
+    pub(super) random: Vec<RandomError>,
 }
 
 /// Largest error over all signs at one configuration.
@@ -112,22 +112,6 @@ impl ErrorDistribution {
         all.random.retain(|one| one.magnitude != [0.0; 3]);
         all.signed.retain(|(_, error)| *error != [0.0; 3]);
         all
-    }
-
-    pub(super) fn bias(&self) -> [f64; 3] {
-        self.bias
-    }
-
-    pub(super) fn random(&self) -> &[RandomError] {
-        &self.random
-    }
-
-    pub(super) fn signed(&self) -> &[(usize, [f64; 3])] {
-        &self.signed
-    }
-
-    pub(super) fn undirected(&self) -> &[(Option<usize>, f64)] {
-        &self.undirected
     }
 
     /// Returns whether the error is a normal vector, so that its coverage is an integral.

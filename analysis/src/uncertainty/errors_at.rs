@@ -48,12 +48,6 @@ impl ErrorsAt<'_> {
         sum
     }
 
-    /// Returns whether the error is a normal vector: all random sources are normal, with known
-    /// standard deviations.
-    pub fn is_normal(&self, measurand: Measurand) -> bool {
-        is_normal(&self.random(measurand))
-    }
-
     /// Returns the random sources with a nonzero effect.
     pub(super) fn random(&self, measurand: Measurand) -> Vec<RandomError> {
         random(self.description, &self.sources, measurand)

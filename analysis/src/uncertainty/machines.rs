@@ -77,10 +77,10 @@ impl Machines {
             return;
         }
         let (of_machine, random): (Vec<RandomError>, Vec<_>) =
-            error.random().iter().copied().partition(|one| one.is_of_machine);
+            error.random.iter().copied().partition(|one| one.is_of_machine);
         self.of_machine.extend(of_machine.into_iter().map(|one| (one.source, Some(one))));
-        self.of_machine.extend(error.signed().iter().map(|(source, _)| (*source, None)));
-        self.directed.extend(error.undirected().iter().map(|(source, _)| place_of(*source)));
+        self.of_machine.extend(error.signed.iter().map(|(source, _)| (*source, None)));
+        self.directed.extend(error.undirected.iter().map(|(source, _)| place_of(*source)));
         let bounded = random.iter().all(|one| one.distribution.is_bounded());
         let largest = if bounded { random.iter().map(RandomError::bound).sum() } else { f64::INFINITY };
         self.places.push(Place { limit, error, random, largest });
@@ -173,14 +173,14 @@ impl Machines {
 impl Place {
     /// Returns the fixed error of a machine.
     fn fixed(&self, machine: &Machine) -> [f64; 3] {
-        let of_machine = self.error.random().iter().filter(|one| one.is_of_machine);
+        let of_machine = self.error.random.iter().filter(|one| one.is_of_machine);
         let values = of_machine.map(|one| (one.source, one.magnitude));
-        let values = values.chain(self.error.signed().iter().copied());
+        let values = values.chain(self.error.signed.iter().copied());
         let values = values.map(|(source, v)| v.map(|row| machine.values[source] * row));
-        let directions = self.error.undirected().iter();
+        let directions = self.error.undirected.iter();
         let directions =
             directions.map(|(source, length)| machine.directions[place_of(*source)].map(|row| length * row));
-        sum_of(self.error.bias(), values.chain(directions))
+        sum_of(self.error.bias, values.chain(directions))
     }
 
     /// Draws the errors that vary in one machine.

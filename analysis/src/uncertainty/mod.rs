@@ -1,7 +1,6 @@
 //! Coverage at one configuration: the probability that a tolerance is met, and the uncertainty
 //! statement of the GUM (JCGM 100).
 
-mod compliance;
 mod correction;
 mod error_distribution;
 mod errors_at;
@@ -10,7 +9,6 @@ mod statement;
 #[cfg(test)]
 mod tests;
 
-pub use compliance::{compliance, normal_compliance};
 pub use correction::{Correction, Residual};
 pub use error_distribution::{COVERAGE, Compliance, DRAWS, ErrorDistribution, WorstCase};
 pub use errors_at::{ErrorsAt, errors_at};

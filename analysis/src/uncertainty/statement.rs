@@ -1,7 +1,6 @@
 //! The uncertainty budget of the GUM (JCGM 100:2008) at one configuration.
 
-use super::compliance::within;
-use super::error_distribution::{COVERAGE, Compliance};
+use super::error_distribution::{COVERAGE, Compliance, ErrorDistribution};
 use super::errors_at::{ErrorsAt, RandomError, covariance};
 use crate::Measurand;
 use crate::normal::{Principal, StudentVector};
@@ -136,7 +135,7 @@ impl Statement {
             standard,
             degrees_of_freedom,
             coverage_factors: [student_95(x), student_95(y), student_95(z), factor],
-            coverage: within([0.0; 3], &random, quantile, seed),
+            coverage: ErrorDistribution::new([0.0; 3], random.clone()).coverage(quantile, seed).0,
         }
     }
 

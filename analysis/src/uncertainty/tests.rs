@@ -131,7 +131,7 @@ fn a_probability_is_that_of_draws() {
         let typical = norm(errors.bias(Measurand::Position)) + 0.3;
         for limit in [0.5 * typical, typical, 1.5 * typical] {
             let Compliance { probability, error, draws } =
-                compliance(&errors, Measurand::Position, limit, seed);
+                errors.distribution(Measurand::Position, None).coverage(limit, seed).0;
             assert_eq!(draws.is_none(), seed == 0);
             let (share, _) = drawn(&errors, 1.0, limit, sample_size(1_000_000), seed);
             let spread = error + (share * (1.0 - share) / sample_size(1_000_000) as f64).sqrt() + 1e-6;

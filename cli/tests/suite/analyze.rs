@@ -111,7 +111,6 @@ fn people_see_the_papers_figures_beside_ours() {
         "repeatable the paper 0.12 0.44 0.25 – met",
         "the paper – – – 5.48 met",
         "Reached 999, all reachable",
-        "Largest error, random sources at their bounds by root sum of squares: 5.4798 mm, 1096 % of the",
     ] {
         assert!(lines.iter().any(|line| line == expected), "{expected}\n{text}");
     }
@@ -335,10 +334,7 @@ fn a_tolerance_may_be_given_by_an_option() {
         assert_eq!(bounded.contains("EXCEEDED"), status == 1, "{bounded}");
     }
     let both = run("analyze", &["--tolerance", "1 mm", "--tolerance", "5 mrad"]).stdout;
-    assert!(
-        both.contains("MET in the worst case, tolerance 1 mm and 5 mrad at 1000"),
-        "{both}"
-    );
+    assert!(both.contains("MET in the worst case, tolerance 1 mm and 5 mrad at 1000"), "{both}");
     refused(&["analyze", "ur5", "--tolerance", "1 kg"], &["--tolerance:1:1", "length"]);
     for size in ["-1 mm", "-1 mrad", "0 mm", ""] {
         refused(

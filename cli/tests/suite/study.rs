@@ -273,10 +273,7 @@ fn euler_singularities_count_for_the_position() {
     // there is no verdict.
     let study_of = |workspace| study("{ orientation = \"2 mrad\" }", workspace);
     let text = full(&["analyze", &euler, "--study", &study_of(ring)]);
-    assert!(
-        text.contains("of 541 configurations") && text.contains("Over the 541 configurations"),
-        "{text}"
-    );
+    assert!(text.contains("of 541 configurations") && text.contains("Over the 541 configurations"), "{text}");
     let run = abbe(&["analyze", &euler, "--study", &study_of(reach)]);
     assert_eq!((run.status, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("no orientation error to compare"), "{}", run.stderr);

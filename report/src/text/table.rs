@@ -76,16 +76,6 @@ impl Table {
         }
         self
     }
-
-    /// Keeps columns as wide as their text.
-    pub fn unwrapped(mut self, columns: &[usize]) -> Self {
-        for &column in columns {
-            if let Some(column) = self.0.column_mut(column) {
-                column.set_constraint(ColumnConstraint::ContentWidth);
-            }
-        }
-        self
-    }
 }
 
 /// Cuts words to [`LONGEST`] characters: the layout time grows with the square of their length.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use abbe_core::{Class, LengthUnit, Orientation};
+use abbe_core::{LengthUnit, Orientation};
 use indexmap::IndexSet;
 
 use super::chain_number::ChainNumber;
@@ -135,11 +135,6 @@ impl Spec {
     pub fn with_held_tables(&self) -> Self {
         let tables = self.tables.iter().map(|table| Arc::new(table.held())).collect();
         Self { tables, ..self.clone() }
-    }
-
-    /// Returns `true` if any enabled source is repeatable.
-    pub fn has_repeatable_source(&self) -> bool {
-        self.enabled_sources().any(|source| source.class == Class::Repeatable)
     }
 
     /// Iterates over the enabled sources, in the order of the file.

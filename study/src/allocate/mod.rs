@@ -69,8 +69,8 @@ impl Allocate {
         let criterion = match study.criterion {
             Criterion::WorstCase => AllocationCriterion::WorstCase,
             Criterion::RootSumOfSquares => AllocationCriterion::RootSumOfSquares,
-            Criterion::Probability => {
-                let message = "factors are not allocated by probability yet";
+            Criterion::Probability | Criterion::Yield => {
+                let message = "factors are allocated by the worst case or by root sum of squares";
                 return Err(refused(message, "write `criterion = \"worst-case\"` or `\"rss\"` into [study]"));
             }
         };

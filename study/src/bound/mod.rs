@@ -74,12 +74,14 @@ impl Bound {
         let start = domain.worst_of_workspace(machine, study);
         let start = start.as_deref();
         let mut searches = Searches { job: self, domain: &domain, begun: Instant::now(), done: 0 };
-        let repeatable = searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), start, notes)?;
+        let repeatable =
+            searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), start, notes)?;
         let random = searches.error_bounds(&mut graph, &random, &across_z[1], at_most(1), start, notes)?;
         // With sources of one class only, the combined error is that of the class.
         let [repeatable, random, total] = match Classes::enabled(&domain.spec) {
             Classes { repeatable: true, random: true } => {
-                let both = searches.error_bounds(&mut graph, &total, &across_z[2], at_most(2), start, notes)?;
+                let both =
+                    searches.error_bounds(&mut graph, &total, &across_z[2], at_most(2), start, notes)?;
                 let both = both.tighten_by_sum(&repeatable, &random);
                 // No part is larger than the sum.
                 [repeatable.tighten(&both), random.tighten(&both), both]

@@ -1,6 +1,6 @@
 //! Verdicts on tolerances and their uncertainty.
 
-use abbe::analysis::{Compliance, Measurand, errors_at, normal_compliance};
+use abbe::analysis::{Compliance, Measurand, errors_at};
 use abbe_report::budget;
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
@@ -382,7 +382,7 @@ fn the_least_likely_configuration_is_found() {
         let workspace = report.study.region.workspace(&*evaluator, None).unwrap();
         let likely = |index: usize| {
             let errors = errors_at(&*evaluator, &workspace.configuration(index).unwrap()).unwrap();
-            normal_compliance(&errors, Measurand::Position, tolerance).probability
+            errors.distribution(Measurand::Position, None).normal_within(tolerance)
         };
         let least = (0..workspace.len()).map(likely).fold(1.0, f64::min);
         let judged = verdict(&report);

@@ -45,9 +45,8 @@ pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
     if combined.worst_case_radius.value == 0.0 {
         return None;
     }
-    let ranks = report.budget.ranks_for(Measurand::Orientation);
-    let mut order = ranks.into_iter().zip(errors).collect::<Vec<_>>();
-    order.sort_by_key(|(rank, _)| *rank);
+    let mut order = errors.iter().collect::<Vec<_>>();
+    order.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
     let show = |value| unit::fixed(report, Measurand::Orientation, value);
     let [first, second, third] = unit::row_names(report, Measurand::Orientation);
     let mut header = vec!["source", first, second, third, "norm", "RMS", "worst at (the rest as at home)"];
@@ -68,7 +67,7 @@ pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
         }
         cells
     };
-    let alone = order.into_iter().map(|(_, alone)| {
+    let alone = order.into_iter().map(|alone| {
         let Figures { x, y, z, norm } = alone.plain_max;
         let norm = Extreme { value: norm, configuration: alone.worst };
         row(&report.sources[alone.source].name, [x, y, z].map(Some), norm, Some(alone.rms))

@@ -6,7 +6,6 @@ mod conclusions;
 mod ledger;
 mod norms;
 mod reference;
-mod summary;
 mod tables;
 mod uncertainty;
 mod verdict;
@@ -18,7 +17,6 @@ use abbe_study::study_file::Criterion;
 
 pub(in crate::views) use answer::by_criterion;
 use conclusions::{conclusions, singular_sentence};
-use summary::summary;
 use verdict::{verdict_line, verdict_sentences};
 
 use crate::document::{Card, Document, Figure, Section, Verdict};
@@ -87,7 +85,7 @@ fn units(figures: &[Figure]) -> Option<String> {
 
 /// Formats the most important figures.
 fn cards(report: &Report) -> Vec<Card> {
-    let (radii, unit) = (&report.combined.radii, report.spec.length.symbol());
+    let unit = report.spec.length.symbol();
     let built = report.judged_error(Measurand::Position).value;
     let by = match report.study.criterion {
         Criterion::RootSumOfSquares => "root sum of squares",
@@ -99,22 +97,16 @@ fn cards(report: &Report) -> Vec<Card> {
         report.study.tolerance.map(|tolerance| format!("{} of the tolerance", percent(value, tolerance)))
     };
     let card = |name, value, note: Option<String>| Card { name, value, note: note.unwrap_or_default() };
-    let mut all = vec![
-        card(
-            "Largest error as built",
-            show(built),
-            Some([Some(by.to_owned()), of(built)].into_iter().flatten().collect::<Vec<_>>().join(", ")),
-        ),
-        card("Random errors only", format!("± {}", show(radii.random_radius)), of(radii.random_radius)),
-    ];
+    let mut all = vec![card(
+        "Largest error as built",
+        show(built),
+        Some([Some(by.to_owned()), of(built)].into_iter().flatten().collect::<Vec<_>>().join(", ")),
+    )];
     let compensated = report.verdicts.as_ref().and_then(|verdicts| verdicts.compensated.as_ref());
     let compensated = compensated.and_then(|compensated| compensated.verdicts.position.as_ref());
     let left = compensated.map(|verdict| verdict.judged_error(report.study.criterion));
     if let Some(total) = left.or(report.after_compensation.as_ref().map(|left| left.total)) {
         all.push(card("After compensation", format!("± {}", show(total)), of(total)));
-    }
-    if let Some(tolerance) = report.study.tolerance {
-        all.push(card("Tolerance", format!("± {}", show(tolerance)), None));
     }
     all.push(card("Configurations", report.configurations.to_string(), Some(unreachable(report))));
     all
@@ -133,11 +125,10 @@ fn description(report: &Report) -> Section {
     Section::page("Machine").state("description", words.join(" "))
 }
 
-/// States whether the tolerance is met, which error matters most, and where.
+/// States whether the tolerances are met, and where.
 fn verdict(report: &Report) -> Section {
     let verdict = verdict_sentences(report).into_iter();
-    let section = verdict.fold(Section::full("Verdict"), |section, text| section.state("verdict", text));
-    summary(report).into_iter().fold(section, |section, text| section.state("largest_error", text))
+    verdict.fold(Section::full("Verdict"), |section, text| section.state("verdict", text))
 }
 
 fn workspace(report: &Report) -> Section {

@@ -145,24 +145,13 @@ fn tolerance_sentence(
         }
         _ => format!("the lowest of all {all} configurations"),
     };
-    let how = match verdict.compliance.draws {
-        Some(draws) => format!("random sources drawn {} times", number::short(draws as f64)),
-        None if is_random(report, verdict.measurand) || compensated.is_some() => {
-            "all random sources normal".to_owned()
-        }
-        None => "nothing is random".to_owned(),
-    };
     let required = number::at_least(report.study.probability);
     let enough = format!("{required} is required");
     format!(
         "{name}: {met}. The error is within {tolerance} with probability {}; {enough}. This \
-         is {least}, at {at}. To first order, {repeatable}, {how}. {contains}{left_out}",
+         is {least}, at {at}. To first order, {repeatable}. {contains}{left_out}",
         probability(verdict.compliance)
     )
-}
-
-fn is_random(report: &Report, measurand: Measurand) -> bool {
-    report.budget.errors(measurand).1.random_radius.value > 0.0
 }
 
 /// Formats the probability that the tolerance is met with its standard error, such as

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe_manipulators::{MECHANISMS, SHIPPED};
 use abbe_spec::Spec;
 use abbe_spec::bounded::{Bounded, Contents, UnreadableFile};
 use abbe_spec::diagnostic::Diagnostics;
@@ -188,12 +187,6 @@ impl AnalysisRequest {
         let options =
             (&self.tolerances, &self.changes, self.monte_carlo, self.seed, self.interpret, self.figures);
         Ok(hash::text(&format!("{texts:?} {options:?}")))
-    }
-
-    /// Returns true if the spec is a shipped one.
-    pub fn is_shipped(&self) -> bool {
-        let mut names = SHIPPED.iter().map(|shipped| shipped.name).chain(MECHANISMS.iter().map(|one| one.0));
-        names.any(|name| name == self.spec) && self.spec_text.is_none()
     }
 }
 

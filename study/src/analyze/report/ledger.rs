@@ -62,20 +62,20 @@ impl Ledger {
             rank: None,
             configuration: largest.configuration,
         };
-        let ranked = sources.iter().zip(&budget.sources).zip(budget.ranks());
-        let ranked = ranked.zip(&judged.shares).map(|(((source, errors), rank), share)| {
+        let ranked = sources.iter().zip(&budget.sources).zip(&judged.shares);
+        let ranked = ranked.map(|((source, errors), share)| {
             let largest = Extreme { value: errors.plain_max.norm, configuration: errors.worst };
             let (class, _) = number::class(errors.class);
             LedgerEntry {
                 // Avoids −0.
                 share: Some(share + 0.0),
                 class: Some(class),
-                rank: Some(rank),
                 ..entry(&source.name, largest, Some(errors.rms))
             }
         });
         let mut ranked = ranked.collect::<Vec<_>>();
-        ranked.sort_by_key(|entry| entry.rank);
+        ranked.sort_by(|a, b| b.max.total_cmp(&a.max));
+        ranked.iter_mut().zip(1..).for_each(|(entry, rank)| entry.rank = Some(rank));
         let combined = &budget.combined;
         let [repeatable, random, both] = combined.rms.map(Some);
         Self {
