@@ -65,6 +65,75 @@ class Alarm(Fields):
     """Name of the chart that is farthest beyond its limit."""
 
 
+class AllocateReport(Report):
+    """Factors of the error sources with which the study keeps its tolerances at least cost, and with all smaller
+    factors, too. Lengths are in the spec's unit, angles in rad.
+    """
+
+    __slots__ = ()
+
+    manipulator: str
+    """Name of the manipulator."""
+
+    length: str
+    """Symbol of the length unit."""
+
+    tolerance: float | None
+    """Tolerance of the position error, in the length unit; None if the study has none."""
+
+    orientation_tolerance: float | None
+    """Tolerance of the orientation error, in rad; None if the study has none."""
+
+    configurations: int
+    """Number of reached configurations, at all of which the tolerances are kept."""
+
+    unreachable: int
+    """Number of unreachable configurations."""
+
+    sources: list[AllocatedSource]
+    """Enabled sources of the spec, in its order."""
+
+    cost: float
+    """Sum of the costs of all factors that are not fixed."""
+
+    one_factor: float
+    """Factor of all these sources if they have the same one."""
+
+    one_factor_cost: float
+    """Cost with this factor."""
+
+    active: Named[float]
+    """Configurations at which a tolerance is reached, by their differences from home, each with its multiplier λ: the
+    cost falls by λ/100 if the errors there fall by 1 %. The largest is first.
+
+    Unit: length unit or rad.
+    """
+
+    residual: float
+    """Largest relative residual of the conditions for the optimum (Karush, Kuhn and Tucker).
+
+    Unit: length unit or rad.
+    """
+
+
+class AllocatedSource(Fields):
+    """Error source and its factor."""
+
+    source: str
+    """Name of the source."""
+
+    factor: float
+    """Factor of its errors."""
+
+    fixed: bool
+    """Indicates that the factor is fixed."""
+
+    largest: float
+    """Largest norm of its error at the factor 1: of the position in the length unit; or, without a tolerance of the
+    position, of the orientation in rad.
+    """
+
+
 class Alternative(Fields):
     """Another error that explains the data as well as the named one (likelihood ratio, 95 %)."""
 
@@ -534,13 +603,13 @@ class CombinedReport(Fields):
     """
 
     worst_case: list[float]
-    """Largest sums of absolute values of all sources along x, y, z.
+    """Largest errors along x, y, z over all signs: repeatable sources at their values, the others at their bounds.
 
     Unit: length unit.
     """
 
     worst_case_radius: float
-    """Largest sum of the norms of all sources.
+    """Largest norm over all signs.
 
     Unit: length unit.
     """
@@ -625,6 +694,9 @@ class CompensatedVerdicts(Fields):
 
     orientation: ToleranceVerdict | None = None
     """Verdict on the orientation error; None without an orientation tolerance."""
+
+    yield: Yield | None = None
+    """Share of machines that keep all tolerances at all configurations, if that is the criterion."""
 
 
 class Compliance(Fields):
@@ -841,16 +913,12 @@ class ErrorAllowance(Fields):
     """Errors that a tolerance allows, as factors of the present errors."""
 
     together: float | None
-    """Factor for all sources at which the radius equals the tolerance; None if there is no error."""
-
-    equal_share: float | None
-    """Norm of the error that each contributing source may cause if all have equal shares, in the tolerance's unit."""
-
-    equal_share_probability: float
-    """Lower bound on the probability that the tolerance is met with equal shares."""
+    """Factor for all sources at which the judged error as built equals the tolerance; None if there is no error, or
+    if a probability or yield is judged.
+    """
 
     sources: list[SourceAllowance]
-    """Allowances of the sources, largest gain first."""
+    """Allowances of the sources, largest share first."""
 
 
 class ErrorBound(Fields):
@@ -1792,6 +1860,11 @@ class LedgerEntry(Fields):
     share_of_tolerance: float | None = None
     """Largest norm as a share of the tolerance; None without a tolerance."""
 
+    share: float | None = None
+    """Share of the source in the judged error at the configuration of the verdict; negative if it counteracts the
+    others, None for sums.
+    """
+
     rank: int | None = None
     """Rank of the source by its largest norm, 1 for the largest; None for sums."""
 
@@ -2281,6 +2354,12 @@ class OrientationReport(Fields):
 
     random: list[float]
     """Root sum of squares of the random sources, row by row.
+
+    Unit: rad.
+    """
+
+    worst_case_radius: float
+    """Largest norm over all signs.
 
     Unit: rad.
     """
@@ -3042,11 +3121,11 @@ class SourceAllowance(Fields):
     alone: float | None
     """Factor if there were no other source; None if it causes no error."""
 
-    equal: float | None
-    """Factor for an equal share; None if it causes no error."""
+    share: float
+    """Share of the source in the judged error at its place; negative if it counteracts the others."""
 
     gain_per_percent: float
-    """Decrease of the radius if the source is reduced by one percent, in the tolerance's unit."""
+    """Decrease of the judged error there if the source is reduced by one percent, in the tolerance's unit."""
 
 
 class SourceReport(Fields):
@@ -3236,15 +3315,16 @@ class TestExtrapolation(Fields):
 class ToleranceVerdict(Fields):
     """Verdict on the position or orientation error. Lengths are in the spec's unit, angles in rad.
 
-    The probability is the smallest over the evaluated configurations: the one with the largest radius (norm of the
-    repeatable errors + norm of the random bounds), those that an approximation ranks least likely to meet the
-    tolerance, and the one where it has the largest error at 95 %. To first order; random sources are distributed.
-    Repeatable sources have their nominal values. On the compensated machine they are replaced by residuals with
-    their full norm, of unknown sign or direction; the uncertainty of the calibration and of the inputs is a random
-    error.
+    One criterion decides: the largest error over all signs, the radius, the probability, or the lower end of the
+    confidence interval of the yield. The probability is the smallest over the evaluated configurations: the one
+    with the largest radius (norm of the repeatable errors + norm of the random bounds), those that an
+    approximation ranks least likely to meet the tolerance, and the one where it has the largest error at 95 %. To
+    first order; random sources are distributed. Repeatable sources have their nominal values. On the compensated
+    machine they are replaced by residuals with their full norm, of unknown sign or direction; the uncertainty of
+    the calibration and of the inputs is a random error.
     """
 
-    verdict: Literal["met", "met-with-probability", "not-met"]
+    verdict: Literal["met", "not-met"]
     """Verdict on the tolerance."""
 
     tolerance: float
@@ -3272,17 +3352,18 @@ class ToleranceVerdict(Fields):
     u95: float
     """Norm that contains the error with a probability of 95 %, the largest over the evaluated configurations."""
 
-    largest: float | None
-    """Largest possible error over the workspace: the norm of the repeatable errors + the norms of all random bounds.
-    None if a random source is unbounded.
+    worst_case: float
+    """Largest error over all signs and the configurations: repeatable errors at their values, all others at their
+    bounds, normal ones at 3σ.
 
     Unit: length unit or rad.
     """
 
+    is_bounded: bool
+    """Whether no draw exceeds the worst case: no source is normal."""
+
     at: Named[float]
-    """Configuration with that probability. If the tolerance is certainly met, the configuration with the largest
-    radius.
-    """
+    """Configuration with the largest worst case or radius, or the smallest probability, whichever is the criterion."""
 
     configurations: int
     """Number of configurations at which the probability was evaluated."""
@@ -3442,14 +3523,20 @@ class Variable(Fields):
 class Verdicts(Fields):
     """Verdicts on the tolerances of a study."""
 
-    verdict: Literal["met", "met-with-probability", "not-met"]
+    verdict: Literal["met", "not-met"]
     """Worst of the verdicts on the machine that counts."""
 
     machine: Literal["as-built", "compensated"]
     """Machine whose verdict counts: `as-built` or `compensated`."""
 
-    probability_required: float
-    """Required probability of meeting each tolerance."""
+    criterion: Literal["worst-case", "rss", "probability", "yield"]
+    """Criterion of the verdict: `worst-case`, `rss`, `probability` or `yield`."""
+
+    probability_required: float | None = None
+    """Required probability of meeting each tolerance, if that is the criterion or part of it."""
+
+    yield_required: float | None = None
+    """Required share of machines, if that is the criterion."""
 
     unreachable: int | None = None
     """Number of unreachable configurations, if they are more than the study permits: the tolerance is then not met."""
@@ -3459,6 +3546,9 @@ class Verdicts(Fields):
 
     orientation: ToleranceVerdict | None = None
     """Verdict on the orientation error; None without an orientation tolerance."""
+
+    yield: Yield | None = None
+    """Share of machines that keep all tolerances at all configurations, if that is the criterion."""
 
     compensated: CompensatedVerdicts | None = None
     """Verdicts on the compensated machine; None if nothing says what compensation leaves."""
@@ -3488,3 +3578,16 @@ class WeaklyDetermined(Fields):
 
     unit: str
     """Unit: the length unit, rad, or empty."""
+
+
+class Yield(Fields):
+    """Share of the machines that keep their tolerances."""
+
+    machines: int
+    """Number of machines drawn."""
+
+    share: float
+    """Share of them that keep all tolerances at all configurations."""
+
+    interval: list[float]
+    """Confidence interval of 95 %."""
