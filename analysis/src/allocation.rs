@@ -13,8 +13,8 @@
 //! since a norm is the largest product with a unit vector, and each product is largest at an end of
 //! its range. Both are convex, homogeneous and nondecreasing in x ≥ 0: if `W(x) ≤ 1` then
 //! `W(x′) ≤ 1` for all `x′ ≤ x`. In (1) the largest `a(q,n)·x` has n along the longest vector of
-//! the zonotope with the centre `Σ x_k v_k/2` over repeatable sources, the half-edges `x_k v_k/2` of
-//! these and `x_k v_k` of the others. By Euler `R(x) = ∇R(x)·x`, and `∇R(x)·x′ ≤ R(x′)` as R is
+//! the zonotope with the centre `Σ x_k v_k/2` over repeatable sources, the half-edges `x_k v_k/2`
+//! of these and `x_k v_k` of the others. By Euler `R(x) = ∇R(x)·x`, and `∇R(x)·x′ ≤ R(x′)` as R is
 //! convex. So each x that exceeds the tolerance gives a cut `a·x′ ≤ 1`, `a ≥ 0`, which holds for
 //! all admissible x′ and excludes x.
 //!
@@ -32,6 +32,7 @@ mod tests;
 
 use abbe_kinematics::sampling::norm;
 
+pub use self::program::ScalableSource;
 use self::program::minimize;
 use crate::{Measurand, worst_case};
 
@@ -53,32 +54,6 @@ pub enum AllocationCriterion {
     WorstCase,
     /// Formula (2): these errors add by the root sum of squares of their norms.
     RootSumOfSquares,
-}
-
-/// Error source whose size can be chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScalableSource {
-    /// Indicates that the sign of its errors is known.
-    pub is_repeatable: bool,
-    /// Index of the source whose factor it has; its own index for most.
-    pub follows: usize,
-    /// Cost c of the factor 1.
-    pub cost: f64,
-    /// Exponent p: the factor x costs `c x^(−p)`.
-    pub exponent: f64,
-    /// Smallest and largest factor; equal ones fix it.
-    pub limits: [f64; 2],
-}
-
-impl ScalableSource {
-    fn cost_of(&self, factor: f64) -> f64 {
-        self.cost * factor.powf(-self.exponent)
-    }
-
-    /// Returns `true` if the limits leave one factor.
-    pub fn is_fixed(&self) -> bool {
-        self.limits[0] >= self.limits[1]
-    }
 }
 
 /// Errors of one measurand at one configuration.
@@ -179,8 +154,8 @@ impl Allocator {
     ///
     /// # Errors
     ///
-    /// Returns the largest value of the criterion of the fixed sources alone, and with all others at
-    /// their lower limits, if that exceeds the tolerance.
+    /// Returns the largest value of the criterion of the fixed sources alone, and with all others
+    /// at their lower limits, if that exceeds the tolerance.
     pub fn solve(&mut self) -> Result<Allocation, [f64; 2]> {
         let at_lower_limits = self.largest(|source| source.limits[0]);
         if at_lower_limits >= TARGET {

@@ -65,6 +65,75 @@ class Alarm(Fields):
     """Name of the chart that is farthest beyond its limit."""
 
 
+class AllocateReport(Report):
+    """Factors of the error sources with which the study keeps its tolerances at least cost, and with all smaller
+    factors, too. Lengths are in the spec's unit, angles in rad.
+    """
+
+    __slots__ = ()
+
+    manipulator: str
+    """Name of the manipulator."""
+
+    length: str
+    """Symbol of the length unit."""
+
+    tolerance: float | None
+    """Tolerance of the position error, in the length unit; None if the study has none."""
+
+    orientation_tolerance: float | None
+    """Tolerance of the orientation error, in rad; None if the study has none."""
+
+    configurations: int
+    """Number of reached configurations, at all of which the tolerances are kept."""
+
+    unreachable: int
+    """Number of unreachable configurations."""
+
+    sources: list[AllocatedSource]
+    """Enabled sources of the spec, in its order."""
+
+    cost: float
+    """Sum of the costs of all factors that are not fixed."""
+
+    one_factor: float
+    """Factor of all these sources if they have the same one."""
+
+    one_factor_cost: float
+    """Cost with this factor."""
+
+    active: Named[float]
+    """Configurations at which a tolerance is reached, by their differences from home, each with its multiplier λ: the
+    cost falls by λ/100 if the errors there fall by 1 %. The largest is first.
+
+    Unit: length unit or rad.
+    """
+
+    residual: float
+    """Largest relative residual of the conditions for the optimum (Karush, Kuhn and Tucker).
+
+    Unit: length unit or rad.
+    """
+
+
+class AllocatedSource(Fields):
+    """Error source and its factor."""
+
+    source: str
+    """Name of the source."""
+
+    factor: float
+    """Factor of its errors."""
+
+    fixed: bool
+    """Indicates that the factor is fixed."""
+
+    largest: float
+    """Largest norm of its error at the factor 1: of the position in the length unit; or, without a tolerance of the
+    position, of the orientation in rad.
+    """
+
+
 class Alternative(Fields):
     """Another error that explains the data as well as the named one (likelihood ratio, 95 %)."""
 

@@ -19,10 +19,11 @@ impl Machine {
     /// `study`, `study_text`, `tolerance`: as for `analyze`; the study also has the costs.
     /// `loosen`: allow factors above 1.
     ///
-    /// `.sources` have the `.factor` of each `.source`. The tolerance is kept in the worst case with
-    /// these factors and with all smaller ones. `.cost` is the sum of the costs, `.one_factor_cost`
-    /// that with the same factor for all, and `.active` has the configurations at which the
-    /// tolerance is reached. `scale` applies a factor to a machine, and `text` is its spec.
+    /// `.sources` have the `.factor` of each `.source`. The tolerance is kept by the criterion of
+    /// the study with these factors and with all smaller ones. `.cost` is the sum of the costs,
+    /// `.one_factor_cost` that with the same factor for all, and `.active` has the configurations
+    /// at which the tolerance is reached. `scale` applies a factor to a machine, and `text` is its
+    /// spec.
     ///
     /// Lengths are in the unit of the spec, angles in rad. Fields: `abbe.reports.AllocateReport`.
     ///

@@ -6,8 +6,8 @@ use abbe_spec::edit::{Edits, write};
 use crate::number::exact_quantity;
 
 /// Returns the text of a spec with the values of parameters and inputs, and the switches and scales
-/// of the sources, of a changed one. Everything else stays as it is. `None` if the text has no place
-/// for a change.
+/// of the sources, of a changed one. Everything else stays as it is. `None` if the text has no
+/// place for a change.
 pub fn changed_text(text: &str, unchanged: &Spec, changed: &Spec) -> Option<String> {
     let values = |spec: &Spec| {
         let parameters =

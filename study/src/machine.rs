@@ -19,7 +19,6 @@ use crate::calibration::{calibration_errors, has_magnitude, is_measured, tool_in
 use crate::changes::Changes;
 use crate::mistake;
 use crate::named;
-use crate::study_file::Study;
 use crate::table_paths::with_table_paths;
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
@@ -101,13 +100,6 @@ impl Machine {
         self.fixed_inputs.extend(changes.inputs());
         self.set_parameters.extend(changes.parameters());
         self.stated_changes.extend_from_slice(changes.stated());
-    }
-
-    /// Applies changes, adds the uncertainties, and keeps the inputs that are set nominal in a study.
-    pub fn change_for(&mut self, changes: &Changes, study: &mut Study) {
-        self.change(changes);
-        self.add_uncertainties();
-        study.fix(&self.fixed_inputs);
     }
 
     /// Iterates over the changes that were made by options.

@@ -3,14 +3,38 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::ScalableSource;
-
 /// Largest number of steps.
 const STEPS: usize = 100;
 /// Relative residual at which the iteration ends.
 const END: f64 = 1e-13;
 /// Largest step of a logarithm.
 const STEP: f64 = 2.0;
+
+/// Error source whose size can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScalableSource {
+    /// Indicates that the sign of its errors is known.
+    pub is_repeatable: bool,
+    /// Index of the source whose factor it has; its own index for most.
+    pub follows: usize,
+    /// Cost c of the factor 1.
+    pub cost: f64,
+    /// Exponent p: the factor x costs `c x^(−p)`.
+    pub exponent: f64,
+    /// Smallest and largest factor; equal ones fix it.
+    pub limits: [f64; 2],
+}
+
+impl ScalableSource {
+    pub(super) fn cost_of(&self, factor: f64) -> f64 {
+        self.cost * factor.powf(-self.exponent)
+    }
+
+    /// Returns `true` if the limits leave one factor.
+    pub fn is_fixed(&self) -> bool {
+        self.limits[0] >= self.limits[1]
+    }
+}
 
 /// Returns the factors of all sources, and the multipliers λ of the cuts `a·x ≤ target`.
 ///
@@ -23,7 +47,8 @@ const STEP: f64 = 2.0;
 /// ```
 ///
 /// for t and λ together: nearly parallel cuts make the equations of t alone ill-conditioned. The
-/// factors are then exactly stationary: `x_k = (c_k p_k / (λᵀA)_k)^(1/(p_k+1))`, within their limits.
+/// factors are then exactly stationary, `x_k = (c_k p_k / (λᵀA)_k)^(1/(p_k+1))`, within their
+/// limits.
 pub(super) fn minimize(
     sources: &[ScalableSource],
     cuts: &[(usize, Vec<f64>)],

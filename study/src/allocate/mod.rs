@@ -43,13 +43,13 @@ crate::reads! { Allocate: machine study, without loosen; }
 impl Allocate {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
-        machine.change_for(&study.changes.clone(), &mut study);
+        study.change(&mut machine, &study.changes.clone());
         Self { machine, study, loosen: false }
     }
 
     /// Makes further changes.
     pub fn change(&mut self, changes: &Changes) {
-        self.machine.change_for(changes, &mut self.study);
+        self.study.change(&mut self.machine, changes);
     }
 
     /// Optimizes the factors over the configurations that exceed the tolerance the most, and adds
@@ -70,7 +70,7 @@ impl Allocate {
             Criterion::WorstCase => AllocationCriterion::WorstCase,
             Criterion::RootSumOfSquares => AllocationCriterion::RootSumOfSquares,
             Criterion::Probability | Criterion::Yield => {
-                let message = "factors are allocated by the worst case or by root sum of squares";
+                let message = "factors are not allocated by probability or yield";
                 return Err(refused(message, "write `criterion = \"worst-case\"` or `\"rss\"` into [study]"));
             }
         };

@@ -35,10 +35,12 @@ pub struct Report {
     pub one_factor: f64,
     /// Cost with this factor.
     pub one_factor_cost: f64,
-    /// Configurations at which a tolerance is reached, by their differences from home, each with its
-    /// multiplier λ: the cost falls by λ/100 if the errors there fall by 1 %. The largest is first.
+    /// Configurations at which a tolerance is reached, by their differences from home, each with
+    /// its multiplier λ, without a unit: the cost falls by λ/100 if the errors there fall by 1 %.
+    /// The largest is first.
     pub active: Named,
-    /// Largest relative residual of the conditions for the optimum (Karush, Kuhn and Tucker).
+    /// Largest relative residual of the conditions for the optimum (Karush, Kuhn and Tucker),
+    /// without a unit.
     pub residual: f64,
     /// The study.
     #[serde(skip)]
@@ -60,8 +62,8 @@ pub struct AllocatedSource {
     pub factor: f64,
     /// Indicates that the factor is fixed.
     pub fixed: bool,
-    /// Largest norm of its error at the factor 1: of the position in the length unit; or, without a
-    /// tolerance of the position, of the orientation in rad.
+    /// Largest norm of its error without its factor, in the length unit or rad: of the position; or
+    /// of the orientation if the study has no tolerance of the position.
     pub largest: f64,
 }
 
@@ -73,7 +75,7 @@ pub fn printed(factor: f64) -> f64 {
 
 impl Report {
     /// Creates the report for factors of the enabled sources and their largest errors, as shares of
-    /// the tolerances. `reach` has the numbers of configurations that are reached, and that are not.
+    /// the tolerances. `reach` has the numbers of reached and of unreachable configurations.
     pub(super) fn new(
         machine: &Machine,
         study: &Study,

@@ -40,7 +40,7 @@ impl Analyze {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
     /// The uncertainty of the repeatable errors becomes random sources, after all others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
-        machine.change_for(&study.changes.clone(), &mut study);
+        study.change(&mut machine, &study.changes.clone());
         Self { machine, study, q: None, monte_carlo: None, seed: None, interpret: false, figures: false }
     }
 
@@ -52,7 +52,7 @@ impl Analyze {
                  a different machine"
             ));
         }
-        self.machine.change_for(changes, &mut self.study);
+        self.study.change(&mut self.machine, changes);
     }
 
     /// Analyzes one configuration of the joints instead of the study's workspace, with nominal

@@ -48,13 +48,13 @@ impl Bound {
     /// Creates the job for a machine and a study, and applies the study's changes to the machine.
     /// The uncertainty of the repeatable errors becomes random sources, after all others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
-        machine.change_for(&study.changes.clone(), &mut study);
+        study.change(&mut machine, &study.changes.clone());
         Self { machine, study, effort: Effort::default(), least: false, time: None }
     }
 
     /// Makes further changes.
     pub fn change(&mut self, changes: &Changes) {
-        self.machine.change_for(changes, &mut self.study);
+        self.study.change(&mut self.machine, changes);
     }
 
     /// Refines boxes until each bound reaches the gap, or a limit on boxes or time. Returns the

@@ -4,8 +4,8 @@
 //!
 //! `study` is the content of a study and `read` reads a file from top to bottom. `published` are
 //! figures from a publication, `figure` the figures to draw, `compensation` the residuals after
-//! compensation, `allocation` the costs of factors, and `tolerance` the permitted errors. Everything is checked against the spec, and
-//! mistakes are reported like those of a spec.
+//! compensation, `allocation` the costs of factors, and `tolerance` the permitted errors.
+//! Everything is checked against the spec, and mistakes are reported like those of a spec.
 
 mod allocation;
 mod choices;

@@ -42,6 +42,14 @@ impl Study {
         named::document(&STUDY, argument, abbe_manipulators::STUDIES, "studies", "shipped study")
     }
 
+    /// Applies changes to a machine, adds its uncertainties, and keeps the inputs that are set
+    /// nominal.
+    pub(crate) fn change(&mut self, machine: &mut Machine, changes: &Changes) {
+        machine.change(changes);
+        machine.add_uncertainties();
+        self.fix(machine.fixed_inputs());
+    }
+
     /// Returns the study file beside a user's spec, if it exists: `arm.study.toml` beside
     /// `arm.toml`.
     pub fn beside(machine: &Machine) -> Option<PathBuf> {

@@ -63,8 +63,8 @@ fn written(machine: &Machine, changes: &Changes, report: &Report) -> Spec {
     Spec::parse("written.toml", &text).unwrap()
 }
 
-/// Writes the factors as they are printed and reads them back: the machine keeps the tolerance, with
-/// factors that are not much larger than needed.
+/// Writes the factors as they are printed and reads them back: the machine keeps the tolerance, and
+/// takes nearly all of it.
 #[test]
 fn the_written_machine_keeps_the_tolerance() {
     let both = |name| [(name, Criterion::WorstCase), (name, Criterion::RootSumOfSquares)];
