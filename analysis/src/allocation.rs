@@ -169,7 +169,7 @@ impl Allocator {
             values.sort_by(|a, b| b.0.total_cmp(&a.0));
             let excess = values.first().map_or(0.0, |(value, _)| value - TARGET);
             if excess <= EXCESS * TARGET || round == ROUNDS {
-                return Ok(self.allocation(factors, &multipliers, excess.max(0.0)));
+                return Ok(self.allocation(&factors, &multipliers, excess.max(0.0)));
             }
             let exceeding = values.iter().take(CUTS).filter(|(value, _)| *value > TARGET);
             let cut = |(_, row): &(f64, usize)| (*row, self.slopes(&self.rows[*row].errors, &factors));
@@ -181,17 +181,17 @@ impl Allocator {
     }
 
     /// Evaluates the conditions (4).
-    fn allocation(&self, factors: Vec<f64>, multipliers: &[f64], excess: f64) -> Allocation {
+    fn allocation(&self, factors: &[f64], multipliers: &[f64], excess: f64) -> Allocation {
         let sum: f64 = multipliers.iter().sum();
         let cuts = || self.cuts.iter().zip(multipliers);
-        let stationarity = self.sources.iter().zip(&factors).enumerate().map(|(k, (source, factor))| {
+        let stationarity = self.sources.iter().zip(factors).enumerate().map(|(k, (source, factor))| {
             let is_inside = source.follows == k && source.limits[0] < *factor && *factor < source.limits[1];
             let own = source.exponent * source.cost_of(*factor);
             let slope: f64 = cuts().map(|((_, slopes), multiplier)| multiplier * slopes[k]).sum();
             if is_inside { (own - factor * slope).abs() / own } else { 0.0 }
         });
         let complementarity = cuts().map(|((_, slopes), multiplier)| {
-            let slack = TARGET - product(slopes, &factors);
+            let slack = TARGET - product(slopes, factors);
             (multiplier * slack / sum).max(-slack)
         });
         let residual = stationarity.chain(complementarity).fold(excess, f64::max);

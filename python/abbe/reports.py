@@ -103,17 +103,12 @@ class AllocateReport(Report):
     """Cost with this factor."""
 
     active: Named[float]
-    """Configurations at which a tolerance is reached, by their differences from home, each with its multiplier λ: the
-    cost falls by λ/100 if the errors there fall by 1 %. The largest is first.
-
-    Unit: length unit or rad.
+    """Configurations at which a tolerance is reached, by their differences from home, each with its multiplier λ,
+    without a unit: the cost falls by λ/100 if the errors there fall by 1 %. The largest is first.
     """
 
     residual: float
-    """Largest relative residual of the conditions for the optimum (Karush, Kuhn and Tucker).
-
-    Unit: length unit or rad.
-    """
+    """Largest relative residual of the conditions for the optimum (Karush, Kuhn and Tucker), without a unit."""
 
 
 class AllocatedSource(Fields):
@@ -129,8 +124,8 @@ class AllocatedSource(Fields):
     """Indicates that the factor is fixed."""
 
     largest: float
-    """Largest norm of its error at the factor 1: of the position in the length unit; or, without a tolerance of the
-    position, of the orientation in rad.
+    """Largest norm of its error without its factor, in the length unit or rad: of the position; or of the orientation
+    if the study has no tolerance of the position.
     """
 
 
@@ -3360,7 +3355,7 @@ class ToleranceVerdict(Fields):
     """
 
     is_bounded: bool
-    """Whether no draw exceeds the worst case: no source is normal."""
+    """Indicates that no draw exceeds the worst case: no source is normal."""
 
     at: Named[float]
     """Configuration with the largest worst case or radius, or the smallest probability, whichever is the criterion."""
@@ -3590,4 +3585,4 @@ class Yield(Fields):
     """Share of them that keep all tolerances at all configurations."""
 
     interval: list[float]
-    """Confidence interval of 95 %."""
+    """Confidence interval of 95 % for the share of all machines."""

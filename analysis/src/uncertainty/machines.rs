@@ -89,7 +89,7 @@ impl Machines {
     /// Returns the share of the machines that keep the tolerance with the required probability at
     /// every configuration. The draws depend on the seed alone.
     pub fn yielded(&self, seed: u64) -> Yield {
-        let mut open: Vec<Option<Vec<(usize, [f64; 3])>>> = Vec::with_capacity(MACHINES);
+        let mut open = Vec::with_capacity(MACHINES);
         let Ok(()) = in_order(
             MACHINES.div_ceil(BLOCK),
             |block| {

@@ -125,23 +125,13 @@ fn an_analysis_says_it_too() {
     let certified =
         "Certified, to first order: over the enclosing joint box, which is larger than the workspace,";
     assert!(said.contains(certified), "{said}");
-    assert!(
-        shown.contains("<h2>Certified bounds</h2>") && shown.contains("<title>Sampled and certified</title>")
-    );
-    assert!(shown.contains("the dashed line is the tolerance"), "pps has one");
-    // The largest error found in an enclosing box is no lower bound over the workspace.
-    let of_box = shown.split("<h2>Certified bounds</h2>").nth(1).unwrap().split("</section>").next().unwrap();
-    assert!(
-        of_box.contains("the maximum over the workspace may be smaller") && !of_box.contains("at least"),
-        "{of_box}"
-    );
-    let (_, shown) = page("machine3", &folder.path().join("machine3"));
-    let of_box = shown.split("<h2>Certified bounds</h2>").nth(1).unwrap().split("</section>").next().unwrap();
-    assert!(!of_box.contains("may be smaller") && of_box.contains("at least"), "{of_box}");
+    assert!(words(&shown).contains(certified), "it is on the page, too");
+    let (said, _) = page("machine3", &folder.path().join("machine3"));
+    assert!(said.contains("over the whole box of the workspace the worst case over all signs is at most"));
     let source = "[[source]]\nname = \"off\"\nclass = \"repeatable\"\nframe = \"1\"\ne_x = \"0.1 mm\"\n";
     let long = write(folder.path(), "long.toml", &(abbe_tests::chains::revolute_chain(33) + source));
-    let (said, shown) = page(long.to_str().unwrap(), &folder.path().join("long"));
-    assert!(!said.contains("Certified") && !shown.contains("<h2>Certified bounds</h2>"), "{said}");
+    let (said, _) = page(long.to_str().unwrap(), &folder.path().join("long"));
+    assert!(!said.contains("Certified"), "{said}");
 }
 
 /// The error at the printed configuration is the largest error found.

@@ -100,8 +100,8 @@ fn the_report_stands_alone() {
     let report = &files["report.html"];
     is_alone(report);
     assert_eq!(report.matches("<section class=\"abbe-panel\"></section>").count(), 1);
-    // The figures of the study, and the bound. All are printed on paper, too.
-    assert_eq!(report.matches("<div class=\"picture\"><svg").count(), 8);
+    // The figures of the study. All are printed on paper, too.
+    assert_eq!(report.matches("<div class=\"picture\"><svg").count(), 7);
     let (_, paper) = report.split_once("@media print").expect("a style for paper");
     let (paper, _) = paper.split_once("</style>").expect("its end");
     assert!(!paper.contains("display: none"));
