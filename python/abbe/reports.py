@@ -690,7 +690,7 @@ class CompensatedVerdicts(Fields):
     orientation: ToleranceVerdict | None = None
     """Verdict on the orientation error; None without an orientation tolerance."""
 
-    yield: Yield | None = None
+    yield_estimate: Yield | None = None
     """Share of machines that keep all tolerances at all configurations, if that is the criterion."""
 
 
@@ -3542,7 +3542,7 @@ class Verdicts(Fields):
     orientation: ToleranceVerdict | None = None
     """Verdict on the orientation error; None without an orientation tolerance."""
 
-    yield: Yield | None = None
+    yield_estimate: Yield | None = None
     """Share of machines that keep all tolerances at all configurations, if that is the criterion."""
 
     compensated: CompensatedVerdicts | None = None

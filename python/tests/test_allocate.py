@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -24,4 +25,5 @@ def test_the_scaled_machine_needs_no_more():
     for source in pps.allocate().sources:
         scaled = scaled.scale(source.source, source.factor)
     assert all(source.factor == 1.0 for source in scaled.allocate().sources)
-    assert all(source.factor == 1.0 for source in abbe.load(text=scaled.text).allocate(tolerance="0.5 mm").sources)
+    study = Path(__file__).parents[2] / "manipulators/studies/pps.toml"
+    assert all(source.factor == 1.0 for source in abbe.load(text=scaled.text).allocate(study=study).sources)

@@ -114,8 +114,7 @@ fn as_built_a_tolerance_counts_as_a_random_error() {
         let [random, tolerance] = ["random", "tolerance"].map(|class| {
             let text = shipped.spec.replace("class = \"random\"", &format!("class = \"{class}\""));
             let spec = Spec::parse("machine.toml", &text).unwrap();
-            let study =
-                "[study]\ntitle = \"t\"\ntolerance = \"0.2 mm\"\n[workspace.joints]\nsamples = 20\n";
+            let study = "[study]\ntitle = \"t\"\ntolerance = \"0.2 mm\"\n[workspace.joints]\nsamples = 20\n";
             let study = Study::read(Document::new("study.toml", study), &spec).unwrap();
             let report = Analyze::new(Machine::of_spec(spec, "machine.toml"), study).run(&mut ()).unwrap();
             serde_json::to_string(&report).unwrap().replace(&format!("\"class\":\"{class}\""), "")

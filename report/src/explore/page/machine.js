@@ -105,7 +105,7 @@ export function createMachine(generated, report) {
         const shares = displacements.map((displacement, k) => {
             const rows = displacement.slice(first, first + 3);
             const part = !isRandom[k] ? along(rows) : isSum ? norm(rows) ** 2 / root : isCalibration(k) ? norm(rows) : Math.abs(along(rows));
-            return (part || 0) / total;
+            return (part || 0) / total || 0;
         });
         const [all, one, other] = [total, own, total - own].map(steady);
         return { norms, shares, repeatable, unknown, calibration, random, repeatableRadius: one, randomRadius: other, radius: all };

@@ -47,7 +47,7 @@ pub struct MachineVerdicts {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orientation: Option<ToleranceVerdict>,
     /// Share of machines that keep all tolerances at all configurations, if that is the criterion.
-    #[serde(rename = "yield", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "yield_estimate", skip_serializing_if = "Option::is_none")]
     pub yielded: Option<Yield>,
 }
 

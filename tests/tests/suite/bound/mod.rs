@@ -87,7 +87,7 @@ fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
             Class::Repeatable => (0..6).for_each(|i| repeatable[i] += moved[i]),
             // At its bound: 3σ for a normal one.
             Class::Tolerance(distribution) | Class::Random(distribution) => {
-                random.push(moved.map(|part| distribution.bound() * part))
+                random.push(moved.map(|part| distribution.bound() * part));
             }
         }
     }
