@@ -66,7 +66,8 @@ async function assertAgrees(report) {
     const [symbol, factor] = report.error_unit.length;
     let compared = 0;
 
-    const radius = factor * steady(budget.combined?.radius ?? 0);
+    const judged = report.study.criterion === "rss" ? "radius" : "worst_case_radius";
+    const radius = factor * steady(budget.combined?.[judged] ?? 0);
     const [total, share] = rows.get("as built") ?? [`${fixed(0, 3)} ${symbol}`];
     assert.equal(shown.total, total, analyze);
     if (report.study.tolerance !== null) assert.equal(shown.share, `${share} of`, analyze);
