@@ -32,6 +32,9 @@ fn every_template_is_a_good_first_spec() {
         let has = |class: fn(Class) -> bool| spec.sources.iter().any(|source| class(source.class));
         assert!(has(|class| class == Class::Repeatable) && has(|class| matches!(class, Class::Tolerance(_))));
         assert!(has(|class| matches!(class, Class::Random(_))), "{name}");
+        if *name == "six-axis" {
+            assert!(prints(&["check", path]).contains("Sources   1 repeatable, 2 tolerances, 2 random\n"));
+        }
         let budget = json(&["analyze", path, "--json"]);
         let radius = budget["combined"]["radius"].as_f64().unwrap();
         assert!((0.02..5.0).contains(&radius), "{name}: {radius} mm");

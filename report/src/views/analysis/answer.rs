@@ -54,7 +54,7 @@ pub(super) fn headline(report: &Report) -> String {
     let met = if verdicts.verdict == Verdict::Met { "MET" } else { "NOT MET" };
     let by = match (verdicts.counting().yielded, verdicts.probability_required, least) {
         (Some(share), ..) => {
-            let [from, to] = share.interval.map(|end| numbers::trimmed(100.0 * end, 1));
+            let [from, to] = share.interval.map(|end| numbers::rounded_down(100.0 * end, 1));
             let required = numbers::at_least(verdicts.yield_required.unwrap_or_default());
             format!(": yield {from} … {to} % of machines, {required} required")
         }

@@ -142,14 +142,16 @@ fn facts(report: &Report) -> Vec<(&'static str, String)> {
 
 fn sources(report: &Report) -> String {
     let all = &report.facts.sources;
-    let enabled = all.iter().filter(|source| source.enabled);
-    let repeatable = enabled.clone().filter(|source| source.class == "repeatable").count();
-    let random = enabled.count() - repeatable;
-    let off = match all.len() - repeatable - random {
-        0 => String::new(),
-        off => format!(", {off} disabled"),
-    };
-    if all.is_empty() { "none".to_owned() } else { format!("{repeatable} repeatable, {random} random{off}") }
+    let of = |class: &str| all.iter().filter(|one| one.enabled && one.class.starts_with(class)).count();
+    let [repeatable, tolerances, random] = ["repeatable", "tolerance", "random"].map(of);
+    let more = |count: usize, name: &str| if count > 0 { format!(", {count} {name}") } else { String::new() };
+    let off = more(all.len() - repeatable - tolerances - random, "disabled");
+    let tolerances = more(tolerances, if tolerances == 1 { "tolerance" } else { "tolerances" });
+    if all.is_empty() {
+        "none".to_owned()
+    } else {
+        format!("{repeatable} repeatable{tolerances}, {random} random{off}")
+    }
 }
 
 fn identifiable(counts: &[Identifiable]) -> String {
