@@ -2045,6 +2045,12 @@ class Margin(Fields):
     Unit: length unit or rad.
     """
 
+    in_study: float | None
+    """Smallest margin at the configurations of the study; None if none was evaluated.
+
+    Unit: length unit or rad.
+    """
+
     after_one_step: float | None
     """Certified lower bound on the margin after one step of compensation of the repeatable sources; None if nothing
     could be proved or nothing is compensated.

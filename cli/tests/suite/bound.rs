@@ -4,7 +4,7 @@ use serde_json::Value;
 use tempfile::tempdir;
 
 use crate::bad_input::refused;
-use crate::running::{abbe, full, json, write};
+use crate::running::{abbe, full, json, prints, write};
 
 const KINDS: [&str; 3] = ["repeatable", "random", "total"];
 const ERRORS: [&str; 5] = ["norm", "x", "y", "z", "orientation"];
@@ -82,6 +82,16 @@ fn a_tolerance_is_met_by_the_worst_case() {
     assert!(verdict("uniform", "0.201 mm").ends_with("MET everywhere in the box, to first order"));
     assert!(verdict("normal", "0.61 mm").ends_with("MET everywhere in the box at 3 σ, to first order"));
     assert!(verdict("normal", "0.5 mm").ends_with("EXCEEDED: 0.6 mm found"));
+}
+
+/// A study that exceeds the tolerance decides, although the box contains more.
+#[test]
+fn a_study_that_exceeds_the_tolerance_decides() {
+    let text = prints(&["bound", "pps"]);
+    let headline = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(headline.contains("tolerance 0.5 mm EXCEEDED: 5.49 mm in the study"), "{text}");
+    let text = prints(&["bound", "pps", "--tolerance", "6 mm"]);
+    assert!(text.contains("UNDECIDED: it is exceeded in the joint box"), "{text}");
 }
 
 /// Sampled errors lie below the bound, and close to it where the workspace is the box.

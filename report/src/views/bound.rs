@@ -87,6 +87,10 @@ fn verdict(report: &Report, margin: &Margin, largest: &ErrorBound, unit: &str, f
     let at = if is_bounded(report) { "" } else { " at 3 σ" };
     match margin.certified {
         Some(left) if left >= 0.0 => format!("{tolerance} MET everywhere in the box{at}, to first order"),
+        _ if margin.in_study.is_some_and(|left| left < 0.0) && report.contains_more => {
+            let error = margin.tolerance - margin.in_study.unwrap_or_default();
+            format!("{tolerance} EXCEEDED: {} {unit} in the study", number::digits(factor * error, 3))
+        }
         _ if margin.found < 0.0 && report.contains_more => {
             format!("{tolerance} UNDECIDED: it is exceeded in the joint box, which is larger than the study")
         }

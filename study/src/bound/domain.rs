@@ -3,7 +3,7 @@
 use abbe_spec::option::SET;
 use std::sync::Arc;
 
-use abbe::analysis::{BudgetOptions, Configuration, error_budget};
+use abbe::analysis::{BudgetOptions, Configuration, Measurand, error_budget};
 use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
 use abbe_codegen::chain::{DIRECTION, Magnitude, PerFrameMagnitudes};
 use abbe_codegen::graph::{Graph, Node};
@@ -55,9 +55,14 @@ impl Domain {
         Ok(domain)
     }
 
-    /// Returns the configuration of the study with the largest worst case over all signs: what a
-    /// sweep finds counts for the bound, too. `None` if there is none.
-    pub(super) fn worst_of_workspace(&self, machine: &Machine, study: &Study) -> Option<Vec<f64>> {
+    /// Returns the configuration of the study with the largest worst case over all signs, and the
+    /// worst cases of position and orientation: what a sweep finds counts for the bound, too.
+    /// `None` if there is none.
+    pub(super) fn worst_of_workspace(
+        &self,
+        machine: &Machine,
+        study: &Study,
+    ) -> Option<(Vec<f64>, [f64; 2])> {
         let manipulator = &*machine.evaluator(true);
         let workspace = study.region.workspace(manipulator, None).ok()?;
         let budget = error_budget(manipulator, &*workspace, BudgetOptions::default(), &mut ()).ok()?;
@@ -69,7 +74,8 @@ impl Domain {
             Symbol::Input(i) => u[i],
             _ => f64::NAN,
         };
-        Some(self.spans.iter().map(|span| value(span).clamp(span.range[0], span.range[1])).collect())
+        let at = self.spans.iter().map(|span| value(span).clamp(span.range[0], span.range[1]));
+        Some((at.collect(), Measurand::ALL.map(|of| budget.errors(of).1.worst_case_radius.value)))
     }
 
     /// Bounds the largest magnitude of an error over the box. The search starts at `start`, or at

@@ -72,7 +72,8 @@ impl Bound {
             [limits.position[kind], rotation]
         };
         let start = domain.worst_of_workspace(machine, study);
-        let start = start.as_deref();
+        let (start, in_study) =
+            start.as_ref().map_or((None, None), |(at, worst)| (Some(&at[..]), Some(*worst)));
         let mut searches = Searches { job: self, domain: &domain, begun: Instant::now(), done: 0 };
         let repeatable =
             searches.error_bounds(&mut graph, &repeatable, &across_z[0], at_most(0), start, notes)?;
@@ -102,7 +103,12 @@ impl Bound {
         let errors = [repeatable, random, total];
         let others = OtherBounds { remainder, after_one_step, dexterity, stiffness };
         let report = Report::new(domain, study, &self.effort, errors, others);
-        let report = Report { changes: machine.stated_changes().collect(), ..report };
+        let mut report = Report { changes: machine.stated_changes().collect(), ..report };
+        for (margin, k) in [&mut report.margin, &mut report.orientation_margin].into_iter().zip(0..) {
+            if let Some(margin) = margin {
+                margin.in_study = in_study.map(|worst: [f64; 2]| margin.tolerance - worst[k]);
+            }
+        }
         report.warn(notes);
         Ok(report)
     }

@@ -198,6 +198,8 @@ pub struct Margin {
     pub certified: Option<f64>,
     /// Smallest margin that was found, an upper bound.
     pub found: f64,
+    /// Smallest margin at the configurations of the study; `None` if none was evaluated.
+    pub in_study: Option<f64>,
     /// Certified lower bound on the margin after one step of compensation of the repeatable
     /// sources; `None` if nothing could be proved or nothing is compensated.
     pub after_one_step: Option<f64>,
@@ -211,6 +213,7 @@ impl Margin {
             tolerance,
             certified: largest.certified.map(below),
             found: tolerance - largest.found,
+            in_study: None,
             after_one_step: both.map(below),
         }
     }
