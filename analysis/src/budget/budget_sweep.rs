@@ -57,8 +57,6 @@ pub struct BudgetSweep<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
     classes: Vec<Class>,
-    /// Number of sources before the parts of a calibration.
-    calibration: usize,
     position: InitialErrors,
     orientation: InitialErrors,
     oriented_at_home: bool,
@@ -93,14 +91,15 @@ impl<'a> BudgetSweep<'a> {
             sample.iter_mut().for_each(|sample| sample.add(known, row));
         });
         let classes = known.iter().map(|source| source.class).collect::<Vec<_>>();
+        let calibration = known.iter().position(Source::is_calibration).unwrap_or(known.len());
+        let known = (&classes[..], calibration);
         let [first, second] = sample;
         Ok(Self {
             manipulator,
             workspace,
-            position: first.finish(workspace.len(), &classes, &home, options.tolerances[0]),
-            orientation: second.finish(workspace.len(), &classes, &home, options.tolerances[1]),
+            position: first.finish(workspace.len(), known, &home, options.tolerances[0]),
+            orientation: second.finish(workspace.len(), known, &home, options.tolerances[1]),
             classes,
-            calibration: known.iter().position(Source::is_calibration).unwrap_or(known.len()),
             oriented_at_home,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
         })
@@ -194,7 +193,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
 
     #[inline(always)]
     fn run<R: Register>(self) -> Self::Output {
-        let BudgetSweep { manipulator, workspace, ref classes, calibration, .. } = *self.sweep;
+        let BudgetSweep { manipulator, workspace, .. } = *self.sweep;
         let (mut part, mut blocks) = (self.sweep.none(self.number), Vec::new());
         part.chunks.end += 1;
         let range = self.sweep.configurations(&part.chunks);
@@ -209,8 +208,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
             let displacements = &block.displacements;
             position.add_sources(displacements, before);
             for tile in 0..displacements.tiles() {
-                position
-                    .add_sums((classes, calibration), displacements, tile, before, |place| indices[place]);
+                position.add_sums(&self.sweep.position, displacements, tile, before, |place| indices[place]);
             }
             let before = oriented.len();
             let (kept, displacements) = block.oriented();
@@ -218,7 +216,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
             orientation.add_sources(&displacements, before);
             for tile in 0..displacements.tiles() {
                 orientation
-                    .add_sums((classes, calibration), &displacements, tile, before, |place| oriented[place]);
+                    .add_sums(&self.sweep.orientation, &displacements, tile, before, |place| oriented[place]);
             }
             block.unreachable.drain(..).for_each(|unreachable| part.unreachable.add(unreachable));
             if self.rows {

@@ -58,14 +58,11 @@ pub struct Combined {
     pub standard_radius: Extreme,
     /// Largest worst case along x, y, z of `F_0`: \|Σ repeatable\| + Σ \|b_k\|.
     pub worst_case: [f64; 3],
-    /// max ‖Σ repeatable + Σ ± b_k‖ over all signs, at least as found: repeatable sources at their
-    /// values, the others at their bounds. No draw exceeds the largest if these are bounded; the
-    /// bound of a normal one is 3σ, which 0.27 % of its draws exceed. The parts of a calibration
-    /// are one error, with the root sum of their squares in any direction.
+    /// max ‖Σ repeatable + Σ ± b_k‖ over all signs: repeatable sources at their values, the others
+    /// at their bounds. No draw exceeds it if these are bounded; the bound of a normal one is 3σ,
+    /// which 0.27 % of its draws exceed. The parts of a calibration are one error, with the root sum
+    /// of their squares in any direction.
     pub worst_case_radius: Extreme,
-    /// Upper bound of the worst case; equal to it, but for rounding, where a tolerance lies between
-    /// the two.
-    pub worst_case_bound: f64,
     /// 95 % ellipsoid at the configuration with the largest standard deviation in any direction.
     pub ellipsoid: Ellipsoid,
     /// Smallest sphere around the position errors Σ repeatable of all configurations.
@@ -90,7 +87,6 @@ impl Combined {
                 here.add(index, other.value);
             }
         }
-        self.worst_case_bound = self.worst_case_bound.max(other.worst_case_bound);
         for (here, other) in [
             (&mut self.repeatable, other.repeatable),
             (&mut self.random, other.random),
@@ -170,7 +166,7 @@ pub(super) struct CombinedAccumulator<R: Register> {
 
 impl<R: Register> CombinedAccumulator<R> {
     /// Initializes the accumulation with the ellipsoid and the view of a sample of configurations.
-    pub(super) fn new(ellipsoid: Ellipsoid, view: View, classes: &[Class], tolerance: Option<f64>) -> Self {
+    pub(super) fn new(ellipsoid: Ellipsoid, view: View, classes: &[Class]) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
             outline: outline::OutlineAccumulator::new(view),
@@ -179,7 +175,7 @@ impl<R: Register> CombinedAccumulator<R> {
             random_square: Peak::none(),
             radius: Peak::none(),
             trace: Peak::none(),
-            over_signs: OverSignsAccumulator::new(classes, tolerance),
+            over_signs: OverSignsAccumulator::new(classes),
             repeatable: [zero; 3],
             random: [zero; 3],
             variance: [zero; 3],
@@ -188,22 +184,15 @@ impl<R: Register> CombinedAccumulator<R> {
         }
     }
 
-    /// Adds the configurations of a tile. `classes` and `rows` are those of the sources before the
-    /// calibration; `index` maps places to indices of configurations.
+    /// Adds the configurations of a tile. `index` maps places to indices of configurations.
     #[inline(always)]
-    pub(super) fn add(
-        &mut self,
-        sums: &Sums<R>,
-        classes: &[Class],
-        rows: &[Lanes<R>],
-        index: impl Fn(usize) -> usize,
-    ) {
+    pub(super) fn add(&mut self, sums: &Sums<R>, rows: &[Lanes<R>], index: impl Fn(usize) -> usize) {
         let &Sums { place, weight, .. } = sums;
         self.repeatable_square.add(sums.repeatable_square, place);
         self.random_square.add(sums.random_square, place);
         let norms = [sums.repeatable_norm, sums.random_norm, sums.radius];
         self.radius.add(sums.radius, place);
-        self.over_signs.add(classes, rows, sums);
+        self.over_signs.add(rows, sums);
         for (sum, norm) in self.squares.iter_mut().zip(norms) {
             *sum = (norm * norm).mul_add(weight, *sum);
         }
@@ -256,7 +245,6 @@ impl<R: Register> CombinedAccumulator<R> {
         };
         let extreme =
             |peak: Peak<R>, f: fn(f64) -> f64| place(peak.finish().map(|(value, place)| (f(value), place)));
-        let (found, worst_case_bound) = self.over_signs.finish();
         let roots = |largest: [Lanes<R>; 3]| largest.map(|square| peak::largest(square).sqrt());
         let combined = Combined {
             repeatable_radius: extreme(self.repeatable_square, f64::sqrt),
@@ -267,8 +255,7 @@ impl<R: Register> CombinedAccumulator<R> {
             standard_deviation: roots(self.variance),
             standard_radius: extreme(self.trace, f64::sqrt),
             worst_case: self.worst_case.map(peak::largest),
-            worst_case_radius: place(found),
-            worst_case_bound,
+            worst_case_radius: place(self.over_signs.finish()),
             ellipsoid: self.ellipsoid,
             ..Combined::default()
         };

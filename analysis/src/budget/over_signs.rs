@@ -7,108 +7,115 @@ use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
 use abbe_kinematics::sampling::norm;
 
-/// Steps of the search from each axis.
-const STEPS: usize = 3;
-/// Relative room for rounding when bounds are compared.
-const ROUNDING: f64 = 1e-9;
+/// Largest number of sources of unknown sign for which all pairs are tried in lanes.
+const PAIRS: usize = 32;
 
-/// Accumulates the worst case over all signs in lanes.
+/// Accumulates the worst case over all signs in lanes, which is exact.
 ///
-/// At most configurations `‖Σ r‖ + Σ ‖b_k‖` shows that their worst case is not the largest. At the
-/// others it is searched: signs that agree with a direction give a longer vector, whose direction
-/// gives the next signs. Such a vector may be short of the longest. Where a tolerance could make a
-/// difference the longest is determined exactly.
+/// At most configurations `‖Σ r‖ + Σ ‖b_k‖`, or the norm of the worst cases of the three rows, shows
+/// that their worst case is not the largest. At the others it is determined as
+/// [`worst_case`](crate::worst_case()) does it, by all pairs of sources.
 pub(super) struct OverSignsAccumulator<R: Register> {
-    tolerance: f64,
+    /// First rows of the sources of unknown sign before the calibration, and what makes them distinct.
+    unknown: Vec<(usize, [f64; 3])>,
     found: Peak<R>,
-    /// Largest value found in any lane.
+    /// Largest value in any lane.
     most: f64,
-    /// Upper bound of the worst case of all configurations.
-    bound: f64,
-    /// Indicates that a source has an unknown sign.
-    any: bool,
+    /// Errors of these sources in a tile, and slightly different ones.
+    vectors: Vec<[Lanes<R>; 3]>,
+    distinct: Vec<[Lanes<R>; 3]>,
 }
 
 impl<R: Register> OverSignsAccumulator<R> {
-    pub(super) fn new(classes: &[Class], tolerance: Option<f64>) -> Self {
-        let tolerance = tolerance.map_or(f64::INFINITY, |tolerance| tolerance * (1.0 + ROUNDING));
-        let any = classes.iter().any(|class| class.distribution().is_some());
-        Self { tolerance, found: Peak::none(), most: -1.0, bound: 0.0, any }
+    /// Creates the accumulator for the sources before a calibration.
+    pub(super) fn new(classes: &[Class]) -> Self {
+        let unknown = classes.iter().enumerate().filter(|(_, class)| class.distribution().is_some());
+        let unknown: Vec<(usize, [f64; 3])> =
+            unknown.enumerate().map(|(n, (k, _))| (6 * k, worst_case::apart(n))).collect();
+        // A pair, at least.
+        let vectors = vec![[Lanes::constant(0.0); 3]; unknown.len().max(2)];
+        Self { unknown, found: Peak::none(), most: -1.0, distinct: vectors.clone(), vectors }
     }
 
-    /// Adds the configurations of a tile. `rows` are those of the sources before the calibration.
+    /// Adds the configurations of a tile.
     #[inline(always)]
-    pub(super) fn add(&mut self, classes: &[Class], rows: &[Lanes<R>], sums: &Sums<R>) {
+    pub(super) fn add(&mut self, rows: &[Lanes<R>], sums: &Sums<R>) {
         let simple = sums.repeatable_norm + sums.random_norms;
-        let highest = peak::largest(simple);
-        if !self.any || highest <= self.most {
-            self.bound = self.bound.max(highest);
-            // Ties go to the first configuration.
-            if !self.any {
-                self.found.add(simple, sums.place);
-            }
-            return;
+        let bound = (peak::square(sums.worst_case).sqrt() + sums.calibration).min(simple);
+        if self.unknown.is_empty() {
+            self.found.add(simple, sums.place);
+        } else if peak::largest(bound) > self.most {
+            let longest =
+                if self.unknown.len() > PAIRS { self.apart(rows, sums) } else { self.pairs(rows, sums) };
+            let worst = longest + sums.calibration;
+            self.most = self.most.max(peak::largest(worst));
+            self.found.add(worst, sums.place);
         }
-        let mut found = farthest(classes, rows, sums).sqrt() + sums.calibration;
-        self.most = self.most.max(peak::largest(found));
-        let mut bound = simple;
-        if highest > self.tolerance && self.most <= self.tolerance {
-            found = exact(classes, rows, sums, bound, self.tolerance).max(found);
-            let open = bound.more_than(Lanes::constant(self.tolerance));
-            bound = open.select(found, bound);
-            self.most = self.most.max(peak::largest(found));
-        }
-        self.bound = self.bound.max(peak::largest(bound));
-        self.found.add(found, sums.place);
     }
 
-    /// Returns the largest worst case that was found, its place, and the upper bound.
-    pub(super) fn finish(self) -> (Option<(f64, usize)>, f64) {
-        (self.found.finish(), self.bound)
-    }
-}
-
-/// Returns the squared norm of a long vector with some signs.
-#[inline(always)]
-fn farthest<R: Register>(classes: &[Class], rows: &[Lanes<R>], sums: &Sums<R>) -> Lanes<R> {
-    let zero = Lanes::constant(0.0);
-    let mut longest = zero;
-    for axis in 0..3 {
-        let mut direction = [zero; 3];
-        direction[axis] = Lanes::constant(1.0).with_sign_of(sums.repeatable[axis]);
-        for _ in 0..STEPS {
-            let mut sum = sums.repeatable;
-            for (class, v) in classes.iter().zip(rows.chunks(6)) {
-                if class.distribution().is_some() {
-                    let along = v[0].mul_add(direction[0], v[1].mul_add(direction[1], v[2] * direction[2]));
+    /// Returns the largest norm in each lane by all pairs of sources.
+    #[inline(always)]
+    fn pairs(&mut self, rows: &[Lanes<R>], sums: &Sums<R>) -> Lanes<R> {
+        let Self { unknown, vectors, distinct, .. } = self;
+        let zero = Lanes::constant(0.0);
+        for (k, (first, [x, y, z])) in unknown.iter().enumerate() {
+            let v = [rows[*first], rows[first + 1], rows[first + 2]];
+            vectors[k] = v;
+            let size = peak::square(v).sqrt();
+            let [x, y, z] = [Lanes::constant(*x), Lanes::constant(*y), Lanes::constant(*z)];
+            distinct[k] = plus(v, [size * x, size * y, size * z]);
+        }
+        let mut longest = zero;
+        for i in 0..vectors.len() {
+            for j in i + 1..vectors.len() {
+                let ([ax, ay, az], [bx, by, bz]) = (distinct[i], distinct[j]);
+                let normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+                let mut sum = [zero; 3];
+                for k in 0..vectors.len() {
+                    if k == i || k == j {
+                        continue;
+                    }
+                    let ([x, y, z], d) = (vectors[k], distinct[k]);
+                    let along = normal[0].mul_add(d[0], normal[1].mul_add(d[1], normal[2] * d[2]));
                     let sign = Lanes::constant(1.0).with_sign_of(along);
-                    sum = core::array::from_fn(|i| v[i].mul_add(sign, sum[i]));
+                    sum = [x.mul_add(sign, sum[0]), y.mul_add(sign, sum[1]), z.mul_add(sign, sum[2])];
+                }
+                let [both, apart] = [plus(vectors[i], vectors[j]), minus(vectors[i], vectors[j])];
+                for side in [plus(sums.repeatable, sum), minus(sums.repeatable, sum)] {
+                    longest =
+                        longest.max(peak::square(plus(side, both))).max(peak::square(minus(side, both)));
+                    longest =
+                        longest.max(peak::square(plus(side, apart))).max(peak::square(minus(side, apart)));
                 }
             }
-            direction = sum;
         }
-        longest = longest.max(peak::square(direction));
+        longest.sqrt()
     }
-    longest
+
+    /// Returns the largest norm in each lane, for many sources.
+    #[cold]
+    #[inline(never)]
+    fn apart(&self, rows: &[Lanes<R>], sums: &Sums<R>) -> Lanes<R> {
+        Lanes::from_fn(|lane| {
+            let at = |row: &Lanes<R>| row.to_slice()[lane];
+            let vector = |(first, _): &(usize, [f64; 3])| core::array::from_fn(|i| at(&rows[first + i]));
+            let vectors: Vec<[f64; 3]> = self.unknown.iter().map(vector).collect();
+            norm(worst_case(sums.repeatable.each_ref().map(at), &vectors))
+        })
+    }
+
+    /// Returns the largest worst case and its place.
+    pub(super) fn finish(self) -> Option<(f64, usize)> {
+        self.found.finish()
+    }
 }
 
-/// Returns the exact worst case in the lanes whose bound exceeds the tolerance, 0 in the others.
-#[cold]
-#[inline(never)]
-fn exact<R: Register>(
-    classes: &[Class],
-    rows: &[Lanes<R>],
-    sums: &Sums<R>,
-    bound: Lanes<R>,
-    tolerance: f64,
-) -> Lanes<R> {
-    Lanes::from_fn(|lane| {
-        if bound.to_slice()[lane] <= tolerance {
-            return 0.0;
-        }
-        let at = |row: &Lanes<R>| row.to_slice()[lane];
-        let unknown = classes.iter().zip(rows.chunks(6)).filter(|(class, _)| class.distribution().is_some());
-        let vectors: Vec<[f64; 3]> = unknown.map(|(_, v)| core::array::from_fn(|i| at(&v[i]))).collect();
-        norm(worst_case(sums.repeatable.each_ref().map(at), &vectors)) + at(&sums.calibration)
-    })
+#[inline(always)]
+pub(super) fn plus<R: Register>(a: [Lanes<R>; 3], b: [Lanes<R>; 3]) -> [Lanes<R>; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+fn minus<R: Register>(a: [Lanes<R>; 3], b: [Lanes<R>; 3]) -> [Lanes<R>; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }

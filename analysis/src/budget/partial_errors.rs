@@ -46,7 +46,7 @@ impl SampleErrors {
     pub(super) fn finish(
         self,
         count: usize,
-        classes: &[Class],
+        (classes, calibration): (&[Class], usize),
         home: &[[f64; 6]],
         tolerance: Option<f64>,
     ) -> InitialErrors {
@@ -58,6 +58,7 @@ impl SampleErrors {
             measurand,
             tolerance,
             classes: classes.to_vec(),
+            calibration,
             home: home.iter().map(|error| measurand.rows(error)).collect(),
             ellipsoid,
             view: View::around(&points, count),
@@ -73,6 +74,8 @@ pub(super) struct InitialErrors {
     measurand: Measurand,
     tolerance: Option<f64>,
     classes: Vec<Class>,
+    /// Number of sources before the parts of a calibration.
+    calibration: usize,
     home: Vec<[f64; 3]>,
     ellipsoid: Ellipsoid,
     /// Errors of the sample, of all sources together and of each alone, with the views of their
@@ -170,7 +173,9 @@ pub(super) struct ErrorsAccumulator<R: Register> {
 
 impl<R: Register> ErrorsAccumulator<R> {
     pub(super) fn new(initial: &InitialErrors) -> Self {
-        let InitialErrors { measurand, tolerance, classes, home, ellipsoid, view, views, .. } = initial;
+        let InitialErrors {
+            measurand, tolerance, classes, calibration, home, ellipsoid, view, views, ..
+        } = initial;
         let singles = classes
             .iter()
             .zip(home)
@@ -183,7 +188,7 @@ impl<R: Register> ErrorsAccumulator<R> {
             outlines: outlines
                 .map(|(class, view)| repeatable(class).then(|| outline::OutlineAccumulator::new(*view)))
                 .collect(),
-            all: combined::CombinedAccumulator::new(*ellipsoid, *view, classes, *tolerance),
+            all: combined::CombinedAccumulator::new(*ellipsoid, *view, &classes[..*calibration]),
             least_likely: tolerance.map(least_likely::LeastLikelyAccumulator::new),
         }
     }
@@ -211,7 +216,7 @@ impl<R: Register> ErrorsAccumulator<R> {
     #[inline(always)]
     pub(super) fn add_sums(
         &mut self,
-        (classes, calibration): (&[Class], usize),
+        initial: &InitialErrors,
         displacements: &Tiles,
         tile: usize,
         before: usize,
@@ -221,8 +226,8 @@ impl<R: Register> ErrorsAccumulator<R> {
         let rows = displacements.tile::<R>(tile);
         // Without sources there are no rows.
         let rows = rows.get(self.measurand.first()..).unwrap_or_default();
-        let sums = Sums::new(classes, calibration, rows, place, weight);
-        self.all.add(&sums, &classes[..calibration], rows, &index);
+        let sums = Sums::new(&initial.classes, initial.calibration, rows, place, weight);
+        self.all.add(&sums, rows, &index);
         if let Some(least_likely) = &mut self.least_likely {
             least_likely.add(&sums, index);
         }

@@ -1,5 +1,6 @@
 //! Combined errors of all sources at the configurations of one tile.
 
+use super::over_signs::plus;
 use super::{peak, variance};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
@@ -47,24 +48,33 @@ impl<R: Register> Sums<R> {
             let here = [rows[0], rows[1], rows[2]];
             let [x, y, z] = here;
             match class {
-                Class::Repeatable => repeatable = core::array::from_fn(|i| repeatable[i] + here[i]),
+                Class::Repeatable => repeatable = plus(repeatable, here),
                 Class::Tolerance(distribution) | Class::Random(distribution) => {
                     if k < calibration {
                         random_norms = random_norms + peak::square(here).sqrt();
-                        worst_case = core::array::from_fn(|i| worst_case[i] + here[i].abs());
+                        worst_case = plus(worst_case, [x.abs(), y.abs(), z.abs()]);
                     } else {
-                        parts = core::array::from_fn(|i| here[i].mul_add(here[i], parts[i]));
+                        parts = [x.mul_add(x, parts[0]), y.mul_add(y, parts[1]), z.mul_add(z, parts[2])];
                     }
-                    squares = core::array::from_fn(|i| here[i].mul_add(here[i], squares[i]));
+                    squares = [x.mul_add(x, squares[0]), y.mul_add(y, squares[1]), z.mul_add(z, squares[2])];
                     let variance = Lanes::constant(variance(*distribution));
-                    let [vx, vy, vz] = here.map(|row| row * variance);
-                    let parts = [(vx, x), (vy, y), (vz, z), (vx, y), (vx, z), (vy, z)];
-                    covariance = core::array::from_fn(|i| parts[i].0.mul_add(parts[i].1, covariance[i]));
+                    let [vx, vy, vz] = [x * variance, y * variance, z * variance];
+                    let [xx, yy, zz, xy, xz, yz] = covariance;
+                    covariance = [
+                        vx.mul_add(x, xx),
+                        vy.mul_add(y, yy),
+                        vz.mul_add(z, zz),
+                        vx.mul_add(y, xy),
+                        vx.mul_add(z, xz),
+                        vy.mul_add(z, yz),
+                    ];
                 }
             }
         }
         let calibration = (parts[0] + parts[1] + parts[2]).sqrt();
-        worst_case = core::array::from_fn(|i| worst_case[i] + repeatable[i].abs() + parts[i].sqrt());
+        let [x, y, z] = repeatable;
+        worst_case = plus(worst_case, [x.abs(), y.abs(), z.abs()]);
+        worst_case = plus(worst_case, [parts[0].sqrt(), parts[1].sqrt(), parts[2].sqrt()]);
         let repeatable_square = peak::square(repeatable);
         let random_square = squares[0] + squares[1] + squares[2];
         let (repeatable_norm, random_norm) = (repeatable_square.sqrt(), random_square.sqrt());

@@ -126,7 +126,6 @@ impl AnalysisSweep<'_> {
         let Self { machine, study, manipulator, workspace, .. } = *self;
         let spec = &named_as_one(&machine.spec);
         let mut budget = self.budget.finish(data.budget);
-        self.refine_worst_case(&mut budget)?;
         if let Some((errors, first)) = data.calibration.zip(self.first_part()) {
             errors.replace_parts(&mut budget, first);
         }
@@ -264,22 +263,6 @@ impl AnalysisSweep<'_> {
         Ok(Some(machines.yielded(SEED)))
     }
 
-    /// Determines the worst case over all signs exactly where the sweep has found it.
-    fn refine_worst_case(&self, budget: &mut Budget) -> Result<(), Diagnostics> {
-        for measurand in Measurand::ALL {
-            let index = budget.errors(measurand).1.worst_case_radius.configuration;
-            let exact = self.distribution(index, measurand, None)?.worst_case().norm;
-            let combined = match measurand {
-                Measurand::Position => &mut budget.combined,
-                Measurand::Orientation => &mut budget.orientation.combined,
-            };
-            let worst = &mut combined.worst_case_radius.value;
-            *worst = if index.is_some() { worst.max(exact) } else { 0.0 };
-            combined.worst_case_bound = combined.worst_case_bound.max(*worst);
-        }
-        Ok(())
-    }
-
     /// Returns the shares of the sources in the judged errors of position and orientation, where
     /// they were judged; where the error is largest without a tolerance.
     fn shares(&self, budget: &Budget, verdicts: Option<&Verdicts>) -> Result<[JudgedShares; 2], Diagnostics> {
@@ -343,7 +326,6 @@ impl AnalysisSweep<'_> {
                             measurand,
                             radius: extremes.radius,
                             worst_case: extremes.worst_case,
-                            worst_case_bound: extremes.worst_case.value,
                             // Certain only if no configuration was left out.
                             is_bounded: extremes.is_bounded && is_all,
                             candidates: candidates.collect::<Result<_, Diagnostics>>()?,

@@ -1,7 +1,10 @@
 //! Random sources of every kind: first order compared with a million draws on the exact chain.
 
 use abbe::Manipulator;
-use abbe::analysis::{BudgetOptions, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo};
+use abbe::analysis::sampling::{halton, norm};
+use abbe::analysis::{
+    BudgetOptions, Configuration, MonteCarlo, Row, error_budget, joint_samples, monte_carlo, worst_case,
+};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 
@@ -144,4 +147,46 @@ fn zero_and_one_sided_sources_have_clear_results() {
     let drawn = draws(&spec, 100);
     assert_eq!(drawn.inside_ellipsoid, None);
     assert_eq!((drawn.covariance, drawn.first_order), ([[0.0; 3]; 3], [[0.0; 3]; 3]));
+}
+
+/// The worst case of a sweep is the largest over all signs and configurations, found by trying them
+/// all: for sources of every class, some in one direction, and for more than are tried in pairs.
+#[test]
+fn the_worst_case_of_a_sweep_is_the_largest_over_all_signs() {
+    for count in [1, 2, 3, 5, 9, 40] {
+        let number = |i: usize, k: usize| halton(10 * count + i, k) - 0.5;
+        let source = |i: usize| {
+            let class = ["repeatable", "tolerance", "random"][if i == 0 { 0 } else { 1 + i % 2 }];
+            let distribution = if i == 0 { "" } else { "distribution = \"uniform\"" };
+            let frame = ["shoulder", "elbow"][i % 2];
+            // Every third one acts along x alone.
+            let other = if i % 3 == 0 { 0.0 } else { number(i, 1) };
+            format!(
+                "[[source]]\nname = \"s{i}\"\nclass = \"{class}\"\n{distribution}\nframe = \"{frame}\"\n\
+                 e_x = \"{} mm\"\ne_z = \"{other} mm\"\ne_r = \"{} mrad\"\n",
+                number(i, 0).abs(),
+                other * number(i, 2)
+            )
+        };
+        let robot = Interpreter::new(arm(&(0..=count).map(source).collect::<String>()));
+        let workspace = joint_samples(&robot, &[0, 1], 200).unwrap();
+        let mut largest = 0.0_f64;
+        let mut rows = |row: &Row| {
+            let rows: Vec<[f64; 3]> =
+                row.sources.iter().map(|source| [source[0], source[1], source[2]]).collect();
+            let mut sums = vec![rows[0]];
+            if count > 12 {
+                sums = vec![worst_case(rows[0], &rows[1..])];
+            } else {
+                for error in &rows[1..] {
+                    let plus = |sum: &[f64; 3], sign: f64| core::array::from_fn(|i| sum[i] + sign * error[i]);
+                    sums = sums.iter().flat_map(|sum| [plus(sum, 1.0), plus(sum, -1.0)]).collect();
+                }
+            }
+            largest = sums.iter().map(|sum| norm(*sum)).fold(largest, f64::max);
+        };
+        let budget = error_budget(&robot, &workspace, BudgetOptions::default(), &mut rows).unwrap();
+        let found = budget.combined.worst_case_radius.value;
+        assert!((found / largest - 1.0).abs() < 1e-8, "{count}: {found}, not {largest}");
+    }
 }

@@ -192,9 +192,8 @@ pub(in crate::analyze) struct JudgedErrors {
     pub(in crate::analyze) measurand: Measurand,
     /// Largest radius.
     pub(in crate::analyze) radius: Extreme,
-    /// Largest error over all signs, and an upper bound of it.
+    /// Largest error over all signs.
     pub(in crate::analyze) worst_case: Extreme,
-    pub(in crate::analyze) worst_case_bound: f64,
     /// Indicates that no draw exceeds it.
     pub(in crate::analyze) is_bounded: bool,
     /// Distributions at some configurations: first the one with the largest radius, then the most
@@ -251,7 +250,6 @@ impl JudgedErrors {
             measurand,
             radius,
             worst_case: combined.worst_case_radius,
-            worst_case_bound: combined.worst_case_bound,
             is_bounded,
             candidates: candidates.into_iter().map(|one| (one.index, one.error)).collect(),
         })
@@ -266,10 +264,9 @@ impl ToleranceVerdict {
         tolerance: f64,
         (study, yielded): (&Study, Option<&Yield>),
     ) -> Self {
-        let JudgedErrors { measurand, radius, worst_case, worst_case_bound, is_bounded, mut candidates } =
-            errors;
+        let JudgedErrors { measurand, radius, worst_case, is_bounded, mut candidates } = errors;
         let limit = tolerance * (1.0 + ROUNDING);
-        let is_always_met = worst_case_bound <= limit;
+        let is_always_met = worst_case.value <= limit;
         let certain = is_bounded && is_always_met;
         if candidates.iter().any(|(_, error)| !error.is_normal()) {
             candidates.truncate(DRAWN);
