@@ -9,10 +9,11 @@ const DISTINCT: f64 = 1e-9;
 
 /// Returns the longest vector `c + Σ ± v_k` over all signs.
 ///
-/// It is a vertex of the zonotope around `c`. Each vertex is at the end of an edge along some `v_i`,
-/// and is farthest in a direction n perpendicular to it. As n turns about `v_i`, the sign of each
-/// other vector changes once in half a turn. So that no two change at once, the signs are those of
-/// vectors that differ by 1e-9 of their lengths, which lessens the norm by no more than that.
+/// It is a vertex of the zonotope around `c`. Each vertex is at the end of an edge along some
+/// `v_i`, and is farthest in a direction n perpendicular to it. As n turns about `v_i`, the sign of
+/// each other vector changes once in half a turn. So that no two change at once, the signs are
+/// those of vectors that differ by 1e-9 of their lengths, which lessens the norm by no more than
+/// that.
 pub fn worst_case(center: [f64; 3], vectors: &[[f64; 3]]) -> [f64; 3] {
     let vectors: Vec<[f64; 3]> = vectors.iter().copied().filter(|v| *v != [0.0; 3]).collect();
     let (mut longest, mut square) = (center, if vectors.is_empty() { f64::INFINITY } else { -1.0 });

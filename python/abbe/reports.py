@@ -212,8 +212,10 @@ class AnalyzeReport(Report):
     ledger: Ledger
     """Sources by rank, and their sums."""
 
-    budget: ErrorAllowance | None
-    """Errors that the position tolerance allows; None without one."""
+    factor_for_all: float | None
+    """Factor for all sources at which the judged position error as built equals the tolerance; None without a
+    tolerance or an error, or if a probability or yield is judged.
+    """
 
     compensation: RemainingErrors | None
     """Errors that remain after the compensation that the study states; None if it states none."""
@@ -902,18 +904,6 @@ class Drift(Fields):
 
     drp_turns: list[MeanAndMax] | None
     """`dRP_a`, `dRP_b`, `dRP_c`, in rad."""
-
-
-class ErrorAllowance(Fields):
-    """Errors that a tolerance allows, as factors of the present errors."""
-
-    together: float | None
-    """Factor for all sources at which the judged error as built equals the tolerance; None if there is no error, or
-    if a probability or yield is judged.
-    """
-
-    sources: list[SourceAllowance]
-    """Allowances of the sources, largest share first."""
 
 
 class ErrorBound(Fields):
@@ -1853,11 +1843,13 @@ class LedgerEntry(Fields):
     """
 
     share_of_tolerance: float | None = None
-    """Largest norm as a share of the tolerance; None without a tolerance."""
+    """Largest norm as a share of the tolerance; the source alone would use up the tolerance at one over this factor.
+    None without a tolerance.
+    """
 
     share: float | None = None
-    """Share of the source in the judged error at the configuration of the verdict; negative if it counteracts the
-    others, None for sums.
+    """Share of the source in the judged error at the configuration of the verdict: a source that is 1 % smaller takes
+    1 % of its share away. Negative if it counteracts the others; None for sums.
     """
 
     rank: int | None = None
@@ -2386,8 +2378,10 @@ class OrientationReport(Fields):
     Unit: rad.
     """
 
-    budget: ErrorAllowance | None = None
-    """Errors that this tolerance allows."""
+    factor_for_all: float | None = None
+    """Factor for all sources at which the judged orientation error as built equals the tolerance; None without a
+    tolerance or an error, or if a probability or yield is judged.
+    """
 
     uncertainty: UncertaintyBudget | None = None
     """Uncertainty budget after the GUM; None if no random source rotates the tool."""
@@ -2413,6 +2407,9 @@ class OrientationSource(Fields):
 
     Unit: rad.
     """
+
+    share: float
+    """Share of the source in the judged orientation error, as in the ledger."""
 
     worst: Named[float]
     """Configuration with the largest norm."""
@@ -3113,22 +3110,6 @@ class Source(Fields):
     """Indicates that the source is switched on."""
 
 
-class SourceAllowance(Fields):
-    """Errors that a tolerance allows one source."""
-
-    name: str
-    """Name of the source."""
-
-    alone: float | None
-    """Factor if there were no other source; None if it causes no error."""
-
-    share: float
-    """Share of the source in the judged error at its place; negative if it counteracts the others."""
-
-    gain_per_percent: float
-    """Decrease of the judged error there if the source is reduced by one percent, in the tolerance's unit."""
-
-
 class SourceReport(Fields):
     """Position errors of one source alone over the workspace: along x, y, z of `F_0` and their norm, in the length
     unit. Random sources count at their bounds.
@@ -3586,6 +3567,9 @@ class Yield(Fields):
 
     machines: int
     """Number of machines drawn."""
+
+    configurations: int
+    """Number of configurations at which they must keep the tolerances."""
 
     share: float
     """Share of them that keep all tolerances at all configurations."""

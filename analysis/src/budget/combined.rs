@@ -60,8 +60,8 @@ pub struct Combined {
     pub worst_case: [f64; 3],
     /// max ‖Σ repeatable + Σ ± b_k‖ over all signs: repeatable sources at their values, the others
     /// at their bounds. No draw exceeds it if these are bounded; the bound of a normal one is 3σ,
-    /// which 0.27 % of its draws exceed. The parts of a calibration are one error, with the root sum
-    /// of their squares in any direction.
+    /// which 0.27 % of its draws exceed. The parts of a calibration are one error, with the root
+    /// sum of their squares in any direction.
     pub worst_case_radius: Extreme,
     /// 95 % ellipsoid at the configuration with the largest standard deviation in any direction.
     pub ellipsoid: Ellipsoid,

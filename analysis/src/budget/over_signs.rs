@@ -1,7 +1,7 @@
 //! The worst case over all signs: `max ‖Σ r + Σ ± b_k‖`.
 
 use super::peak::{self, Peak};
-use super::sums::Sums;
+use super::sums::{Sums, plus};
 use crate::worst_case;
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
@@ -12,11 +12,12 @@ const PAIRS: usize = 32;
 
 /// Accumulates the worst case over all signs in lanes, which is exact.
 ///
-/// At most configurations `‖Σ r‖ + Σ ‖b_k‖`, or the norm of the worst cases of the three rows, shows
-/// that their worst case is not the largest. At the others it is determined as
+/// At most configurations `‖Σ r‖ + Σ ‖b_k‖`, or the norm of the worst cases of the three rows,
+/// shows that their worst case is not the largest. At the others it is determined as
 /// [`worst_case`](crate::worst_case()) does it, by all pairs of sources.
 pub(super) struct OverSignsAccumulator<R: Register> {
-    /// First rows of the sources of unknown sign before the calibration, and what makes them distinct.
+    /// First rows of the sources of unknown sign before the calibration, and what makes them
+    /// distinct.
     unknown: Vec<(usize, [f64; 3])>,
     found: Peak<R>,
     /// Largest value in any lane.
@@ -108,11 +109,6 @@ impl<R: Register> OverSignsAccumulator<R> {
     pub(super) fn finish(self) -> Option<(f64, usize)> {
         self.found.finish()
     }
-}
-
-#[inline(always)]
-pub(super) fn plus<R: Register>(a: [Lanes<R>; 3], b: [Lanes<R>; 3]) -> [Lanes<R>; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 #[inline(always)]

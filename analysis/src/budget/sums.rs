@@ -1,6 +1,5 @@
 //! Combined errors of all sources at the configurations of one tile.
 
-use super::over_signs::plus;
 use super::{peak, variance};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
@@ -94,4 +93,9 @@ impl<R: Register> Sums<R> {
             covariance,
         }
     }
+}
+
+#[inline(always)]
+pub(super) fn plus<R: Register>(a: [Lanes<R>; 3], b: [Lanes<R>; 3]) -> [Lanes<R>; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }

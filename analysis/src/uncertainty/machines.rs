@@ -31,6 +31,8 @@ const TWO_SIDED_95: f64 = 1.959_963_984_540_054;
 pub struct Yield {
     /// Number of machines drawn.
     pub machines: usize,
+    /// Number of configurations at which they must keep the tolerances.
+    pub configurations: usize,
     /// Share of them that keep all tolerances at all configurations.
     pub share: f64,
     /// Confidence interval of 95 % for the share of all machines.
@@ -87,8 +89,8 @@ impl Machines {
     }
 
     /// Returns the share of the machines that keep the tolerance with the required probability at
-    /// every configuration. The draws depend on the seed alone.
-    pub fn yielded(&self, seed: u64) -> Yield {
+    /// each of the configurations that were added. The draws depend on the seed alone.
+    pub fn yielded(&self, configurations: usize, seed: u64) -> Yield {
         let mut open = Vec::with_capacity(MACHINES);
         let Ok(()) = in_order(
             MACHINES.div_ceil(BLOCK),
@@ -120,7 +122,7 @@ impl Machines {
         let middle = (share + square / 2.0) / (1.0 + square);
         let half = (square * share * (1.0 - share) + square * square / 4.0).sqrt() / (1.0 + square);
         let interval = [(middle - half).max(0.0), (middle + half).min(1.0)];
-        Yield { machines: MACHINES, share, interval }
+        Yield { machines: MACHINES, configurations, share, interval }
     }
 
     /// Draws the values of a machine.

@@ -20,6 +20,7 @@ fn machine(sources: Vec<Source>) -> Description {
         orientation: Orientation::RotationVector,
         frames: List::Constant(&[]),
         variables: List::Constant(&[]),
+        sum_limits: List::Constant(&[]),
         parameters: List::Constant(&[]),
         inputs: List::Constant(&[]),
         sources: sources.into_iter().collect(),
@@ -356,7 +357,7 @@ fn yield_in_closed_form() {
             let rows = [[scale, 0.0, 0.0, 0.0, 0.0, 0.0], [random, 0.0, 0.0, 0.0, 0.0, 0.0]];
             machines.add(ErrorDistribution::at(&description, &rows, Measurand::Position, None), 0.6);
         }
-        let Yield { share, interval: [from, to], .. } = machines.yielded(3);
+        let Yield { share, interval: [from, to], .. } = machines.yielded(3, 3);
         assert!(from < exact && exact < to && to - from < 0.02, "{share}, not {exact}");
     }
 }
@@ -379,7 +380,7 @@ fn yield_is_that_of_a_simulation() {
         for row in &rows {
             machines.add(row.distribution(Measurand::Position, None), limit);
         }
-        let found = machines.yielded(7);
+        let found = machines.yielded(3, 7);
         let mut numbers = stream(!seed, 5);
         let (count, draws) = (1000, 300);
         // Machines that certainly keep the limit, and those that may, as far as the draws say.

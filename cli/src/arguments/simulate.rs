@@ -31,7 +31,7 @@ pub(crate) struct Simulate {
     /// Fraction of the rows that are outliers, from 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = OUTLIERS.default, value_parser = share)]
     pub(crate) outliers: f64,
-    /// Also draw the random sources of the spec, independently in every row
+    /// Also draw the random sources of the spec, anew in every row, and its tolerances, once
     #[arg(long)]
     pub(crate) random: bool,
     /// Seed of the configurations, noise, outliers and random sources

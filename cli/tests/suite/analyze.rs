@@ -289,6 +289,10 @@ fn what_cannot_be_reached_is_counted_with_its_reason() {
         let run = abbe(&["analyze", "pps", "--study", study.to_str().unwrap(), "--check"]);
         let said = run.stdout.contains("NOT MET: 3 of 4 configurations cannot be reached, tolerance 9 mm");
         assert_eq!((run.status, said), (status, status == 1), "{}", run.stdout);
+        // Nor do any factors keep it there.
+        let allocated = abbe(&["allocate", "pps", "--study", study.to_str().unwrap()]);
+        let said = allocated.stderr.contains("3 of 4 configurations cannot be reached");
+        assert_eq!((allocated.status == 2, said), (status == 1, status == 1), "{}", allocated.stderr);
     }
 
     let study = write(folder.path(), "far.toml", &OUT_OF_REACH.replace("1846 mm", "18 m"));

@@ -81,6 +81,11 @@ impl Document {
         self.verdict.as_ref().map(|verdict| verdict.text.as_str())
     }
 
+    /// Returns the first line of the document.
+    pub fn headline(&self) -> &str {
+        &self.headline
+    }
+
     /// Iterates over the rows of the tables that have a column of a name.
     pub fn rows(&self, column: &str) -> impl Iterator<Item = &[String]> {
         let tables =

@@ -30,7 +30,7 @@ pub fn allocation(report: &Report) -> Document {
         headline: format!(
             "tolerance {} kept {} at {at}",
             kept.collect::<Vec<_>>().join(" and "),
-            by_criterion(report.study.criterion)
+            by_criterion(report.study.criterion, &report.spec)
         ),
         sections: vec![
             Section::answer().table(shown).facts(facts(report)),

@@ -58,7 +58,7 @@ impl Allocate {
         let Self { machine, study, .. } = self;
         let spec = &machine.spec;
         let refused = |message: &str, help: &str| mistake::with_help(&machine.origin, message, help);
-        let tolerances = [study.tolerance, study.orientation_tolerance];
+        let tolerances = study.tolerances();
         if tolerances == [None; 2] {
             let help = format!("write `tolerance` into the study, or `{}`", option("tolerance", "0.5 mm"));
             return Err(refused("there is no tolerance to keep", &help));
@@ -117,6 +117,14 @@ impl Allocate {
             if configurations == 0 {
                 let help = "move or shrink the workspace of the study, or widen the limits of the joints";
                 return Err(refused("no configuration of the workspace is reachable", help));
+            }
+            if unreachable as f64 > study.unreachable * (configurations + unreachable) as f64 {
+                let all = configurations + unreachable;
+                let message = format!(
+                    "{unreachable} of {all} configurations cannot be reached: no factors keep the tolerance there"
+                );
+                let help = "shrink the workspace of the study, or permit a share with `unreachable` in its tolerance";
+                return Err(refused(&message, help));
             }
             if allocation.residual > CONVERGED {
                 let help = "write costs and exponents into [allocation] that differ less";

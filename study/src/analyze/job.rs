@@ -162,7 +162,7 @@ impl Analyze {
         let workspace = study.region.workspace(manipulator, *seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
         notes.progress(0, workspace.len());
-        let tolerances = [study.tolerance, study.orientation_tolerance];
+        let tolerances = study.tolerances();
         let options = BudgetOptions { tolerances };
         let budget = BudgetSweep::new(manipulator, workspace, options)
             .map_err(|refused| not_evaluated(machine, workspace, &refused, description))?;

@@ -4,15 +4,16 @@
 //! `--json` prints. `parts` divides the sweep over several machines, `figures` gathers figure data
 //! during the sweep, and `first_order` compares with the exact chain.
 //!
-//! `unreachable` the reasons, `loop_condition` the
-//! loops, and `singular` the Euler angles. `calibration` is its uncertainty, `compensated` the
-//! machine after compensation.
+//! `unreachable` has the reasons, `loop_condition` the loops, and `singular` the Euler angles.
+//! `calibration` is its uncertainty, `compensated` the machine after compensation, and `judgement`
+//! holds both machines against the tolerances.
 
 mod calibration;
 mod compensated;
 pub mod figures;
 mod first_order;
 mod job;
+mod judgement;
 mod loop_condition;
 pub mod options;
 pub mod parts;
@@ -28,11 +29,10 @@ pub use loop_condition::{LoopCondition, NEARLY_SINGULAR};
 /// Reason why nothing is certified of machines that are not a chain.
 pub const NOT_CERTIFIED: &str = "bounds are proved for chains of frames only";
 pub use report::{
-    AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis,
-    ErrorAllowance, Ledger, LedgerEntry, LongestEllipsoid, MachineVerdicts, MonteCarloErrors,
-    MonteCarloReport, OrientationReport, OrientationSource, Quantity, Radii, RemainingErrors, Report,
-    RootMeanSquares, SourceAllowance, SourceReport, SourceUncertainty, ToleranceVerdict, UncertaintyBudget,
-    Verdict, Verdicts,
+    AfterCompensation, Agreement, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, Ledger,
+    LedgerEntry, LongestEllipsoid, MachineVerdicts, MonteCarloErrors, MonteCarloReport, OrientationReport,
+    OrientationSource, Quantity, Radii, RemainingErrors, Report, RootMeanSquares, SourceReport,
+    SourceUncertainty, ToleranceVerdict, UncertaintyBudget, Verdict, Verdicts,
 };
 pub(crate) use sweep::not_evaluated;
 pub use unreachable::{UnreachableReason, unreachable_reason, unreachable_reasons, unreachable_summary};

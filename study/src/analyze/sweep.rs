@@ -4,9 +4,8 @@ use abbe_spec::option::{MONTE_CARLO, Q};
 use std::ops::Range;
 
 use abbe::analysis::{
-    Budget, BudgetSweep, Configuration, Correction, ErrorDistribution, Machines, Measurand, PartialBudget,
-    Residual, Row, Statement, Subset, Sweepable, Unevaluated, Watch, Workspace, Yield, errors_at,
-    monte_carlo, sweep,
+    Budget, BudgetSweep, Configuration, Measurand, PartialBudget, Row, Statement, Subset, Sweepable,
+    Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
 use abbe::{Description, Manipulator};
 use abbe_spec::Spec;
@@ -14,15 +13,12 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
 use super::calibration::LargestCalibrationErrors;
-use super::compensated::{CHECKED, CompensatedErrors};
 use super::figures::{Figures, FiguresBuilder, PartialFigure};
 use super::first_order::FirstOrder;
 use super::loop_condition::LoopCondition;
 use super::report::{
-    AfterCompensation, CombinedReport, Comparison, CompensatedVerdicts, CompensationBasis, ErrorAllowance,
-    ErrorSites, JudgedErrors, JudgedShares, Ledger, MachineVerdicts, MonteCarloErrors, MonteCarloReport,
-    OrientationReport, RemainingErrors, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget,
-    Verdicts,
+    AfterCompensation, CombinedReport, Comparison, CompensationBasis, ErrorSites, Ledger, MonteCarloErrors,
+    MonteCarloReport, OrientationReport, RemainingErrors, Report, SEED, SourceReport, UncertaintyBudget,
 };
 use super::unreachable;
 use crate::bound::CertifiedNorms;
@@ -32,7 +28,7 @@ use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::other_tool::{OtherTool, warn_of_other_tool};
-use crate::study_file::{Criterion, JudgedMachine, Study};
+use crate::study_file::Study;
 use crate::workspace::Form;
 use crate::{RunRecord, mistake, number};
 
@@ -179,9 +175,7 @@ impl AnalysisSweep<'_> {
             unreachable_reasons: unreachable::unreachable_reasons(&budget.unreachable, spec),
             not_reproducible: study.not_reproducible.clone(),
             ledger: Ledger::new(&budget, &sources, tolerance, &judged),
-            allowance: tolerance.map(|tolerance| {
-                ErrorAllowance::new(&budget, spec, &judged, (Measurand::Position, tolerance))
-            }),
+            factor_for_all: judged.factor_for_all,
             compensation,
             monte_carlo,
             extrapolated: None,
@@ -200,151 +194,6 @@ impl AnalysisSweep<'_> {
         let (other_tool, extrapolated) = self.warn_of_calibration(notes)?;
         let report = Report { other_tool, extrapolated, ..report };
         finite(&machine.origin, report)
-    }
-
-    /// Returns what says how much compensation leaves, and the correction of the sources; `None` if
-    /// nothing does.
-    fn correction(&self) -> Option<(CompensationBasis, Vec<Option<Residual>>, Option<f64>)> {
-        let description = self.manipulator.description();
-        if let Some(stated) = &self.study.compensation {
-            return Some((CompensationBasis::Stated, stated.residuals(description), stated.together));
-        }
-        if self.machine.is_calibrated() {
-            let corrected = vec![Some(Residual::Share(0.0)); description.sources.len()];
-            return Some((CompensationBasis::Identified, corrected, None));
-        }
-        let published = self.study.compensated.as_ref()?;
-        Some((CompensationBasis::Published, Vec::new(), Some(published.residual)))
-    }
-
-    /// Evaluates the compensated machine over the workspace, if the study has a tolerance or states
-    /// what compensation leaves.
-    fn compensated(&self) -> Result<Option<(CompensationBasis, CompensatedErrors)>, Diagnostics> {
-        let tolerances = [self.study.tolerance, self.study.orientation_tolerance];
-        let Some((basis, residuals, together)) = self.correction() else { return Ok(None) };
-        if tolerances == [None; 2] && basis != CompensationBasis::Stated {
-            return Ok(None);
-        }
-        let correction = Correction { residuals: &residuals, together };
-        let swept = CompensatedErrors::new(self.manipulator, self.workspace, correction, tolerances);
-        Ok(Some((basis, swept.map_err(|refused| self.not_evaluated(&refused))?)))
-    }
-
-    /// Returns the distribution of the error at a configuration.
-    fn distribution(
-        &self,
-        index: Option<usize>,
-        measurand: Measurand,
-        correction: Option<Correction<'_>>,
-    ) -> Result<ErrorDistribution, Diagnostics> {
-        let errors = self.at(index, |configuration| errors_at(self.manipulator, configuration))?;
-        Ok(errors.distribution(measurand, correction))
-    }
-
-    /// Returns the share of machines that keep all tolerances, if that is the criterion, at no more
-    /// configurations than those of [`CompensatedErrors`].
-    fn yielded(&self, correction: Option<Correction<'_>>) -> Result<Option<Yield>, Diagnostics> {
-        let limits = [self.study.tolerance, self.study.orientation_tolerance];
-        if self.study.criterion != Criterion::Yield || limits == [None; 2] {
-            return Ok(None);
-        }
-        let mut machines = Machines::new(self.study.probability);
-        let description = self.manipulator.description();
-        let subset = Subset { workspace: self.workspace, count: CHECKED };
-        let swept = sweep(self.manipulator, &subset, &mut |row| {
-            for (measurand, limit) in Measurand::ALL.into_iter().zip(limits) {
-                if let Some(limit) = limit.filter(|_| measurand == Measurand::Position || row.oriented) {
-                    machines
-                        .add(ErrorDistribution::at(description, row.sources, measurand, correction), limit);
-                }
-            }
-        });
-        swept.map_err(|refused| self.not_evaluated(&refused))?;
-        Ok(Some(machines.yielded(SEED)))
-    }
-
-    /// Returns the shares of the sources in the judged errors of position and orientation, where
-    /// they were judged; where the error is largest without a tolerance.
-    fn shares(&self, budget: &Budget, verdicts: Option<&Verdicts>) -> Result<[JudgedShares; 2], Diagnostics> {
-        let by_worst_case = self.study.criterion == Criterion::WorstCase;
-        let correction = self
-            .correction()
-            .filter(|_| verdicts.is_some_and(|verdicts| verdicts.machine == JudgedMachine::Compensated));
-        let correction = correction.as_ref();
-        let correction =
-            correction.map(|(_, residuals, together)| Correction { residuals, together: *together });
-        let of = |measurand: Measurand| {
-            let (sources, combined) = budget.errors(measurand);
-            let largest = if by_worst_case { combined.worst_case_radius } else { combined.radius };
-            let judged = verdicts.and_then(|verdicts| verdicts.all().find(|one| one.measurand == measurand));
-            let index = judged.map_or(largest.configuration, |verdict| verdict.configuration);
-            let distribution = self.distribution(index, measurand, correction)?;
-            let is_error = matches!(self.study.criterion, Criterion::WorstCase | Criterion::RootSumOfSquares);
-            let as_built = is_error.then_some(largest.value);
-            Ok(JudgedShares::new(&distribution, by_worst_case, as_built, sources.len()))
-        };
-        Ok([of(Measurand::Position)?, of(Measurand::Orientation)?])
-    }
-
-    fn verdicts(
-        &self,
-        budget: &Budget,
-        sites: &ErrorSites,
-        compensated: Option<(CompensationBasis, CompensatedErrors)>,
-    ) -> Result<Option<Verdicts>, Diagnostics> {
-        let Study { tolerance, orientation_tolerance, .. } = *self.study;
-        let reach = [budget.configurations, budget.unreachable.count];
-        let built = self.yielded(None)?;
-        let as_built = |measurand, tolerance: Option<f64>| {
-            let verdict = tolerance.map(|tolerance| {
-                let errors = JudgedErrors::as_built(budget, measurand, tolerance, |index| {
-                    self.distribution(index, measurand, None)
-                })?;
-                let judge = (self.study, built.as_ref());
-                Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, judge))
-            });
-            verdict.transpose()
-        };
-        let as_built = MachineVerdicts {
-            position: as_built(Measurand::Position, tolerance)?,
-            orientation: as_built(Measurand::Orientation, orientation_tolerance)?,
-            yielded: built,
-        };
-        let compensated = match (compensated, self.correction()) {
-            (Some((basis, swept)), Some((_, residuals, together))) => {
-                let correction = Correction { residuals: &residuals, together };
-                let left = self.yielded(Some(correction))?;
-                let is_all = swept.checked == budget.configurations;
-                let verdict = |measurand: Measurand, tolerance: Option<f64>| {
-                    let verdict = tolerance.map(|tolerance| {
-                        let extremes = &swept.extremes[measurand as usize];
-                        let candidates = extremes
-                            .candidates()
-                            .into_iter()
-                            .map(|index| Ok((index, self.distribution(index, measurand, Some(correction))?)));
-                        let errors = JudgedErrors {
-                            measurand,
-                            radius: extremes.radius,
-                            worst_case: extremes.worst_case,
-                            // Certain only if no configuration was left out.
-                            is_bounded: extremes.is_bounded && is_all,
-                            candidates: candidates.collect::<Result<_, Diagnostics>>()?,
-                        };
-                        let judge = (self.study, left.as_ref());
-                        Ok::<_, Diagnostics>(ToleranceVerdict::new(errors, sites, tolerance, judge))
-                    });
-                    verdict.transpose()
-                };
-                let verdicts = MachineVerdicts {
-                    position: verdict(Measurand::Position, tolerance)?,
-                    orientation: verdict(Measurand::Orientation, orientation_tolerance)?,
-                    yielded: left,
-                };
-                Some(CompensatedVerdicts { basis, checked: swept.checked, verdicts })
-            }
-            _ => None,
-        };
-        Ok(Verdicts::new(self.study, reach, as_built, compensated))
     }
 
     /// Returns the uncertainty budget at the configuration with the largest standard uncertainty;
@@ -399,7 +248,7 @@ impl AnalysisSweep<'_> {
     }
 
     /// Evaluates a function at a configuration of the workspace, or at home if there is no index.
-    fn at<T>(
+    pub(super) fn at<T>(
         &self,
         index: Option<usize>,
         evaluate: impl FnOnce(&Configuration) -> Result<T, abbe::Error>,
@@ -473,7 +322,7 @@ impl AnalysisSweep<'_> {
         Ok((other, extrapolated))
     }
 
-    fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {
+    pub(super) fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {
         not_evaluated(self.machine, self.workspace, refused, self.manipulator.description())
     }
 }

@@ -73,6 +73,11 @@ impl Study {
         any
     }
 
+    /// Returns the tolerances of position, in the length unit, and orientation, in rad.
+    pub fn tolerances(&self) -> [Option<f64>; 2] {
+        [self.tolerance, self.orientation_tolerance]
+    }
+
     /// Replaces the workspace by one configuration of the joints, with nominal parameters and
     /// inputs. Published results, which belong to the workspace, are removed. Returns true if there
     /// were any.

@@ -209,9 +209,7 @@ fn calibration_is_a_source_of_budget_ledger_draws_and_bound() {
     assert_eq!((report.sources.len(), report.orientation.sources.len()), (4, 4));
     close(report.sources[3].plain_max.y, 0.012, 1e-12);
     close(report.combined.radii.random_radius, 3.0 * both, 1e-12);
-    let allowance = report.allowance.as_ref().unwrap();
-    let allowed = allowance.sources.iter().find(|one| one.name == "calibration").unwrap();
-    close(allowed.alone.unwrap(), 0.2 / 0.015, 1e-9);
+    close(report.ledger.sources[3].share_of_tolerance.unwrap(), 0.015 / 0.2, 1e-9);
 
     let drawn = &report.monte_carlo.as_ref().unwrap().worst.errors;
     close(drawn.covariance[1][1], 1.6e-5, 4.0 * drawn.standard_error[1][1]);

@@ -90,7 +90,7 @@ fn bounded_errors_give_a_certain_verdict() {
     assert_eq!(budget(&met).verdict().unwrap(), "Verdict: met in the worst case");
     assert!((verdict(&met).worst_case - 0.5).abs() < 1e-12 && verdict(&met).is_bounded);
     assert_eq!(verdict(&met).compliance.probability, 1.0);
-    assert!((met.allowance.as_ref().unwrap().together.unwrap() - 1.0002).abs() < 1e-12);
+    assert!((met.factor_for_all.unwrap() - 1.0002).abs() < 1e-12);
     assert_eq!(report("uniform", "0.1 mm", "\"0.4999 mm\"").verdict(), Some(Verdict::NotMet));
 
     // The sum of the extremes exceeds the tolerance, but few draws do.
@@ -121,7 +121,10 @@ fn normal_errors_have_a_probability() {
     assert!(compliance.draws.is_none() && (compliance.probability - exact).abs() < 1e-9);
     assert_eq!(report.verdict(), Some(Verdict::Met));
     assert_eq!(budget(&report).verdict().unwrap(), "Verdict: met with probability 97.59 %");
-    // At 3 σ.
+    // In the worst case it is at 3 σ, and the sentence says so.
+    let worst = self::report("normal", "0.1 mm", "\"1.31 mm\"");
+    assert_eq!(budget(&worst).verdict().unwrap(), "Verdict: met in the worst case at 3 σ");
+    assert!(budget(&worst).headline().contains("MET in the worst case at 3 σ, tolerance 1.31 mm"));
     assert!((verdict(&report).worst_case - 1.3).abs() < 1e-12 && !verdict(&report).is_bounded);
     let allowed = stated(&report, "conclusion");
     // All errors lie on one line: 1.960 σ instead of 2.796 σ.
@@ -159,15 +162,13 @@ fn orientation_has_a_tolerance_of_its_own() {
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!(json["verdict"]["orientation"]["verdict"], "not-met");
     assert!(json["verdict"]["position"].is_null());
-    // The permitted scale of each source alone makes its largest error equal to the tolerance.
-    for alone in json["orientation"]["budget"]["sources"].as_array().unwrap() {
-        let named = |source: &abbe_study::analyze::SourceReport| alone["name"] == *source.name;
-        let index = report.sources.iter().position(named).unwrap();
-        let source = &report.budget.orientation.sources[index];
-        if let Some(scale) = alone["alone"].as_f64() {
-            assert!((scale * source.plain_max.norm - 1e-4).abs() < 1e-15);
-        }
-    }
+    // All sources with this factor use up the tolerance, by the root sum of squares that the study
+    // states.
+    let orientation = &json["orientation"];
+    let radius = orientation["radius"].as_f64().unwrap();
+    assert!((orientation["factor_for_all"].as_f64().unwrap() * radius - 1e-4).abs() < 1e-15);
+    let shares = orientation["sources"].as_array().unwrap().iter().map(|one| one["share"].as_f64().unwrap());
+    assert!((shares.sum::<f64>() - 1.0).abs() < 1e-9);
     // The orientation rows of each source are in the same order as its position rows.
     for (source, turned) in json["sources"].as_array().unwrap().iter().zip(&report.budget.orientation.sources)
     {
@@ -466,4 +467,18 @@ fn u95_is_the_largest_of_the_workspace() {
         let found = verdict(&whole).u95;
         assert!((0.995 * largest..=1.005 * largest).contains(&found), "{play}: {found}, not {largest}");
     }
+}
+
+/// A yield is of at most 10,000 configurations, which the headline and the sentence say.
+#[test]
+fn a_yield_says_at_how_many_configurations() {
+    let machine = Machine::find("scara").unwrap();
+    let text = "[study]\ntitle = \"t\"\ntolerance = { position = \"5 mm\", yield = 0.9 }\n[workspace.joints]\nsamples = 12000\n";
+    let study = Study::read(Document::new("study.toml", text), &machine.spec).unwrap();
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    let document = budget(&report);
+    let headline = document.headline();
+    assert!(headline.starts_with("MET: yield 99.9 … 100.0 % of machines, 90 % required"), "{headline}");
+    assert!(headline.ends_with("at 10000 of 12000 configurations"), "{headline}");
+    assert!(stated(&report, "verdict").contains("at all of 10000 configurations"));
 }

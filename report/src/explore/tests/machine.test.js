@@ -73,13 +73,12 @@ function assertAgrees(report, machine, state) {
         1e3, about("shares"));
     close(position.random, budget.combined.random, size, about("random rows"));
     close(orientation.radius, turned, orientation.radius + 1e-6, about("orientation"));
-    if (budget.budget) {
+    if (budget.factor_for_all) {
         const together = factorAt(position.radius, report.study.tolerance);
-        close(together, budget.budget.together, together, about("tighten all"));
-        for (const source of budget.budget.sources) {
+        close(together, budget.factor_for_all, together, about("all"));
+        for (const source of budget.ledger.sources) {
             const k = report.sources.findIndex(({ name }) => name === source.name);
-            const alone = factorAt(position.norms[k], report.study.tolerance);
-            close(alone, source.alone, alone, about("tighten"));
+            close(position.norms[k] / report.study.tolerance, source.share_of_tolerance, 1, about("alone"));
         }
     }
 

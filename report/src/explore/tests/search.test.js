@@ -73,9 +73,9 @@ test("the errors over a study's configurations, and the factors for its toleranc
     const worst = stateAt(report, initialState(report), position.worst);
     report.variables.forEach(({ name }, i) => close(Math.abs(worst.q[i]), Math.abs(budget.combined.worst[name])));
     assert.equal(machine.errors(worst).position.radius, position.radius);
-    close(factorAt(position.radius, report.study.tolerance), budget.budget.together);
-    for (const { name, alone } of budget.budget.sources) {
-        close(factorAt(position.norms[report.sources.findIndex((source) => source.name === name)], report.study.tolerance), alone);
+    close(factorAt(position.radius, report.study.tolerance), budget.factor_for_all);
+    for (const { name, share_of_tolerance: share } of budget.ledger.sources) {
+        close(position.norms[report.sources.findIndex((source) => source.name === name)], share * report.study.tolerance);
     }
 });
 

@@ -11,7 +11,7 @@ use abbe_study::study_file::{Criterion, JudgedMachine};
 
 use super::agreement::agreement_text;
 use super::conclusions::{exact, loop_condition, singular_sentence};
-use super::verdict::stated_probability;
+use super::verdict::{by_criterion, stated_probability};
 use crate::document::{Section, Table, first, number, words};
 use crate::unit;
 use crate::views::shared::{changed, place};
@@ -33,6 +33,12 @@ pub(super) fn headline(report: &Report) -> String {
         .into_iter()
         .filter_map(|measurand| Some(unit::with_symbol(report, measurand, report.tolerance(measurand)?)));
     let tolerances = tolerances.collect::<Vec<_>>().join(" and ");
+    let checked = match (verdicts.machine, &verdicts.compensated, verdicts.counting().yielded) {
+        (JudgedMachine::Compensated, Some(compensated), _) => compensated.checked,
+        (.., Some(yielded)) => yielded.configurations,
+        _ => report.configurations,
+    };
+    let at = if checked < report.configurations { format!("{checked} of {at}") } else { at };
     let machine = match (verdicts.machine, &verdicts.compensated) {
         (JudgedMachine::Compensated, _) => " after compensation",
         (JudgedMachine::AsBuilt, Some(_)) => " as built",
@@ -61,19 +67,9 @@ pub(super) fn headline(report: &Report) -> String {
         (_, Some(required), Some(least)) => {
             format!(": P {}, {} required", stated_probability(least), numbers::at_least(required))
         }
-        _ => format!(" {}", by_criterion(verdicts.criterion)),
+        _ => format!(" {}", by_criterion(verdicts.criterion, &report.spec)),
     };
     format!("{met}{machine}{by}, tolerance {tolerances} at {at}{other}")
-}
-
-/// Names the criterion of a verdict.
-pub(in crate::views) fn by_criterion(criterion: Criterion) -> &'static str {
-    match criterion {
-        Criterion::WorstCase => "in the worst case",
-        Criterion::RootSumOfSquares => "by rss",
-        Criterion::Probability => "by probability",
-        Criterion::Yield => "by yield",
-    }
 }
 
 /// Decimals that show the largest error to four digits.
@@ -174,17 +170,17 @@ fn sources(report: &Report) -> Table {
     let (scale, unit) = error_unit(report.length);
     // The factors are those of the machine as built.
     let machine = report.verdicts.as_ref().map(|verdicts| verdicts.machine);
-    let allowance = report.allowance.as_ref().filter(|_| machine != Some(JudgedMachine::Compensated));
-    let factor = |name: &str| {
-        let sources = &allowance?.sources;
-        sources.iter().find(|source| source.name == name)?.alone.map(times)
+    let is_built = machine == Some(JudgedMachine::AsBuilt) && report.position_tolerance.is_some();
+    let factor = |entry: &LedgerEntry| {
+        let share = entry.share_of_tolerance.filter(|share| is_built && *share > 0.0);
+        share.map_or_else(String::new, |share| times(1.0 / share))
     };
     let row = |entry: &LedgerEntry| {
         let max = fixed(scale * steady(entry.max), decimals);
-        [entry.name.clone(), max, percent(share(entry), 1.0), factor(&entry.name).unwrap_or_default()]
+        [entry.name.clone(), max, percent(share(entry), 1.0), factor(entry)]
     };
     let shown = if all.len() <= SHOWN + 1 { all.len() } else { SHOWN };
-    let alone = if allowance.is_some() { "alone up to" } else { "" };
+    let alone = if is_built { "alone up to" } else { "" };
     let columns = [words("source"), number(format!("max {unit}")), number("share"), number(alone)];
     let mut rows: Vec<[String; 4]> = all[..shown].iter().map(|entry| row(entry)).collect();
     if shown < all.len() {
@@ -193,7 +189,7 @@ fn sources(report: &Report) -> Table {
         rows.push([name, String::new(), percent(rest, 1.0), String::new()]);
     }
     // The factor of a source holds for it alone.
-    if let Some(together) = allowance.and_then(|allowance| allowance.together)
+    if let Some(together) = report.factor_for_all.filter(|_| is_built)
         && all.len() > 1
     {
         let error = report.judged_error(Measurand::Position).value;

@@ -68,7 +68,10 @@ fn share_of_tolerance(report: &Report, value: f64) -> String {
 }
 
 fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
-    let together = report.allowance(measurand)?.together?;
+    let together = match measurand {
+        Measurand::Position => report.factor_for_all,
+        Measurand::Orientation => report.orientation.factor_for_all,
+    }?;
     Some(format!(
         "With all sources × {}, the judged error as built equals the tolerance of {}.",
         number::rounded_down(together, number::decimals(together, 3)),

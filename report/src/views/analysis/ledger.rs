@@ -3,20 +3,20 @@
 use abbe::analysis::{Extreme, Figures, Measurand};
 
 use crate::document::Table;
-use crate::unit::{self, decimals, decimals_of};
-use abbe_study::analyze::{Ledger, LedgerEntry, Report, SourceAllowance};
-use abbe_study::number::{self, fixed, percent, unbroken};
+use crate::unit::{self, decimals};
+use abbe_study::analyze::{Ledger, LedgerEntry, Report};
+use abbe_study::number::{fixed, percent, unbroken};
 
 /// Returns the ledger of position errors as a table.
 pub(super) fn ledger(report: &Report) -> Table {
     let tolerance = report.study.tolerance;
-    let mut header = vec!["source", "max", "RMS", "rank", "worst at (the rest as at home)"];
+    let mut header = vec!["source", "max", "RMS", "share", "worst at (the rest as at home)"];
     if tolerance.is_some() {
         header.insert(3, "of tolerance");
     }
     let mut rows = Vec::new();
     let Ledger { sources, sums } = &report.ledger;
-    for LedgerEntry { name, max, rms, rank, configuration, .. } in sources.iter().chain(sums) {
+    for LedgerEntry { name, max, rms, share, configuration, .. } in sources.iter().chain(sums) {
         let at = report
             .configuration(*configuration)
             .filter(|_| *max > 0.0)
@@ -26,7 +26,7 @@ pub(super) fn ledger(report: &Report) -> Table {
             name.clone(),
             show(*max),
             rms.map(show).unwrap_or_default(),
-            rank.map(|rank| rank.to_string()).unwrap_or_default(),
+            share.map(|share| percent(share, 1.0)).unwrap_or_default(),
             at.unwrap_or_default(),
         ];
         if let Some(tolerance) = tolerance {
@@ -81,19 +81,4 @@ pub(super) fn orientation_ledger(report: &Report) -> Option<Table> {
     let rows = alone.chain(together).collect();
     let numbers = 1..header.len() - 1;
     Some(Table::listing(&header, rows, numbers))
-}
-
-/// Returns the table of errors that the tolerance allows each source, of its share in the judged
-/// error, and of the gain from reducing it by one percent.
-pub(super) fn allowance_table(report: &Report, measurand: Measurand) -> Option<Table> {
-    let (factor, _) = unit::display_unit(report, measurand);
-    let times = |scale: Option<f64>| {
-        scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
-    };
-    let row = |SourceAllowance { name, alone, share, gain_per_percent }: &SourceAllowance| {
-        let gain = fixed(factor * gain_per_percent, decimals_of(report, measurand) + 1);
-        vec![name.clone(), times(*alone), percent(*share, 1.0), gain]
-    };
-    let rows = report.allowance(measurand)?.sources.iter().map(row).collect();
-    Some(Table::listing(&["source", "alone at most", "share", "gain per percent"], rows, 1..4))
 }

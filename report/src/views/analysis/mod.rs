@@ -15,8 +15,8 @@ use abbe_study::analyze::{self, Report, UncertaintyBudget};
 use abbe_study::number::{self, percent, trimmed, unbroken};
 use abbe_study::study_file::Criterion;
 
-pub(in crate::views) use answer::by_criterion;
 use conclusions::{conclusions, singular_sentence};
+pub(in crate::views) use verdict::by_criterion;
 use verdict::{verdict_line, verdict_sentences};
 
 use crate::document::{Card, Document, Figure, Section, Verdict};
@@ -46,7 +46,6 @@ pub(crate) fn analysis(report: &Report, [first, others]: [Vec<Figure>; 2], left_
     ]);
     if !report.sources.is_empty() {
         sections.push(together(report));
-        sections.push(allowance(report));
     }
     let missing = left_out.iter().map(|source| format!("Not drawn: the source “{source}” is disabled."));
     sections.push(
@@ -166,22 +165,6 @@ fn together(report: &Report) -> Section {
         .state("extrapolated", report.extrapolated.as_ref().map(|rows| rows.sentence.clone()))
 }
 
-/// Tabulates the allowed sizes of the sources.
-fn allowance(report: &Report) -> Section {
-    let tables = Measurand::ALL.into_iter().filter_map(|measurand| {
-        let (_, unit) = unit::display_unit(report, measurand);
-        let caption =
-            format!("Shares of the judged error, largest first, and factors of the sources ({unit})");
-        Some(ledger::allowance_table(report, measurand)?.titled(caption))
-    });
-    let section = tables.fold(Section::full("Error allowance"), Section::table);
-    let about = "Alone at most: factor by which a source may grow if all other errors are zero. Share: its part \
-                 of the judged error where that is largest, negative if it counteracts the others. Gain: \
-                 decrease of that error per percent decrease of the source.";
-    let about = (!section.blocks.is_empty()).then(|| about.to_owned());
-    section.state("allowance", about)
-}
-
 fn each_alone(report: &Report) -> Section {
     let metrics = "Plain maximum: the largest error. Half peak-to-peak: half of its range; for the norm, the \
                    radius of the smallest sphere that contains all errors. Relative to home: the largest \
@@ -191,8 +174,9 @@ fn each_alone(report: &Report) -> Section {
 
 fn ledger(report: &Report) -> Section {
     let unit = report.spec.length.symbol();
-    let caption =
-        format!("Norms of the errors of the tool point ({unit}): the largest and the root mean square");
+    let caption = format!(
+        "Norms of the errors of the tool point ({unit}): the largest, the root mean square, and the share of the judged error"
+    );
     let section = Section::full("Ledger").table(ledger::ledger(report).titled(caption));
     match ledger::orientation_ledger(report) {
         Some(rotations) => {

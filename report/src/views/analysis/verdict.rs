@@ -4,6 +4,7 @@ use abbe::analysis::{Compliance, Measurand, Yield};
 
 use super::conclusions::singular_sentence;
 use crate::unit;
+use abbe_spec::Spec;
 use abbe_study::analyze::{
     CompensatedVerdicts, CompensationBasis, MachineVerdicts, Report, ToleranceVerdict, Verdict,
 };
@@ -19,12 +20,10 @@ pub(super) fn verdict_line(report: &Report) -> Option<String> {
         .map(|verdict| verdict.compliance)
         .min_by(|a, b| a.probability.total_cmp(&b.probability));
     Some(match verdicts.verdict {
-        Verdict::Met => match verdicts.criterion {
-            Criterion::WorstCase => "Verdict: met in the worst case".to_owned(),
-            Criterion::RootSumOfSquares => "Verdict: met by root sum of squares".to_owned(),
-            Criterion::Probability => format!("Verdict: met with probability {}", probability(least?)),
-            Criterion::Yield => "Verdict: met by yield".to_owned(),
-        },
+        Verdict::Met if verdicts.criterion == Criterion::Probability => {
+            format!("Verdict: met with probability {}", probability(least?))
+        }
+        Verdict::Met => format!("Verdict: met {}", by_criterion(verdicts.criterion, &report.spec)),
         Verdict::NotMet => "Verdict: not met".to_owned(),
     })
 }
@@ -119,11 +118,11 @@ fn tolerance_sentence(
                 |compensated| compensated.verdicts.yielded,
             );
             let share = |share: f64| format!("{} %", number::trimmed(100.0 * share, 2));
-            let Some(Yield { machines, share: kept, interval: [from, to] }) = machines else {
+            let Some(Yield { machines, configurations, share: kept, interval: [from, to] }) = machines else {
                 return String::new();
             };
             return format!(
-                "{name}: {met}. Of {machines} machines drawn, {} keep every tolerance at all of {all} \
+                "{name}: {met}. Of {machines} machines drawn, {} keep every tolerance at all of {configurations} \
                  configurations, each with a probability of {}; with 95 % confidence {} to {}; {} is required. \
                  To first order, with {repeatable}.{left_out}",
                 share(kept),
@@ -177,5 +176,18 @@ fn probability(Compliance { probability, error, draws }: Compliance) -> String {
         None if probability > 0.9999 && probability < 1.0 => "> 99.99 %".to_owned(),
         None if probability < 0.0001 && probability > 0.0 => "< 0.01 %".to_owned(),
         None => percent(probability),
+    }
+}
+
+/// Names the criterion of a verdict; a normal error has no bound.
+pub(in crate::views) fn by_criterion(criterion: Criterion, spec: &Spec) -> &'static str {
+    match criterion {
+        Criterion::WorstCase if spec.enabled_sources().all(|source| source.class.is_bounded()) => {
+            "in the worst case"
+        }
+        Criterion::WorstCase => "in the worst case at 3 σ",
+        Criterion::RootSumOfSquares => "by rss",
+        Criterion::Probability => "by probability",
+        Criterion::Yield => "by yield",
     }
 }

@@ -3,7 +3,7 @@
 use abbe::analysis::{Budget, Extreme};
 use serde::Serialize;
 
-use super::error_allowance::JudgedShares;
+use super::judged_shares::JudgedShares;
 use super::source_report::SourceReport;
 use crate::number;
 
@@ -26,11 +26,12 @@ pub struct LedgerEntry {
     /// Root mean square of the norm over the configurations; `None` for the worst case.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rms: Option<f64>,
-    /// Largest norm as a share of the tolerance; `None` without a tolerance.
+    /// Largest norm as a share of the tolerance, which the source alone would use up at one over this
+    /// factor; `None` without a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share_of_tolerance: Option<f64>,
-    /// Share of the source in the judged error at the configuration of the verdict; negative if it
-    /// counteracts the others, `None` for sums.
+    /// Share of the source in the judged error at the configuration of the verdict, of which a source
+    /// that is 1 % smaller takes 1 % away: negative if it counteracts the others; `None` for sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
     /// Class of the source; `None` for sums.
@@ -67,8 +68,7 @@ impl Ledger {
             let largest = Extreme { value: errors.plain_max.norm, configuration: errors.worst };
             let (class, _) = number::class(errors.class);
             LedgerEntry {
-                // Avoids −0.
-                share: Some(share + 0.0),
+                share: Some(*share),
                 class: Some(class),
                 ..entry(&source.name, largest, Some(errors.rms))
             }

@@ -1,15 +1,15 @@
 //! Report of an analysis.
 //!
 //! Each file is one part of it: `source_report` holds each source alone, `combined` all sources,
-//! `orientation` rows 4–6, `ledger` the ranking, `error_allowance` the inverse budget,
+//! `orientation` rows 4–6, `ledger` the ranking, `judged_shares` the parts of the sources,
 //! `tolerance_verdict` the verdicts, `uncertainty_budget` and `source_value` the budget after the
 //! GUM, `comparison` the published figures, `monte_carlo` the draws, and `error_sites` the
 //! names of configurations.
 
 mod combined;
 mod comparison;
-mod error_allowance;
 mod error_sites;
+mod judged_shares;
 mod ledger;
 mod monte_carlo;
 mod orientation;
@@ -27,9 +27,8 @@ use serde::Serialize;
 
 pub use combined::{CombinedReport, LongestEllipsoid, Radii, RootMeanSquares};
 pub use comparison::{Agreement, Comparison};
-pub(super) use error_allowance::JudgedShares;
-pub use error_allowance::{ErrorAllowance, SourceAllowance};
 pub(super) use error_sites::ErrorSites;
+pub(super) use judged_shares::JudgedShares;
 pub use ledger::{Ledger, LedgerEntry};
 pub use monte_carlo::{MonteCarloErrors, MonteCarloReport};
 pub use orientation::{OrientationReport, OrientationSource};
@@ -108,9 +107,10 @@ pub struct Report {
     pub not_reproducible: Vec<String>,
     /// Sources by rank, and their sums.
     pub ledger: Ledger,
-    /// Errors that the position tolerance allows; `None` without one.
-    #[serde(rename = "budget", skip_serializing_if = "Option::is_none")]
-    pub allowance: Option<ErrorAllowance>,
+    /// Factor for all sources at which the judged position error as built equals the tolerance;
+    /// `None` without a tolerance or an error, or if a probability or yield is judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor_for_all: Option<f64>,
     /// Errors that remain after the compensation that the study states; `None` if it states none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compensation: Option<RemainingErrors>,
@@ -211,14 +211,6 @@ impl Report {
         match self.study.criterion {
             Criterion::RootSumOfSquares => combined.radius,
             _ => combined.worst_case_radius,
-        }
-    }
-
-    /// Returns the errors that the tolerance of a measurand allows.
-    pub fn allowance(&self, measurand: Measurand) -> Option<&ErrorAllowance> {
-        match measurand {
-            Measurand::Position => self.allowance.as_ref(),
-            Measurand::Orientation => self.orientation.allowance.as_ref(),
         }
     }
 

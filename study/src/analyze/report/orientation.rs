@@ -6,8 +6,8 @@ use abbe_spec::Spec;
 use serde::Serialize;
 
 use super::combined::Radii;
-use super::error_allowance::{ErrorAllowance, JudgedShares};
 use super::error_sites::ErrorSites;
+use super::judged_shares::JudgedShares;
 use super::uncertainty_budget::UncertaintyBudget;
 use crate::number::Named;
 
@@ -35,9 +35,10 @@ pub struct OrientationReport {
     /// Tolerance of the norm, from the study.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Errors that this tolerance allows.
-    #[serde(rename = "budget", skip_serializing_if = "Option::is_none")]
-    pub allowance: Option<ErrorAllowance>,
+    /// Factor for all sources at which the judged orientation error as built equals the tolerance;
+    /// `None` without a tolerance or an error, or if a probability or yield is judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor_for_all: Option<f64>,
     /// Uncertainty budget after the GUM; `None` if no random source rotates the tool.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyBudget>,
@@ -57,6 +58,8 @@ pub struct OrientationSource {
     pub relative_to_home: Option<Figures>,
     /// Root mean square of the norm over the configurations.
     pub rms: f64,
+    /// Share of the source in the judged orientation error, as in the ledger.
+    pub share: f64,
     /// Configuration with the largest norm.
     pub worst: Named,
 }
@@ -71,11 +74,13 @@ impl OrientationReport {
         uncertainty: Option<UncertaintyBudget>,
     ) -> Self {
         let (sources, combined) = budget.errors(Measurand::Orientation);
-        let sources = spec.enabled_sources().zip(sources).map(|(source, errors)| {
+        let sources = spec.enabled_sources().zip(sources).zip(&judged.shares);
+        let sources = sources.map(|((source, errors), share)| {
             let &SourceErrors { plain_max, half_peak_to_peak, relative_to_home, rms, worst, .. } = errors;
             let (name, worst) = (source.name.clone(), sites.variables(worst));
             let relative_to_home = budget.orientation.at_home.then_some(relative_to_home);
-            OrientationSource { name, plain_max, half_peak_to_peak, relative_to_home, rms, worst }
+            let share = *share;
+            OrientationSource { name, plain_max, half_peak_to_peak, relative_to_home, rms, share, worst }
         });
         Self {
             rows: match spec.orientation {
@@ -91,9 +96,7 @@ impl OrientationReport {
             standard_radius: combined.standard_radius.value,
             worst: sites.variables(combined.radius.configuration),
             tolerance,
-            allowance: tolerance.map(|tolerance| {
-                ErrorAllowance::new(budget, spec, judged, (Measurand::Orientation, tolerance))
-            }),
+            factor_for_all: judged.factor_for_all,
             uncertainty,
         }
     }
