@@ -20,7 +20,7 @@ mod workspace;
 mod by_hand;
 
 pub use configuration::Configuration;
-use reach::Inverse;
+use reach::{Inverse, SumLimits};
 pub use reach::{
     InverseKinematics, Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle,
 };

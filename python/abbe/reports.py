@@ -480,6 +480,19 @@ class Chart(Fields):
     """Index of the first check beyond the limit, from 0."""
 
 
+class ChartsLimit(Fields):
+    """Control limit of the moving averages.
+
+    `["lambda"]`: Weight of a new check in an average, a factor from 0 to 1.
+    """
+
+    checks_per_false_alarm: float
+    """Smallest mean number of checks between false alarms, over all charts together."""
+
+    limit: float
+    """Limit as a factor of the standard deviation of an average."""
+
+
 class CheckReport(Report):
     """Content of a spec, its chain at home, and the results of the self-checks."""
 
@@ -505,6 +518,9 @@ class CheckReport(Report):
 
     variables: list[Variable]
     """Joint variables, in the order of the frames."""
+
+    limits: list[Limit] | None
+    """Limits of sums of joint variables; absent without any."""
 
     parameters: list[NominalValue]
     """Structural parameters."""
@@ -1843,13 +1859,13 @@ class LedgerEntry(Fields):
     """
 
     share_of_tolerance: float | None = None
-    """Largest norm as a share of the tolerance; the source alone would use up the tolerance at one over this factor.
-    None without a tolerance.
+    """Largest norm as a share of the tolerance, which the source alone would use up at one over this factor; None
+    without a tolerance.
     """
 
     share: float | None = None
-    """Share of the source in the judged error at the configuration of the verdict: a source that is 1 % smaller takes
-    1 % of its share away. Negative if it counteracts the others; None for sums.
+    """Share of the source in the judged error at the configuration of the verdict, of which a source that is 1 %
+    smaller takes 1 % away: negative if it counteracts the others; None for sums.
     """
 
     rank: int | None = None
@@ -1870,16 +1886,16 @@ class LeftOut(Fields):
 
 
 class Limit(Fields):
-    """Control limit of the moving averages.
+    """Limits of a sum of joint variables, in the length unit or rad."""
 
-    `["lambda"]`: Weight of a new check in an average, a factor from 0 to 1.
+    sum: str
+    """Sum, as the spec writes it."""
+
+    limits: list[float]
+    """Smallest and largest sum, without the constants in it.
+
+    Unit: length unit or rad.
     """
-
-    checks_per_false_alarm: float
-    """Smallest mean number of checks between false alarms, over all charts together."""
-
-    limit: float
-    """Limit as a factor of the standard deviation of an average."""
 
 
 class LimitCheck(Fields):
@@ -2213,7 +2229,7 @@ class MonitorReport(Report):
     fixed_station: bool
     """Is true if the instrument stays in place between checks; otherwise its pose is unknown at each check."""
 
-    limit: Limit
+    limit: ChartsLimit
     """Control limit of the charts."""
 
     charts: list[Chart]
@@ -2307,6 +2323,9 @@ class NominalValue(Fields):
 
     range: list[float | None] | None = None
     """Range of an input, in `unit`, with None for a missing end. Parameters have no range."""
+
+    levels: list[float] | None = None
+    """Values of an input that are used, in `unit`; absent if it may have any in its range."""
 
 
 class OrientationReport(Fields):

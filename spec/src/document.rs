@@ -224,8 +224,7 @@ impl Document {
 
     /// Reads an array, whose entries become items of the same key.
     pub fn array<'d>(&mut self, item: &Item<'d>, expected: &str) -> Option<Vec<Item<'d>>> {
-        let is_array = item.value.get_ref().is_array();
-        is_array.then(|| item.list()).or_else(|| self.wrong_type(item, expected))
+        item.is_list().then(|| item.list()).or_else(|| self.wrong_type(item, expected))
     }
 
     /// Reads an array of tables, `[[key]]`. A single table `[key]` is a mistake of its own.
@@ -380,6 +379,11 @@ impl<'d> Item<'d> {
             DeValue::String(text) => text.trim().parse().ok(),
             _ => None,
         }
+    }
+
+    /// Returns `true` for a list.
+    pub fn is_list(&self) -> bool {
+        self.value.get_ref().is_array()
     }
 
     /// Returns the entries if the value is an array; none otherwise. They have its key.

@@ -61,7 +61,8 @@ fn reach(criterion: &mut Criterion) {
                 let in_unit = |side: [f64; 2]| side.map(|x| x / description.length.in_metres());
                 let region = BaseBox {
                     points: sides.map(|side| grid(in_unit(side), SIDE)),
-                    orientation,
+                    orientations: vec![orientation],
+                    approaches: Vec::new(),
                     solved: (0..description.variables.len()).collect(),
                 };
                 let workspace = base_box(robot, &region).expect("its own variables");

@@ -389,6 +389,7 @@ pub mod long {
                 0.0,
             ),
         ]),
+        sum_limits: List::Constant(&[]),
         parameters: List::Constant(&[Parameter::new("reach", 0.4, "m")]),
         inputs: List::Constant(&[Input::new("load", 2.0, [0.0, 5.0], "kg")]),
         sources: List::Constant(&[

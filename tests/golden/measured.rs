@@ -87,6 +87,7 @@ pub mod measured {
             ),
             Variable::new("q3", VariableKind::Revolute, [-2.0, 2.0], -0.3),
         ]),
+        sum_limits: List::Constant(&[]),
         parameters: List::Constant(&[
             Parameter::new("depth", 50.8, "mm"),
             Parameter::new("fine", 2.5, "mm"),

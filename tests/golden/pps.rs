@@ -124,6 +124,7 @@ pub mod pps {
                 0.0,
             ),
         ]),
+        sum_limits: List::Constant(&[]),
         parameters: List::Constant(&[
             Parameter::new("y_offset", 600.0, "mm"),
             Parameter::new("z_offset", 718.0, "mm"),

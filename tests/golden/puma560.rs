@@ -130,6 +130,7 @@ pub mod puma560 {
                 0.0,
             ),
         ]),
+        sum_limits: List::Constant(&[]),
         parameters: List::Constant(&[]),
         inputs: List::Constant(&[]),
         sources: List::Constant(&[

@@ -87,6 +87,7 @@ pub mod self_ {
                 0.0,
             ),
         ]),
+        sum_limits: List::Constant(&[]),
         parameters: List::Constant(&[
             Parameter::new("q", 3.14, "m"),
             Parameter::new("None", 0.5, ""),

@@ -62,6 +62,7 @@ pub mod slide {
             [f64::NEG_INFINITY, f64::INFINITY],
             0.0,
         )]),
+        sum_limits: List::Constant(&[]),
         parameters: List::Constant(&[]),
         inputs: List::Constant(&[]),
         sources: List::Constant(&[]),

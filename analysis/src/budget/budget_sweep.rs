@@ -150,7 +150,7 @@ impl<'a> BudgetSweep<'a> {
             && orientation.is_valid_for(sources, chunks.clone())
             && configurations.checked_add(unreachable.count) == Some(self.configurations(chunks).len())
             && oriented <= configurations
-            && unreachable.is_sound(description.variables.len())
+            && unreachable.is_sound(description)
             && indices.all(|index| index < self.workspace.len())
     }
 

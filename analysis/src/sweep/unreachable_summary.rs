@@ -2,6 +2,7 @@
 
 use core::mem::discriminant;
 
+use abbe_core::Description;
 use abbe_kinematics::{ReachError, Unreachable};
 
 /// Number of configurations that are listed.
@@ -29,16 +30,16 @@ impl UnreachableSummary {
         }
     }
 
-    /// Returns whether the summary is valid for a manipulator with this number of variables. It may
-    /// come from a file.
-    pub(crate) fn is_sound(&self, variables: usize) -> bool {
+    /// Returns whether the summary is valid for a manipulator. It may come from a file.
+    pub(crate) fn is_sound(&self, description: &Description) -> bool {
         let total = self.reasons.iter().try_fold(0, |sum: usize, (_, count)| sum.checked_add(*count));
         let mut reasons =
             self.reasons.iter().map(|(reason, _)| reason).chain(self.first.iter().map(|one| &one.reason));
         total == Some(self.count)
             && self.first.len() <= self.count.min(LISTED)
             && reasons.all(|reason| match reason {
-                ReachError::OutsideLimits { variable, .. } => *variable < variables,
+                ReachError::OutsideLimits { variable, .. } => *variable < description.variables.len(),
+                ReachError::OutsideSumLimit { limit, .. } => *limit < description.sum_limits.len(),
                 _ => true,
             })
     }
@@ -70,6 +71,9 @@ fn is_same_kind(a: &ReachError, b: &ReachError) -> bool {
     match (a, b) {
         (ReachError::OutOfReach { .. }, ReachError::OutOfReach { .. }) => true,
         (ReachError::OutsideLimits { variable: a, .. }, ReachError::OutsideLimits { variable: b, .. }) => {
+            a == b
+        }
+        (ReachError::OutsideSumLimit { limit: a, .. }, ReachError::OutsideSumLimit { limit: b, .. }) => {
             a == b
         }
         (ReachError::Evaluation(a), ReachError::Evaluation(b)) => discriminant(a) == discriminant(b),

@@ -44,7 +44,9 @@ fn a_box_is_reached_point_by_point() {
     let points = [grid([-0.2, 0.2], 2), grid([0.3, 0.4], 2), grid([0.3, 0.5], 2)];
     let home = Puma.pose(&home_of(&Puma).q, &home_of(&Puma).s).unwrap();
     for orientation in [ToolOrientation::Free, ToolOrientation::Home] {
-        let region = BaseBox { points: points.clone(), orientation, solved: (0..6).collect() };
+        let orientations = vec![orientation];
+        let (solved, approaches) = ((0..6).collect(), Vec::new());
+        let region = BaseBox { points: points.clone(), orientations, approaches, solved };
         let workspace = base_box(&Puma, &region).unwrap();
         let mut reached = 0;
         for index in 0..workspace.len() {

@@ -25,6 +25,7 @@
 //! #                 Variable::new("q1", VariableKind::Revolute, LIMITS, 0.0),
 //! #                 Variable::new("q2", VariableKind::Revolute, LIMITS, 0.0),
 //! #             ]),
+//! #             sum_limits: List::Constant(&[]),
 //! #             parameters: List::Constant(&[]), inputs: List::Constant(&[]), sources: List::Constant(&[]),
 //! #             effects: List::Constant(&[]), solutions: 0,
 //! #         };

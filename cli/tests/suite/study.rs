@@ -52,9 +52,9 @@ fn a_box_is_reached_by_inverse_kinematics() {
     assert_eq!((&report["configurations"], &report["unreachable"]), (&2.into(), &2.into()));
     assert_eq!(report["unreachable_reasons"][0]["reason"], "d3 outside its limits");
     refused(
-        "[workspace.box]\nx = [1]\ny = [1]\norientation = \"up\"",
+        "[workspace.box]\nx = [1]\ny = [1]\norientation = \"sideways\"",
         &[],
-        &["`z` is missing", "\"free\" or \"home\""],
+        &["`z` is missing", "\"free\" or \"home\" or \"down\" or \"up\""],
     );
     refused("[workspace.box]\nx = [1]\ny = [1]\nz = [1]\nsolve = [\"q9\"]", &[], &["no variable `q9`"]);
     // A single unreachable point.

@@ -219,14 +219,21 @@ impl<'a> RealChain<'a> {
         displaced(graph, pose, &errors)
     }
 
-    /// Returns the poses on the link of a frame that have errors, with these errors.
+    /// Returns the poses on the link of a frame that have errors, with these errors. Those of `F_0`
+    /// are the first: they precede `A_1` with the deviations of its numbers.
     fn located(&self, graph: &mut Graph, frame: usize) -> Vec<(Frame, [Node; 6])> {
         let zero = graph.zero();
         let at_frame = self.causes.errors.iter().filter(|caused| caused.frame == frame);
-        let located = at_frame.filter_map(|caused| {
+        let (of_base, others): (Vec<_>, Vec<_>) = at_frame.partition(|caused| caused.of_base.is_some());
+        let located = of_base.into_iter().chain(others).filter_map(|caused| {
             let magnitude = self.magnitudes[caused.source];
             let errors = caused.errors.map(|error| graph.mul(magnitude, error));
-            caused.place.filter(|_| errors != [zero; 6]).map(|place| (place, errors))
+            let place = caused.place.filter(|_| errors != [zero; 6])?;
+            let Some(of_base) = caused.of_base else { return Some((place, errors)) };
+            let identity = graph.identity();
+            let first = self.nominal(graph, identity, frame);
+            let back = graph.inverse(&first);
+            Some((graph.then(&back, &of_base), errors))
         });
         located.collect()
     }

@@ -60,6 +60,8 @@ pub(super) struct PlacedErrors {
     pub(super) frame: usize,
     /// Pose L of the place relative to the frame; `None` for the frame itself.
     pub(super) place: Option<Frame>,
+    /// Pose of the place relative to `F_0`, for errors of `F_0`.
+    pub(super) of_base: Option<Frame>,
     /// The errors in the axes of the place.
     pub(super) errors: [Node; 6],
 }
@@ -145,7 +147,9 @@ pub(super) fn effects_in<'a>(
             let errors = place.as_ref().map_or(there, |place| at_frame(graph, place, there));
             add(graph, &mut sums[effect.frame], errors);
             let errors = there.map(|error| graph.mul(times, error));
-            causes.errors.push(PlacedErrors { source, frame: effect.frame, place, errors });
+            let of_base =
+                effect.is_of_base.then(|| transform(graph, &effect.at[spec.frames[0].factors.len()..]));
+            causes.errors.push(PlacedErrors { source, frame: effect.frame, place, of_base, errors });
         }
         for deviation in &declared.deviations {
             let twists = frame_twists(graph, spec, deviation.number);
@@ -163,7 +167,7 @@ pub(super) fn effects_in<'a>(
         }
         let propagated = propagated(graph, spec, declared, &all);
         for (frame, errors) in propagated.into_iter().enumerate().filter(|(_, errors)| *errors != [zero; 6]) {
-            causes.errors.push(PlacedErrors { source, frame, place: None, errors });
+            causes.errors.push(PlacedErrors { source, frame, place: None, of_base: None, errors });
             add(graph, &mut all[source][frame], errors);
         }
     }

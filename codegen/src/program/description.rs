@@ -34,6 +34,7 @@ pub(super) fn description(
             })
             .collect(),
         variables: variables.map(variable).collect(),
+        sum_limits: spec.sum_limits.iter().cloned().collect(),
         parameters: parameters
             .map(|parameter| Parameter {
                 name: parameter.name.as_str().into(),
@@ -46,6 +47,7 @@ pub(super) fn description(
                 name: input.name.as_str().into(),
                 nominal: input.value,
                 range: input.range,
+                levels: input.levels.iter().copied().collect(),
                 unit: input.unit.as_str().into(),
             })
             .collect(),

@@ -56,7 +56,9 @@ impl Bounds {
     /// Classifies a target.
     pub(super) fn reachability(&self, target: &Target) -> Reachability {
         match target {
-            Target::Point(point) => self.of_tool[0].reachability(point.map(|x| x / self.arm)),
+            Target::Point(point) | Target::Axis { point, .. } => {
+                self.of_tool[0].reachability(point.map(|x| x / self.arm))
+            }
             Target::Pose(pose) => {
                 let pose = scaled(pose, self.arm);
                 let back = pose.inverse();

@@ -112,7 +112,7 @@ impl<const ROWS: usize> Descents<'_, ROWS> {
     ) -> Option<Lane> {
         let target = waiting.next()?;
         let pose = match self.targets[target] {
-            Target::Point(point) => {
+            Target::Point(point) | Target::Axis { point, .. } => {
                 let Pose([x, y, z, _]) = Pose::IDENTITY;
                 Pose([x, y, z, point])
             }

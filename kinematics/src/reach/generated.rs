@@ -18,7 +18,8 @@ pub(super) fn solutions(
     let (mut solutions, mut found) = (vec![0.0; count * start.len()], vec![0.0; count]);
     manipulator.inverse(start, s, target, &mut solutions, &mut found)?;
     let rows = solutions.chunks_exact(start.len()).zip(found);
-    Ok(Some(rows.filter(|(_, found)| *found > 0.5).map(|(row, _)| row.to_vec()).collect()))
+    let rows = rows.filter(|(row, found)| *found > 0.5 && problem.sums.check(row).is_ok());
+    Ok(Some(rows.map(|(row, _)| row.to_vec()).collect()))
 }
 
 /// Returns the solution nearest to the first start, in rad and arm lengths, verified by the

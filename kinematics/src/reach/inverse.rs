@@ -73,16 +73,41 @@ impl<'a> Inverse<'a> {
         let Some((chain, bounds)) = chain.as_ref().filter(|_| targets.iter().all(Target::is_finite)) else {
             return targets.iter().map(|target| Search { problem, target }.solve()).collect();
         };
-        let mut found: Vec<_> = targets.iter().map(|target| closed(problem, target)).collect();
-        let open = targets.iter().zip(&found).filter(|(_, found)| found.is_none());
-        let targets: &[Target] = &open.map(|(target, _)| *target).collect::<Vec<_>>();
         let set = InstructionSet::best();
-        let mut searched = match targets.first() {
-            Some(Target::Pose(_)) => set.run(Descents::<6> { problem, chain, targets, bounds, start }),
-            _ => set.run(Descents::<3> { problem, chain, targets, bounds, start }),
+        let mut found: Vec<_> = targets.iter().map(|target| closed(problem, target).map(Ok)).collect();
+        for kind in [Kind::Point, Kind::Pose, Kind::Axis] {
+            let open =
+                (0..targets.len()).filter(|i| found[*i].is_none() && Kind::kind_of(&targets[*i]) == kind);
+            let open: Vec<usize> = open.collect();
+            let targets: &[Target] = &open.iter().map(|i| targets[*i]).collect::<Vec<_>>();
+            let searched = match kind {
+                _ if open.is_empty() => continue,
+                Kind::Point => set.run(Descents::<3> { problem, chain, targets, bounds, start }),
+                Kind::Pose => set.run(Descents::<6> { problem, chain, targets, bounds, start }),
+                Kind::Axis => targets.iter().map(|target| Search { problem, target }.solve()).collect(),
+            };
+            open.into_iter().zip(searched).for_each(|(i, searched)| found[i] = Some(searched));
         }
-        .into_iter();
-        found.iter_mut().filter_map(|found| found.take().map(Ok).or_else(|| searched.next())).collect()
+        found.into_iter().flatten().collect()
+    }
+}
+
+/// Kind of a target.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Point,
+    Pose,
+    Axis,
+}
+
+impl Kind {
+    /// Returns the kind of a target.
+    fn kind_of(target: &Target) -> Self {
+        match target {
+            Target::Point(_) => Self::Point,
+            Target::Pose(_) => Self::Pose,
+            Target::Axis { .. } => Self::Axis,
+        }
     }
 }
 
@@ -90,6 +115,6 @@ impl<'a> Inverse<'a> {
 fn closed(problem: &Problem<'_>, target: &Target) -> Option<Vec<f64>> {
     match target {
         Target::Pose(pose) => generated::nearest(problem, pose),
-        Target::Point(_) => None,
+        Target::Point(_) | Target::Axis { .. } => None,
     }
 }

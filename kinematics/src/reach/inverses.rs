@@ -176,6 +176,6 @@ impl<'a> InverseKinematics<'a> {
             }
             *q = q.clamp(lower, upper);
         }
-        Some(q)
+        self.problem.sums.check(&q).is_ok().then_some(q)
     }
 }

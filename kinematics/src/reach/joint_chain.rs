@@ -41,9 +41,9 @@ impl JointChain {
     /// Extracts the chain with the free variables of a problem. Returns `None` if it is not known
     /// to consist of lower pairs.
     pub(super) fn new(problem: &Problem<'_>) -> Option<Self> {
-        let Problem { manipulator, ref s, ref free, arm, ref starts } = *problem;
+        let Problem { manipulator, ref s, ref free, arm, ref starts, ref sums } = *problem;
         let (description, start) = (manipulator.description(), &starts[0]);
-        if !description.frames.iter().all(|frame| frame.lower_pair) {
+        if !sums.followers.is_empty() || !description.frames.iter().all(|frame| frame.lower_pair) {
             return None;
         }
         let unit = |i: usize| match description.variables[i].kind {

@@ -16,6 +16,7 @@ mod pose_error;
 mod reach_error;
 mod real_tool;
 mod search;
+mod sum_limits;
 mod target;
 mod target_search;
 #[cfg(test)]
@@ -27,4 +28,5 @@ pub use inverse::inverse;
 pub use inverses::InverseKinematics;
 pub use obstacle::{Missing, Obstacle, mobility, obstacle};
 pub use reach_error::ReachError;
+pub(crate) use sum_limits::SumLimits;
 pub use target::Target;

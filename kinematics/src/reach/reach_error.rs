@@ -25,6 +25,13 @@ pub enum ReachError {
         /// Limits of the variable.
         limits: [f64; 2],
     },
+    /// The target is reached only outside the limits of a sum of joint variables.
+    OutsideSumLimit {
+        /// Index of the limit among those of the description.
+        limit: usize,
+        /// Value of the sum there.
+        value: f64,
+    },
     /// The manipulator could not be evaluated, not even at the start.
     Evaluation(Error),
 }
@@ -43,6 +50,9 @@ impl fmt::Display for ReachError {
                 "variable {variable} would need to be {value:.6}, outside its limits {lower} … \
                  {upper}"
             ),
+            Self::OutsideSumLimit { limit, value } => {
+                write!(f, "the sum of limit {} would need to be {value:.6}, outside its limits", limit + 1)
+            }
             Self::Evaluation(error) => error.fmt(f),
         }
     }

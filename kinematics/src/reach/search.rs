@@ -2,16 +2,18 @@
 
 use core::ops::ControlFlow;
 
-use nalgebra::{DMatrix, DVector, SVD};
+use nalgebra::{DMatrix, DVector, LU, Matrix3, SVD, U3, Vector3};
 
 use super::target_search::{
     Descent, DescentEnd, ITERATIONS, Problem, REACHED, ROUNDING, Reachability, STAGNATION, TargetSearch, from,
 };
 use super::{ReachError, Target};
-use abbe_core::{Error, Pose, Quantity, VariableKind, deviation};
+use abbe_core::{Error, Orientation, Pose, Quantity, VariableKind, deviation, displacement};
 
 /// Relative singular value below which a direction is immobile.
 const SINGULAR: f64 = 1e-10;
+/// Rotation of the difference quotients that give the rates of Euler angles.
+const TURN: f64 = 1e-6;
 
 /// Search for one target. Residuals are its rows with lengths in arm lengths, and steps are in rad
 /// and arm lengths, so that the choice of joints does not depend on the length unit.
@@ -44,10 +46,11 @@ impl Search<'_> {
         self.from(0)
     }
 
-    /// Returns the result of the descent from a start, if it reaches the target.
+    /// Returns the result of the descent from a start, if it reaches the target within the limits.
     pub(super) fn from(&self, start: usize) -> Option<Vec<f64>> {
         let ended = self.descend(&from(self.problem, start, true)).ok()?;
-        (ended.norm <= REACHED).then_some(ended.q)
+        let is_permitted = || self.problem.sums.check(&ended.q).is_ok();
+        (ended.norm <= REACHED && is_permitted()).then_some(ended.q)
     }
 
     fn evaluate(&self, q: Vec<f64>) -> Result<Point, Error> {
@@ -61,12 +64,26 @@ impl Search<'_> {
         let (target, rows) = match self.target {
             Target::Point(point) => (Pose([pose.0[0], pose.0[1], pose.0[2], *point]), 3),
             Target::Pose(target) => (*target, 6),
+            Target::Axis { point, .. } => (Pose([pose.0[0], pose.0[1], pose.0[2], *point]), 6),
         };
-        let difference = deviation(manipulator.description().orientation, &pose, &target);
+        let orientation = manipulator.description().orientation;
+        let mut difference = deviation(orientation, &pose, &target);
+        if let Target::Axis { axis, direction, .. } = self.target {
+            let along = Vector3::from(pose.0[*axis]);
+            difference[3..].copy_from_slice(turn_between(along, Vector3::from(*direction)).as_slice());
+            let rates = rates(orientation, &pose);
+            for column in &mut columns {
+                let turn = rates.solve(&Vector3::new(column[3], column[4], column[5]));
+                let turn = turn.map_or(Vector3::repeat(f64::NAN), |turn| turn - along * along.dot(&turn));
+                column[3..].copy_from_slice(turn.as_slice());
+            }
+        }
         let row_scale = |i: usize| if i < 3 { 1.0 / arm } else { 1.0 };
         let residual = DVector::from_fn(rows, |i, _| difference[i] * row_scale(i));
         let jacobian = DMatrix::from_fn(rows, free.len(), |i, j| {
-            columns[free[j]][i] * row_scale(i) * self.problem.unit(j)
+            let followers = self.problem.sums.followers.iter();
+            let led = followers.map(|one| one.weights[free[j]] * columns[one.variable][i]);
+            (columns[free[j]][i] + led.sum::<f64>()) * row_scale(i) * self.problem.unit(j)
         });
         if let Some(index) = residual.iter().chain(&jacobian).position(|v| !v.is_finite()) {
             return Err(Error::NotFinite { quantity: Quantity::Jacobian, index });
@@ -156,8 +173,36 @@ impl Search<'_> {
                 q[i] = q[i].min(upper).max(lower);
             }
         }
+        self.problem.sums.lead(&mut q);
         q
     }
+}
+
+/// Returns the shortest rotation vector that turns a unit vector into another.
+fn turn_between(from: Vector3<f64>, to: Vector3<f64>) -> Vector3<f64> {
+    let (across, cosine) = (from.cross(&to), from.dot(&to));
+    let sine = across.norm();
+    if sine > f64::EPSILON {
+        return across * (sine.atan2(cosine) / sine);
+    }
+    // Half a turn about any perpendicular axis.
+    let other = Vector3::ith(from.iamin(), 1.0);
+    from.cross(&other).normalize() * if cosine < 0.0 { core::f64::consts::PI } else { 0.0 }
+}
+
+/// Returns the rates of rows 4–6 for rotations about x, y and z of `F_0`.
+fn rates(orientation: Orientation, pose: &Pose) -> LU<f64, U3, U3> {
+    let columns = [0, 1, 2].map(|axis| {
+        if orientation == Orientation::RotationVector {
+            return Vector3::ith(axis, 1.0);
+        }
+        let mut errors = [0.0; 6];
+        errors[[5, 3, 4][axis]] = TURN;
+        let turned = displacement(&errors).then(pose);
+        let [.., a, b, c] = deviation(orientation, pose, &turned);
+        Vector3::new(a, b, c) / TURN
+    });
+    Matrix3::from_columns(&columns).lu()
 }
 
 /// Returns `Jᵀ (J Jᵀ + λ)⁻¹ r = Σ σ / (σ² + λ) v (u · r)`, without the immobile directions.

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 use core::ops::ControlFlow;
 
-use super::ReachError;
+use super::{ReachError, SumLimits};
 use crate::sampling;
 use abbe_core::{Description, Error, Manipulator, Quantity, Variable, VariableKind};
 
@@ -33,8 +33,9 @@ const COMPARED: usize = 4;
 pub(super) struct Problem<'a> {
     pub(super) manipulator: &'a dyn Manipulator,
     pub(super) s: Vec<f64>,
-    /// Indices of the free variables, in ascending order.
+    /// Indices of the free variables that follow no others, in ascending order.
     pub(super) free: Vec<usize>,
+    pub(super) sums: SumLimits,
     pub(super) arm: f64,
     /// Starts of the descents, all of `q`: the caller's start, followed by points spread within the
     /// limits.
@@ -91,6 +92,8 @@ pub(super) struct TargetSearch {
     least: Option<(usize, f64, f64)>,
     /// Best point without limits.
     nearest: Option<DescentEnd>,
+    /// Limit of a sum that a solution within the limits of the variables exceeds.
+    refused: Option<ReachError>,
     failure: Error,
 }
 
@@ -124,11 +127,13 @@ impl<'a> Problem<'a> {
         let mut free = free.to_vec();
         free.sort_unstable();
         free.dedup();
+        let sums = SumLimits::new(manipulator.description(), free.iter().rev().copied());
         let mut held = (0..variables.len()).filter(|i| !free.contains(i));
         if let Some(i) = held.find(|&i| beyond(&variables[i], start[i]) > AT_LIMIT) {
             return Err(outside_limits(variables, i, start[i]));
         }
-        Ok(Self { manipulator, s: s.to_vec(), free, arm, starts: vec![start.to_vec()] })
+        free.retain(|i| sums.followers.iter().all(|follower| follower.variable != *i));
+        Ok(Self { manipulator, s: s.to_vec(), free, sums, arm, starts: vec![start.to_vec()] })
     }
 
     /// Adds further starts, for targets that the first does not reach.
@@ -189,6 +194,7 @@ impl TargetSearch {
             solutions: 0,
             least: None,
             nearest: None,
+            refused: None,
             failure,
         };
         (target_search, from(problem, start, true))
@@ -202,7 +208,11 @@ impl TargetSearch {
         ended: Result<DescentEnd, Error>,
         reachability: impl FnOnce() -> Reachability,
     ) -> Next {
-        let reached = ended.as_ref().is_ok_and(|ended| ended.norm <= REACHED);
+        let mut reached = ended.as_ref().is_ok_and(|ended| ended.norm <= REACHED);
+        if let (true, Stage::Within(_) | Stage::Turned(..), Ok(ended)) = (reached, &self.stage, &ended) {
+            self.refused = problem.sums.check(&ended.q).err().or(self.refused);
+            reached = problem.sums.check(&ended.q).is_ok();
+        }
         match (core::mem::replace(&mut self.stage, Stage::Nearest), ended) {
             (Stage::Within(_) | Stage::Turned(..), Ok(ended)) if reached => ControlFlow::Break(Ok(ended.q)),
             (Stage::Within(start), ended) => {
@@ -215,7 +225,10 @@ impl TargetSearch {
                         self.stage = Stage::Within(start + 1);
                         ControlFlow::Continue(from(problem, start + 1, true))
                     }
-                    Reachability::Open | Reachability::BeyondLimits => self.beyond(problem, 0),
+                    Reachability::Open | Reachability::BeyondLimits => match self.refused {
+                        Some(refused) => ControlFlow::Break(Err(refused)),
+                        None => self.beyond(problem, 0),
+                    },
                     Reachability::Never => {
                         self.nearest = self.stopped_at.take();
                         self.nearest(problem)
@@ -266,6 +279,9 @@ impl TargetSearch {
                 }
                 _ => ControlFlow::Continue(from(problem, start - 1, false)),
             };
+        }
+        if let Some(refused) = self.refused {
+            return ControlFlow::Break(Err(refused));
         }
         if let Some((variable, _, value)) = self.least {
             return ControlFlow::Break(Err(outside_limits(

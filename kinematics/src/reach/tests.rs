@@ -81,6 +81,7 @@ fn lanes_find_what_single_searches_find() {
                         let (wanted, rows) = match target {
                             Target::Point(point) => (Pose([pose.0[0], pose.0[1], pose.0[2], *point]), 3),
                             Target::Pose(pose) => (*pose, 6),
+                            Target::Axis { .. } => unreachable!("not among these targets"),
                         };
                         let away = abbe_core::deviation(description.orientation, &pose, &wanted);
                         let lengths = away[..3].iter().map(|x| x / problem.arm);

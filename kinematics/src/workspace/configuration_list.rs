@@ -3,6 +3,7 @@
 use super::Workspace;
 use crate::Configuration;
 use crate::ReachError;
+use crate::SumLimits;
 use abbe_core::{Error, Manipulator, Quantity};
 
 /// Workspace of a list of configurations, such as a path; see [`listed`].
@@ -11,6 +12,7 @@ pub struct Listed {
     home: Configuration,
     configurations: Vec<Configuration>,
     limits: Vec<[f64; 2]>,
+    sums: SumLimits,
 }
 
 /// Creates the workspace of a list of configurations. Those with a variable outside its limits
@@ -33,7 +35,8 @@ pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>)
         }
     }
     let limits = description.variables.iter().map(|variable| variable.limits).collect();
-    Ok(Listed { home, configurations, limits })
+    let sums = SumLimits::new(description, core::iter::empty());
+    Ok(Listed { home, configurations, limits, sums })
 }
 
 impl Workspace for Listed {
@@ -53,7 +56,7 @@ impl Workspace for Listed {
             Some(variable) => {
                 Err(ReachError::OutsideLimits { variable, value: q[variable], limits: self.limits[variable] })
             }
-            None => Ok(()),
+            None => self.sums.check(q),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::axis::{combinations, combine};
 use super::{Axis, Workspace};
 use crate::Configuration;
 use crate::ReachError;
+use crate::SumLimits;
 use crate::configuration::in_range;
 use abbe_core::{Error, Manipulator, Quantity};
 
@@ -12,10 +13,11 @@ use abbe_core::{Error, Manipulator, Quantity};
 pub struct JointGrid {
     home: Configuration,
     axes: Vec<Axis>,
+    sums: SumLimits,
 }
 
 /// Creates the workspace of every combination of the values of some variables, the last one
-/// fastest. The other variables stay at home.
+/// fastest. The other variables stay at home, or follow those where a sum is fixed.
 ///
 /// Parameters and inputs are nominal; [`with_inputs`](super::with_inputs) varies the inputs.
 /// Returns [`Error::Count`] if an axis has an invalid index.
@@ -23,7 +25,9 @@ pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointG
     let description = manipulator.description();
     let indices = axes.iter().map(|axis| axis.index);
     in_range(indices, Quantity::Variables, description.variables.len())?;
-    Ok(JointGrid { home: Configuration::home(description), axes: axes.to_vec() })
+    let named = |i: &usize| axes.iter().any(|axis| axis.index == *i);
+    let sums = SumLimits::new(description, (0..description.variables.len()).rev().filter(|i| !named(i)));
+    Ok(JointGrid { home: Configuration::home(description), axes: axes.to_vec(), sums })
 }
 
 impl Workspace for JointGrid {
@@ -38,6 +42,7 @@ impl Workspace for JointGrid {
     fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
         configuration.copy_from(&self.home);
         combine(index, &self.axes, &mut configuration.q);
-        Ok(())
+        self.sums.lead(&mut configuration.q);
+        self.sums.check(&configuration.q)
     }
 }

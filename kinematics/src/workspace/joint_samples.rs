@@ -7,10 +7,11 @@ use rand::{Rng, RngExt};
 use super::Workspace;
 use crate::Configuration;
 use crate::ReachError;
+use crate::SumLimits;
 use crate::configuration::in_range;
 use crate::sampling::{self, RadicalInverses, stream};
 use abbe_core::lanes::{Kernel, Register, Tiles};
-use abbe_core::{Error, Manipulator, Quantity};
+use abbe_core::{Error, List, Manipulator, Quantity};
 
 /// Source of the sample values.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +30,7 @@ pub struct JointSamples {
     moved: Vec<SampledQuantity>,
     count: usize,
     spread: Spread,
+    sums: SumLimits,
 }
 
 /// Sampled quantity.
@@ -36,6 +38,8 @@ pub struct JointSamples {
 struct SampledQuantity {
     coordinate: Coordinate,
     range: [f64; 2],
+    /// Values that an input has; empty for any in the range.
+    levels: List<f64>,
     /// Terms of the Halton sequence in its dimension.
     shares: RadicalInverses,
 }
@@ -50,7 +54,9 @@ enum Coordinate {
 /// Creates a workspace of `count` samples of the joints in `moved`, spread evenly within their
 /// limits. The other joints stay at home.
 ///
-/// Parameters and inputs are nominal; [`JointSamples::inputs`] varies the inputs. Returns
+/// A sample outside the limits of a sum of joints is replaced by a random one within them, and a
+/// joint follows where a sum is fixed. Parameters and inputs are nominal;
+/// [`JointSamples::inputs`] varies the inputs. Returns
 /// [`Error::Count`] if `moved` contains an invalid index.
 pub fn joint_samples(
     manipulator: &dyn Manipulator,
@@ -81,13 +87,16 @@ fn samples(
     in_range(moved.iter().copied(), Quantity::Variables, description.variables.len())?;
     let home = Configuration::home(description);
     let arm = sampling::arm_length(manipulator, &home.s)?;
-    let moved = moved.iter().enumerate().map(|(dimension, &i)| SampledQuantity {
+    let sampled = moved.iter().enumerate().map(|(dimension, &i)| SampledQuantity {
         coordinate: Coordinate::Variable(i),
         range: sampling::joint_range(&description.variables[i], arm),
+        levels: List::Constant(&[]),
         shares: RadicalInverses::new(sampling::prime(dimension)),
     });
-    let moved = moved.collect();
-    Ok(JointSamples { home, moved, count, spread })
+    let held = (0..description.variables.len()).rev().filter(|i| !moved.contains(i));
+    let sums = SumLimits::new(description, held.chain(moved.iter().rev().copied()));
+    let moved = sampled.collect();
+    Ok(JointSamples { home, moved, count, spread, sums })
 }
 
 impl Workspace for JointSamples {
@@ -103,23 +112,26 @@ impl Workspace for JointSamples {
         configuration.copy_from(&self.home);
         match self.spread {
             Spread::Even => {
-                for SampledQuantity { coordinate, range: [lower, upper], shares } in &self.moved {
+                for moved in &self.moved {
                     let mut share = [0.0];
-                    shares.fill(index + 1, &mut share);
-                    *coordinate.value(configuration) = lower + (upper - lower) * share[0];
+                    moved.shares.fill(index + 1, &mut share);
+                    *moved.coordinate.value(configuration) = moved.at(share[0]);
                 }
             }
             Spread::Random { seed } => {
                 for (random, moved) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved) {
                     (0..index % STREAM).for_each(|_| _ = random.next_u64());
-                    *moved.coordinate.value(configuration) = between(moved.range, random);
+                    *moved.coordinate.value(configuration) = moved.at(random.random());
                 }
             }
         }
-        Ok(())
+        self.permitted(index, configuration)
     }
 
     fn fill_rows(&self, range: Range<usize>, rows: &mut Tiles) -> bool {
+        if !self.sums.is_empty() {
+            return false;
+        }
         let moved = self.moved.iter().map(|moved| self.row(moved.coordinate)).collect::<Vec<_>>();
         match self.spread {
             Spread::Even => {
@@ -132,12 +144,24 @@ impl Workspace for JointSamples {
                     let mut streams = self.streams(seed, first / STREAM);
                     let count = STREAM.min(range.end - first);
                     rows.set_each(&moved, first - range.start, count, |which| {
-                        between(self.moved[which].range, &mut streams[which])
+                        self.moved[which].at(streams[which].random())
                     });
                 }
             }
         }
         true
+    }
+}
+
+impl SampledQuantity {
+    /// Returns the value at a share of the range from 0 to 1, or of the levels.
+    #[inline(always)]
+    fn at(&self, share: f64) -> f64 {
+        let [lower, upper] = self.range;
+        match self.levels.len() {
+            0 => lower + (upper - lower) * share,
+            count => self.levels[((share * count as f64) as usize).min(count - 1)],
+        }
     }
 }
 
@@ -152,7 +176,7 @@ impl Coordinate {
 }
 
 impl JointSamples {
-    /// Samples these inputs too, each within its range.
+    /// Samples these inputs too, each within its range, or at one of its levels.
     ///
     /// Returns [`Error::Count`] if there is no such input, [`Error::NotFinite`] if its range is
     /// unbounded.
@@ -165,9 +189,33 @@ impl JointSamples {
                 return Err(Error::NotFinite { quantity: Quantity::Inputs, index: i });
             }
             let shares = RadicalInverses::new(sampling::prime(self.moved.len()));
-            self.moved.push(SampledQuantity { coordinate: Coordinate::Input(i), range, shares });
+            let (coordinate, levels) = (Coordinate::Input(i), description.inputs[i].levels.clone());
+            self.moved.push(SampledQuantity { coordinate, range, levels, shares });
         }
         Ok(self)
+    }
+
+    /// Moves a sample within the limits of sums: draws it anew where it is outside.
+    fn permitted(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        if self.sums.is_empty() {
+            return Ok(());
+        }
+        let seed = match self.spread {
+            Spread::Even => 0,
+            Spread::Random { seed } => seed,
+        };
+        let mut random = stream(!seed, index);
+        for _ in 0..REDRAWN {
+            self.sums.lead(&mut configuration.q);
+            if self.sums.check(&configuration.q).is_ok() {
+                break;
+            }
+            for moved in &self.moved {
+                *moved.coordinate.value(configuration) = moved.at(random.random());
+            }
+        }
+        self.sums.lead(&mut configuration.q);
+        self.sums.check(&configuration.q)
     }
 
     /// Returns the row of a sampled quantity among q, s, u.
@@ -201,23 +249,23 @@ impl Kernel for Even<'_> {
     #[inline(always)]
     fn run<R: Register>(self) {
         let mut values = [0.0; STREAM];
-        for (SampledQuantity { range: [lower, upper], shares, .. }, row) in self.moved.iter().zip(self.chosen)
-        {
+        for (moved, row) in self.moved.iter().zip(self.chosen) {
+            let [lower, upper] = moved.range;
             for first in (0..self.rows.count()).step_by(STREAM) {
                 let values = &mut values[..STREAM.min(self.rows.count() - first)];
-                shares.fill(self.first + first, values);
-                values.iter_mut().for_each(|value| *value = lower + (upper - lower) * *value);
+                moved.shares.fill(self.first + first, values);
+                match moved.levels.is_empty() {
+                    true => values.iter_mut().for_each(|value| *value = lower + (upper - lower) * *value),
+                    false => values.iter_mut().for_each(|value| *value = moved.at(*value)),
+                }
                 self.rows.set_row(*row, first, values);
             }
         }
     }
 }
 
+/// Largest number of draws until a sample is within the limits of sums.
+const REDRAWN: usize = 1000;
+
 /// Number of configurations whose values of a variable come from one stream.
 pub const STREAM: usize = 64;
-
-/// Returns a random number within limits.
-#[inline]
-fn between([lower, upper]: [f64; 2], random: &mut impl Rng) -> f64 {
-    lower + (upper - lower) * random.random::<f64>()
-}

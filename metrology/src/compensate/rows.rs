@@ -103,8 +103,7 @@ impl<'a> Task<'a> {
         u: &[f64],
     ) -> Result<(Compensated<Vec<f64>>, Option<String>), String> {
         within_limits(self.description, q)?;
-        let corrected =
-            corrected(self, None, q, u).map_err(|error| evaluation_message(self.description, &error))?;
+        let corrected = corrected(self, None, q, u)?;
         Ok((corrected.found, corrected.reason))
     }
 }
@@ -203,15 +202,18 @@ fn correct_observation(task: &Task<'_>, observation: &Observation) -> Result<Cor
             (None, q.to_vec())
         }
     };
-    corrected(task, target, &start, u).map_err(|error| evaluation_message(description, &error))
+    corrected(task, target, &start, u)
 }
 
-fn corrected(task: &Task<'_>, target: Option<&Pose>, start: &[f64], u: &[f64]) -> Result<Corrected, Error> {
+fn corrected(task: &Task<'_>, target: Option<&Pose>, start: &[f64], u: &[f64]) -> Result<Corrected, String> {
     let Task { manipulator, description, s, tolerance, mobility, .. } = task;
-    let found = compensated(*manipulator, target, start, s, u)?;
+    let failed = |error| evaluation_message(description, &error);
+    let found = compensated(*manipulator, target, start, s, u).map_err(failed)?;
+    sums_within_limits(description, &found.q)?;
     // With fewer than six independent motions only the tool point is a target.
     let angle = if *mobility < 6 { f64::INFINITY } else { tolerance * description.length.in_metres() };
-    let obstacle = obstacle(*manipulator, target, start, s, u, &found, [*tolerance, angle])?;
+    let obstacle =
+        obstacle(*manipulator, target, start, s, u, &found, [*tolerance, angle]).map_err(failed)?;
     let variables = description.variables.iter().zip(start.iter().zip(&found.q));
     let turns = variables.filter(|(variable, _)| variable.kind == VariableKind::Revolute);
     let largest_turn = turns.map(|(_, (from, to))| (to - from).abs()).fold(0.0, f64::max);
@@ -225,10 +227,21 @@ fn within_limits(description: &Description, q: &[f64]) -> Result<(), String> {
         let [lower, upper] = variable.limits;
         !(lower..=upper).contains(*value)
     };
-    let Some((variable, value)) = description.variables.iter().zip(q).find(outside) else { return Ok(()) };
+    let Some((variable, value)) = description.variables.iter().zip(q).find(outside) else {
+        return sums_within_limits(description, q);
+    };
     let [value, lower, upper] = [*value, variable.limits[0], variable.limits[1]]
         .map(|value| of_variable(value, variable.kind, description.length));
     Err(format!("{} is commanded to {value}, beyond its limits {lower} … {upper}", variable.name))
+}
+
+/// Checks the limits of sums of joints.
+fn sums_within_limits(description: &Description, q: &[f64]) -> Result<(), String> {
+    let Some(limit) = description.sum_limits.iter().find(|limit| !limit.permits(q)) else { return Ok(()) };
+    let kind = description.variables[limit.terms[0].0].kind;
+    let [value, lower, upper] = [limit.value(q), limit.range[0], limit.range[1]]
+        .map(|value| of_variable(value, kind, description.length));
+    Err(format!("{} is commanded to {value}, beyond its limits {lower} … {upper}", limit.sum))
 }
 
 fn evaluation_message(description: &Description, error: &Error) -> String {
@@ -257,6 +270,12 @@ fn unreachable_message(description: &Description, reason: &ReachError) -> String
                 String::new()
             };
             format!("unreachable for the ideal tool: out of reach by {away}{turned}")
+        }
+        ReachError::OutsideSumLimit { limit, .. } => {
+            format!(
+                "unreachable for the ideal tool: {} outside its limits",
+                description.sum_limits[*limit].sum
+            )
         }
         reason => format!("unreachable for the ideal tool: {reason}"),
     }

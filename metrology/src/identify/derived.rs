@@ -97,6 +97,7 @@ pub(super) fn with_inputs(spec: &Spec, derived: &[Derived]) -> Spec {
         dimension: Dimension::NONE,
         unit: String::new(),
         range: [-1.0, 1.0],
+        levels: Vec::new(),
         uncertainty: 0.0,
         description: one.description(spec),
     };

@@ -1,7 +1,7 @@
 //! Extends a spec by terms as sources. The fit and `analyze` then compute the same model.
 
 use abbe::{Component, VariableKind};
-use abbe_spec::expr::{Dimension, Elementary, Expression, Function, Motion, Symbol, Unit};
+use abbe_spec::expr::{Dimension, Expression, Function, Motion, Symbol, Unit};
 use abbe_spec::{
     Axes, Cause, ChainNumber, Compliance, Deviation, DeviationCause, Effect, Factor, Load, Point, Source,
     Spec,
@@ -86,31 +86,22 @@ impl Term {
                 deviation(ChainNumber::DenavitHartenberg { frame, number }, dimension);
             }
             ErrorSite::Frame(frame, component) => {
-                effects.push(Effect { frame, at: Vec::new(), cause: cause(component), span: 0..0 });
+                effects.push(Effect {
+                    frame,
+                    is_of_base: false,
+                    at: Vec::new(),
+                    cause: cause(component),
+                    span: 0..0,
+                });
             }
             // E_0 A_1 = A_1 (A_1⁻¹ E_0 A_1): an error of the first frame, located at F_0.
             ErrorSite::Base(component) => {
-                let at = spec.frames.first().map_or(Vec::new(), |first| inverse(&first.factors));
-                effects.push(Effect { frame: 0, at, cause: cause(component), span: 0..0 });
+                let at = spec.frames.first().map_or(Vec::new(), |first| Factor::inverse(&first.factors));
+                effects.push(Effect { frame: 0, is_of_base: true, at, cause: cause(component), span: 0..0 });
             }
         }
         Source { effects, deviations, ..Source::repeatable(self.name(spec)) }
     }
-}
-
-/// Returns the factors of the inverse transform. Matrices are left out; callers do not pass any.
-fn inverse(factors: &[Factor]) -> Vec<Factor> {
-    let back = |amount: &Expression| Expression::from_number(-1.0, Dimension::NONE) * amount.clone();
-    let factors = factors.iter().rev().filter_map(|factor| match factor {
-        Factor::Elementary(Elementary { motion, axis, amount }) => {
-            Some(Factor::Elementary(Elementary { motion: *motion, axis: *axis, amount: back(amount) }))
-        }
-        Factor::About { motion, axis, amount } => {
-            Some(Factor::About { motion: *motion, axis: *axis, amount: back(amount) })
-        }
-        Factor::Matrix(_) => None,
-    });
-    factors.collect()
 }
 
 /// Returns a compliance of 1 µrad per N times the length unit about one axis by the moment about

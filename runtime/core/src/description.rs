@@ -103,6 +103,37 @@ impl Variable {
     }
 }
 
+/// Limits of a weighted sum of joint variables, `Σ wᵢ qᵢ`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SumLimit {
+    /// Sum, as the spec writes it.
+    pub sum: Text,
+    /// Indices of the variables in ascending order, with their weights.
+    pub terms: List<(usize, f64)>,
+    /// Smallest and largest sum, in the length unit or rad; equal where joints move together.
+    pub range: [f64; 2],
+}
+
+impl SumLimit {
+    /// Creates a limit from its fields.
+    pub const fn new(sum: &'static str, terms: &'static [(usize, f64)], range: [f64; 2]) -> Self {
+        Self { sum: Text::Constant(sum), terms: List::Constant(terms), range }
+    }
+
+    /// Returns the sum at joint variables `q`.
+    pub fn value(&self, q: &[f64]) -> f64 {
+        self.terms.iter().map(|(i, weight)| weight * q[*i]).sum()
+    }
+
+    /// Returns `true` if the sum is within its limits, up to rounding.
+    pub fn permits(&self, q: &[f64]) -> bool {
+        let size: f64 = self.terms.iter().map(|(i, weight)| (weight * q[*i]).abs()).sum();
+        let rounding = 1e-9 * (1.0 + size);
+        let value = self.value(q);
+        value >= self.range[0] - rounding && value <= self.range[1] + rounding
+    }
+}
+
 /// Frame `F_i` of the chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
@@ -183,14 +214,28 @@ pub struct Input {
     pub nominal: f64,
     /// Accepted range, infinite where the spec has none.
     pub range: [f64; 2],
+    /// Values that are used, in ascending order; empty if it may have any in its range.
+    pub levels: List<f64>,
     /// Coherent unit. Empty for a pure number or an angle.
     pub unit: Text,
 }
 
 impl Input {
-    /// Creates an input from its fields.
+    /// Creates an input that may have any value in its range from its fields.
     pub const fn new(name: &'static str, nominal: f64, range: [f64; 2], unit: &'static str) -> Self {
-        Self { name: Text::Constant(name), nominal, range, unit: Text::Constant(unit) }
+        Self::at_levels(name, nominal, range, &[], unit)
+    }
+
+    /// Creates an input from its fields.
+    pub const fn at_levels(
+        name: &'static str,
+        nominal: f64,
+        range: [f64; 2],
+        levels: &'static [f64],
+        unit: &'static str,
+    ) -> Self {
+        let (name, levels, unit) = (Text::Constant(name), List::Constant(levels), Text::Constant(unit));
+        Self { name, nominal, range, levels, unit }
     }
 }
 
@@ -382,6 +427,8 @@ pub struct Description {
     pub frames: List<Frame>,
     /// Joint variables `q`, in the order of the frames that declare them.
     pub variables: List<Variable>,
+    /// Limits of sums of joint variables.
+    pub sum_limits: List<SumLimit>,
     /// Structural parameters `s`.
     pub parameters: List<Parameter>,
     /// Inputs `u`.

@@ -10,6 +10,7 @@
 //! #             name: Text::Constant("slide"), title: Text::Constant(""), length: LengthUnit::Metre,
 //! #             orientation: Orientation::RotationVector, frames: List::Constant(&[Frame::new("slide", Some(0))]),
 //! #             variables: List::Constant(&[Variable::new("d", VariableKind::Prismatic, [0.0, 1.0], 0.5)]),
+//! #             sum_limits: List::Constant(&[]),
 //! #             parameters: List::Constant(&[]), inputs: List::Constant(&[]), sources: List::Constant(&[]),
 //! #             effects: List::Constant(&[]), solutions: 0,
 //! #         };

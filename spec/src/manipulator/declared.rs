@@ -32,6 +32,8 @@ pub struct Input {
     pub unit: String,
     /// Lower and upper end of the range; infinite without one.
     pub range: [f64; 2],
+    /// Values that are used, in ascending order; empty for any in the range.
+    pub levels: Vec<f64>,
     /// Standard uncertainty of its value in use, in coherent units; 0 if it is exact.
     pub uncertainty: f64,
     /// Description.

@@ -2,7 +2,7 @@
 
 use super::chain_number::DhConvention;
 use crate::diagnostic::Span;
-use crate::expr::{Elementary, Expression, Motion, Symbol};
+use crate::expr::{Dimension, Elementary, Expression, Motion, Symbol};
 
 /// A frame `F_i` and its transform from the frame that it hangs on: `F_{i-1}`, unless it begins a
 /// branch.
@@ -59,6 +59,30 @@ impl Frame {
 }
 
 impl Factor {
+    /// Returns the factors of the inverse of a product.
+    pub fn inverse(factors: &[Self]) -> Vec<Self> {
+        let minus = |amount: &Expression| Expression::from_number(-1.0, Dimension::NONE) * amount.clone();
+        let inverse = |factor: &Self| match factor {
+            Self::Elementary(one) => {
+                Self::Elementary(Elementary { amount: minus(&one.amount), ..one.clone() })
+            }
+            Self::About { motion, axis, amount } => {
+                Self::About { motion: *motion, axis: *axis, amount: minus(amount) }
+            }
+            Self::Matrix(matrix) => {
+                let Matrix { rows, span } = &**matrix;
+                let row = |i: usize| {
+                    let [a, b, c] = [0, 1, 2].map(|j| rows[j][i].clone());
+                    let moved = [0, 1, 2].map(|j| rows[j][i].clone() * rows[j][3].clone());
+                    let [x, y, z] = moved;
+                    [a, b, c, minus(&(x + y + z))]
+                };
+                Self::Matrix(Box::new(Matrix { rows: [0, 1, 2].map(row), span: span.clone() }))
+            }
+        };
+        factors.iter().rev().map(inverse).collect()
+    }
+
     /// Returns all expressions of the factor.
     pub fn expressions(&self) -> Vec<&Expression> {
         match self {

@@ -113,8 +113,10 @@ impl Source {
 /// Effect of a source on a frame, or on a place on its link.
 #[derive(Clone, Debug)]
 pub struct Effect {
-    /// Index of the frame, from 0.
+    /// Index of the frame, from 0: the first one for an error of `F_0`.
     pub frame: usize,
+    /// Indicates an error of `F_0`, `E_0 A_1 = A_1 (A_1⁻¹ E_0 A_1)`.
+    pub is_of_base: bool,
     /// Pose `L` of the place relative to the frame; empty for the frame itself.
     pub at: Vec<Factor>,
     /// Cause of the error there.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use abbe_core::{LengthUnit, Orientation};
+use abbe_core::{LengthUnit, Orientation, SumLimit};
 use indexmap::IndexSet;
 
 use super::chain_number::ChainNumber;
@@ -41,6 +41,8 @@ pub struct Spec {
     pub variables: Vec<Variable>,
     /// Passive joint variables `p`, which the loops determine.
     pub passive: Vec<Variable>,
+    /// Limits of sums of joint variables.
+    pub sum_limits: Vec<SumLimit>,
     /// `A_1 … A_n`, from base to tip; each after the frame that it hangs on.
     pub frames: Vec<Frame>,
     /// Loops of frames.
@@ -173,7 +175,10 @@ impl Spec {
             ChainNumber::Parameter(parameter) => ("parameter", self.parameters[parameter].name.clone()),
             ChainNumber::DenavitHartenberg { frame: of, .. } => ("dh of", frame(of)),
         };
-        let frames = source.effects.iter().map(|effect| ("frame", frame(effect.frame)));
+        let frames = source.effects.iter().map(|effect| match effect.is_of_base {
+            true => ("frame", "base".to_owned()),
+            false => ("frame", frame(effect.frame)),
+        });
         let inputs = source.propagated.iter().filter_map(|(uncertain, _)| match uncertain {
             Uncertain::Input(input) => Some(("input", self.inputs[*input].name.clone())),
             Uncertain::Identified(_) => None,

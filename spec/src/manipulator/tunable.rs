@@ -41,6 +41,7 @@ impl Spec {
                 dimension: Dimension::NONE,
                 unit: String::new(),
                 range: [f64::NEG_INFINITY, f64::INFINITY],
+                levels: Vec::new(),
                 uncertainty: 0.0,
                 description: format!("{}: factor of this source", source.name),
             });

@@ -22,6 +22,9 @@ pub fn unreachable_reasons(unreachable: &UnreachableSummary, spec: &Spec) -> Vec
         ReachError::OutsideLimits { variable, .. } => {
             format!("{} outside its limits", spec.variables[*variable].name)
         }
+        ReachError::OutsideSumLimit { limit, .. } => {
+            format!("{} outside its limits", spec.sum_limits[*limit].sum)
+        }
         ReachError::Evaluation(error) => error.to_string(),
     };
     unreachable
@@ -48,6 +51,13 @@ pub fn unreachable_reason(unreachable: &Unreachable, spec: &Spec) -> String {
             let show = |value| number::of_variable(value, variable.kind, spec.length);
             let name = &variable.name;
             format!("needs {name} = {}, outside its limits {} … {}", show(value), show(lower), show(upper))
+        }
+        ReachError::OutsideSumLimit { limit, value } => {
+            let limit = &spec.sum_limits[limit];
+            let kind = spec.variables[limit.terms[0].0].kind;
+            let [value, lower, upper] = [value, limit.range[0], limit.range[1]]
+                .map(|value| number::of_variable(value, kind, spec.length));
+            format!("needs {} = {value}, outside its limits {lower} … {upper}", limit.sum)
         }
         ReachError::Evaluation(error) => error.to_string(),
     }

@@ -63,7 +63,7 @@ impl CertifiedNorms {
             })
         };
         let [of_repeatable, of_random] = [0, 1].map(|i| Effort { at_most: limits[i], ..effort });
-        let (of_both, contains_more) = (repeatable && random, !study.region.is_box());
+        let (of_both, contains_more) = (repeatable && random, !study.region.is_box(&domain.spec));
         let repeatable = largest(0, repeatable, of_repeatable);
         let random = largest(1, random, of_random);
         // The sum of both parts is close; a short search finds where they add up.

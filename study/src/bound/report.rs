@@ -303,7 +303,7 @@ impl Report {
             dexterity,
             stiffness,
             spans,
-            contains_more: !study.region.is_box(),
+            contains_more: !study.region.is_box(&spec),
             boxes,
             complete,
             spec,

@@ -1,6 +1,6 @@
 //! Content of a spec, in the order of the file.
 
-use abbe::{Class, VariableKind};
+use abbe::{Class, SumLimit, VariableKind};
 use abbe_codegen::chain::effects;
 use abbe_codegen::program::{Operations, Routines};
 use abbe_interpreter::Interpreter;
@@ -26,6 +26,9 @@ pub struct Facts {
     pub frames: Vec<Frame>,
     /// Joint variables, in the order of the frames.
     pub variables: Vec<Variable>,
+    /// Limits of sums of joint variables; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<Limit>,
     /// Structural parameters.
     pub parameters: Vec<NominalValue>,
     /// Inputs.
@@ -64,6 +67,15 @@ pub struct Variable {
     pub home: f64,
 }
 
+/// Limits of a sum of joint variables, in the length unit or rad.
+#[derive(Clone, Debug, Serialize)]
+pub struct Limit {
+    /// Sum, as the spec writes it.
+    pub sum: String,
+    /// Smallest and largest sum, without the constants in it.
+    pub limits: [f64; 2],
+}
+
 /// Structural parameter or input.
 #[derive(Clone, Debug, Serialize)]
 pub struct NominalValue {
@@ -76,6 +88,9 @@ pub struct NominalValue {
     /// Range of an input, in `unit`, with `None` for a missing end. Parameters have no range.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[Option<f64>; 2]>,
+    /// Values of an input that are used, in `unit`; absent if it may have any in its range.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub levels: Vec<f64>,
 }
 
 /// Error source.
@@ -133,17 +148,20 @@ impl Facts {
             limits: variable.limits.map(finite),
             home: variable.home,
         });
+        let limit = |limit: &SumLimit| Limit { sum: limit.sum.to_string(), limits: limit.range };
         let parameters = spec.parameters.iter().map(|parameter| NominalValue {
             name: parameter.name.clone(),
             nominal: parameter.value,
             unit: parameter.unit.clone(),
             range: None,
+            levels: Vec::new(),
         });
         let inputs = spec.inputs.iter().map(|input| NominalValue {
             name: input.name.clone(),
             nominal: input.value,
             unit: input.unit.clone(),
             range: Some(input.range.map(finite)),
+            levels: input.levels.clone(),
         });
         let all = spec.sources.iter().map(|source| abbe_spec::Source { enabled: true, ..source.clone() });
         let (_, effects) = effects(&Spec { sources: all.collect(), ..Spec::clone(spec) });
@@ -164,6 +182,7 @@ impl Facts {
             orientation: spec.orientation.name(),
             frames: frames.collect(),
             variables: variables.collect(),
+            limits: spec.sum_limits.iter().map(limit).collect(),
             parameters: parameters.collect(),
             inputs: inputs.collect(),
             sources: sources.collect(),

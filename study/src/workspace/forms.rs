@@ -1,5 +1,7 @@
 //! Reads the forms of a workspace.
 
+use std::ops::Range;
+
 use abbe::analysis::{Axis, BaseBox, Presentation, ToolOrientation};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
@@ -7,9 +9,9 @@ use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 
 use super::axis::{Candidates, values};
-use super::choices::ORIENTATIONS;
 use super::constant::{constant, count, whole};
 use super::keys::{self, BESIDE, WORKSPACE};
+use super::orientation::orientations;
 use super::path;
 use super::platform::legs;
 use super::region::{Form, LARGEST, Region, has_range};
@@ -100,8 +102,7 @@ fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opt
     let (approaches, span) = approaches.unwrap_or_default();
     let solved = section.required("solve", document).map(|item| variables.list(&item, document))?;
     if let Some(both) = approaches.iter().find(|axis| solved.contains(&axis.index)) {
-        let message = format!("`{}` cannot be both fixed and solved for", spec.variables[both.index].name);
-        document.mistake(Diagnostic::new(span, message).help("remove it from `approaches` or from `solve`"));
+        document.mistake(held_and_solved(&spec.variables[both.index].name, span));
     }
     Some(Presentation { point: point?, tool_points: tool_points.unwrap_or_default(), approaches, solved })
 }
@@ -121,15 +122,26 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         let item = section.required(axis, document)?;
         values(&item, document, Dimension::LENGTH)
     });
-    let orientation = section
-        .get("orientation")
-        .map_or(Some(ToolOrientation::Free), |item| document.choice(&item, &ORIENTATIONS));
+    let free = Some(vec![ToolOrientation::Free]);
+    let orientations = section.get("orientation").map_or(free, |item| orientations(&item, document));
+    let variables = Candidates::variables(spec);
+    let approaches = section.get("approaches");
+    let held = approaches.as_ref().map_or_else(Vec::new, |item| variables.axes(item, document));
+    let is_held = |i: &usize| held.iter().any(|axis| axis.index == *i);
     let solved = match section.get("solve") {
-        Some(item) => Candidates::variables(spec).list(&item, document),
-        None => (0..spec.variables.len()).collect(),
+        Some(item) => variables.list(&item, document),
+        None => (0..spec.variables.len()).filter(|i| !is_held(i)).collect(),
     };
+    if let (Some(both), Some(item)) = (solved.iter().find(|i| is_held(i)), approaches) {
+        document.mistake(held_and_solved(&spec.variables[*both].name, item.span()));
+    }
     let [x, y, z] = points;
-    Some(BaseBox { points: [x?, y?, z?], orientation: orientation?, solved })
+    Some(BaseBox { points: [x?, y?, z?], orientations: orientations?, approaches: held, solved })
+}
+
+fn held_and_solved(name: &str, span: Range<usize>) -> Diagnostic {
+    Diagnostic::new(span, format!("`{name}` cannot be both fixed and solved for"))
+        .help("remove it from `approaches` or from `solve`")
 }
 
 /// Reads `[workspace.joints]` or `[workspace.random]`: samples within the limits. All variables

@@ -7,6 +7,7 @@ use super::choices::ORIENTATIONS;
 
 const NUMBER: Value = Number("number");
 const VARIABLES: Value = List("names of variables", None, &Text("name"));
+const ORIENTED: Value = Either("", &[Choice(|| words(&ORIENTATIONS)), Table("[workspace.box.orientation]")]);
 /// Values of an axis of a grid.
 pub const AXIS: Value =
     Either("values, as in a grid", &[List("numbers", None, &NUMBER), Table("[workspace.grid.NAME]")]);
@@ -45,8 +46,17 @@ abbe_spec::tables! {
         "x": AXIS, "length unit", "required", "Coordinates of the points along x of `F_0`";
         "y": AXIS, "length unit", "required", "Coordinates of the points along y of `F_0`";
         "z": AXIS, "length unit", "required", "Coordinates of the points along z of `F_0`";
-        "orientation": Choice(|| words(&ORIENTATIONS)), "-", "`\"free\"`", "Orientation of the tool: any, or that at home";
+        "orientation": Either("one orientation, or a list of them", &[ORIENTED, List("orientations", None, &ORIENTED)]), "-", "`\"free\"`",
+            "Orientation of the tool at each point: any; that at home; with its z axis down or up, along z of `F_0`, about which it may turn; or as the table says. Each point is reached in each of several";
+        "approaches": Names("table of `VARIABLE = values`", &AXIS), "length unit or rad", "home",
+            "Values of variables that are held, such as those of a table: each point is reached at each combination";
         "solve": VARIABLES, "-", "all", "Variables that are solved so that the tool reaches the points; the others stay at their home values";
+    ]
+    ORIENTATION: ["[workspace.box.orientation]"], [
+        "x": List("three numbers", Some(3), &NUMBER), "1", "one or two of these, or `quaternion`", "Direction of the x axis of the tool in `F_0`; the tool may turn about a single axis";
+        "y": List("three numbers", Some(3), &NUMBER), "1", "as `x`", "Direction of the y axis of the tool in `F_0`";
+        "z": List("three numbers", Some(3), &NUMBER), "1", "as `x`", "Direction of the z axis of the tool in `F_0`";
+        "quaternion": List("four numbers", Some(4), &NUMBER), "1", "instead of the axes", "Rotation from the axes of `F_0` to those of the tool: w, x, y, z";
     ]
     PATH: ["[workspace.path]"], [
         "file": Text("path, from the folder of the study"), "-", "required",

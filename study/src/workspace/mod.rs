@@ -9,6 +9,7 @@ mod choices;
 mod constant;
 mod forms;
 mod keys;
+mod orientation;
 mod path;
 mod platform;
 mod region;

@@ -1,12 +1,13 @@
 //! Workspace of a study.
 
 use abbe::analysis::{
-    Axis, BaseBox, Configuration, JointSamples, Legs, Presentation, ToolOrientation, Workspace, base_box,
-    joint_grid, joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
+    Axis, BaseBox, Configuration, JointSamples, Legs, Presentation, Workspace, base_box, joint_grid,
+    joint_samples, listed, platform_grid, presented_volume, random_joint_samples, with_inputs,
 };
 use abbe::{Error, Manipulator};
 use abbe_spec::{Input, Spec};
 
+use super::orientation::describe;
 use super::path::Path;
 use crate::number;
 
@@ -123,7 +124,10 @@ impl Region {
                 tool_points.iter().chain(approaches).map(|axis| axis.values.len()).collect()
             }
             Form::Grid(axes) | Form::Platform(axes, _) => axes.iter().map(|axis| axis.values.len()).collect(),
-            Form::Box(region) => region.points.iter().map(Vec::len).collect(),
+            Form::Box(BaseBox { points, orientations, approaches, .. }) => {
+                let held = approaches.iter().map(|axis| axis.values.len());
+                points.iter().map(Vec::len).chain([orientations.len()]).chain(held).collect()
+            }
             Form::Samples { count, .. } => vec![*count],
             Form::Path(path) => vec![path.configurations.len()],
             Form::One(_) => Vec::new(),
@@ -226,14 +230,14 @@ impl Region {
                 let moved = names(moved.iter().map(variable).chain(inputs));
                 format!("{count} {random}samples of {moved} within their limits")
             }
-            Form::Box(BaseBox { points, orientation, solved }) => {
+            Form::Box(BaseBox { points, orientations, approaches, solved }) => {
                 let [x, y, z] = points.each_ref().map(Vec::len);
-                let turned = match orientation {
-                    ToolOrientation::Free => "in any orientation",
-                    ToolOrientation::Home => "in the home orientation",
-                };
-                let solved = names(solved.iter().map(variable));
-                format!("box of {x} × {y} × {z} points in F_0, each reached {turned} by {solved}")
+                let (turned, solved) = (describe(orientations), names(solved.iter().map(variable)));
+                let held = approaches
+                    .iter()
+                    .map(|axis| format!(" at each of {} {}", axis.values.len(), variable(&axis.index)));
+                let held: String = held.collect();
+                format!("box of {x} × {y} × {z} points in F_0, each reached {turned}{held} by {solved}")
             }
             Form::Path(path) => {
                 format!("{} configurations from {}", path.configurations.len(), path.file)
@@ -249,10 +253,11 @@ pub fn has_range(input: &Input) -> bool {
     lower.is_finite() && upper.is_finite() && lower < upper
 }
 
-/// Returns both ends of an input's range as an axis, if it has a range.
+/// Returns the levels of an input, or both ends of its range, as an axis, if it has any.
 fn ends(index: usize, spec: &Spec) -> Option<Axis> {
     let input = &spec.inputs[index];
-    has_range(input).then(|| Axis { index, values: input.range.to_vec() })
+    let values = if input.levels.is_empty() { input.range.to_vec() } else { input.levels.clone() };
+    has_range(input).then_some(Axis { index, values })
 }
 
 /// Formats an axis as `payload = 0 kg and 5 kg`, or `payload = 0 kg … 5 kg (11 values)`.

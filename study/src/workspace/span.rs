@@ -63,7 +63,9 @@ impl Region {
             }
             Form::Grid(axes) => axes.iter().map(over(Symbol::Variable)).collect(),
             Form::Samples { moved, .. } => moved.iter().map(limits).collect(),
-            Form::Box(BaseBox { solved, .. }) => reached(solved),
+            Form::Box(BaseBox { approaches, solved, .. }) => {
+                approaches.iter().map(over(Symbol::Variable)).chain(reached(solved)).collect()
+            }
             Form::Platform(..) => reached(&(0..spec.variables.len()).collect::<Vec<_>>()),
             Form::Path(path) => path.columns().map(|(symbol, values)| hull(symbol, &values)).collect(),
             Form::One(q) => {
@@ -71,6 +73,16 @@ impl Region {
                 q.iter().enumerate().map(joint).collect()
             }
         };
+        let fixed = spec.sum_limits.iter().filter(|limit| limit.range[0] == limit.range[1]);
+        let of_sums = fixed.flat_map(|limit| limit.terms.iter().map(|(variable, _)| *variable));
+        let is_known = |i: &usize| spans.iter().any(|span| span.symbol == Symbol::Variable(*i));
+        // Joints that follow others move, too.
+        let mut followers: Vec<usize> = of_sums.filter(|i| !is_known(i)).collect();
+        followers.sort_unstable();
+        followers.dedup();
+        if !followers.is_empty() {
+            spans.extend(reached(&followers));
+        }
         spans.extend(self.inputs.iter().map(over(Symbol::Input)));
         let sampled = self.sampled_inputs.iter();
         spans.extend(sampled.map(|i| Span { symbol: Symbol::Input(*i), range: spec.inputs[*i].range }));
@@ -104,8 +116,9 @@ impl Region {
 
     /// Returns true if the workspace fills its box: every value of the box is in the workspace, or
     /// between two values of it.
-    pub fn is_box(&self) -> bool {
-        matches!(self.form, Form::Grid(_) | Form::Samples { .. } | Form::One(_))
+    pub fn is_box(&self, spec: &Spec) -> bool {
+        let is_filled = matches!(self.form, Form::Grid(_) | Form::Samples { .. } | Form::One(_));
+        is_filled && spec.sum_limits.is_empty() && spec.inputs.iter().all(|input| input.levels.is_empty())
     }
 }
 

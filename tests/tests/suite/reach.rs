@@ -51,7 +51,7 @@ fn shipped_manipulators_reach_the_poses_of_their_samples() {
 }
 
 /// Returns a spec of revolute and prismatic joints in general position.
-fn random_spec(seed: usize) -> String {
+pub(super) fn random_spec(seed: usize) -> String {
     let number = |i: usize, j: usize| 2.0 * halton(1 + 31 * seed + i, j) - 1.0;
     let mut text = "[manipulator]\nname = \"any\"\nlength = \"m\"\n".to_owned();
     for i in 0..5 + seed % 3 {
@@ -83,4 +83,35 @@ fn random_chains_reach_the_points_of_their_samples() {
         reached_poses += poses;
     }
     assert!(reached_poses >= 390, "{reached_poses} of 400");
+}
+
+/// Checks that the tool point is reached with one axis of the tool in a direction, in each
+/// convention of angles.
+#[test]
+fn random_chains_reach_directions_of_their_tools() {
+    let mut reached = 0;
+    for seed in 0..24 {
+        let convention = ["rotation-vector", "euler-yzx", "iec-61217"][seed % 3];
+        let head = format!("length = \"m\"\norientation = \"{convention}\"\n");
+        let text = random_spec(seed).replacen("length = \"m\"\n", &head, 1);
+        let manipulator = Interpreter::new(Spec::parse("any.toml", &text).expect("a spec"));
+        let description = manipulator.description();
+        let (s, start) = (nominal_parameters(description), home(description));
+        let arm = arm_length(&manipulator, &s).expect("an arm");
+        let all: Vec<usize> = (0..start.len()).collect();
+        for index in 0..10 {
+            let q = joint_sample(description, arm, &all, 1000 + 7 * index);
+            let pose = manipulator.pose(&q, &s).expect("a pose");
+            let (axis, point) = (index % 3, pose.position());
+            let target = Target::Axis { point, axis, direction: pose.0[axis] };
+            let Ok(found) = inverse(&manipulator, &s, &start, &all, &target) else { continue };
+            let there = manipulator.pose(&found, &s).expect("a pose");
+            let difference =
+                |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max);
+            assert!(difference(there.position(), point) < 1e-9 * arm, "{seed} {index}");
+            assert!(difference(there.0[axis], pose.0[axis]) < 1e-9, "{seed} {index}");
+            reached += 1;
+        }
+    }
+    assert!(reached >= 235, "{reached} of 240");
 }

@@ -104,6 +104,7 @@ impl RealNodes {
             source: 0,
             frame,
             place: None,
+            of_base: None,
             errors: *errors,
         };
         let errors = errors.iter().enumerate().map(placed).collect();

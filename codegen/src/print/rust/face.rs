@@ -110,6 +110,12 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     list("frames", frames.collect());
     let variables = spec.variables.iter().map(|one| ("Variable::new", variable(entries + 4, one)));
     list("variables", variables.collect());
+    let sums = spec.sum_limits.iter().map(|limit| {
+        let terms = limit.terms.iter().map(|(i, weight)| format!("({i}, {})", number(*weight)));
+        let terms = array(entries + 4, "&", &terms.collect::<Vec<_>>(), "");
+        ("SumLimit::new", vec![quoted(&limit.sum), terms, interval(entries + 4, limit.range)])
+    });
+    list("sum_limits", sums.collect());
     let parameters = spec.parameters.iter().map(|parameter| {
         let value = number(parameter.value);
         ("Parameter::new", vec![quoted(&parameter.name), value, quoted(&parameter.unit)])
@@ -117,7 +123,13 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, model: &Model) {
     list("parameters", parameters.collect());
     let inputs = spec.inputs.iter().map(|input| {
         let (value, range) = (number(input.value), interval(entries + 4, input.range));
-        ("Input::new", vec![quoted(&input.name), value, range, quoted(&input.unit)])
+        let mut fields = vec![quoted(&input.name), value, range, quoted(&input.unit)];
+        if input.levels.is_empty() {
+            return ("Input::new", fields);
+        }
+        let levels: Vec<String> = input.levels.iter().map(|level| number(*level)).collect();
+        fields.insert(3, array(entries + 4, "&", &levels, ""));
+        ("Input::at_levels", fields)
     });
     list("inputs", inputs.collect());
     let sources = spec.enabled_sources().map(|source| {

@@ -96,6 +96,9 @@ fn used_types(spec: &Spec, model: &Model) -> Vec<&'static str> {
     if !spec.variables.is_empty() || !spec.passive.is_empty() {
         names.extend(["Variable", "VariableKind"]);
     }
+    if !spec.sum_limits.is_empty() {
+        names.push("SumLimit");
+    }
     if !spec.parameters.is_empty() {
         names.push("Parameter");
     }

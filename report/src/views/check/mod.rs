@@ -4,7 +4,7 @@ mod chain;
 mod joint;
 mod tree;
 
-use abbe_spec::{Frame, Spec};
+use abbe_spec::{Frame, Spec, Variable};
 use abbe_study::check::{Identifiable, Law, Report};
 use abbe_study::number::{self, counted, quantity, short};
 
@@ -79,10 +79,17 @@ fn joints(spec: &Spec) -> Table {
         };
         [variable.name.clone(), kind, limits, home, moved]
     });
+    let sums = spec.sum_limits.iter().map(|limit| {
+        let home: Vec<f64> = spec.variables.iter().map(|variable| variable.home).collect();
+        let of_kind = &spec.variables[limit.terms[0].0];
+        let sum = Variable { limits: limit.range, home: limit.value(&home), ..of_kind.clone() };
+        let [_, limits, home] = joint(&sum, spec.length);
+        [limit.sum.to_string(), "sum".to_owned(), limits, home, String::new()]
+    });
     let columns = ["joint", "kind", "limits", "home", "moves"].map(words);
     let all = spec.variables.len();
     let shown = if all > JOINTS { JOINTS - 1 } else { all };
-    let mut table = Table::new("", columns).rows(rows.take(shown));
+    let mut table = Table::new("", columns).rows(rows.take(shown).chain(sums));
     if shown < all {
         table.rest = format!("… and {} more", all - shown);
     }
@@ -174,7 +181,14 @@ fn parameters(spec: &Spec) -> Table {
 fn inputs(spec: &Spec) -> Table {
     let rows = spec.inputs.iter().map(|u| {
         let [lower, upper] = u.range.map(short);
-        let range = format!("{lower} … {upper} {}", u.unit);
+        let range = match &u.levels[..] {
+            [] => format!("{lower} … {upper} {}", u.unit),
+            levels => format!(
+                "{} {}",
+                levels.iter().map(|level| short(*level)).collect::<Vec<_>>().join(", "),
+                u.unit
+            ),
+        };
         [u.name.clone(), quantity(u.value, &u.unit), range, u.description.clone()]
     });
     Table::new("", ["name", "nominal", "range", "what"].map(words)).rows(rows)

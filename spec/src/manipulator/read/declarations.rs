@@ -63,15 +63,17 @@ impl Declarations {
             let (value, table) = self.valued(&item, &keys::INPUT, "input", document);
             let symbol = Symbol::Input(self.inputs.len());
             self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
-            let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+            let (mut range, mut levels) = ([f64::NEG_INFINITY, f64::INFINITY], Vec::new());
             if let (Some((value, dimension)), Some(table)) = (value, &table)
-                && let Some(entry) = table.get("range")
-                && let Some(read) = self.interval(&entry, dimension, document)
+                && let Some((entry, read)) = self.values_of_input(table, dimension, document)
             {
-                range = read;
+                range = [read[0], read[read.len() - 1]];
+                if entry.key == "levels" {
+                    levels = read;
+                }
                 if !(range[0]..=range[1]).contains(&value) {
-                    let message = format!("the value of `{}` is outside its range", item.key);
-                    let help = "widen the range or change the value";
+                    let message = format!("the value of `{}` is outside its {}", item.key, entry.key);
+                    let help = format!("widen the {} or change the value", entry.key);
                     let mistake = Diagnostic::new(entry.span(), message);
                     document.mistake(mistake.label(format!("the value is {value}")).help(help));
                 }
@@ -85,7 +87,38 @@ impl Declarations {
             let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
             let unit = dimension.unit(self.scope.length.symbol());
             let name = item.key;
-            self.inputs.push(Input { name, value, dimension, unit, range, uncertainty, description });
+            self.inputs.push(Input { name, value, dimension, unit, range, levels, uncertainty, description });
+        }
+    }
+
+    /// Reads the `range` of an input, or its `levels`, in ascending order; `None` without them.
+    fn values_of_input<'d>(
+        &self,
+        table: &Section<'d>,
+        dimension: Dimension,
+        document: &mut Document,
+    ) -> Option<(Item<'d>, Vec<f64>)> {
+        match (table.get("range"), table.get("levels")) {
+            (Some(item), None) => {
+                let range = self.interval(&item, dimension, document)?;
+                Some((item, range.to_vec()))
+            }
+            (None, Some(item)) => {
+                let entry = Entry { dimension: Some(dimension), what: "a level", names: Allowed::Nothing };
+                let items = document.array(&item, "a list of values")?;
+                let levels = items.iter().map(|one| document.constant(one, &self.scope, entry));
+                let mut levels: Vec<f64> = levels.map(|read| Some(read?.0)).collect::<Option<_>>()?;
+                levels.sort_by(f64::total_cmp);
+                if levels.is_empty() {
+                    return document.refuse(item.span(), "`levels` has no values", "give at least one value");
+                }
+                Some((item, levels))
+            }
+            (Some(_), Some(item)) => {
+                let mistake = Diagnostic::new(item.key_span, "`range` and `levels` cannot be combined");
+                document.fail(mistake.help("remove the range: it is that of the levels"))
+            }
+            (None, None) => None,
         }
     }
 

@@ -5,16 +5,17 @@ use abbe_core::Component;
 
 use super::elastic::{read_beam, read_compliance};
 use super::keys;
+use super::named::BASE;
 use crate::degrees::check_error_of_angle;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
-use crate::manipulator::{Cause, Effect, Factor, Frame};
+use crate::manipulator::{Cause, Effect, Factor, Frame, Tree};
 
 /// Reads the effect of a source, or of one of its `[[source.effect]]` tables.
 pub(super) fn read_effect(
     section: &Section<'_>,
-    frames: &[Frame],
+    tree: Tree<'_>,
     scope: &Scope,
     document: &mut Document,
 ) -> Option<Effect> {
@@ -34,14 +35,30 @@ pub(super) fn read_effect(
         let mistake = Diagnostic::new(other.key_span.clone(), message).label("one too many");
         return document.fail(mistake.context(one.key_span.clone(), "the other one").help(help));
     }
-    let frame = section.required("frame", document).and_then(|item| find_frame(&item, frames, document));
+    let (frame, base) = place(&section.required("frame", document)?, tree, document)?;
     let at = section.get("at").map_or(Some(Vec::new()), |item| read_place(&item, scope, document));
     let cause = match first.key.as_str() {
         "beam" => read_beam(first, scope, document).map(Cause::Beam),
         "compliance" => read_compliance(first, scope, document).map(|read| Cause::Compliance(Box::new(read))),
         _ => read_errors(section, scope, document).map(Cause::Errors),
     };
-    Some(Effect { frame: frame?, at: at?, cause: cause?, span: first.key_span.clone() })
+    let is_of_base = base.is_some();
+    let at = base.into_iter().flatten().chain(at?).collect();
+    Some(Effect { frame, is_of_base, at, cause: cause?, span: first.key_span.clone() })
+}
+
+/// Returns the index of the frame that an item names; with the inverse of its transform if that is
+/// `F_0`, whose errors are those of the first frame at another place.
+fn place(item: &Item<'_>, tree: Tree<'_>, document: &mut Document) -> Option<(usize, Option<Vec<Factor>>)> {
+    let is_base = document.string(item)? == BASE && tree.frames.iter().all(|frame| frame.name != BASE);
+    if !is_base {
+        return find_frame(item, tree.frames, document).map(|frame| (frame, None));
+    }
+    if !tree.loops.is_empty() || tree.frames.iter().skip(1).any(|frame| frame.parent.is_none()) {
+        let help = "add a first [[frame]] with `transform = \"Tx(0)\"`, on which the others hang, and give it the errors";
+        return document.refuse(item.span(), "several frames hang on the base, or loops end there", help);
+    }
+    Some((0, Some(Factor::inverse(&tree.frames.first()?.factors))))
 }
 
 /// Returns the index of the frame that an item names.

@@ -26,6 +26,7 @@ crate::tables! {
         "tables": Names("table", &Table("[tables.NAME]")), "-", "none", "Functions given by measured points";
         "frame": Tables("[[frame]]"), "-", "required", "Transforms `A_1 … A_n`, from the base to the tip";
         "loop": Tables("[[loop]]"), "-", "none", "Conditions that frames of different branches meet: closed loops";
+        "limit": Tables("[[limit]]"), "-", "none", "Limits of sums and differences of joint variables, beside the limits of each";
         "tool": Table("[tool]"), "-", "no tool: the tool point is the origin of `F_n`",
             "Transform from `F_n` to the tool point";
         "source": Tables("[[source]]"), "-", "none", "Physical errors of the machine";
@@ -58,6 +59,7 @@ crate::tables! {
     INPUT: ["[inputs.NAME]"], [
         "value": NUMBER, "length unit, rad or 1; others must be written", "required", "Nominal value";
         "range": List("two numbers", Some(2), &NUMBER), "as `value`", "no limits", "Lower and upper limit";
+        "levels": List("numbers", None, &NUMBER), "as `value`", "any value in the range", "Values that are used, such as payloads of 0 and 8 kg: studies and plans take no others";
         "uncertainty": Number("number, positive"), "as `value`", "none: the value is exact",
             "Standard uncertainty of the value in use, such as that of a load cell: a normal random source named `uncertainty of NAME`";
         "description": Text("text"), "-", "empty", "Description of the input, for people";
@@ -121,6 +123,11 @@ crate::tables! {
     FRAME_VARIABLE: ["[frame.variable]"], [
         "passive": Boolean, "-", "`false`", "`true` for a joint without a drive, which the loops determine";
     ]
+    LIMIT: ["[[limit]]"], [
+        "sum": EXPRESSION, "length unit or rad", "required", "Sum or difference of joint variables, such as `a2 + a3`, each with a constant factor or without";
+        "limits": List("two numbers", Some(2), &NUMBER), "length unit or rad", "one of the two", "Smallest and largest sum that the machine permits";
+        "equals": NUMBER, "length unit or rad", "one of the two", "Value of the sum, where joints move together";
+    ]
     LOOP: ["[[loop]]"], [
         "name": Text("text in one line"), "-", "required", "Name of the loop; must be unique";
         "frames": List("two names of frames", Some(2), &Text("name of a frame, or `base`")), "-", "required",
@@ -164,7 +171,7 @@ crate::tables! {
             "Effects on several frames; those of a random source share one random number";
     ]
     PLACE: ["[[source]]", "[[source.effect]]"], [
-        "frame": Text("name of a frame"), "-", "required without `joint` and `parameter`", "Frame that has the error";
+        "frame": Text("name of a frame"), "-", "required without `joint` and `parameter`", "Frame that has the error; `\"base\"` is `F_0`, unless a frame has this name";
         "at": Text("product of motions in one text"), "length unit or rad", "at the frame itself",
             "Location of the error on the link, as a transform from the frame; the error is in the axes of that location";
     ]

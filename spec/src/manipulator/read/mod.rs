@@ -29,5 +29,6 @@ mod rigid;
 mod samples;
 mod sources;
 mod spec;
+mod sum_limits;
 mod tables;
 mod undetermined;

@@ -5,7 +5,7 @@ use crate::document::{Document, Item};
 use crate::value::find_name;
 
 /// Name of `F_0` where a frame is named.
-const BASE: &str = "base";
+pub(super) const BASE: &str = "base";
 
 /// Name of a frame and its location.
 pub(super) type Named<'a> = (&'a str, Span);

@@ -163,7 +163,7 @@ impl Acts {
         if section.items().any(|item| keys::DEVIATION.contain(&item.key)) {
             self.deviations.extend(read_deviations(section, chain, document).unwrap_or_default());
         } else {
-            self.effects.extend(read_effect(section, chain.tree.frames, chain.scope, document));
+            self.effects.extend(read_effect(section, chain.tree, chain.scope, document));
         }
     }
 }

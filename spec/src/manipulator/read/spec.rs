@@ -22,6 +22,7 @@ use super::positive::check_signs;
 use super::rigid::check_rigid;
 use super::samples::depends;
 use super::sources::{input_uncertainties, read_sources};
+use super::sum_limits::read_sum_limits;
 use super::undetermined::read_undetermined;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
@@ -130,6 +131,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     if is_known {
         check_sources_in_loops(tree, tool.as_deref().unwrap_or_default(), &sources, &declarations, document);
     }
+    let sum_limits = read_sum_limits(root, &declarations, document);
     let loads = read_loads(root, tree, &declarations.scope, document);
     let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
     let gravity = match &gravity_item {
@@ -163,6 +165,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         inputs,
         variables,
         passive,
+        sum_limits,
         frames,
         loops,
         tool_frame,

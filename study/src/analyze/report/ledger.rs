@@ -26,12 +26,13 @@ pub struct LedgerEntry {
     /// Root mean square of the norm over the configurations; `None` for the worst case.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rms: Option<f64>,
-    /// Largest norm as a share of the tolerance, which the source alone would use up at one over this
-    /// factor; `None` without a tolerance.
+    /// Largest norm as a share of the tolerance, which the source alone would use up at one over
+    /// this factor; `None` without a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share_of_tolerance: Option<f64>,
-    /// Share of the source in the judged error at the configuration of the verdict, of which a source
-    /// that is 1 % smaller takes 1 % away: negative if it counteracts the others; `None` for sums.
+    /// Share of the source in the judged error at the configuration of the verdict, of which a
+    /// source that is 1 % smaller takes 1 % away: negative if it counteracts the others; `None` for
+    /// sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
     /// Class of the source; `None` for sums.

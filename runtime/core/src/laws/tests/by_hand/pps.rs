@@ -74,6 +74,7 @@ static DESCRIPTION: Description = Description {
         variable("q5", VariableKind::Revolute, [-TILT, TILT], 0.0),
         variable("q6", VariableKind::Revolute, [-TILT, TILT], 0.0),
     ]),
+    sum_limits: List::Constant(&[]),
     parameters: List::Constant(&PARAMETERS),
     inputs: List::Constant(&[]),
     sources: List::Constant(&[

@@ -68,6 +68,7 @@ static DESCRIPTION: Description = Description {
     orientation: Orientation::RotationVector,
     frames: List::Constant(&FRAMES),
     variables: List::Constant(&VARIABLES),
+    sum_limits: List::Constant(&[]),
     parameters: List::Constant(&[Parameter::new("x", 0.1, "m"), Parameter::new("z", 0.2, "m")]),
     inputs: List::Constant(&[]),
     sources: List::Constant(&[]),
