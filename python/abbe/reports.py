@@ -630,9 +630,6 @@ class CombinedReport(Fields):
     ellipsoid: LongestEllipsoid
     """Longest of the 95 % ellipsoids."""
 
-    enclosing_sphere: Sphere
-    """Smallest sphere that encloses the repeatable errors of all configurations."""
-
 
 class Compared(Fields):
     """Position errors of a set of rows."""
@@ -1868,6 +1865,12 @@ class LedgerEntry(Fields):
     smaller takes 1 % away: negative if it counteracts the others; None for sums.
     """
 
+    factor: float | None = None
+    """Factor with which, and with those of all other sources, the study keeps its tolerances; and with all smaller
+    ones. None for sums, and if the study keeps them, is not judged as built by the worst case or the root sum of
+    squares, or has more than 20,000 configurations.
+    """
+
     rank: int | None = None
     """Rank of the source by its largest norm, 1 for the largest; None for sums."""
 
@@ -2416,7 +2419,7 @@ class OrientationSource(Fields):
     """Largest absolute error. Random sources count at their bounds."""
 
     half_peak_to_peak: Figures
-    """Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere."""
+    """Half of the peak-to-peak variation; of the norm, the norm of these halves."""
 
     relative_to_home: Figures | None = None
     """Largest difference from the error at home; None if the rows are singular at home."""
@@ -3146,8 +3149,8 @@ class SourceReport(Fields):
     """Largest absolute error."""
 
     half_peak_to_peak: Figures
-    """Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere. For a random source, its
-    largest bound.
+    """Half of the peak-to-peak variation; of the norm, the norm of these halves. For a random source, its largest
+    bound.
     """
 
     relative_to_home: Figures
@@ -3197,28 +3200,6 @@ class SourceUncertainty(Fields):
 
     share: float
     """Share of the variance of the norm, from 0 to 1."""
-
-
-class Sphere(Fields):
-    """Sphere around all points of a cloud, in the length unit."""
-
-    centre: list[float]
-    """Center.
-
-    Unit: length unit.
-    """
-
-    radius: float
-    """Radius.
-
-    Unit: length unit.
-    """
-
-    excess: float
-    """Upper bound of the excess over the radius of the smallest sphere. 0 if this is the smallest.
-
-    Unit: length unit.
-    """
 
 
 class StepResidual(Fields):

@@ -5,8 +5,8 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe::analysis::Sweepable;
-use abbe::{Class, Distribution};
+use abbe::analysis::{Sweepable, Unevaluated, Workspace};
+use abbe::{Class, Description, Distribution};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{MECHANISMS, SHIPPED, Shipped};
 use abbe_spec::diagnostic::Diagnostics;
@@ -18,8 +18,8 @@ use abbe_spec::{Factor, Magnitude, Source, Spec};
 use crate::calibration::{calibration_errors, has_magnitude, is_measured, tool_in_last_frame};
 use crate::changes::Changes;
 use crate::mistake;
-use crate::named;
 use crate::table_paths::with_table_paths;
+use crate::{named, number};
 
 /// Spec of a manipulator, with its generated code and study if it is a shipped one.
 #[derive(Clone)]
@@ -43,6 +43,20 @@ pub struct Machine {
 }
 
 impl Machine {
+    /// Returns the diagnostic for a configuration of a workspace without finite errors.
+    pub(crate) fn not_evaluated(
+        &self,
+        workspace: &dyn Workspace,
+        refused: &Unevaluated,
+        description: &Description,
+    ) -> Diagnostics {
+        let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
+            Some(configuration) => number::configuration(&configuration, workspace.home(), &self.spec),
+            None => "home".to_owned(),
+        };
+        mistake::not_evaluated(&self.origin, &at, &refused.error, description)
+    }
+
     /// Reads the spec that an argument names: a file if it exists or looks like a path, else a
     /// shipped name.
     pub fn find(argument: impl AsRef<OsStr>) -> Result<Self, Diagnostics> {

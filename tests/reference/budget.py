@@ -3,7 +3,6 @@
 import math
 
 from kinematics import Configuration, exact_position
-from sphere import enclosing
 from uncertainty import DEVIATION, Uncertainty, norm
 
 # What the first-order bound of a random source is: its half-width, or three standard deviations.
@@ -44,7 +43,7 @@ class Sweep:
         halves = {axis: half_spread([p[i] for p in spread]) for i, axis in enumerate("xyz")}
         return {
             "plain_max": per_axis(points),
-            "half_peak_to_peak": {**halves, "norm": enclosing(spread)[1]},
+            "half_peak_to_peak": {**halves, "norm": norm(list(halves.values())) if source.repeatable else max(map(norm, points))},
             "relative_to_home": per_axis([[a - b for a, b in zip(p, h)] for p in points for h in homes]),
         }
 
@@ -81,10 +80,6 @@ class Sweep:
             "worst_case": largest_entries(worst),
             "worst_case_radius": max(self.uncertainty(row, first).worst_case() for row in self.moves),
         }
-
-    def enclosing_sphere(self):
-        """Around the repeatable errors of all configurations: centre and radius."""
-        return enclosing([self.sums(row)[0] for row in self.moves])
 
     def largest_remainder(self):
         """What first order leaves on the exact chain at most: of all sources, the random ones at their bounds with signs that add."""

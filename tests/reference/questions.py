@@ -50,10 +50,6 @@ def budget(comparison, place, sweep, report):
     combined = sweep.combined()
     alone(comparison, place, sweep, 0, report["sources"], combined["radius"])
     comparison.numbers(f"{place}.combined", combined, report["combined"], combined["radius"])
-    sphere = report["combined"]["enclosing_sphere"]
-    _, radius = sweep.enclosing_sphere()
-    within = min(max(radius, sphere["radius"]), sphere["radius"] + sphere["excess"])
-    comparison.numbers(f"{place}.sphere", radius, within, combined["radius"])
     exact = report["first_order"]["largest_difference"]
     comparison.numbers(f"{place}.first_order", sweep.largest_remainder(), exact, combined["radius"])
     turned = sweep.combined(3)

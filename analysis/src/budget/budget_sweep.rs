@@ -11,7 +11,7 @@ use abbe_core::lanes::{InstructionSet, Kernel, Register, Sweepable};
 use abbe_core::{Class, Source};
 use abbe_kinematics::One;
 
-/// Smallest and largest number of configurations from which the error sphere and ellipsoid are
+/// Smallest and largest number of configurations from which the ellipsoid is
 /// initialized, about one of 256.
 const SCATTERED: [usize; 2] = [512, 8192];
 /// Smallest number of chunks of a large workspace, and largest number of blocks of a chunk.
@@ -85,7 +85,7 @@ impl<'a> BudgetSweep<'a> {
         }
         // If one of these cannot be evaluated, the sweep over all of them reports it.
         let known = &manipulator.description().sources;
-        let mut sample = Measurand::ALL.map(|measurand| SampleErrors::new(measurand, known));
+        let mut sample = Measurand::ALL.map(|measurand| SampleErrors::new(measurand));
         let count = (workspace.len() / 256).clamp(SCATTERED[0], SCATTERED[1]);
         let _ = sweep(manipulator, &Subset { workspace, count }, &mut |row| {
             sample.iter_mut().for_each(|sample| sample.add(known, row));
@@ -97,8 +97,8 @@ impl<'a> BudgetSweep<'a> {
         Ok(Self {
             manipulator,
             workspace,
-            position: first.finish(workspace.len(), known, &home, options.tolerances[0]),
-            orientation: second.finish(workspace.len(), known, &home, options.tolerances[1]),
+            position: first.finish(known, &home, options.tolerances[0]),
+            orientation: second.finish(known, &home, options.tolerances[1]),
             classes,
             oriented_at_home,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,

@@ -1,8 +1,6 @@
 //! Combined errors of all sources over the workspace.
 
 use super::Ellipsoid;
-use super::enclosing_sphere::Sphere;
-use super::outline::{self, Outline, View};
 use super::over_signs::OverSignsAccumulator;
 use super::peak::{self, Peak};
 use super::sums::Sums;
@@ -65,17 +63,14 @@ pub struct Combined {
     pub worst_case_radius: Extreme,
     /// 95 % ellipsoid at the configuration with the largest standard deviation in any direction.
     pub ellipsoid: Ellipsoid,
-    /// Smallest sphere around the position errors Σ repeatable of all configurations.
-    pub enclosing: Sphere,
 }
 
 /// Relative difference below which largest eigenvalues count as equal.
 const ALIKE: f64 = 1e-9;
 
 impl Combined {
-    /// Merges the figures of other configurations, except for the spheres, which
-    /// [`PartialCombined`] holds.
-    fn merge(&mut self, other: &Self) {
+    /// Merges the figures of other configurations, except for the root mean squares.
+    pub(super) fn merge(&mut self, other: &Self) {
         for (here, other) in [
             (&mut self.repeatable_radius, &other.repeatable_radius),
             (&mut self.random_radius, &other.random_radius),
@@ -101,56 +96,18 @@ impl Combined {
     }
 }
 
-/// Partial result over some configurations: [`Combined`] before the final steps.
-#[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct PartialCombined {
-    combined: Combined,
-    outline: Outline,
-}
-
-impl PartialCombined {
-    /// Creates the result of no configurations, initialized with an ellipsoid.
-    pub(super) fn new(ellipsoid: Ellipsoid) -> Self {
-        let combined = Combined { ellipsoid, ..Combined::default() };
-        Self { combined, outline: Outline::default() }
-    }
-
-    /// Merges the result of the following configurations.
-    pub(super) fn merge(&mut self, other: &Self) {
-        self.combined.merge(&other.combined);
-        self.outline.merge(&other.outline);
-    }
-
+impl Combined {
     /// Returns the indices of the configurations in the result.
     pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
-        let combined = &self.combined;
-        let radii = [combined.repeatable_radius, combined.random_radius, combined.radius];
-        let others = [combined.standard_radius, combined.worst_case_radius];
+        let radii = [self.repeatable_radius, self.random_radius, self.radius];
+        let others = [self.standard_radius, self.worst_case_radius];
         let extremes = radii.into_iter().chain(others).map(|extreme| extreme.configuration);
-        extremes.chain([combined.ellipsoid.configuration]).flatten()
-    }
-
-    /// Returns the outline of the sum of the repeatable sources.
-    pub(super) fn outline(&self) -> &Outline {
-        &self.outline
-    }
-
-    /// Completes the figures of `count` configurations, from the sums of squares of the three norms
-    /// and some known points.
-    pub(super) fn finish(self, count: usize, squares: [f64; 3], view: &View, known: &[[f64; 3]]) -> Combined {
-        let mut combined = self.combined;
-        combined.rms = squares.map(|sum| (sum / count.max(1) as f64).sqrt());
-        if count > 0 {
-            combined.enclosing = self.outline.sphere(view, known);
-        }
-        combined
+        extremes.chain([self.ellipsoid.configuration]).flatten()
     }
 }
 
 /// Accumulates the combined errors in lanes.
 pub(super) struct CombinedAccumulator<R: Register> {
-    outline: outline::OutlineAccumulator<R>,
     ellipsoid: Ellipsoid,
     repeatable_square: Peak<R>,
     random_square: Peak<R>,
@@ -165,11 +122,10 @@ pub(super) struct CombinedAccumulator<R: Register> {
 }
 
 impl<R: Register> CombinedAccumulator<R> {
-    /// Initializes the accumulation with the ellipsoid and the view of a sample of configurations.
-    pub(super) fn new(ellipsoid: Ellipsoid, view: View, classes: &[Class]) -> Self {
+    /// Initializes the accumulation with the ellipsoid of a sample of configurations.
+    pub(super) fn new(ellipsoid: Ellipsoid, classes: &[Class]) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
-            outline: outline::OutlineAccumulator::new(view),
             ellipsoid,
             repeatable_square: Peak::none(),
             random_square: Peak::none(),
@@ -212,7 +168,6 @@ impl<R: Register> CombinedAccumulator<R> {
         if Lanes::constant(0.0).more_than(minor).any() {
             self.longer(sums, minor.to_slice(), &index);
         }
-        self.outline.add(sums.repeatable, weight);
     }
 
     #[cold]
@@ -237,7 +192,7 @@ impl<R: Register> CombinedAccumulator<R> {
 
     /// Returns the partial result, with indices of configurations, and the sums of squares of the
     /// three norms.
-    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (PartialCombined, [f64; 3]) {
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Combined, [f64; 3]) {
         let place = |found: Option<(f64, usize)>| {
             let (value, configuration) =
                 found.map(|(value, place)| (value, Some(index(place)))).unwrap_or_default();
@@ -259,7 +214,7 @@ impl<R: Register> CombinedAccumulator<R> {
             ellipsoid: self.ellipsoid,
             ..Combined::default()
         };
-        (PartialCombined { combined, outline: self.outline.finish() }, self.squares.map(peak::sum))
+        (combined, self.squares.map(peak::sum))
     }
 }
 

@@ -3,9 +3,8 @@
 use core::ops::Range;
 
 use super::aligned_sums::AlignedSums;
-use super::combined::{self, PartialCombined};
+use super::combined;
 use super::least_likely::{self, LeastLikely};
-use super::outline::{self, Outline, View};
 use super::source_errors::{self, PartialSourceErrors};
 use super::sums::Sums;
 use super::{Combined, Ellipsoid, SourceErrors, covariance};
@@ -16,15 +15,12 @@ use abbe_core::{Class, Scalar, Source};
 /// Figures of a sample of configurations, before the sweep over all of them.
 pub(super) struct SampleErrors {
     measurand: Measurand,
-    points: Vec<[f64; 3]>,
-    alone: Vec<Vec<[f64; 3]>>,
     ellipsoid: Ellipsoid,
 }
 
 impl SampleErrors {
-    pub(super) fn new(measurand: Measurand, sources: &[Source]) -> Self {
-        let alone = vec![Vec::new(); sources.len()];
-        Self { measurand, points: Vec::new(), alone, ellipsoid: Ellipsoid::default() }
+    pub(super) fn new(measurand: Measurand) -> Self {
+        Self { measurand, ellipsoid: Ellipsoid::default() }
     }
 
     /// Adds a configuration, if its rows of the measurand exist.
@@ -32,25 +28,20 @@ impl SampleErrors {
         if self.measurand == Measurand::Orientation && !row.oriented {
             return;
         }
-        self.points.push(self.measurand.rows(&row.repeatable));
-        for (points, error) in self.alone.iter_mut().zip(row.sources) {
-            points.push(self.measurand.rows(error));
-        }
         let other = Ellipsoid::new(covariance(sources, row.sources, self.measurand), row.index);
         if other.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
             self.ellipsoid = other;
         }
     }
 
-    /// Returns the initial values of every chunk of a workspace of `count` configurations.
+    /// Returns the initial values of every chunk of a workspace.
     pub(super) fn finish(
         self,
-        count: usize,
         (classes, calibration): (&[Class], usize),
         home: &[[f64; 6]],
         tolerance: Option<f64>,
     ) -> InitialErrors {
-        let Self { measurand, points, alone, ellipsoid } = self;
+        let Self { measurand, ellipsoid } = self;
         // Slightly smaller, so that the sweep finds its configuration.
         let mut ellipsoid = Ellipsoid { principal: ellipsoid.principal, ..Ellipsoid::default() };
         ellipsoid.principal.deviations = ellipsoid.principal.deviations.map(|axis| axis * (1.0 - 1e-6));
@@ -61,10 +52,6 @@ impl SampleErrors {
             calibration,
             home: home.iter().map(|error| measurand.rows(error)).collect(),
             ellipsoid,
-            view: View::around(&points, count),
-            views: alone.iter().map(|points| View::around(points, count)).collect(),
-            points,
-            alone,
         }
     }
 }
@@ -78,12 +65,6 @@ pub(super) struct InitialErrors {
     calibration: usize,
     home: Vec<[f64; 3]>,
     ellipsoid: Ellipsoid,
-    /// Errors of the sample, of all sources together and of each alone, with the views of their
-    /// outlines.
-    points: Vec<[f64; 3]>,
-    alone: Vec<Vec<[f64; 3]>>,
-    view: View,
-    views: Vec<View>,
 }
 
 /// Partial result over some configurations.
@@ -91,8 +72,7 @@ pub(super) struct InitialErrors {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct PartialErrors {
     tallies: Vec<PartialSourceErrors>,
-    outlines: Vec<Outline>,
-    combined: PartialCombined,
+    combined: Combined,
     /// Squares of the norm of each source, followed by those of the three combined norms.
     squares: AlignedSums,
     least_likely: LeastLikely,
@@ -103,8 +83,7 @@ impl PartialErrors {
     pub(super) fn new(sources: usize) -> Self {
         Self {
             tallies: vec![PartialSourceErrors::new(); sources],
-            outlines: vec![Outline::default(); sources],
-            combined: PartialCombined::new(Ellipsoid::default()),
+            combined: Combined::default(),
             squares: AlignedSums::default(),
             least_likely: LeastLikely::default(),
         }
@@ -114,9 +93,6 @@ impl PartialErrors {
     pub(super) fn append(&mut self, other: Self) {
         for (errors, other) in self.tallies.iter_mut().zip(&other.tallies) {
             errors.merge(other);
-        }
-        for (outline, other) in self.outlines.iter_mut().zip(&other.outlines) {
-            outline.merge(other);
         }
         self.combined.merge(&other.combined);
         self.squares.append(other.squares);
@@ -133,26 +109,19 @@ impl PartialErrors {
         let mut squares = self.squares.total();
         squares.resize(initial.classes.len() + 3, 0.0);
         let (alone, together) = squares.split_at(initial.classes.len());
-        let sources = self.tallies.into_iter().zip(self.outlines).enumerate();
-        let sources = sources.map(|(i, (errors, outline))| {
+        let sources = self.tallies.into_iter().enumerate().map(|(i, errors)| {
             let (class, home) = (initial.classes[i], initial.home[i]);
-            let sphere = outline.sphere(&initial.views[i], &initial.alone[i]);
-            errors.finish(i, class, home, sphere, alone[i] / count.max(1) as f64)
+            errors.finish(i, class, home, alone[i] / count.max(1) as f64)
         });
-        let sources = sources.collect();
-        let together = core::array::from_fn(|i| together[i]);
-        let combined = self.combined.finish(count, together, &initial.view, &initial.points);
-        (sources, combined, self.least_likely.finish())
+        let rms = |i: usize| (together[i] / count.max(1) as f64).sqrt();
+        let combined = Combined { rms: core::array::from_fn(rms), ..self.combined };
+        (sources.collect(), combined, self.least_likely.finish())
     }
 
     /// Returns whether the result is valid for this number of sources and these chunks. It may come
     /// from a file.
     pub(super) fn is_valid_for(&self, sources: usize, chunks: Range<usize>) -> bool {
-        let sound = self.outlines.iter().chain([self.combined.outline()]).all(Outline::is_sound);
-        sound
-            && self.tallies.len() == sources
-            && self.outlines.len() == sources
-            && self.squares.is_valid_for(chunks, sources + 3)
+        self.tallies.len() == sources && self.squares.is_valid_for(chunks, sources + 3)
     }
 
     /// Returns the indices of the configurations in the result.
@@ -166,29 +135,21 @@ impl PartialErrors {
 pub(super) struct ErrorsAccumulator<R: Register> {
     measurand: Measurand,
     singles: Vec<source_errors::SourceErrorsAccumulator<R>>,
-    outlines: Vec<Option<outline::OutlineAccumulator<R>>>,
     all: combined::CombinedAccumulator<R>,
     least_likely: Option<least_likely::LeastLikelyAccumulator<R>>,
 }
 
 impl<R: Register> ErrorsAccumulator<R> {
     pub(super) fn new(initial: &InitialErrors) -> Self {
-        let InitialErrors {
-            measurand, tolerance, classes, calibration, home, ellipsoid, view, views, ..
-        } = initial;
+        let InitialErrors { measurand, tolerance, classes, calibration, home, ellipsoid } = initial;
         let singles = classes
             .iter()
             .zip(home)
             .map(|(class, home)| source_errors::SourceErrorsAccumulator::new(*class, *home));
-        let repeatable = |class: &Class| *class == Class::Repeatable;
-        let outlines = classes.iter().zip(views);
         Self {
             measurand: *measurand,
             singles: singles.collect(),
-            outlines: outlines
-                .map(|(class, view)| repeatable(class).then(|| outline::OutlineAccumulator::new(*view)))
-                .collect(),
-            all: combined::CombinedAccumulator::new(*ellipsoid, *view, &classes[..*calibration]),
+            all: combined::CombinedAccumulator::new(*ellipsoid, &classes[..*calibration]),
             least_likely: tolerance.map(least_likely::LeastLikelyAccumulator::new),
         }
     }
@@ -204,9 +165,6 @@ impl<R: Register> ErrorsAccumulator<R> {
                 let rows = displacements.tile::<R>(tile);
                 let here = [rows[first], rows[first + 1], rows[first + 2]];
                 self.singles[k].add(here, place, weight);
-                if let Some(outline) = &mut self.outlines[k] {
-                    outline.add(here, weight);
-                }
             }
         }
     }
@@ -235,16 +193,12 @@ impl<R: Register> ErrorsAccumulator<R> {
 
     /// Returns the partial result of chunk number `chunk`.
     pub(super) fn finish(self, chunk: usize, index: impl Fn(usize) -> usize + Copy) -> PartialErrors {
-        let outlines = self.outlines.into_iter();
-        let outlines =
-            outlines.map(|outline| outline.map(outline::OutlineAccumulator::finish).unwrap_or_default());
         let singles = self.singles.into_iter().map(|single| single.finish(index));
         let (tallies, mut squares): (Vec<_>, Vec<_>) = singles.unzip();
         let (combined, together) = self.all.finish(index);
         squares.extend(together);
         PartialErrors {
             tallies,
-            outlines: outlines.collect(),
             combined,
             squares: AlignedSums::from_chunk(chunk, squares),
             least_likely: self

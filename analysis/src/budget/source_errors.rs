@@ -1,9 +1,9 @@
 //! Errors of a single source over the workspace, in three metrics.
 
-use super::enclosing_sphere::Sphere;
 use super::peak::{self, Peak};
 use abbe_core::lanes::{Lanes, Register};
 use abbe_core::{Class, Scalar};
+use abbe_kinematics::sampling::norm;
 
 /// Figure per axis, and of the norm: positions along the axes of `F_0` in the length unit, or
 /// orientations (rows 4–6) in rad.
@@ -35,7 +35,7 @@ impl From<[f64; 4]> for Figures {
 /// | metric | repeatable | random |
 /// |---|---|---|
 /// | plain maximum | max \|ΔX\|; max ‖ΔX‖ | max \|b\|; max ‖b‖ |
-/// | half peak-to-peak | (max ΔX − min ΔX) / 2; radius of the smallest sphere around all ΔX | equal to the plain maximum: the interval is symmetric |
+/// | half peak-to-peak | (max ΔX − min ΔX) / 2; norm of these halves | equal to the plain maximum: the interval is symmetric |
 /// | relative to home | max \|ΔX(q) − ΔX(home)\|; max ‖ΔX(q) − ΔX(home)‖ | worst difference of two draws: max \|b(q)\| + \|b(home)\|; max ‖b(q) ± b(home)‖ |
 ///
 /// All figures are zero for an empty workspace.
@@ -93,14 +93,13 @@ impl PartialSourceErrors {
         self.relative = self.relative.max(other.relative);
     }
 
-    /// Completes the figures of a source, given its error (or bound) at home, the sphere around all
-    /// its errors, and their mean square.
+    /// Completes the figures of a source, given its error (or bound) at home and their mean
+    /// square.
     pub(super) fn finish(
         self,
         source: usize,
         class: Class,
         home: [f64; 3],
-        sphere: Sphere,
         mean_square: f64,
     ) -> SourceErrors {
         let Self { least, largest, worst, relative } = self;
@@ -118,7 +117,10 @@ impl PartialSourceErrors {
                 _ => plain(i) + home[i].abs(),
             });
             let half = match class {
-                Class::Repeatable => [half(0), half(1), half(2), sphere.radius].into(),
+                Class::Repeatable => {
+                    let [x, y, z] = [half(0), half(1), half(2)];
+                    [x, y, z, norm([x, y, z])].into()
+                }
                 _ => plain_max,
             };
             (plain_max, half, [x, y, z, relative].into())

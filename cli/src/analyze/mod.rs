@@ -51,7 +51,11 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
             report
         }
     };
+    let is_allocated = report.ledger.sources.iter().any(|source| source.factor.is_some());
     let next = match &arguments.out {
+        None if is_allocated => {
+            "--full for every table, --out DIR for a page; allocate: a spec with these factors"
+        }
         None => "--full for every table, --out DIR for a page with figures",
         Some(_) => "--full for every table",
     };

@@ -132,11 +132,8 @@ fn the_ledger_ranks_and_the_budget_is_read_backwards() {
     assert!((shares.clone().sum::<f64>() - 1.0).abs() < 1e-9 && shares.clone().any(|share| share < 0.0));
     let combined = &report["combined"];
     assert!(number(&combined["worst_case_radius"]) > radius);
-    assert!(number(&combined["enclosing_sphere"]["radius"]) <= number(&combined["repeatable_radius"]));
     let text = full(&["analyze", "pps"]);
-    for expected in ["random: standard deviation", "smallest enclosing sphere"] {
-        assert!(text.contains(expected), "{expected}\n{text}");
-    }
+    assert!(text.contains("random: standard deviation"), "{text}");
 }
 
 #[test]
@@ -183,7 +180,6 @@ fn a_large_study_streams() {
     assert_eq!(report["configurations"], 20_000);
     let checked = report["first_order"]["configurations"].as_u64().unwrap();
     assert!((1900..=2100).contains(&checked), "{checked}");
-    assert_eq!(report["combined"]["enclosing_sphere"]["excess"], 0.0);
 }
 
 #[cfg(target_os = "linux")]

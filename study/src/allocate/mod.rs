@@ -4,12 +4,13 @@ mod report;
 
 use abbe::Class;
 use abbe::analysis::sampling::norm;
-use abbe::analysis::{AllocationCriterion, Allocator, ErrorRow, Measurand, Row, ScalableSource, sweep};
+use abbe::analysis::{
+    AllocationCriterion, Allocator, ErrorRow, Measurand, Row, ScalableSource, Sweepable, Workspace, sweep,
+};
 use abbe_spec::Source;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::option::option;
 
-use crate::analyze::not_evaluated;
 use crate::changes::Changes;
 use crate::finite::finite;
 use crate::machine::{Machine, followed_source};
@@ -47,6 +48,17 @@ impl Allocate {
         Self { machine, study, loosen: false }
     }
 
+    /// Returns the factors over the workspace of an analysis, whose changes are made.
+    pub(crate) fn in_analysis(
+        machine: &Machine,
+        study: &Study,
+        manipulator: &dyn Sweepable,
+        workspace: &dyn Workspace,
+    ) -> Result<Report, Diagnostics> {
+        let job = Self { machine: machine.clone(), study: study.clone(), loosen: false };
+        job.over(manipulator, workspace, &mut ())
+    }
+
     /// Makes further changes.
     pub fn change(&mut self, changes: &Changes) {
         self.study.change(&mut self.machine, changes);
@@ -55,6 +67,18 @@ impl Allocate {
     /// Optimizes the factors over the configurations that exceed the tolerance the most, and adds
     /// those that exceed it with the found factors until there are none.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let manipulator = &*self.machine.evaluator(true);
+        let workspace = self.study.region.workspace(manipulator, None);
+        let workspace = workspace.map_err(|error| mistake::whole(&self.machine.origin, &error))?;
+        self.over(manipulator, &*workspace, notes)
+    }
+
+    fn over(
+        &self,
+        manipulator: &dyn Sweepable,
+        workspace: &dyn Workspace,
+        notes: &mut dyn Notes,
+    ) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
         let spec = &machine.spec;
         let refused = |message: &str, help: &str| mistake::with_help(&machine.origin, message, help);
@@ -74,9 +98,6 @@ impl Allocate {
                 return Err(refused(message, "write `criterion = \"worst-case\"` or `\"rss\"` into [study]"));
             }
         };
-        let manipulator = &*machine.evaluator(true);
-        let workspace = study.region.workspace(manipulator, None);
-        let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let mut allocator = Allocator::new(criterion, self.sources());
         loop {
             notes.go_on()?;
@@ -112,7 +133,7 @@ impl Allocate {
                 }
             });
             let unreachable = swept
-                .map_err(|error| not_evaluated(machine, workspace, &error, manipulator.description()))?
+                .map_err(|error| machine.not_evaluated(workspace, &error, manipulator.description()))?
                 .count;
             if configurations == 0 {
                 let help = "move or shrink the workspace of the study, or widen the limits of the joints";

@@ -8,7 +8,7 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::parts::shard::Shard;
 use super::report::Report;
-use super::sweep::{AnalysisSweep, PartialAnalysis, not_evaluated};
+use super::sweep::{AnalysisSweep, PartialAnalysis};
 use crate::changes::Changes;
 use crate::machine::Machine;
 use crate::mistake;
@@ -165,7 +165,7 @@ impl Analyze {
         let tolerances = study.tolerances();
         let options = BudgetOptions { tolerances };
         let budget = BudgetSweep::new(manipulator, workspace, options)
-            .map_err(|refused| not_evaluated(machine, workspace, &refused, description))?;
+            .map_err(|refused| machine.not_evaluated(workspace, &refused, description))?;
         let sweep = AnalysisSweep {
             machine,
             study,

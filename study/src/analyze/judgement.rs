@@ -9,10 +9,14 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::compensated::{CHECKED, CompensatedErrors};
 use super::report::{
     CompensatedVerdicts, CompensationBasis, ErrorSites, JudgedErrors, JudgedShares, MachineVerdicts, SEED,
-    ToleranceVerdict, Verdicts,
+    ToleranceVerdict, Verdict, Verdicts,
 };
 use super::sweep::AnalysisSweep;
+use crate::allocate::{self, Allocate};
 use crate::study_file::{Criterion, JudgedMachine};
+
+/// Largest number of configurations for which factors are searched for.
+const ALLOCATED: usize = 20_000;
 
 impl AnalysisSweep<'_> {
     /// Returns what says how much compensation leaves, and the correction of the sources; `None` if
@@ -41,6 +45,17 @@ impl AnalysisSweep<'_> {
         let correction = Correction { residuals: &residuals, together };
         let swept = CompensatedErrors::new(self.manipulator, self.workspace, correction, tolerances);
         Ok(Some((basis, swept.map_err(|refused| self.not_evaluated(&refused))?)))
+    }
+
+    /// Returns the factors of the sources with which a study that is not met as built would be;
+    /// `None` if it is, there are none, or the search would take longer than the analysis.
+    pub(super) fn allocation(&self, verdicts: &Verdicts) -> Option<allocate::Report> {
+        let Self { machine, study, manipulator, workspace, .. } = *self;
+        let is_searched = verdicts.verdict == Verdict::NotMet
+            && verdicts.unreachable.is_none()
+            && !machine.is_calibrated()
+            && workspace.len() <= ALLOCATED;
+        is_searched.then(|| Allocate::in_analysis(machine, study, manipulator, workspace).ok()).flatten()
     }
 
     /// Returns the distribution of the error at a configuration.

@@ -34,5 +34,4 @@ pub use report::{
     OrientationSource, Quantity, Radii, RemainingErrors, Report, RootMeanSquares, SourceReport,
     SourceUncertainty, ToleranceVerdict, UncertaintyBudget, Verdict, Verdicts,
 };
-pub(crate) use sweep::not_evaluated;
 pub use unreachable::{UnreachableReason, unreachable_reason, unreachable_reasons, unreachable_summary};

@@ -3,11 +3,11 @@
 use abbe_spec::option::{MONTE_CARLO, Q};
 use std::ops::Range;
 
+use abbe::Manipulator;
 use abbe::analysis::{
     Budget, BudgetSweep, Configuration, Measurand, PartialBudget, Row, Statement, Subset, Sweepable,
     Unevaluated, Watch, Workspace, errors_at, monte_carlo,
 };
-use abbe::{Description, Manipulator};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
@@ -140,6 +140,7 @@ impl AnalysisSweep<'_> {
         let compensation = stated.map(|(_, swept)| RemainingErrors::new(swept));
         let verdicts = self.verdicts(&budget, &sites, compensated)?;
         let [judged, turned_judged] = self.shares(&budget, verdicts.as_ref())?;
+        let allocation = verdicts.as_ref().and_then(|verdicts| self.allocation(verdicts));
         let uncertainty = self.uncertainty(&budget, &sites, (spec, Measurand::Position))?;
         let turned = self.uncertainty(&budget, &sites, (spec, Measurand::Orientation))?;
         let monte_carlo = self.draw_errors(&budget, &sites, notes)?;
@@ -174,7 +175,7 @@ impl AnalysisSweep<'_> {
             certified,
             unreachable_reasons: unreachable::unreachable_reasons(&budget.unreachable, spec),
             not_reproducible: study.not_reproducible.clone(),
-            ledger: Ledger::new(&budget, &sources, tolerance, &judged),
+            ledger: Ledger::new(&budget, &sources, tolerance, &judged, allocation.as_ref()),
             factor_for_all: judged.factor_for_all,
             compensation,
             monte_carlo,
@@ -323,22 +324,8 @@ impl AnalysisSweep<'_> {
     }
 
     pub(super) fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {
-        not_evaluated(self.machine, self.workspace, refused, self.manipulator.description())
+        self.machine.not_evaluated(self.workspace, refused, self.manipulator.description())
     }
-}
-
-/// Returns the diagnostic for a configuration without finite errors.
-pub(crate) fn not_evaluated(
-    machine: &Machine,
-    workspace: &dyn Workspace,
-    refused: &Unevaluated,
-    description: &Description,
-) -> Diagnostics {
-    let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
-        Some(configuration) => number::configuration(&configuration, workspace.home(), &machine.spec),
-        None => "home".to_owned(),
-    };
-    mistake::not_evaluated(&machine.origin, &at, &refused.error, description)
 }
 
 /// Observer of the sweep: passes each configuration on, and reports progress.

@@ -9,7 +9,7 @@
 //! caption = "Error over the base rail"
 //! # kind = "surface", over = ["z", "q4"]   the largest error over two of them
 //! # rows = "orientation"                  orientation errors, in mrad, instead of position errors
-//! # kind = "cloud"                         the errors in space, and their enclosing sphere
+//! # kind = "cloud"                         the errors in space
 //! # kind = "histogram"                     frequency of errors by size
 //! # kind = "pareto"                        the share of each source
 //! # kind = "manipulator", up = "y"         the frames at home

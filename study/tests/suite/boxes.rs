@@ -1,6 +1,5 @@
 //! Boxes of points: each in every orientation, at every value of the joints that are held.
 
-use abbe::Manipulator;
 use abbe_spec::document::Document;
 use abbe_study::Machine;
 use abbe_study::study_file::Study;

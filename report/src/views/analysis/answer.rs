@@ -160,8 +160,9 @@ fn basis(report: &Report) -> String {
     }
 }
 
-/// Lists the sources with the largest shares of the judged error, and the factor at which each
-/// alone would use up the tolerance as built; the last row has the factor for all of them together.
+/// Lists the sources with the largest shares of the judged error, with the factors as built that
+/// keep the tolerance together, or at which each alone would use it up; the last row has one for
+/// all.
 fn sources(report: &Report) -> Table {
     let decimals = decimals(report);
     let mut all: Vec<&LedgerEntry> = report.ledger.sources.iter().collect();
@@ -171,16 +172,23 @@ fn sources(report: &Report) -> Table {
     // The factors are those of the machine as built.
     let machine = report.verdicts.as_ref().map(|verdicts| verdicts.machine);
     let is_built = machine == Some(JudgedMachine::AsBuilt) && report.position_tolerance.is_some();
+    // Factors that keep the tolerance together, or those of each source alone.
+    let is_allocated = is_built && all.iter().any(|entry| entry.factor.is_some());
     let factor = |entry: &LedgerEntry| {
-        let share = entry.share_of_tolerance.filter(|share| is_built && *share > 0.0);
-        share.map_or_else(String::new, |share| times(1.0 / share))
+        let alone = entry.share_of_tolerance.filter(|share| *share > 0.0).map(|share| 1.0 / share);
+        let factor = if is_allocated { entry.factor } else { alone };
+        factor.filter(|_| is_built).map_or_else(String::new, times)
     };
     let row = |entry: &LedgerEntry| {
         let max = fixed(scale * steady(entry.max), decimals);
         [entry.name.clone(), max, percent(share(entry), 1.0), factor(entry)]
     };
     let shown = if all.len() <= SHOWN + 1 { all.len() } else { SHOWN };
-    let alone = if is_built { "alone up to" } else { "" };
+    let alone = match is_built {
+        true if is_allocated => "allocated",
+        true => "alone up to",
+        false => "",
+    };
     let columns = [words("source"), number(format!("max {unit}")), number("share"), number(alone)];
     let mut rows: Vec<[String; 4]> = all[..shown].iter().map(|entry| row(entry)).collect();
     if shown < all.len() {

@@ -1,4 +1,4 @@
-//! Results in sentences: tolerance, enclosing sphere, compensation, first-order error.
+//! Results in sentences: tolerance, compensation, first-order error.
 
 use abbe::analysis::Measurand;
 
@@ -7,13 +7,12 @@ use crate::unit::{self, decimals};
 use abbe_study::analyze::{AfterCompensation, LoopCondition, NEARLY_SINGULAR, RemainingErrors, Report};
 use abbe_study::number::{self, percent, short};
 
-/// Returns the results in sentences: tolerance, enclosing sphere, compensation, first-order
+/// Returns the results in sentences: tolerance, compensation, first-order
 /// error.
 pub(super) fn conclusions(report: &Report) -> Vec<String> {
     let sentences = [
         allowance(report, Measurand::Position),
         allowance(report, Measurand::Orientation),
-        Some(spheres(report)),
         ellipsoid(report),
         published_residual(report),
         report.compensation.as_ref().map(|compensation| residual(report, compensation)),
@@ -77,23 +76,6 @@ fn allowance(report: &Report, measurand: Measurand) -> Option<String> {
         number::rounded_down(together, number::decimals(together, 3)),
         unit::with_symbol(report, measurand, report.tolerance(measurand)?),
     ))
-}
-
-fn spheres(report: &Report) -> String {
-    let combined = &report.budget.combined;
-    let sphere = &combined.enclosing;
-    let [x, y, z] = sphere.centre.map(|value| number::trimmed(value, decimals(report)));
-    let mut text = format!(
-        "Repeatable errors lie within {} of zero; their smallest enclosing sphere has the radius \
-         {} and the centre ({x}, {y}, {z})",
-        show(report, combined.repeatable_radius.value),
-        show(report, sphere.radius),
-    );
-    // A smaller excess is rounding.
-    if sphere.excess > 1e-9 * sphere.radius {
-        text += &format!(" (at most {} too large)", show(report, sphere.excess));
-    }
-    text + "."
 }
 
 fn ellipsoid(report: &Report) -> Option<String> {

@@ -167,7 +167,7 @@ fn together(report: &Report) -> Section {
 
 fn each_alone(report: &Report) -> Section {
     let metrics = "Plain maximum: the largest error. Half peak-to-peak: half of its range; for the norm, the \
-                   radius of the smallest sphere that contains all errors. Relative to home: the largest \
+                   norm of these halves. Relative to home: the largest \
                    difference from the error at home. For a random source, the bound (±).";
     Section::full("Each source alone").table(tables::sources(report)).state("metrics", metrics.to_owned())
 }

@@ -1,6 +1,6 @@
 //! Position errors of all sources together.
 
-use abbe::analysis::{Combined, Sphere};
+use abbe::analysis::Combined;
 use serde::Serialize;
 
 use super::error_sites::ErrorSites;
@@ -57,8 +57,6 @@ pub struct CombinedReport {
     pub worst_case_radius: f64,
     /// Longest of the 95 % ellipsoids.
     pub ellipsoid: LongestEllipsoid,
-    /// Smallest sphere that encloses the repeatable errors of all configurations.
-    pub enclosing_sphere: Sphere,
 }
 
 /// Root mean squares of three norms over the configurations, in the length unit.
@@ -87,7 +85,7 @@ impl CombinedReport {
     /// Creates the report from a budget, with the names of configurations.
     pub(in crate::analyze) fn new(combined: &Combined, sites: &ErrorSites) -> Self {
         let [repeatable, random, both] = combined.rms;
-        let (ellipsoid, sphere) = (&combined.ellipsoid, combined.enclosing);
+        let ellipsoid = &combined.ellipsoid;
         let worst = combined.radius.configuration;
         Self {
             radii: combined.into(),
@@ -104,7 +102,6 @@ impl CombinedReport {
                 axes: ellipsoid.principal.axes.map(|axis| axis.map(|value| value + 0.0)),
                 worst: sites.variables(ellipsoid.configuration),
             },
-            enclosing_sphere: Sphere { centre: sphere.centre.map(|value| value + 0.0), ..sphere },
         }
     }
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::judged_shares::JudgedShares;
 use super::source_report::SourceReport;
-use crate::number;
+use crate::{allocate, number};
 
 /// Ledger of the position errors: norms in the length unit.
 #[derive(Clone, Debug, Serialize)]
@@ -35,6 +35,11 @@ pub struct LedgerEntry {
     /// sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
+    /// Factor with which, and with those of all other sources, the study keeps its tolerances; and
+    /// with all smaller ones. `None` for sums, and if the study keeps them, is not judged as built
+    /// by the worst case or the root sum of squares, or has more than 20,000 configurations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
     /// Class of the source; `None` for sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub class: Option<&'static str>,
@@ -53,6 +58,7 @@ impl Ledger {
         sources: &[SourceReport],
         tolerance: Option<f64>,
         judged: &JudgedShares,
+        allocation: Option<&allocate::Report>,
     ) -> Self {
         let entry = |name: &str, largest: Extreme, rms| LedgerEntry {
             name: name.to_owned(),
@@ -60,6 +66,7 @@ impl Ledger {
             rms,
             share_of_tolerance: tolerance.map(|tolerance| largest.value / tolerance),
             share: None,
+            factor: None,
             class: None,
             rank: None,
             configuration: largest.configuration,
@@ -68,8 +75,11 @@ impl Ledger {
         let ranked = ranked.map(|((source, errors), share)| {
             let largest = Extreme { value: errors.plain_max.norm, configuration: errors.worst };
             let (class, _) = number::class(errors.class);
+            let allocated = allocation.iter().flat_map(|allocation| &allocation.sources);
+            let mut allocated = allocated.filter(|allocated| allocated.source == source.name);
             LedgerEntry {
                 share: Some(*share),
+                factor: allocated.next().map(|allocated| allocate::printed(allocated.factor)),
                 class: Some(class),
                 ..entry(&source.name, largest, Some(errors.rms))
             }

@@ -51,7 +51,7 @@ pub struct OrientationSource {
     pub name: String,
     /// Largest absolute error. Random sources count at their bounds.
     pub plain_max: Figures,
-    /// Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere.
+    /// Half of the peak-to-peak variation; of the norm, the norm of these halves.
     pub half_peak_to_peak: Figures,
     /// Largest difference from the error at home; `None` if the rows are singular at home.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -22,7 +22,7 @@ pub struct SourceReport {
     pub class: Class,
     /// Largest absolute error.
     pub plain_max: Figures,
-    /// Half of the peak-to-peak variation; of the norm, the radius of the enclosing sphere. For a
+    /// Half of the peak-to-peak variation; of the norm, the norm of these halves. For a
     /// random source, its largest bound.
     pub half_peak_to_peak: Figures,
     /// Largest difference from the error at home. For a random source, the largest difference of
