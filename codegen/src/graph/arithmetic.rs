@@ -149,18 +149,8 @@ impl Graph {
             (_, Some(1.0)) => return a,
             _ => {}
         }
-        match (self.negated(a), self.negated(b)) {
-            (Some(x), Some(y)) => self.mul(x, y),
-            (Some(x), None) => {
-                let product = self.mul(x, b);
-                self.neg(product)
-            }
-            (None, Some(y)) => {
-                let product = self.mul(a, y);
-                self.neg(product)
-            }
-            (None, None) => self.intern(Op::Mul(a.min(b), a.max(b))),
-        }
+        let product = self.with_signs_outside(a, b, Self::mul);
+        product.unwrap_or_else(|| self.intern(Op::Mul(a.min(b), a.max(b))))
     }
 
     /// Returns `a / b`. `0/b` and `a/1` simplify, signs move outwards. A division by a constant 0
@@ -182,18 +172,24 @@ impl Graph {
             (Some(0.0), None) => return a,
             _ => {}
         }
-        match (self.negated(a), self.negated(b)) {
-            (Some(x), Some(y)) => self.div(x, y),
-            (Some(x), None) => {
-                let quotient = self.div(x, b);
-                self.neg(quotient)
-            }
-            (None, Some(y)) => {
-                let quotient = self.div(a, y);
-                self.neg(quotient)
-            }
-            (None, None) => self.intern(Op::Div(a, b)),
+        let quotient = self.with_signs_outside(a, b, Self::div);
+        quotient.unwrap_or_else(|| self.intern(Op::Div(a, b)))
+    }
+
+    /// Returns a product or quotient with the signs of its operands moved outwards; `None` without
+    /// signs.
+    fn with_signs_outside(
+        &mut self,
+        a: Node,
+        b: Node,
+        operation: fn(&mut Self, Node, Node) -> Node,
+    ) -> Option<Node> {
+        let (x, y) = (self.negated(a), self.negated(b));
+        if x.is_none() && y.is_none() {
+            return None;
         }
+        let value = operation(self, x.unwrap_or(a), y.unwrap_or(b));
+        Some(if x.is_some() && y.is_some() { value } else { self.neg(value) })
     }
 
     /// Returns `base ^ exponent`. Integer exponents become products, half-integers square roots.

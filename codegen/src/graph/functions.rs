@@ -27,20 +27,7 @@ impl Graph {
             let sine = self.sin(angle);
             return self.neg(sine);
         }
-        let (angle, quarters) = self.quarter_turns(a);
-        match quarters {
-            0 if angle == a => self.called(Function::Sin, a),
-            0 => self.sin(angle),
-            1 => self.cos(angle),
-            2 => {
-                let sine = self.sin(angle);
-                self.neg(sine)
-            }
-            _ => {
-                let cosine = self.cos(angle);
-                self.neg(cosine)
-            }
-        }
+        self.sine_of_sum(a, 0)
     }
 
     /// Returns the cosine: even, and exact at (and shifted by) multiples of π/2.
@@ -60,20 +47,20 @@ impl Graph {
         if let Some(angle) = self.negated(a) {
             return self.cos(angle);
         }
-        let (angle, quarters) = self.quarter_turns(a);
-        match quarters {
-            0 if angle == a => self.called(Function::Cos, a),
-            0 => self.cos(angle),
-            1 => {
-                let sine = self.sin(angle);
-                self.neg(sine)
-            }
-            2 => {
-                let cosine = self.cos(angle);
-                self.neg(cosine)
-            }
-            _ => self.sin(angle),
-        }
+        self.sine_of_sum(a, 1)
+    }
+
+    /// Returns the sine of an angle that is no negative, plus quarter turns.
+    fn sine_of_sum(&mut self, a: Node, quarters: u8) -> Node {
+        let (angle, own) = self.quarter_turns(a);
+        let quarters = (quarters + own) % 4;
+        let value = match quarters % 2 {
+            0 if angle == a => self.called(Function::Sin, a),
+            0 => self.sin(angle),
+            _ if angle == a => self.called(Function::Cos, a),
+            _ => self.cos(angle),
+        };
+        if quarters < 2 { value } else { self.neg(value) }
     }
 
     /// Returns the square root.
@@ -112,17 +99,7 @@ impl Graph {
     /// assert_eq!(g.min(three, two), two);
     /// ```
     pub fn min(&mut self, a: Node, b: Node) -> Node {
-        match self.both_negated(a, b) {
-            _ if a == b => a,
-            Some([x, y]) => {
-                let larger = self.max(x, y);
-                self.neg(larger)
-            }
-            None => match self.value(a).zip(self.value(b)) {
-                Some((x, y)) => self.constant(x.min(y)),
-                None => self.intern(Op::Min(a.min(b), a.max(b))),
-            },
-        }
+        self.extreme(Op::Min(a.min(b), a.max(b)), Self::max)
     }
 
     /// Returns the larger of two nodes, simplified by the same rules as `min`.
@@ -138,24 +115,23 @@ impl Graph {
     /// assert_eq!(g.max(minus_a, minus_b), g.neg(smaller));
     /// ```
     pub fn max(&mut self, a: Node, b: Node) -> Node {
-        match self.both_negated(a, b) {
-            _ if a == b => a,
-            Some([x, y]) => {
-                let smaller = self.min(x, y);
-                self.neg(smaller)
-            }
-            None => match self.value(a).zip(self.value(b)) {
-                Some((x, y)) => self.constant(x.max(y)),
-                None => self.intern(Op::Max(a.min(b), a.max(b))),
-            },
-        }
+        self.extreme(Op::Max(a.min(b), a.max(b)), Self::min)
     }
 
-    /// Returns `x` and `y` if the nodes are `-x` and `-y` and not constants.
-    fn both_negated(&self, a: Node, b: Node) -> Option<[Node; 2]> {
+    /// Returns the smaller or larger of the operands; `opposite` is the other operation.
+    fn extreme(&mut self, op: Op, opposite: fn(&mut Self, Node, Node) -> Node) -> Node {
+        let (Op::Min(a, b) | Op::Max(a, b)) = op else { unreachable!("it is one of these") };
         match (self.op(a), self.op(b)) {
-            (Op::Neg(x), Op::Neg(y)) => Some([x, y]),
-            _ => None,
+            _ if a == b => a,
+            (Op::Neg(x), Op::Neg(y)) => {
+                let value = opposite(self, x, y);
+                self.neg(value)
+            }
+            (Op::Constant(x), Op::Constant(y)) => {
+                let [x, y] = [x, y].map(f64::from_bits);
+                self.constant(if matches!(op, Op::Min(..)) { x.min(y) } else { x.max(y) })
+            }
+            _ => self.intern(op),
         }
     }
 
