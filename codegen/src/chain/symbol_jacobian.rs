@@ -4,7 +4,7 @@ use abbe_spec::expr::Symbol;
 use indexmap::IndexMap;
 
 use super::walk::Step;
-use crate::graph::{Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Vector};
 
 /// Returns the velocity of the tool point and the rotation per unit of a symbol, the sum over all
 /// factors that depend on it:
@@ -31,12 +31,10 @@ pub(super) fn twist(graph: &mut Graph, steps: &Steps, symbol: Symbol, tool: Vect
                 rotation = graph.add_vectors(rotation, omega);
             }
             Step::Matrix { before, local, after } => {
-                let nodes: Vec<Node> = local.axes.iter().flatten().chain(&local.position).copied().collect();
-                let slopes = graph.diff_all(&nodes, symbol);
-                let vector = |i: usize| [slopes[3 * i], slopes[3 * i + 1], slopes[3 * i + 2]];
-                let omega = spin_of(graph, &local.axes, [vector(0), vector(1), vector(2)]);
+                let slopes = Frame::from_entries(&graph.diff_all(&local.entries(), symbol));
+                let omega = spin_of(graph, &local.axes, slopes.axes);
                 let omega = graph.turn(&before.axes, omega);
-                let shift = graph.turn(&before.axes, vector(3));
+                let shift = graph.turn(&before.axes, slopes.position);
                 velocity = graph.add_vectors(velocity, shift);
                 velocity = swing(graph, velocity, omega, tool, *after);
                 rotation = graph.add_vectors(rotation, omega);
@@ -84,8 +82,6 @@ pub(crate) fn swing(graph: &mut Graph, velocity: Vector, omega: Vector, tool: Ve
 fn spin_of(graph: &mut Graph, axes: &[Vector; 3], slopes: [Vector; 3]) -> Vector {
     std::array::from_fn(|axis| {
         let (i, j) = ((axis + 2) % 3, (axis + 1) % 3);
-        let products: [Node; 3] = std::array::from_fn(|c| graph.mul(slopes[c][i], axes[c][j]));
-        let sum = graph.add(products[0], products[1]);
-        graph.add(sum, products[2])
+        graph.dot(slopes.map(|column| column[i]), axes.map(|column| column[j]))
     })
 }

@@ -20,11 +20,7 @@ impl Step {
     pub(super) fn symbols(&self, graph: &Graph) -> Vec<Symbol> {
         match self {
             Self::Translation { amount, .. } | Self::Rotation { amount, .. } => graph.symbols(&[*amount]),
-            Self::Matrix { local, .. } => {
-                let entries: Vec<Node> =
-                    local.axes.iter().flatten().chain(&local.position).copied().collect();
-                graph.symbols(&entries)
-            }
+            Self::Matrix { local, .. } => graph.symbols(&local.entries()),
         }
     }
 }

@@ -14,6 +14,20 @@ pub struct Frame {
     pub position: Vector,
 }
 
+impl Frame {
+    /// Returns the frame of twelve entries: the columns of its matrix, then the position.
+    pub(crate) fn from_entries(entries: &[Node]) -> Self {
+        let vector = |i: usize| [entries[3 * i], entries[3 * i + 1], entries[3 * i + 2]];
+        Self { axes: [0, 1, 2].map(vector), position: vector(3) }
+    }
+
+    /// Returns the twelve entries: the columns of the matrix, then the position.
+    pub(crate) fn entries(&self) -> [Node; 12] {
+        let columns = [self.axes[0], self.axes[1], self.axes[2], self.position];
+        std::array::from_fn(|i| columns[i / 3][i % 3])
+    }
+}
+
 impl Graph {
     /// Returns the identity.
     pub fn identity(&mut self) -> Frame {

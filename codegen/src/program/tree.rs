@@ -120,7 +120,7 @@ impl<'d> LoopRoutineBuilder<'d> {
     fn real_pose(&mut self, real: &RealNodes) {
         let graph = &self.model.graph;
         let nominal = self.nominal();
-        let pose: Vec<Node> = real.pose.axes.iter().flatten().chain(&real.pose.position).copied().collect();
+        let pose = real.pose.entries();
         let read = graph.symbols(&[&real.step[..], &pose].concat());
         let passive = self.loops.passive_home.len();
         let reads_errors = read.iter().any(|symbol| matches!(symbol, Symbol::Local(i) if *i >= passive));

@@ -67,15 +67,11 @@ impl Inverse {
     fn apart(g: &mut Graph, spec: &Spec) -> Option<Self> {
         let lines = Lines::new(g, spec)?;
         let target: Vec<Node> = (0..12).map(|i| g.symbol(Symbol::Target(i))).collect();
-        let column = |i: usize| [target[3 * i], target[3 * i + 1], target[3 * i + 2]];
-        let target = Frame { axes: [column(0), column(1), column(2)], position: column(3) };
-        let free: Vec<Angle> = (0..6)
-            .map(|i| {
-                let q = g.symbol(Symbol::Variable(i));
-                Angle { sine: g.sin(q), cosine: g.cos(q) }
-            })
-            .collect();
-        let free: [Angle; 6] = free.try_into().ok()?;
+        let target = Frame::from_entries(&target);
+        let free: [Angle; 6] = std::array::from_fn(|i| {
+            let q = g.symbol(Symbol::Variable(i));
+            Angle { sine: g.sin(q), cosine: g.cos(q) }
+        });
         let motion = Motion { target, tool: lines.tool, is_reversed: false };
         let found = forwards(g, &lines, &motion, free).or_else(|| {
             let back = Lines { lines: lines.lines.iter().rev().copied().collect(), ..lines.clone() };

@@ -44,20 +44,13 @@ impl Body {
     }
 
     pub(super) fn frame(&mut self, array: usize, row: Row) -> Frame {
-        let numbers = self.read(array, row, 12);
-        let vector = |i: usize| [numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]];
-        Frame { axes: [0, 1, 2].map(vector), position: vector(3) }
+        Frame::from_entries(&self.read(array, row, 12))
     }
 
     /// Writes nodes to a row.
     pub(super) fn write(&mut self, array: usize, row: Row, nodes: &[Node]) {
         self.writes.push(ArrayRows { array, row });
         self.outputs.extend(nodes);
-    }
-
-    pub(super) fn write_frame(&mut self, array: usize, row: Row, frame: &Frame) {
-        let numbers: Vec<Node> = frame.axes.iter().flatten().chain(&frame.position).copied().collect();
-        self.write(array, row, &numbers);
     }
 
     pub(super) fn stage(self, repeated: Option<Repeated>) -> Stage {

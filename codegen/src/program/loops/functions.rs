@@ -103,7 +103,7 @@ impl RoutineBuilder<'_, '_> {
 
     /// Accumulates the effects of all frames' errors, or of their variances, on the tool point from
     /// the tip to the base.
-    pub(super) fn accumulate<A: Accumulated>(&mut self, errors: usize, result: &'static str) {
+    pub(super) fn accumulate<A: Accumulated>(&mut self, errors: &str, result: &str) {
         let links = self.links();
         let euler = self.loops.orientation != Orientation::RotationVector;
         let lever = self.zeros("lever", &[Count::Exactly(3)]);
@@ -119,7 +119,7 @@ impl RoutineBuilder<'_, '_> {
 
         let mut body = Body::new();
         let link = body.frame(links, Row::NEXT);
-        let errors = body.six(errors, Row::EACH);
+        let errors = body.six(self.array(errors), Row::EACH);
         let numbers = body.read(state, Row::All, A::NUMBERS);
         let point = body.vector(lever, Row::All);
         let last_axis = axis.map(|axis| body.vector(axis, Row::All));

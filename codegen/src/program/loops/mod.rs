@@ -29,6 +29,7 @@ impl FrameLoops<'_> {
     /// Returns the stages of a function and adds the arrays that they need. Returns `None` for a
     /// function without loops.
     pub(super) fn stages(&mut self, function: Function, arrays: &mut Vec<Array>) -> Option<Vec<Stage>> {
+        let model = self.model;
         let mut draft = RoutineBuilder::new(self, arrays);
         match function {
             // The last three are no functions of long chains.
@@ -43,24 +44,12 @@ impl FrameLoops<'_> {
             Function::ErrorJacobianDistinct => draft.error_jacobian(true),
             Function::JointJacobian => draft.symbol_jacobian(false),
             Function::ParameterJacobian => draft.symbol_jacobian(true),
-            Function::Displacement => {
-                let errors = draft.array("errors");
-                draft.accumulate::<Displacement>(errors, "displacement");
-            }
+            Function::Displacement => draft.accumulate::<Displacement>("errors", "displacement"),
             Function::PredictedDisplacement => draft.predicted_displacement(),
-            Function::Covariance => {
-                let variances = draft.array("variances");
-                draft.accumulate::<Covariance>(variances, "covariance");
-            }
+            Function::Covariance => draft.accumulate::<Covariance>("variances", "covariance"),
             Function::SourceDisplacements => draft.by_source(),
-            Function::RealPose => {
-                let model = draft.loops.model;
-                draft.real_pose(model.real_errors.as_deref());
-            }
-            Function::DrawnPose => {
-                let model = draft.loops.model;
-                draft.real_pose(Some(&model.drawn_errors));
-            }
+            Function::RealPose => draft.real_pose(model.real_errors.as_deref()),
+            Function::DrawnPose => draft.real_pose(Some(&model.drawn_errors)),
             Function::CompensatorStep => draft.compensator_step(),
         }
         Some(draft.stages)

@@ -34,8 +34,7 @@ impl<'g> Sum<'g> {
 
     /// Adds the entries of the identity (for `F_0`) and of all transforms.
     pub(super) fn motions(&mut self, transforms: &[Frame]) -> usize {
-        let entries = transforms.iter().flat_map(|frame| frame.axes.iter().flatten().chain(&frame.position));
-        let entries: Vec<Node> = entries.copied().collect();
+        let entries: Vec<Node> = transforms.iter().flat_map(Frame::entries).collect();
         let sums = self.entries("MOTION", &entries);
         let Sums { constants, factors, .. } = &mut self.sums[sums];
         let base = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];

@@ -78,7 +78,7 @@ impl RoutineBuilder<'_, '_> {
         let mut body = Body::new();
         let (at, link) = (body.frame(frames, Row::EACH), body.frame(frames, Row::NEXT));
         let next = body.graph.then(&at, &link);
-        body.write_frame(frames, Row::NEXT, &next);
+        body.write(frames, Row::NEXT, &next.entries());
         self.each(Count::FramesAndTool, body);
     }
 
@@ -97,7 +97,7 @@ impl RoutineBuilder<'_, '_> {
         let mut body = Body::new();
         let (link, behind) = (body.frame(links, Row::NEXT), body.frame(pose, Row::All));
         let next = body.graph.then(&link, &behind);
-        body.write_frame(pose, Row::All, &next);
+        body.write(pose, Row::All, &next.entries());
         self.backwards(body);
     }
 
@@ -116,12 +116,12 @@ impl RoutineBuilder<'_, '_> {
         let errors = body.six(errors, Row::EACH);
         let nominal = body.graph.then(&at, &link);
         let real = displaced(&mut body.graph, nominal, &errors);
-        body.write_frame(pose, Row::All, &real);
+        body.write(pose, Row::All, &real.entries());
         self.each(Count::Frames, body);
         let mut body = Body::new();
         let (at, tool) = (body.frame(pose, Row::All), body.frame(links, Row::Last));
         let next = body.graph.then(&at, &tool);
-        body.write_frame(pose, Row::All, &next);
+        body.write(pose, Row::All, &next.entries());
         self.once(body);
     }
 
