@@ -12,6 +12,7 @@ use abbe_spec::expr::{Function, Symbol};
 use super::accumulate::Links;
 use super::by_source::errors_by_source;
 use super::displacement::Displacement;
+use super::minors::products;
 use super::rows::Rows;
 use super::six::vectors;
 use super::sources;
@@ -169,13 +170,13 @@ fn largest_sum(graph: &mut Graph, vectors: &[Vec<Node>], most_signed: usize) -> 
     let vectors: Vec<&Vec<Node>> =
         vectors.iter().filter(|vector| vector.iter().any(|entry| *entry != zero)).collect();
     if let [vector] = vectors[..] {
-        return Magnitude { node: dot(graph, vector, vector), squared: true, parts: vector.clone() };
+        return Magnitude { node: products(graph, vector, vector), squared: true, parts: vector.clone() };
     }
     if vectors.len() <= most_signed && vectors.iter().all(|vector| vector.len() > 1) {
         return largest_pattern(graph, &vectors);
     }
     let unit = direction(graph, vectors.first().map_or(1, |vector| vector.len()));
-    let parts: Vec<Node> = vectors.into_iter().map(|vector| dot(graph, vector, &unit)).collect();
+    let parts: Vec<Node> = vectors.into_iter().map(|vector| products(graph, vector, &unit)).collect();
     let node = parts.iter().fold(zero, |sum, part| {
         let size = graph.call(Function::Abs, *part);
         graph.add(sum, size)
@@ -202,17 +203,9 @@ fn largest_pattern(graph: &mut Graph, vectors: &[&Vec<Node>]) -> Magnitude {
         };
         sums = sums.iter().flat_map(|sum| [true, false].map(|is_added| with(graph, sum, is_added))).collect();
     }
-    let squares: Vec<Node> = sums.iter().map(|sum| dot(graph, sum, sum)).collect();
+    let squares: Vec<Node> = sums.iter().map(|sum| products(graph, sum, sum)).collect();
     let node = squares.into_iter().reduce(|a, b| graph.max(a, b)).unwrap_or(graph.zero());
     Magnitude { node, squared: true, parts }
-}
-
-fn dot(graph: &mut Graph, first: &[Node], second: &[Node]) -> Node {
-    let zero = graph.zero();
-    first.iter().zip(second).fold(zero, |sum, (a, b)| {
-        let product = graph.mul(*a, *b);
-        graph.add(sum, product)
-    })
 }
 
 /// Returns a unit vector of one, two or three entries.

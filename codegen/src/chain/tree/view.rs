@@ -4,6 +4,7 @@ use abbe_core::Component;
 use abbe_spec::Spec;
 use abbe_spec::expr::{Motion as Kind, Symbol, motion};
 
+use crate::chain::FrameTwist;
 use crate::chain::symbol_jacobian::{Steps, twist};
 use crate::chain::walk::walk;
 use crate::graph::{Frame, Graph, Node, Vector};
@@ -20,16 +21,8 @@ pub(super) struct View<'s> {
     steps: Vec<Steps>,
 }
 
-/// Motion of a frame together with all that hang on it, in the axes of the root.
-#[derive(Clone, Copy)]
-pub(super) struct Motion {
-    /// The frame, or the tool.
-    pub(super) frame: usize,
-    /// Velocity of its origin.
-    pub(super) velocity: Vector,
-    /// Rotation.
-    pub(super) rotation: Vector,
-}
+/// Motion of a frame, or of the tool, together with all that hang on it, in the axes of the root.
+pub(super) type Motion = FrameTwist;
 
 impl<'s> View<'s> {
     /// Follows the frames that hang on a root.
@@ -104,14 +97,11 @@ impl<'s> View<'s> {
 
     /// Returns the motion of a frame per unit of one of its errors.
     pub(super) fn by_error(&self, graph: &mut Graph, frame: usize, component: Component) -> Motion {
-        let zero = [graph.zero(); 3];
-        match motion(component) {
-            (Kind::Translation, axis) => {
-                Motion { frame, velocity: self.poses[frame].axes[axis], rotation: zero }
-            }
-            (Kind::Rotation, axis) => {
-                Motion { frame, velocity: zero, rotation: self.poses[frame].axes[axis] }
-            }
+        let (kind, axis) = motion(component);
+        let (along, zero) = (self.poses[frame].axes[axis], [graph.zero(); 3]);
+        match kind {
+            Kind::Translation => Motion { frame, velocity: along, rotation: zero },
+            Kind::Rotation => Motion { frame, velocity: zero, rotation: along },
         }
     }
 
