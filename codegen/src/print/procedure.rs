@@ -36,6 +36,8 @@ pub(super) trait Printer {
     const LEAVE: &'static str = "break;";
     /// The sign of assignments, and the end of a statement.
     const ASSIGN: [&'static str; 2] = ["=", ";"];
+    /// `true` if the language has `+=`.
+    const ADDS_IN_PLACE: bool = false;
     /// `true` if arrays without elements are no arguments.
     const SKIPS_EMPTY: bool = false;
     /// Memory of the results of functions.
@@ -111,9 +113,12 @@ pub(super) trait Printer {
     fn comment(&mut self, text: &str);
 
     /// Prints an assignment. `sum` is the other term if the value is the place plus a term.
-    fn assign(&mut self, place: &str, value: &str, _sum: Option<&str>) {
+    fn assign(&mut self, place: &str, value: &str, sum: Option<&str>) {
         let [sign, end] = Self::ASSIGN;
-        self.writer().lines(&format!("{place} {sign} {value}{end}"));
+        self.writer().lines(&match sum.filter(|_| Self::ADDS_IN_PLACE) {
+            Some(sum) => format!("{place} += {sum}{end}"),
+            None => format!("{place} {sign} {value}{end}"),
+        });
     }
 
     /// Prints assignments of entries.

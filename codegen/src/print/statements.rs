@@ -9,9 +9,10 @@ use abbe_spec::expr::Symbol;
 
 use super::body::body;
 use super::expression::{Syntax, Value};
+use super::flat::Flat;
 use super::names::Names;
 use super::statement::Statement;
-use crate::program::{ArrayRows, Block, Operand, Program, Role, Routine, Row, Stage};
+use crate::program::{ArrayRows, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
 
 /// The statements of a routine.
 pub(super) struct Statements {
@@ -23,33 +24,18 @@ pub(super) struct Statements {
 }
 
 impl Statements {
-    pub(super) fn new(
-        spec: &Spec,
-        description: &Description,
-        routine: &Routine,
-        syntax: &dyn Syntax,
-    ) -> Self {
-        Self::with(spec, description, routine, syntax, false)
+    pub(super) fn new(spec: &Spec, flat: Flat<'_>, syntax: &dyn Syntax) -> Self {
+        Self::with(spec, flat, syntax, false)
     }
 
     /// Converts a routine, and prints the columns of `J_e` part by part for a consumer that takes
     /// them one by one.
-    pub(super) fn by_columns(
-        spec: &Spec,
-        description: &Description,
-        routine: &Routine,
-        syntax: &dyn Syntax,
-    ) -> Self {
-        Self::with(spec, description, routine, syntax, true)
+    pub(super) fn by_columns(spec: &Spec, flat: Flat<'_>, syntax: &dyn Syntax) -> Self {
+        Self::with(spec, flat, syntax, true)
     }
 
-    fn with(
-        spec: &Spec,
-        description: &Description,
-        routine: &Routine,
-        syntax: &dyn Syntax,
-        by_columns: bool,
-    ) -> Self {
+    fn with(spec: &Spec, flat: Flat<'_>, syntax: &dyn Syntax, by_columns: bool) -> Self {
+        let Flat { routines: Routines { description, .. }, routine } = flat;
         let names = Names::new(spec, routine, &syntax.reserved(), syntax.identifiers());
         let mut writer = Writer {
             routine,

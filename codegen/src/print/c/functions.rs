@@ -94,8 +94,8 @@ pub(super) fn documentation(
 
 /// Prints one function.
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine, real: Real) {
-    let Statements { list, used, .. } =
-        Statements::new(spec, &routines.description, routine, &C { spec, real });
+    let flat = Flat { routines, routine };
+    let Statements { list, used, .. } = Statements::new(spec, flat, &C { spec, real });
     writer.blank();
     if routine.function.is_none() {
         comment(writer, routine.documentation);
@@ -105,7 +105,6 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
         None => helper_head(routines, routine, real),
     });
     writer.open_alone();
-    let flat = Flat { routines, routine };
     let checks = routines.checks(routine, real.largest());
     let mut function = Function { printer: CPrinter { writer, routines, real }, flat };
     function.begin(&used, !list.is_empty(), &checks);

@@ -49,6 +49,7 @@ impl CPrinter<'_> {
 
 impl Printer for CPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
+    const ADDS_IN_PLACE: bool = true;
     const SKIPS_EMPTY: bool = true;
     const RESULTS: Results = Results::Given;
 
@@ -94,13 +95,6 @@ impl Printer for CPrinter<'_> {
 
     fn comment(&mut self, text: &str) {
         self.writer.lines(&format!("/* {} */", harmless(text)));
-    }
-
-    fn assign(&mut self, place: &str, value: &str, sum: Option<&str>) {
-        self.writer.lines(&match sum {
-            Some(sum) => format!("{place} += {sum};"),
-            None => format!("{place} = {value};"),
-        });
     }
 
     fn bind(&mut self, bindings: &[(String, String)]) {

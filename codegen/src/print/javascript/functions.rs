@@ -16,8 +16,8 @@ use crate::program::{Role, Routine, Routines};
 
 /// Prints one function.
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let Statements { list, .. } =
-        Statements::new(spec, &routines.description, routine, &JavaScript(&spec.tables));
+    let flat = Flat { routines, routine };
+    let Statements { list, .. } = Statements::new(spec, flat, &JavaScript(&spec.tables));
     writer.blank();
     writer.lines("/**");
     match routine.function.map(Function::signature) {
@@ -33,7 +33,6 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     let arguments: Vec<&str> = given.map(|array| array.name).collect();
     let export = if routines.exports(routine) { "export " } else { "" };
     writer.open(&format!("{export}function {}({})", routine.name, arguments.join(", ")));
-    let flat = Flat { routines, routine };
     let mut printer = JavaScriptPrinter { writer, routines };
     let margin = statements(&mut printer, flat, &list);
     let result = |index: usize| match flat.len(index) {

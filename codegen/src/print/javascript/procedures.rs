@@ -37,6 +37,7 @@ pub(super) struct JavaScriptPrinter<'p> {
 
 impl Printer for JavaScriptPrinter<'_> {
     const BRANCH: [&'static str; 3] = ["if (", ") {", "}"];
+    const ADDS_IN_PLACE: bool = true;
 
     fn writer(&mut self) -> &mut Writer {
         self.writer
@@ -68,13 +69,6 @@ impl Printer for JavaScriptPrinter<'_> {
 
     fn comment(&mut self, text: &str) {
         self.writer.comment(text);
-    }
-
-    fn assign(&mut self, place: &str, value: &str, sum: Option<&str>) {
-        self.writer.lines(&match sum {
-            Some(sum) => format!("{place} += {sum};"),
-            None => format!("{place} = {value};"),
-        });
     }
 
     /// The name of an array differs from functions called in its scope.

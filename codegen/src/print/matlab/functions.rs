@@ -21,8 +21,8 @@ pub(super) fn function(
     routines: &Routines,
     routine: &Routine,
 ) {
-    let Statements { list, .. } =
-        Statements::new(spec, &routines.description, routine, &Matlab { class, spec });
+    let flat = Flat { routines, routine };
+    let Statements { list, .. } = Statements::new(spec, flat, &Matlab { class, spec });
     let names = |role| routine.arrays.iter().filter(move |array| array.role == role).map(|array| array.name);
     let arguments: Vec<&str> = names(Role::Argument).collect();
     let results: Vec<&str> = names(Role::Result).chain(names(Role::Margin)).collect();
@@ -41,7 +41,6 @@ pub(super) fn function(
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
         checks(writer, class, given.map(|array| (array.name, array.len(&routines.description))));
     }
-    let flat = Flat { routines, routine };
     let margin = statements(&mut MatlabPrinter { writer, class, routines }, flat, &list);
     if let Some(margin) = margin.filter(|margin| *margin != "margin") {
         writer.lines(&format!("margin = {margin};"));

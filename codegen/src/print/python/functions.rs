@@ -111,8 +111,8 @@ fn documentation(
 /// Prints the routine on flat arrays, whose first axis counts their numbers: each number is an
 /// array of the configurations, which NumPy runs through without strides.
 pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let Statements { list, .. } =
-        Statements::new(spec, &routines.description, routine, &Python(&spec.tables));
+    let flat = Flat { routines, routine };
+    let Statements { list, .. } = Statements::new(spec, flat, &Python(&spec.tables));
     let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
     let arguments: Vec<&str> = ["batch"].into_iter().chain(given.map(|array| array.name)).collect();
     writer.blank();
@@ -123,7 +123,6 @@ pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, rout
         writer.documentation(routine.documentation);
         writer.lines("\"\"\"");
     }
-    let flat = Flat { routines, routine };
     let margin = statements(&mut PythonPrinter { writer, routines, cases: Vec::new() }, flat, &list);
     // A constant margin has no axes for configurations.
     let margin = margin.map(|value| match value {

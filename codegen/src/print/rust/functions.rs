@@ -6,6 +6,7 @@ use abbe_spec::Spec;
 
 use super::operators::Rust;
 use crate::print::expression::{Expression, Value};
+use crate::print::flat::Flat;
 use crate::print::layout::{Writer, array, call, fits, pattern, width};
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
@@ -13,7 +14,7 @@ use crate::program::{Array, ArrayRows, Block, Role, Routine, Routines, Row, Stag
 
 /// Prints one function.
 pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let statements = Statements::new(spec, &routines.description, routine, &Rust(&spec.tables));
+    let statements = Statements::new(spec, Flat { routines, routine }, &Rust(&spec.tables));
     let head = if routine.function.is_some() { "pub fn" } else { "fn" };
     writer.documentation(routine.documentation);
     let arguments = arguments(routine, &statements.used);
@@ -50,7 +51,7 @@ pub(super) fn error_columns(writer: &mut Writer, spec: &Spec, routines: &Routine
         writer.blank();
     }
     let routine = routines.function(Function::ErrorJacobian);
-    let statements = Statements::by_columns(spec, &routines.description, routine, &Rust(&spec.tables));
+    let statements = Statements::by_columns(spec, Flat { routines, routine }, &Rust(&spec.tables));
     let mut arguments = arguments(routine, &statements.used);
     if let Some(columns) = arguments.iter_mut().find(|argument| argument.starts_with("columns: ")) {
         *columns = "columns: &mut impl ErrorColumns<T>".to_owned();

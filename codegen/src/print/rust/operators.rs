@@ -36,10 +36,6 @@ impl Syntax for Rust<'_> {
         };
         // Not `a.min(b)`: clippy asks for the receiver of every method call with one argument, and
         // follows all bindings behind it, in exponential time for a long chain of them.
-        let associated = |function: &str, arguments: &[Expression]| {
-            let arguments: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
-            Expression::new(format!("{function}({})", arguments.join(", ")), Binding::Atom)
-        };
         // A constant factor comes second.
         let fused = |name: &str, a: Operand| match (a, operands) {
             (Operand::Constant(_), [a, b, c]) => method(name, b, &[a, c]),
@@ -56,10 +52,10 @@ impl Syntax for Rust<'_> {
             Action::MulAdd(a, ..) => fused("mul_add", a),
             Action::MulSub(a, ..) => fused("mul_sub", a),
             Action::NegMulAdd(a, ..) => fused("neg_mul_add", a),
-            Action::Pow(..) => associated("T::powf", operands),
-            Action::Atan2(..) => associated("T::atan2", operands),
-            Action::Min(..) => associated("T::min", operands),
-            Action::Max(..) => associated("T::max", operands),
+            Action::Pow(..) => Expression::call("T::powf", operands),
+            Action::Atan2(..) => Expression::call("T::atan2", operands),
+            Action::Min(..) => Expression::call("T::min", operands),
+            Action::Max(..) => Expression::call("T::max", operands),
             Action::Call(Function::Log, _) => method("ln", &operands[0], &[]),
             Action::Call(function, _) => method(function.name(), &operands[0], &[]),
             Action::Lookup(Lookup { table, order }, _) => {

@@ -27,8 +27,8 @@ pub(super) fn block(
     routine: &Routine,
     syntax: &StructuredText,
 ) {
-    let Statements { list, .. } = Statements::new(spec, &routines.description, routine, syntax);
     let (flat, prefix) = (Flat { routines, routine }, &syntax.prefix[..]);
+    let Statements { list, .. } = Statements::new(spec, flat, syntax);
     writer.blank();
     comment(writer, routine.documentation);
     writer.lines(&format!("FUNCTION_BLOCK {prefix}_{}", routine.name));
