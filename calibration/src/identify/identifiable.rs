@@ -87,7 +87,7 @@ pub struct Weak {
 /// error is attributed to the machine only if neither the placement of the machine nor the mounting
 /// on its tool explains it.
 pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable, Failure> {
-    determined(model, data, x, &[], 1.0)
+    knowable(model, data, x, &[], 1.0)
 }
 
 /// Finds the unknowns that these data determine better than their expected sizes.
@@ -95,16 +95,6 @@ pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Id
 /// `expected` has the size of each unknown, as from [`Model::expected`]; `noise` multiplies the
 /// stated uncertainty. Plans and fits use this criterion.
 pub fn knowable(
-    model: &Model,
-    data: &[Observation],
-    x: &[f64],
-    expected: &[Option<f64>],
-    noise: f64,
-) -> Result<Identifiable, Failure> {
-    determined(model, data, x, expected, noise)
-}
-
-fn determined(
     model: &Model,
     data: &[Observation],
     x: &[f64],

@@ -176,6 +176,17 @@ impl<'a> Model<'a> {
         (0..self.targets.len()).flat_map(|j| [0, 1, 2].map(|axis| Unknown::Target(j, axis))).collect()
     }
 
+    /// Returns whether an unknown is an angle, in rad.
+    pub fn is_angle(&self, unknown: Unknown) -> bool {
+        match unknown {
+            Unknown::Fixture(fixture, _) => {
+                matches!(self.fixtures[fixture].geometry, FixtureGeometry::Direction(_))
+            }
+            Unknown::Zero(reading) => self.observables[reading].kind.is_angle,
+            unknown => unknown.is_rotation(),
+        }
+    }
+
     /// Returns weak priors: errors of frames are some `share` of the length of the arm, rotations
     /// some `share` of a radian.
     ///

@@ -34,6 +34,12 @@ impl Unknown {
             || self.is_tool()
     }
 
+    /// Returns whether it is a rotation of the base, of a frame or of the tool.
+    pub fn is_rotation(self) -> bool {
+        matches!(self, Self::Base(_, component) | Self::Error(_, component) | Self::Tool(_, component)
+            if component.is_rotation())
+    }
+
     /// Returns whether it describes the mounting on the tool.
     pub fn is_tool(self) -> bool {
         matches!(self, Self::Target(..) | Self::Tool(..))

@@ -1,6 +1,6 @@
 //! Values of the identified unknowns, for the report.
 
-use abbe::identify::{Camera, Fit, FixtureGeometry, Identifiable, Model, Unknown};
+use abbe::identify::{Camera, Fit, Identifiable, Model, Unknown};
 use abbe_spec::Spec;
 
 use super::magnitude::OwnMagnitude;
@@ -42,15 +42,10 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Par
     let axes = IsoAxis::all(spec, setup.ideal.manipulator);
     let parameter = |k: &usize| {
         let unknown = model.unknowns[*k];
-        let (frame, rotation) = match unknown {
-            Unknown::Base(_, component) => (Some(0), component.is_rotation()),
-            Unknown::Error(frame, component) => (Some(frame + 1), component.is_rotation()),
-            Unknown::Tool(_, component) => (None, component.is_rotation()),
-            Unknown::Fixture(fixture, _) => {
-                (None, matches!(model.fixtures[fixture].geometry, FixtureGeometry::Direction(_)))
-            }
-            Unknown::Zero(reading) => (None, model.observables[reading].kind.is_angle),
-            Unknown::Target(..) | Unknown::Magnitude(_) | Unknown::Intrinsic(_) => (None, false),
+        let frame = match unknown {
+            Unknown::Base(..) => Some(0),
+            Unknown::Error(frame, _) => Some(frame + 1),
+            _ => None,
         };
         let frame_name =
             |frame: usize| frame.checked_sub(1).map_or("base", |i| &setup.description.frames[i].name);
@@ -73,7 +68,7 @@ pub(super) fn parameters(setup: &Setup, solved: &Solved, spec: &Spec) -> Vec<Par
             unit: match unknown {
                 Unknown::Intrinsic(parameter) if Camera::is_pixel(parameter) => "px",
                 Unknown::Magnitude(_) | Unknown::Intrinsic(_) => "",
-                _ if rotation => "rad",
+                unknown if model.is_angle(unknown) => "rad",
                 _ => spec.length.symbol(),
             },
             prior_dominated: hardly.contains(k),

@@ -32,23 +32,13 @@ impl WeaklyDetermined {
         let weak = weak.filter(|weak| weak.expected.is_finite() && matters(weak.unknown));
         let determined_weakly = weak.map(|weak| {
             let unknown = model.unknowns[weak.unknown];
-            let rotation = match unknown {
-                Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(_, component) => {
-                    component.is_rotation()
-                }
-                Unknown::Target(..)
-                | Unknown::Magnitude(_)
-                | Unknown::Fixture(..)
-                | Unknown::Zero(_)
-                | Unknown::Intrinsic(_) => false,
-            };
             Self {
                 name: model.name(unknown),
                 standard_deviation: weak.deviation,
                 expected: weak.expected,
                 unit: match unknown {
                     Unknown::Magnitude(_) => "",
-                    _ if rotation => "rad",
+                    _ if unknown.is_rotation() => "rad",
                     _ => length.symbol(),
                 },
             }

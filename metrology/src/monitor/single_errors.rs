@@ -1,6 +1,6 @@
 //! Errors that may have changed, each alone, with their effect on the measured values.
 
-use abbe::identify::{FixtureGeometry, Model, Unknown};
+use abbe::identify::{Model, Unknown};
 use abbe::{Component, Description};
 use abbe_spec::Spec;
 
@@ -95,17 +95,11 @@ fn candidates(spec: &Spec, model: &Model, numbers: &CheckValues) -> Vec<(SingleE
     }
     let description = model.manipulator.description();
     for (k, unknown) in model.unknowns.iter().enumerate() {
-        let (rotation, is_placement) = match unknown {
-            Unknown::Error(_, component) => (component.is_rotation(), false),
-            Unknown::Base(_, component) if numbers.fixed_station => (component.is_rotation(), true),
-            Unknown::Base(..) | Unknown::Magnitude(_) => continue,
-            Unknown::Tool(_, component) => (component.is_rotation(), true),
-            Unknown::Target(..) | Unknown::Intrinsic(_) => (false, true),
-            Unknown::Fixture(fixture, _) => {
-                (matches!(model.fixtures[*fixture].geometry, FixtureGeometry::Direction(_)), true)
-            }
-            Unknown::Zero(reading) => (model.observables[*reading].kind.is_angle, true),
-        };
+        let is_known = !numbers.fixed_station && matches!(unknown, Unknown::Base(..));
+        if is_known || matches!(unknown, Unknown::Magnitude(_)) {
+            continue;
+        }
+        let (rotation, is_placement) = (model.is_angle(*unknown), unknown.is_placement());
         let (single, before) = one(name(model, *unknown, description), rotation, is_placement, &[(k, 1.0)]);
         // An offset of what is mounted on the tool moves the measured point, not the tool point.
         let effect = if single.effect > 0.0 || rotation { single.effect } else { 1.0 };

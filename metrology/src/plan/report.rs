@@ -1,6 +1,6 @@
 //! Report of a plan.
 
-use abbe::identify::{Model, Observation, Unknown};
+use abbe::identify::{Model, Observation};
 use serde::Serialize;
 
 use super::mounting::TargetMounting;
@@ -99,18 +99,8 @@ pub struct UndeterminedError {
 impl UndeterminedError {
     pub(super) fn new(model: &Model, k: usize, moves: f64) -> Self {
         let unknown = model.unknowns[k];
-        let turn = match unknown {
-            Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(_, component) => {
-                component.is_rotation()
-            }
-            Unknown::Magnitude(_)
-            | Unknown::Target(..)
-            | Unknown::Fixture(..)
-            | Unknown::Zero(_)
-            | Unknown::Intrinsic(_) => false,
-        };
         let length = model.manipulator.description().length.symbol();
-        let (moves, per) = if turn { (moves * 1e-3, "mrad") } else { (moves, length) };
+        let (moves, per) = if unknown.is_rotation() { (moves * 1e-3, "mrad") } else { (moves, length) };
         Self { name: model.name(unknown), moves, per }
     }
 }
