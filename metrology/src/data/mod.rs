@@ -50,6 +50,7 @@ pub use keys::{TABLES, required_keys, rules};
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use raw_table::{RawTable, raw_table};
 pub use rows::{Data, Summary, Unusable};
+pub(crate) use rows::{for_each_number, is_same};
 pub(crate) use runs::runs;
 pub use runs::{Runs, TargetRuns};
 pub use source::{Columns, Source};

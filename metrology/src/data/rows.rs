@@ -303,20 +303,24 @@ impl Known {
 
 fn hash(digits: &RandomState, row: &Observation) -> u64 {
     let mut hasher = digits.build_hasher();
-    row.q.iter().chain(row.u.iter()).for_each(|value| value.to_bits().hash(&mut hasher));
-    let mut number = |value: Option<f64>| value.map(f64::to_bits).hash(&mut hasher);
-    match &row.measured {
-        Measurement::Points(points) => {
-            points.iter().for_each(|point| (0..3).for_each(|axis| number(point.map(|point| point[axis]))));
-        }
-        Measurement::Pose(pose) => pose.0.as_flattened().iter().for_each(|value| number(Some(*value))),
-        Measurement::Readings(readings) => readings.iter().for_each(|reading| number(*reading)),
-    }
+    for_each_number(row, |number| number.map(f64::to_bits).hash(&mut hasher));
     hasher.finish()
 }
 
+/// Passes on joints, inputs and measurement of a row; `None` for what was not measured.
+pub(crate) fn for_each_number(row: &Observation, mut take: impl FnMut(Option<f64>)) {
+    row.q.iter().chain(row.u.iter()).for_each(|value| take(Some(*value)));
+    match &row.measured {
+        Measurement::Points(points) => {
+            points.iter().for_each(|point| (0..3).for_each(|axis| take(point.map(|point| point[axis]))));
+        }
+        Measurement::Pose(pose) => pose.0.as_flattened().iter().for_each(|value| take(Some(*value))),
+        Measurement::Readings(readings) => readings.iter().for_each(|reading| take(*reading)),
+    }
+}
+
 /// Returns whether two rows are equal.
-fn is_same(a: &Observation, b: &Observation) -> bool {
+pub(crate) fn is_same(a: &Observation, b: &Observation) -> bool {
     a.q == b.q && a.u == b.u && a.measured == b.measured
 }
 

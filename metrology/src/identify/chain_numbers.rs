@@ -1,11 +1,13 @@
 //! Numbers of the chain (joint zeros, structural parameters, Denavit-Hartenberg numbers) that are
 //! equivalent to constant errors of one frame.
 
-use abbe::{Component, VariableKind};
+use abbe::Component;
 use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
 use abbe_codegen::graph::{Frame, Graph, Node};
-use abbe_spec::expr::{Dimension, Motion, Symbol};
+use abbe_spec::expr::{Dimension, Symbol};
 use abbe_spec::{ChainNumber, DhNumber, Spec};
+
+use super::terms::ErrorSite;
 
 /// Number of configurations at which an error must be equal to count as constant.
 const SAMPLES: usize = 5;
@@ -107,11 +109,7 @@ fn constant(graph: &Graph, spec: &Spec, velocity: [Node; 3], rotation: [Node; 3]
 
 /// Returns whether the error of a number is an angle.
 pub(super) fn is_angle(spec: &Spec, number: ChainNumber) -> bool {
-    match number {
-        ChainNumber::Joint(joint) => spec.variables[joint].kind == VariableKind::Revolute,
-        ChainNumber::Parameter(parameter) => spec.parameters[parameter].dimension == Dimension::NONE,
-        ChainNumber::DenavitHartenberg { number, .. } => number.motion().0 == Motion::Rotation,
-    }
+    ErrorSite::from_chain_number(number).dimension(spec) == Dimension::NONE
 }
 
 /// Returns the unit of the error of a number.

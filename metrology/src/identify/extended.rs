@@ -1,7 +1,7 @@
 //! Extends a spec by terms as sources. The fit and `analyze` then compute the same model.
 
-use abbe::{Component, VariableKind};
-use abbe_spec::expr::{Dimension, Expression, Function, Motion, Symbol, Unit};
+use abbe::Component;
+use abbe_spec::expr::{Dimension, Expression, Function, Symbol, Unit};
 use abbe_spec::{
     Axes, Cause, ChainNumber, Compliance, Deviation, DeviationCause, Effect, Factor, Load, Point, Source,
     Spec,
@@ -58,32 +58,20 @@ impl Term {
             Dimension::NONE => self.basis.expression(spec),
             _ => Expression::from_number(1.0, dimension) * self.basis.expression(spec),
         };
-        let mut deviation = |number: ChainNumber, dimension: Dimension| {
-            deviations.push(Deviation { number, cause: DeviationCause::Error(error(dimension)), span: 0..0 });
+        let mut deviation = |number: ChainNumber| {
+            let cause = DeviationCause::Error(error(self.site.dimension(spec)));
+            deviations.push(Deviation { number, cause, span: 0..0 });
         };
         let cause = |component: Component| match self.basis {
             Basis::Moment => Cause::Compliance(Box::new(compliance(spec, component, component))),
             Basis::Coupled(other) => Cause::Compliance(Box::new(compliance(spec, component, other))),
-            _ if component.is_rotation() => Cause::Errors(vec![(component, error(Dimension::NONE))]),
-            _ => Cause::Errors(vec![(component, error(Dimension::LENGTH))]),
+            _ => Cause::Errors(vec![(component, error(self.site.dimension(spec)))]),
         };
         match self.site {
-            ErrorSite::Joint(joint) => {
-                let dimension = match spec.variables[joint].kind {
-                    VariableKind::Revolute => Dimension::NONE,
-                    VariableKind::Prismatic => Dimension::LENGTH,
-                };
-                deviation(ChainNumber::Joint(joint), dimension);
-            }
-            ErrorSite::Parameter(parameter) => {
-                deviation(ChainNumber::Parameter(parameter), spec.parameters[parameter].dimension);
-            }
+            ErrorSite::Joint(joint) => deviation(ChainNumber::Joint(joint)),
+            ErrorSite::Parameter(parameter) => deviation(ChainNumber::Parameter(parameter)),
             ErrorSite::DenavitHartenberg(frame, number) => {
-                let dimension = match number.motion().0 {
-                    Motion::Rotation => Dimension::NONE,
-                    Motion::Translation => Dimension::LENGTH,
-                };
-                deviation(ChainNumber::DenavitHartenberg { frame, number }, dimension);
+                deviation(ChainNumber::DenavitHartenberg { frame, number });
             }
             ErrorSite::Frame(frame, component) => {
                 effects.push(Effect {

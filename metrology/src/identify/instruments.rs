@@ -213,26 +213,19 @@ fn part_fits(model: &Model, map: &Map, data: &Data, found: &Fit) -> Result<Vec<I
     Ok(fits.collect())
 }
 
-/// Returns the residual statistics of every instrument; empty if the map has no instruments.
-pub(super) fn instrument_fits(
+/// Returns the residual statistics of every instrument, and those of positions and rotations where
+/// poses are measured or where their uncertainty was estimated; otherwise empty.
+pub(super) fn instrument_and_coordinate_fits(
     model: &Model,
     map: &Map,
     data: &Data,
     found: &Fit,
-) -> Result<Vec<InstrumentFit>, Failure> {
-    if map.instruments().is_some() { part_fits(model, map, data, found) } else { Ok(Vec::new()) }
-}
-
-/// Returns the residual statistics of positions and rotations where poses are measured, or where
-/// their uncertainty was estimated; otherwise empty.
-pub(super) fn coordinate_fits(
-    model: &Model,
-    map: &Map,
-    data: &Data,
-    found: &Fit,
-) -> Result<Vec<InstrumentFit>, Failure> {
-    let is_listed = map.instruments().is_none() && (map.is_pose() || map.is_estimated[0]);
-    if is_listed { part_fits(model, map, data, found) } else { Ok(Vec::new()) }
+) -> Result<[Vec<InstrumentFit>; 2], Failure> {
+    Ok(match map.instruments() {
+        Some(_) => [part_fits(model, map, data, found)?, Vec::new()],
+        None if map.is_pose() || map.is_estimated[0] => [Vec::new(), part_fits(model, map, data, found)?],
+        None => Default::default(),
+    })
 }
 
 /// Returns a note if the residuals contradict the ratio of the stated uncertainties of positions

@@ -22,7 +22,7 @@ use super::extrapolation::TestExtrapolation;
 use super::families::{Family, Harmonics};
 use super::found_model::FoundModel;
 use super::indistinguishable::indistinguishable;
-use super::instruments::{InstrumentFit, coordinate_fits, instrument_fits, unequal_note};
+use super::instruments::{InstrumentFit, instrument_and_coordinate_fits, unequal_note};
 use super::known_distances::known_distance_fits;
 use super::leg_terms::leg_terms;
 use super::options::{LOSSES, Settings, TERMS};
@@ -250,8 +250,7 @@ fn report(
         .map_err(|error| mistake::whole(&data.file, &error))?;
     let compared_fit = compare(solved, constant, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup)?;
-    let instruments = instrument_fits(model, map, data, fit).map_err(fail)?;
-    let coordinates = coordinate_fits(model, map, data, fit).map_err(fail)?;
+    let [instruments, coordinates] = instrument_and_coordinate_fits(model, map, data, fit).map_err(fail)?;
     let o = identifiable.observability;
     let test = test.map(|test| comparable(test, data, model)).transpose()?;
     let test = test.as_deref();

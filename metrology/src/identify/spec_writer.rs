@@ -8,7 +8,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Section;
 use abbe_spec::edit::write::{free_name, list, number, quantity, quoted};
 use abbe_spec::edit::{Edits, TableText};
-use abbe_spec::expr::{Motion, Symbol};
+use abbe_spec::expr::{Dimension, Symbol};
 use abbe_spec::{Fitted, Spec};
 
 use super::derived::{Derived, with_inputs};
@@ -218,13 +218,10 @@ pub(super) fn repeatable() -> TableText {
 impl ErrorSite {
     /// Returns the unit of an error at this site, as a spec writes it.
     fn unit(self, spec: &Spec) -> &str {
-        let length = spec.length.symbol();
-        let of = |is_angle: bool| if is_angle { "rad" } else { length };
         match self {
-            Self::Joint(joint) => of(spec.variables[joint].kind == VariableKind::Revolute),
             Self::Parameter(parameter) => &spec.parameters[parameter].unit,
-            Self::DenavitHartenberg(_, number) => of(number.motion().0 == Motion::Rotation),
-            Self::Frame(_, component) | Self::Base(component) => of(component.is_rotation()),
+            _ if self.dimension(spec) == Dimension::NONE => "rad",
+            _ => spec.length.symbol(),
         }
     }
 }

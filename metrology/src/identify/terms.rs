@@ -1,6 +1,7 @@
 //! Terms of richer models: error functions with an unknown magnitude each.
 
-use abbe::Component;
+use abbe::{Component, VariableKind};
+use abbe_spec::expr::{Dimension, Motion};
 use abbe_spec::{ChainNumber, DhNumber, Spec};
 
 /// Error in proportion to a basis, with an unknown magnitude.
@@ -230,6 +231,17 @@ impl ErrorSite {
             ChainNumber::Parameter(parameter) => Self::Parameter(parameter),
             ChainNumber::DenavitHartenberg { frame, number } => Self::DenavitHartenberg(frame, number),
         }
+    }
+
+    /// Returns the dimension of its error; an angle has none.
+    pub(super) fn dimension(self, spec: &Spec) -> Dimension {
+        let is_angle = match self {
+            Self::Joint(joint) => spec.variables[joint].kind == VariableKind::Revolute,
+            Self::Parameter(parameter) => return spec.parameters[parameter].dimension,
+            Self::DenavitHartenberg(_, number) => number.motion().0 == Motion::Rotation,
+            Self::Frame(_, component) | Self::Base(component) => component.is_rotation(),
+        };
+        if is_angle { Dimension::NONE } else { Dimension::LENGTH }
     }
 
     /// Returns the name of the quantity and the kind of its error.

@@ -3,17 +3,16 @@
 use std::collections::HashSet;
 use std::hash::{Hash, Hasher};
 
-use abbe::identify::{Measurement, Observation};
+use abbe::identify::Observation;
 
-use crate::data::Data;
+use crate::data::{Data, for_each_number, is_same};
 
 /// Row compared by its values: joints, inputs and measurement.
 struct RowKey<'a>(&'a Observation);
 
 impl PartialEq for RowKey<'_> {
     fn eq(&self, other: &Self) -> bool {
-        let (Self(own), Self(other)) = (self, other);
-        own.q == other.q && own.u == other.u && own.measured == other.measured
+        is_same(self.0, other.0)
     }
 }
 
@@ -22,14 +21,7 @@ impl Eq for RowKey<'_> {}
 impl Hash for RowKey<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         // Adding 0 turns −0 into +0, so that both have the same hash.
-        let mut add = |number: &f64| (number + 0.0).to_bits().hash(state);
-        let Self(row) = self;
-        row.q.iter().chain(&*row.u).for_each(&mut add);
-        match &row.measured {
-            Measurement::Points(points) => points.iter().flatten().flatten().for_each(add),
-            Measurement::Pose(pose) => pose.0.as_flattened().iter().for_each(add),
-            Measurement::Readings(readings) => readings.iter().flatten().for_each(add),
-        }
+        for_each_number(self.0, |number| number.map(|number| (number + 0.0).to_bits()).hash(state));
     }
 }
 

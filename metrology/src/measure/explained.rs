@@ -56,25 +56,15 @@ pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained
     let share = 1.0 - left.iter().map(|v| v * v).sum::<f64>() / before.max(f64::MIN_POSITIVE);
     let figures = Figures::from_norms(left);
     Ok(Explained {
-        left_mean: figures.mean,
-        left_rms: figures.rms,
-        left_p95: figures.p95,
-        left_max: figures.max,
-        share,
         inside: Some(inside as f64 / rows.len().max(1) as f64),
         likely: Some(likely(rows.len())),
-        repeatable: setup.real.repeatable().len(),
-        random: random.len(),
+        ..Explained::new(setup, &figures, share, random.len())
     })
 }
 
 impl Explained {
-    /// Compares readings; figures cover lengths alone, and `share` weights all readings by their
-    /// uncertainty.
-    pub(super) fn of_readings(setup: &Setup, rows: &[Observation], share: f64) -> Result<Self, Failure> {
-        let figures = setup.real.figures(rows, &[])?;
-        let random = setup.description.sources.iter().filter(|source| source.class != Class::Repeatable);
-        Ok(Self {
+    fn new(setup: &Setup, figures: &Figures, share: f64, random: usize) -> Self {
+        Self {
             left_mean: figures.mean,
             left_rms: figures.rms,
             left_p95: figures.p95,
@@ -83,8 +73,16 @@ impl Explained {
             inside: None,
             likely: None,
             repeatable: setup.real.repeatable().len(),
-            random: random.count(),
-        })
+            random,
+        }
+    }
+
+    /// Compares readings; figures cover lengths alone, and `share` weights all readings by their
+    /// uncertainty.
+    pub(super) fn of_readings(setup: &Setup, rows: &[Observation], share: f64) -> Result<Self, Failure> {
+        let figures = setup.real.figures(rows, &[])?;
+        let random = setup.description.sources.iter().filter(|source| source.class != Class::Repeatable);
+        Ok(Self::new(setup, &figures, share, random.count()))
     }
 }
 

@@ -329,32 +329,15 @@ impl Evaluated {
         errors.push(of(numbers, "norm", unit));
         errors.extend((3..numbers).map(|i| of(i, ["about x", "about y", "about z"][i - 3], "rad")));
         let explained = explained::explained(setup, &data.observations).map_err(fail)?;
-        Ok(Self {
-            errors,
-            instruments: Vec::new(),
-            explained,
-            norms,
-            visits,
-            rows,
-            row_readings: Vec::new(),
-            data,
-        })
+        let (instruments, row_readings) = (Vec::new(), Vec::new());
+        Ok(Self { errors, instruments, explained, norms, visits, rows, row_readings, data })
     }
 
     fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self, Diagnostics> {
         let Readings { instruments, explained, rows: row_readings, norms } =
             readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, &failure))?;
-        let (errors, visits, rows) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self {
-            errors,
-            instruments,
-            explained,
-            norms: norms.into_figures(),
-            visits,
-            rows,
-            row_readings,
-            data,
-        })
+        let (errors, norms, visits, rows) = (Vec::new(), norms.into_figures(), Vec::new(), Vec::new());
+        Ok(Self { errors, instruments, explained, norms, visits, rows, row_readings, data })
     }
 }
 
