@@ -1,12 +1,12 @@
 //! Error left after one step of compensation, as nodes to be maximized.
 
-use abbe_core::Class;
 use abbe_spec::expr::{Elementary, Symbol};
 use abbe_spec::{ChainNumber, Factor, Spec};
 
 use super::accumulate::Links;
 use super::joint_columns::JOINTS_OF_A_POSE;
 use super::joint_step::joint_step;
+use super::kinematics::of_repeatable;
 use super::magnitudes::Magnitude;
 use super::real::RealChain;
 use super::sources::{self, Causes};
@@ -50,11 +50,7 @@ impl CompensationResidual {
         let [t, zero, half] = [g.symbol(SHARE), g.zero(), g.constant(0.5)];
         let first = leading_joint(g, spec, &causes);
         causes.errors_mut().for_each(|error| *error = without_kinks(g, *error, &step));
-        let magnitudes = spec.enabled_sources().map(|source| match source.class {
-            Class::Repeatable => t,
-            Class::Tolerance(_) | Class::Random(_) => zero,
-        });
-        let links = RealChain::new(g, spec, &causes, magnitudes.collect()).links(g);
+        let links = RealChain::new(g, spec, &causes, of_repeatable(spec, t, zero)).links(g);
         let tool = g.identity();
         let tool = (0..=spec.frames.len()).rev().fold(tool, |tool, link| links.before(g, link, tool));
         let nodes = [&tool.position[..], tool.axes.as_flattened()].concat();

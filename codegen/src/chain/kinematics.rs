@@ -32,9 +32,17 @@ pub(crate) trait Kinematics {
 
 /// Returns the magnitudes that select the repeatable sources, and the symbols of all.
 pub(crate) fn magnitudes(graph: &mut Graph, spec: &Spec) -> [Vec<Node>; 2] {
-    let repeatable = spec.enabled_sources().map(|source| source.class == Class::Repeatable);
-    let selected = repeatable.map(|one| graph.constant(if one { 1.0 } else { 0.0 })).collect();
-    [selected, (0..spec.enabled_sources().count()).map(|i| graph.symbol(Symbol::Magnitude(i))).collect()]
+    let (one, zero) = (graph.constant(1.0), graph.zero());
+    [
+        of_repeatable(spec, one, zero),
+        (0..spec.enabled_sources().count()).map(|i| graph.symbol(Symbol::Magnitude(i))).collect(),
+    ]
+}
+
+/// Returns the magnitudes of the sources: `share` of the repeatable ones, `zero` of the others.
+pub(super) fn of_repeatable(spec: &Spec, share: Node, zero: Node) -> Vec<Node> {
+    let of = |class| if class == Class::Repeatable { share } else { zero };
+    spec.enabled_sources().map(|source| of(source.class)).collect()
 }
 
 /// Returns the symbols of the variables and of the parameters.

@@ -1,9 +1,9 @@
 //! Remainder of the first-order prediction, as a node to be maximized.
 
-use abbe_core::Class;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
+use super::kinematics::of_repeatable;
 use super::magnitudes::Magnitude;
 use super::real::RealChain;
 use super::sources;
@@ -34,11 +34,8 @@ impl Remainder {
         let g = &mut graph;
         let share = Symbol::Magnitude(0);
         let [t, zero, half] = [g.symbol(share), g.zero(), g.constant(0.5)];
-        let magnitudes = spec.enabled_sources().map(|source| match source.class {
-            Class::Repeatable => t,
-            Class::Tolerance(_) | Class::Random(_) => zero,
-        });
-        let point = RealChain::new(g, spec, &causes, magnitudes.collect()).tool_point_from_first_error(g);
+        let magnitudes = of_repeatable(spec, t, zero);
+        let point = RealChain::new(g, spec, &causes, magnitudes).tool_point_from_first_error(g);
         let speed = g.diff_all(&point, share);
         let half_curvature = g.diff_all(&speed, share).into_iter().map(|part| g.mul(half, part));
         let vector = <[_; 3]>::try_from(half_curvature.collect::<Vec<_>>()).expect("three parts");

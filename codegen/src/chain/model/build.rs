@@ -12,7 +12,7 @@ use crate::chain::elastic::Loads;
 use crate::chain::kinematics::{Kinematics, symbols};
 use crate::chain::rows::Rows;
 use crate::chain::sources::{self, Causes};
-use crate::chain::tree::Tree;
+use crate::chain::tree::{ClosedLoops, Parts};
 use crate::chain::walk::transform;
 use crate::graph::{Graph, Node};
 
@@ -24,9 +24,9 @@ impl Model {
             let chain = Chain::new(&mut graph, spec);
             Self::from_kinematics(graph, spec, chain, Chain::machine)
         } else {
-            let tree = Tree::new(&mut graph, spec);
-            Self::from_kinematics(graph, spec, tree, |tree, g, spec, causes, [errors, _]| {
-                Machine::of_loops(tree.loops(g, spec, causes, errors))
+            let parts = Parts::new(&mut graph, spec);
+            Self::from_kinematics(graph, spec, parts, |parts, g, spec, causes, [errors, _]| {
+                Machine::of_loops(ClosedLoops::new(g, spec, &parts, causes, errors))
             })
         }
     }

@@ -46,7 +46,7 @@ pub(crate) struct RealNodes {
 }
 
 impl ClosedLoops {
-    pub(super) fn new(
+    pub(in crate::chain) fn new(
         graph: &mut Graph,
         spec: &Spec,
         parts: &Parts<'_>,

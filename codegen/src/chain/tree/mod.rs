@@ -26,4 +26,4 @@ pub(crate) use continuation::{CLOSED, REFINEMENTS};
 pub use equations::LoopEquations;
 pub(super) use lengths::add_lengths;
 pub(crate) use loops::{ClosedLoops, RealNodes};
-pub(super) use model::Tree;
+pub(super) use parts::Parts;

@@ -4,44 +4,22 @@ use abbe_core::Component;
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 
-use super::loops::ClosedLoops;
 use super::parts::Parts;
 use crate::chain::kinematics::Kinematics;
 use crate::chain::rows::Rows;
-use crate::chain::sources::Causes;
 use crate::graph::{Frame, Graph, Node, Vector};
 
-/// A tree of frames, whose loops are closed.
-pub(crate) struct Tree<'s>(Parts<'s>);
-
-impl<'s> Tree<'s> {
-    pub(crate) fn new(graph: &mut Graph, spec: &'s Spec) -> Self {
-        Self(Parts::new(graph, spec))
-    }
-
-    /// Returns the closed loops of the machine with its errors.
-    pub(crate) fn loops(
-        self,
-        graph: &mut Graph,
-        spec: &Spec,
-        causes: &Causes,
-        errors: &[[Node; 6]],
-    ) -> ClosedLoops {
-        ClosedLoops::new(graph, spec, &self.0, causes, errors)
-    }
-}
-
-impl Kinematics for Tree<'_> {
+impl Kinematics for Parts<'_> {
     fn poses(&self) -> (&[Frame], Frame) {
-        let whole = &self.0.whole;
+        let whole = &self.whole;
         (whole.frames(), *whole.pose(Some(whole.tool())))
     }
 
     fn errors(&mut self, graph: &mut Graph, rows: &Rows) -> (Vec<[Node; 6]>, Vec<Vec<Node>>) {
         let mut columns = Vec::new();
-        for frame in 0..self.0.whole.frames().len() {
+        for frame in 0..self.whole.frames().len() {
             for component in Component::ALL {
-                let [velocity, rotation] = self.0.by_error(graph, frame, component);
+                let [velocity, rotation] = self.by_error(graph, frame, component);
                 columns.push(rows.column(graph, velocity, rotation));
             }
         }
@@ -50,7 +28,7 @@ impl Kinematics for Tree<'_> {
     }
 
     fn twists(&self, graph: &mut Graph, symbols: &[Symbol]) -> Vec<[Vector; 2]> {
-        symbols.iter().map(|symbol| self.0.by_symbol(graph, *symbol)).collect()
+        symbols.iter().map(|symbol| self.by_symbol(graph, *symbol)).collect()
     }
 
     fn prepare_sums(&mut self, _: &mut Graph, _: &Spec) -> Option<Option<Node>> {
@@ -58,7 +36,7 @@ impl Kinematics for Tree<'_> {
     }
 
     fn displacement(&self, graph: &mut Graph, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
-        let [velocity, rotation] = self.0.by_errors(graph, errors);
+        let [velocity, rotation] = self.by_errors(graph, errors);
         rows.column(graph, velocity, rotation)
     }
 

@@ -10,7 +10,7 @@ use super::view::{Motion, View};
 use crate::graph::{Graph, Node, Vector};
 
 /// The frames of a tree, its loops, and what eliminates the passive variables.
-pub(super) struct Parts<'s> {
+pub(crate) struct Parts<'s> {
     /// View of the whole tree from `F_0`.
     pub(super) whole: View<'s>,
     loops: Vec<Part<'s>>,
@@ -30,7 +30,7 @@ struct Part<'s> {
 }
 
 impl<'s> Parts<'s> {
-    pub(super) fn new(graph: &mut Graph, spec: &'s Spec) -> Self {
+    pub(crate) fn new(graph: &mut Graph, spec: &'s Spec) -> Self {
         let whole = View::new(graph, spec, None);
         let mut loops = Vec::new();
         for closed in &spec.loops {
