@@ -159,20 +159,19 @@ pub(crate) struct Reference {
 impl Reference {
     /// Finds the reference point of a machine.
     pub(crate) fn new(machine: &RealMachine, axes: &Axes) -> Result<Self, Error> {
-        let zero = vec![0.0; machine.spec.variables.len()];
-        let (links, _) = machine.links(&zero, &ChainErrors::none(&machine.spec))?;
-        let first = axes.slides.first().map_or(0, |slide| slide.frame + 1);
-        let point =
-            links[..first].iter().fold(Pose::IDENTITY, |pose, link| pose.then(&link.transform)).position();
-        let tool = machine.manipulator.pose(&zero, &machine.s)?.position();
-        Ok(Self { point, tool: subtract(tool, point) })
+        Self::of_frames(machine, axes.slides.first().map_or(0, |slide| slide.frame + 1))
     }
 
     /// Takes the origin of the last frame as the reference point: the tool reference point.
     pub(crate) fn at_tool(machine: &RealMachine) -> Result<Self, Error> {
+        Self::of_frames(machine, machine.spec.frames.len())
+    }
+
+    /// Takes the origin of the last of `count` frames as the reference point.
+    fn of_frames(machine: &RealMachine, count: usize) -> Result<Self, Error> {
         let zero = vec![0.0; machine.spec.variables.len()];
         let (links, _) = machine.links(&zero, &ChainErrors::none(&machine.spec))?;
-        let point = product(&links).position();
+        let point = product(&links[..count]).position();
         let tool = machine.manipulator.pose(&zero, &machine.s)?.position();
         Ok(Self { point, tool: subtract(tool, point) })
     }
