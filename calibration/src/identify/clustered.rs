@@ -75,13 +75,8 @@ impl Solver<'_> {
             configurations: count,
         };
         let distances = self.model.known_distances.len();
-        if !several && n == means + distances {
-            let freedom = n as f64 - p as f64;
-            let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
-            return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
-        }
         let used: Vec<usize> = used().collect();
-        if self.has_independent_pixels(&used)? {
+        if !several && n == means + distances || self.has_independent_pixels(&used)? {
             let freedom = n as f64 - p as f64;
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
             return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));

@@ -5,6 +5,7 @@
 //! base moves fixtures and targets alike and changes only observables that [see the
 //! base](super::InstrumentKind::sees_base).
 
+use super::columns::Frame;
 use super::instrument::{Evaluation, Geometry};
 use super::scratch::Scratch;
 use super::vectors::dot;
@@ -91,38 +92,42 @@ impl Model<'_> {
     /// Returns the derivative of a point of target `j` of the model with respect to unknown `k`, in
     /// the axes of the instrument.
     pub(super) fn point(&self, scratch: &Scratch, k: usize, j: usize, point: [f64; 3]) -> [f64; 3] {
-        let last = scratch.errors.len() + 1;
         match self.unknowns[k] {
-            Unknown::Base(station, component) if station == scratch.station => {
-                scratch.frames[0].point(component, point)
+            Unknown::Target(target, axis) if target == j => {
+                scratch.frames[scratch.errors.len() + 1].after.0[axis]
             }
-            Unknown::Error(frame, component) => scratch.point(frame, component, point),
-            Unknown::Tool(placement, component) if placement == scratch.placement => {
-                scratch.frames[last].point(component, point)
-            }
-            Unknown::Target(target, axis) if target == j => scratch.frames[last].after.0[axis],
-            Unknown::Base(..)
-            | Unknown::Tool(..)
-            | Unknown::Target(..)
-            | Unknown::Fixture(..)
-            | Unknown::Zero(_)
-            | Unknown::Intrinsic(_) => [0.0; 3],
-            Unknown::Magnitude(source) => {
-                self.by_magnitude(scratch, source, |frame, c| scratch.point(frame, c, point))
-            }
+            unknown => self.by_frames(
+                scratch,
+                unknown,
+                |frame, component| frame.point(component, point),
+                |frame, component| scratch.point(frame, component, point),
+            ),
         }
     }
 
     /// Returns the rotation vector of the tool per unit of unknown `k`, in the axes of the
     /// instrument.
     pub(super) fn turn(&self, scratch: &Scratch, k: usize) -> [f64; 3] {
-        match self.unknowns[k] {
+        let by_error = |frame, component| scratch.turn(frame, component);
+        self.by_frames(scratch, self.unknowns[k], Frame::turn, by_error)
+    }
+
+    /// Returns a derivative with respect to an unknown that displaces frames: `displaced` is that
+    /// by a displacement of the base or the tool, `by_error` that by an error of a frame.
+    fn by_frames(
+        &self,
+        scratch: &Scratch,
+        unknown: Unknown,
+        displaced: impl Fn(&Frame, Component) -> [f64; 3],
+        by_error: impl Fn(usize, Component) -> [f64; 3],
+    ) -> [f64; 3] {
+        match unknown {
             Unknown::Base(station, component) if station == scratch.station => {
-                scratch.frames[0].turn(component)
+                displaced(&scratch.frames[0], component)
             }
-            Unknown::Error(frame, component) => scratch.turn(frame, component),
+            Unknown::Error(frame, component) => by_error(frame, component),
             Unknown::Tool(placement, component) if placement == scratch.placement => {
-                scratch.frames[scratch.errors.len() + 1].turn(component)
+                displaced(&scratch.frames[scratch.errors.len() + 1], component)
             }
             Unknown::Base(..)
             | Unknown::Tool(..)
@@ -130,9 +135,7 @@ impl Model<'_> {
             | Unknown::Fixture(..)
             | Unknown::Zero(_)
             | Unknown::Intrinsic(_) => [0.0; 3],
-            Unknown::Magnitude(source) => {
-                self.by_magnitude(scratch, source, |frame, c| scratch.turn(frame, c))
-            }
+            Unknown::Magnitude(source) => self.by_magnitude(scratch, source, by_error),
         }
     }
 
